@@ -18,13 +18,13 @@ fn manifest(name: &str, more: &str) -> String {
     )
 }
 
-/// Adds noise to the frame: that of its index, or the same in every frame.
+/// Multiplies the frame by noise: that of its index, or the same in every frame.
 fn write_noisy(bench: &Bench, name: &str, index: &str) {
     let body = format!(
         "let place = vec2<f32>(pixel) + 5.588238 * f32({index} % 64u);
     let noise = fract(52.9829189 * fract(dot(place, vec2<f32>(0.06711056, 0.00583715))));
     let own = textureLoad(color, pixel, 0).rgb;
-    textureStore(output, pixel, vec4<f32>(own + 0.4 * (noise - 0.5), 1.0));"
+    textureStore(output, pixel, vec4<f32>(own * (1.0 + 1.2 * (noise - 0.5)), 1.0));"
     );
     bench.write_filter(
         name,
@@ -229,7 +229,16 @@ fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
     let bench = Bench::new();
     let words = |part: &'static str, out: &'static str| {
         let more = ["--replicates", part, "--frames", "2", "--out", out];
-        ["render", "--quiet", "--size", "64x32", "--samples-per-pixel", "16"].into_iter().chain(more)
+        [
+            "render",
+            "--quiet",
+            "--size",
+            "64x32",
+            "--samples-per-pixel",
+            "16",
+        ]
+        .into_iter()
+        .chain(more)
     };
     for (part, out) in [("0..3", "one"), ("3..8", "two")] {
         bench.execute(&words(part, out).collect::<Vec<_>>());

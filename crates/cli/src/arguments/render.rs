@@ -3,7 +3,9 @@
 use clap::Args;
 use frame::Alignment;
 
-use super::parse::{Replicates, parse_frames, parse_noise, parse_replicates, parse_size, parse_whole};
+use super::parse::{
+    Replicates, parse_frames, parse_noise, parse_replicates, parse_size, parse_whole,
+};
 use super::scenes::SceneArgs;
 
 /// `shuttertruth render`

@@ -233,8 +233,8 @@ fn find_difference(
     let settings = std::iter::zip(list_settings(&run.render), list_settings(&plan.render));
     let settings = settings.map(|((setting, earlier), (_, now))| (setting, earlier, now));
     let adapters = ("the adapter", name(run.adapter.as_ref()), name(adapter));
-    let frames = |frames: Frames| format!("{} at {} per second", frames.count, frames.per_second);
-    let frames = ("number of frames", frames(run.frames), frames(plan.frames));
+    let [earlier, now] = [run.frames, plan.frames].map(|frames: Frames| frames.count.to_string());
+    let frames = ("number of frames", earlier, now);
     // A run of programs alone has no adapter, and can stand beside any.
     let both = run.adapter.is_some() && adapter.is_some();
     (std::iter::once(program).chain(settings))
