@@ -5,6 +5,7 @@ mod decoys;
 mod flip_parity;
 mod intervals;
 mod invariance;
+mod jod_parity;
 mod knowledge;
 mod noise;
 mod ranking;

@@ -70,7 +70,7 @@ fn add_noise(pictures: &[Image], seed: impl Fn(u64) -> u64) -> Vec<Image> {
 }
 
 fn measure_all(instants: &[Instant], pictures: &[Image]) -> SequenceMeasurement {
-    let reference = SequenceReference::new(instants.to_vec(), &VIEWING);
+    let reference = SequenceReference::new(instants.to_vec(), &VIEWING, 30.0);
     reference.measure(pictures).expect("they agree")
 }
 
@@ -90,12 +90,20 @@ fn assert_near(found: f64, expected: f64, tolerance: f64) {
     );
 }
 
+/// The score of the truth itself.
+fn perfect(metric: SequenceMetric) -> f64 {
+    match metric {
+        SequenceMetric::Jod => 10.0,
+        _ => 0.0,
+    }
+}
+
 #[test]
 fn the_truth_scores_perfectly() {
     let (instants, truths) = slide(SPEED);
     let measured = measure_all(&instants, &truths);
     for metric in SequenceMetric::ALL {
-        assert_eq!(value(&measured, metric), 0.0, "{metric:?}");
+        assert_eq!(value(&measured, metric), perfect(metric), "{metric:?}");
     }
 }
 
@@ -119,9 +127,9 @@ fn a_still_scene_has_no_change_to_get_wrong() {
         VARIANCE,
         0.05 * VARIANCE,
     );
-    let perfect = measure_all(&instants, &truths);
+    let measured = measure_all(&instants, &truths);
     for metric in SequenceMetric::ALL {
-        assert_eq!(value(&perfect, metric), 0.0, "{metric:?}");
+        assert_eq!(value(&measured, metric), perfect(metric), "{metric:?}");
     }
 }
 
@@ -134,6 +142,7 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
     let scatter = 0.1 * VARIANCE;
     for measured in [&changing, &standing] {
         assert_near(value(measured, SequenceMetric::Error), VARIANCE, scatter);
+        assert!(value(measured, SequenceMetric::Jod) < 9.5, "noise is seen");
     }
     for metric in [SequenceMetric::Flicker, SequenceMetric::FlickerAlong] {
         assert_near(value(&changing, metric), 2.0 * VARIANCE, 3.0 * scatter);
@@ -288,7 +297,7 @@ fn a_sequence_of_one_frame_has_the_error_of_the_frame() {
 #[test]
 fn other_sizes_and_counts_are_refused() {
     let (instants, truths) = slide(SPEED);
-    let reference = SequenceReference::new(instants, &VIEWING);
+    let reference = SequenceReference::new(instants, &VIEWING, 30.0);
     let refusal = reference.measure(&truths[1..]).unwrap_err().to_string();
     assert!(
         refusal.contains("4 frames") && refusal.contains("5 frames"),

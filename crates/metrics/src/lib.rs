@@ -53,8 +53,8 @@ pub use reference::{Jitter, Measurement, Reference};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
 pub use sequence::{
-    Instant, NEW_SHARE, SequenceMeasurement, SequenceMetric, SequenceReference, SequenceScores,
-    accumulate,
+    Instant, JOD_DISPLAY, NEW_SHARE, SequenceMeasurement, SequenceMetric, SequenceReference,
+    SequenceScores, accumulate, video_jod,
 };
 pub use subframes::{Equivalent, LadderRange, Subframes};
 pub use viewing::Viewing;

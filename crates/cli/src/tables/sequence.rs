@@ -7,20 +7,22 @@ use super::columns::{bracket_name, legend_text, list_once, number_table, row_sty
 use crate::output::colors;
 
 /// Columns, each with its title.
-const COLUMNS: [(&str, SequenceMetric); 7] = [
+const COLUMNS: [(&str, SequenceMetric); 8] = [
     ("error", SequenceMetric::Error),
     ("flick", SequenceMetric::Flicker),
     ("along", SequenceMetric::FlickerAlong),
     ("pop", SequenceMetric::Popping),
     ("dirt", SequenceMetric::FixedPattern),
+    ("JOD", SequenceMetric::Jod),
     ("error'", SequenceMetric::ErrorAfterTaa),
     ("along'", SequenceMetric::FlickerAfterTaa),
 ];
 
 /// Meaning of titles.
-const KEY: &str = "Sequences: roots of squared errors, in thousandths of display white; lower is better. Flick: error of the \
+const KEY: &str = "Sequences: roots of squared errors, in thousandths of display white. Flick: error of the \
                    change from frame to frame; along: the same along the motion; pop: largest jump of an object's error; \
-                   dirt: error that stands still on the screen; ': after temporal anti-aliasing of filter and truth.";
+                   dirt: error that stands still on the screen; JOD: quality by \
+                   ColorVideoVDP, 10 at most, higher is better; ': after temporal anti-aliasing of filter and truth.";
 
 /// Makes the table of all sequences; empty where there is none.
 pub fn sequence_table(sequences: &[Sequence]) -> String {
@@ -58,6 +60,7 @@ fn score_text(score: &Measured, metric: SequenceMetric) -> String {
     // Below 0 by the truth's noise alone.
     let root = match metric.row().unit {
         "white^2" => value.max(0.0).sqrt(),
+        "JOD" => return format!("{value:.2}"),
         _ => value,
     };
     format!("{:.1}", 1000.0 * root)

@@ -3,6 +3,7 @@
 mod along;
 mod fixed_pattern;
 mod instant;
+mod jod;
 mod measurement;
 mod pairs;
 mod popping;
@@ -11,6 +12,7 @@ mod rows;
 mod temporal_antialiasing;
 
 pub use instant::Instant;
+pub use jod::{JOD_DISPLAY, video_jod};
 pub use measurement::SequenceMeasurement;
 pub use reference::SequenceReference;
 pub use rows::{SequenceMetric, SequenceScores};

@@ -4,6 +4,7 @@ use frame::{Image, Plane, Raster};
 
 use super::fixed_pattern::{FineError, correlate, fine};
 use super::instant::Instant;
+use super::jod::{JOD_DISPLAY, displayed, video_jod};
 use super::measurement::SequenceMeasurement;
 use super::pairs::{Pair, mean_in, scatter_in};
 use super::popping::{largest_floor, largest_jump, object_errors};
@@ -11,7 +12,7 @@ use super::rows::SequenceScores;
 use super::temporal_antialiasing::accumulate;
 use crate::color::cross_error::squared_error;
 use crate::math::pooling::mean;
-use crate::math::raster::map_pixels;
+use crate::math::raster::{map_pixels, zip_pixels};
 use crate::{MeasureError, Measured, Viewing};
 
 const ONE_FRAME: &str = "a sequence of one frame has no change";
@@ -28,14 +29,20 @@ pub struct SequenceReference {
     scale: f64,
     fixed: Vec<Pair>,
     along: Vec<Pair>,
+    /// Mean of the truth's halves as a display shows it, per frame.
+    displayed: Vec<Image>,
+    /// Quality of one half beside that mean, or the reason why there is none.
+    half_jod: Result<f64, String>,
+    /// Frames per second, and exposure in stops.
+    shown: (f64, f32),
     /// Halves after temporal anti-aliasing, per frame.
     accumulated: Vec<[Image; 2]>,
     along_accumulated: Vec<Pair>,
 }
 
 impl SequenceReference {
-    /// Prepares the truths of consecutive frames, at least one. Panics if they have no one size.
-    pub fn new(instants: Vec<Instant>, viewing: &Viewing) -> Self {
+    /// Prepares the truths of consecutive frames, at least one, which are shown at a number of frames per second. Panics if they have no one size.
+    pub fn new(instants: Vec<Instant>, viewing: &Viewing, per_second: f64) -> Self {
         let first = instants.first().expect("a sequence has a frame");
         assert!(
             instants.iter().all(|it| it.moving.same_size(&first.moving)),
@@ -67,7 +74,15 @@ impl SequenceReference {
             let either = masks[now - 1].zip(&masks[now], |before, now| *before || *now);
             Pair::at_fixed_places([&halves[now - 1], &halves[now]], either)
         });
+        let means: Vec<Image> = (halves.iter())
+            .map(|[a, b]| zip_pixels(a, b, |a, b| std::array::from_fn(|c| 0.5 * (a[c] + b[c]))))
+            .collect();
+        let shown = displayed(&means, viewing.stops);
+        let half = displayed(halves.iter().map(|halves| &halves[0]), viewing.stops);
         Self {
+            half_jod: jod_of_several(&half, &shown, per_second),
+            displayed: shown,
+            shown: (per_second, viewing.stops),
             fixed: fixed.collect(),
             along: along(&halves),
             along_accumulated: along(&accumulated),
@@ -113,6 +128,7 @@ impl SequenceReference {
             flicker_along: self.change(&self.along, &along_maps, NOTHING_IN_TWO),
             popping: self.popping(&error_maps),
             fixed_pattern: self.fixed_pattern(pictures),
+            jod: self.jod(pictures),
             error_after_taa: match pictures.len() {
                 1 => Measured::not_applicable(ONE_FRAME),
                 _ => self.combine(&later_errors, &later_floors, NOTHING_MOVES),
@@ -197,6 +213,20 @@ impl SequenceReference {
         }
     }
 
+    /// Computes the quality as a display shows it; that of one half of the truth is the most that can be vouched for.
+    fn jod(&self, pictures: &[Image]) -> Measured {
+        let (per_second, stops) = self.shown;
+        let own = displayed(pictures, stops);
+        match (
+            jod_of_several(&own, &self.displayed, per_second),
+            &self.half_jod,
+        ) {
+            (Ok(value), Ok(floor)) => Measured::score(value, *floor),
+            (Err(reason), _) => Measured::not_applicable(reason),
+            (_, Err(reason)) => Measured::not_applicable(reason.clone()),
+        }
+    }
+
     fn fixed_pattern(&self, pictures: &[Image]) -> Measured {
         if pictures.len() == 1 {
             return Measured::not_applicable(ONE_FRAME);
@@ -213,6 +243,14 @@ impl SequenceReference {
             })
             .collect();
         self.combine(&[correlate(&frames, self.scale)], &floors, NOTHING_MOVES)
+    }
+}
+
+/// Computes the quality of a video; a single frame is none.
+fn jod_of_several(pictures: &[Image], truths: &[Image], per_second: f64) -> Result<f64, String> {
+    match pictures.len() {
+        1 => Err(ONE_FRAME.to_owned()),
+        _ => video_jod(pictures, truths, JOD_DISPLAY, per_second),
     }
 }
 

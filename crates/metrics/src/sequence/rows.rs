@@ -50,6 +50,13 @@ metrics! {
         is_percentile: false, report_only: NOT_BOUNDED,
     }
 
+    /// Quality of the video by ColorVideoVDP, in just-objectionable differences: 10 is no visible difference.
+    Jod => jod {
+        name: "jod", unit: "JOD", ideal: Ideal::Highest, group: Group::Time, map: ErrorMap::Flip,
+        meaning: "quality of the video that ColorVideoVDP predicts; 10 is no visible difference",
+        is_percentile: false, report_only: NOT_BOUNDED,
+    }
+
     /// `error` after temporal anti-aliasing of pictures and truths, without the first frame.
     ErrorAfterTaa => error_after_taa {
         name: "error_after_taa", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,

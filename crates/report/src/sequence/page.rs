@@ -78,7 +78,7 @@ pub fn sequences_page(run: &Run) -> Option<String> {
                         }
                         output #readout {}
                     }
-                    div.sequence #pictures {
+                    div.sequence #pictures style=(format!("--ratio: {} / {}", run.render.width, run.render.height)) {
                         @for (name, title) in titles {
                             figure { img id=(format!("picture_{name}")) alt=(title); figcaption { (title) } }
                         }
@@ -88,7 +88,7 @@ pub fn sequences_page(run: &Run) -> Option<String> {
                          change is the difference of the output from the frame before, less that of the truth: black is none."
                     }
                     h2 { "Scores over time" }
-                    p.note { "Roots of squared errors, in thousandths of display white; lower is better. Italics: references." }
+                    p.note { "Roots of squared errors, in thousandths of display white; lower is better. JOD as it is; higher is better. Italics: references." }
                     (score_tables(run))
                 }
             }

@@ -64,6 +64,7 @@ fn score_text(score: &Measured, metric: SequenceMetric) -> String {
     };
     let root = match metric.row().unit {
         "white^2" => value.max(0.0).sqrt(),
+        "JOD" => return format!("{value:.2}"),
         _ => value,
     };
     format!("{:.1}", 1000.0 * root)

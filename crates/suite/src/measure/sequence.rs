@@ -119,7 +119,11 @@ fn make_reference(
         ))
     });
     let instants = instants.collect::<Result<Vec<Instant>, Error>>()?;
-    Ok(SequenceReference::new(instants, &scene.display.into()))
+    Ok(SequenceReference::new(
+        instants,
+        &scene.display.into(),
+        plan.frames.per_second,
+    ))
 }
 
 fn measure_sequence(

@@ -46,7 +46,7 @@ pub struct SequenceFrame {
 pub struct Frames {
     /// Number of consecutive frames of each scene.
     pub count: u32,
-    /// Frames per second at which they are shown. It changes no picture: times are in frames.
+    /// Frames per second at which they are shown. It changes no picture, and no score but JOD: times are in frames.
     pub per_second: f64,
 }
 
