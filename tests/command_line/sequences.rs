@@ -202,7 +202,6 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
         "{ time = 0, translation = [0, 0, 0] },\n    { time = 2.5, translation = [1, 0, 0] },",
     );
     bench.write("scene.toml", &path);
-    assert_done(&bench.run(&[&IDENTITY[..], &THREE].concat()));
     let refused = bench.run(&[&IDENTITY[..], &["--frames", "4"]].concat());
     let parts = [
         "scene plate/0003",
@@ -211,6 +210,8 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
         "two keys",
     ];
     assert_refused(&refused, 2, &parts);
+    assert!(!bench.path("out/plate").exists(), "nothing was rendered");
+    assert_done(&bench.run(&[&IDENTITY[..], &THREE].concat()));
     for (option, value, says) in [
         ("--frames", "0", "allowed: 1 to 1000"),
         ("--frames", "1001", "1 to 1000"),

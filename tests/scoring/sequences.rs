@@ -188,7 +188,7 @@ fn error_that_goes_with_its_object_does_not_flicker_along_the_motion() {
             Raster::from_fn(truth.width, truth.height, |x, y| {
                 let is_disc = *instant.object_id.at(x, y) == 1;
                 let place = [i64::from(x) - right, i64::from(y) - down];
-                let sign = if is_disc && (place[0] + place[1]).rem_euclid(2) == 0 {
+                let sign = if is_disc && (place[0] + place[1]).rem_euclid(4) == 0 {
                     NOISE
                 } else {
                     0.0
