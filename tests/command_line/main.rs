@@ -31,6 +31,7 @@ mod reference_width;
 mod refusals;
 mod report;
 mod score;
+mod sequences;
 mod serve;
 mod summary;
 mod terminal;

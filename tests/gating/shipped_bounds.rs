@@ -39,6 +39,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
         engine_scenes: Vec::new(),
         filters,
         inputs: vec![InputFormat::default()],
+        frames: suite::Frames::default(),
         jitter_frames: 0,
         render: RenderSettings {
             width,

@@ -95,6 +95,7 @@ impl Bench {
             engine_scenes: Vec::new(),
             filters,
             inputs: vec![InputFormat::default()],
+            frames: suite::Frames::default(),
             jitter_frames: 0,
             render: RenderSettings {
                 seed,

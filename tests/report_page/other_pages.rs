@@ -65,3 +65,52 @@ fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
     assert_eq!(counts[1], 0);
     assert_eq!(browser.complaints(), [""; 0]);
 }
+
+#[test]
+fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine", "--frames", "3"]));
+    let page = bench.path("out/sequences.html");
+    let mut browser = Browser::new(1280, 900);
+    // The last sequence is that of the filter.
+    let last = bench.read_run().sequences.len() - 1;
+    browser.open(&page, &format!("#{last}"));
+    let loaded = "[...document.querySelectorAll('#pictures img:not([hidden])')].every(own => own.complete && own.naturalWidth === 64)";
+    browser.until(loaded);
+    let addresses = |browser: &mut Browser| {
+        browser.text("[...document.querySelectorAll('#pictures img:not([hidden])')].map(own => own.src).join(' ')")
+    };
+    // The first frame has no change.
+    assert_eq!(addresses(&mut browser).split(' ').count(), 4);
+    browser.press(".");
+    browser.until(loaded);
+    let second = addresses(&mut browser);
+    assert_eq!(second.matches("/plate/0001/").count(), 5, "{second}");
+    assert!(
+        second.contains("0001/velocity_gather_fine/change.png"),
+        "{second}"
+    );
+    let readout = browser.text("document.getElementById('readout').textContent");
+    assert!(readout.starts_with("frame 1 of 2; error "), "{readout}");
+    browser.press(",");
+    browser.press(",");
+    assert_eq!(browser.text("document.body.dataset.frame"), "2");
+    browser.press("[");
+    let chosen = browser.value("Number(document.getElementById('sequence').value)");
+    assert_eq!(chosen, last as u64 - 1);
+    let before = browser.text("document.body.dataset.frame");
+    browser.press("3");
+    browser.press(" ");
+    browser.until(&format!("document.body.dataset.frame !== '{before}'"));
+    assert_eq!(
+        browser.text("document.getElementById('play').textContent"),
+        "Stop"
+    );
+    browser.press(" ");
+    assert_eq!(
+        browser.text("document.getElementById('play').textContent"),
+        "Play"
+    );
+    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(browser.value("document.documentElement.scrollWidth"), 1280);
+}

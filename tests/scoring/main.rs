@@ -5,11 +5,13 @@ mod decoys;
 mod flip_parity;
 mod intervals;
 mod invariance;
+mod jod_parity;
 mod knowledge;
 mod noise;
 mod ranking;
 mod scatter_oracle;
 mod scores;
+mod sequences;
 
 use frame::Truth;
 use metrics::{Measured, Measurement, Scores, measure};

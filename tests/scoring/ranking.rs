@@ -84,6 +84,8 @@ fn make_run() -> Run {
         .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
         .collect();
     Run {
+        frames: suite::Frames::default(),
+        sequences: Vec::new(),
         format: FORMAT,
         program: suite::PROGRAM.to_owned(),
         command: Vec::new(),

@@ -13,6 +13,7 @@ use tracer::{
 pub fn empty_scene(name: &str) -> Scene {
     Scene {
         name: name.into(),
+        frame: 0,
         exposes: "a test".into(),
         family: Family::Translation,
         exposure: 1.0,

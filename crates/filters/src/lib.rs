@@ -28,10 +28,10 @@ mod translate;
 pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
 pub use error::FilterError;
 pub use filter::{
-    Binding, BindingPlace, Code, Command, Convention, DepthKind, Expression, Filter, Growth, Holds,
-    Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, Rounding, SamplerFilter,
-    Sampling, Scale, Settings, Source, Stage, Texture, TuningRecord, Unit, Value, VelocitySign,
-    VelocityTime, VelocityUnit, VertexShader, VerticalDirection, Wrap,
+    Binding, BindingPlace, Code, Command, Convention, DepthKind, Expression, Filter, Growth,
+    History, Holds, Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, Rounding,
+    SamplerFilter, Sampling, Scale, Settings, Source, Stage, Texture, TuningRecord, Unit, Value,
+    VelocitySign, VelocityTime, VelocityUnit, VertexShader, VerticalDirection, Wrap,
 };
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,

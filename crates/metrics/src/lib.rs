@@ -12,6 +12,7 @@
 //! | `picture` | errors of a whole picture, pooled over regions |
 //! | `worth` | error put into proportion: skill and equivalent sub-frames |
 //! | `reference` | the truth, ready to measure pictures against |
+//! | `sequence` | errors from frame to frame |
 //! | `math` | means, convolutions and powers |
 
 mod color;
@@ -29,6 +30,7 @@ mod probe;
 mod reference;
 mod score;
 mod scores;
+mod sequence;
 mod subframes;
 mod viewing;
 mod worth;
@@ -50,6 +52,10 @@ pub use probe::{ProbeMaps, ProbeMeasurement, Probes};
 pub use reference::{ColorReference, Jitter, Measurement, Reference};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
+pub use sequence::{
+    Instant, JOD_DISPLAY, NEW_SHARE, SequenceMeasurement, SequenceMetric, SequenceReference,
+    SequenceScores, accumulate, video_jod,
+};
 pub use subframes::{Equivalent, LadderRange, Subframes};
 pub use viewing::Viewing;
 

@@ -3,19 +3,45 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// Style sheets; later ones override earlier ones.
-const STYLES: [&str; 7] = [
+const STYLES: [&str; 8] = [
     include_str!("assets/base.css"),
     include_str!("assets/tables.css"),
     include_str!("assets/charts.css"),
     include_str!("assets/case.css"),
     include_str!("assets/viewer.css"),
     include_str!("assets/comparison.css"),
+    include_str!("assets/sequence.css"),
     include_str!("assets/media.css"),
 ];
 
 /// Permissions of a page: a browser may show what stands in it, and fetch nothing.
-const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; \
-     script-src 'unsafe-inline'";
+const POLICY: &str = "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+
+/// Files beside a page that it loads. Browsers differ in what they call files beside a page on a disk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Siblings {
+    /// None: the page holds everything.
+    None,
+    /// Scripts with numbers.
+    Numbers,
+    /// Pictures.
+    Pictures,
+}
+
+impl Siblings {
+    /// Permissions of scripts and pictures.
+    fn policy(self) -> String {
+        let beside = |own: Self| match self == own {
+            true => " 'self' file:",
+            false => "",
+        };
+        format!(
+            "default-src 'none'; img-src data:{}; {POLICY}; script-src 'unsafe-inline'{}",
+            beside(Self::Pictures),
+            beside(Self::Numbers)
+        )
+    }
+}
 
 /// A page before it is text.
 pub struct Document<'a> {
@@ -29,25 +55,19 @@ pub struct Document<'a> {
     pub body: Markup,
     /// Scripts in the order in which they run, behind that of the theme.
     pub scripts: &'a [&'a str],
-    /// True if the page loads files that lie beside it.
-    pub loads_siblings: bool,
+    /// Files beside it that the page loads.
+    pub siblings: Siblings,
 }
 
 impl Document<'_> {
     /// Writes the page as HTML.
     pub fn render(self) -> String {
-        // Browsers differ in what they call files beside a page on a disk.
-        let beside = if self.loads_siblings {
-            " 'self' file:"
-        } else {
-            ""
-        };
         let page = html! {
             (DOCTYPE)
             html lang="en" {
                 head {
                     meta charset="utf-8";
-                    meta http-equiv="Content-Security-Policy" content=(format!("{POLICY}{beside}"));
+                    meta http-equiv="Content-Security-Policy" content=(self.siblings.policy());
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     title { (self.title) }
                     link rel="icon" href="data:,";

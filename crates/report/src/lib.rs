@@ -13,6 +13,7 @@ mod overview;
 mod pixels;
 mod run_facts;
 mod run_page;
+mod sequence;
 mod tuning;
 
 use std::path::Path;
@@ -34,6 +35,7 @@ pub use comparison::{ChangeCells, compare_page};
 pub use finding_text::{finding_line, finding_score, finding_status, way_out};
 pub use gallery::write_gallery;
 pub use pixels::report_files::{LARGEST_PAGE, Report};
+pub use sequence::{SEQUENCES_PAGE, sequences_page};
 pub use tuning::{TuneFolder, tuning_page};
 
 /// Makes the page of a run whose files lie below `folder`, that of its run.json, to be written to `html`.
@@ -88,7 +90,13 @@ pub fn report(
     let numbers = SceneNumbers::new(texts, text, html, largest);
     Ok(Report {
         html: html.to_owned(),
-        page: run_page(run, &first, &sections, &numbers),
+        page: run_page(
+            run,
+            &first,
+            &sections,
+            &numbers,
+            html.parent() == Some(folder),
+        ),
         siblings: numbers.siblings(html),
     })
 }

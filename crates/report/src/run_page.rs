@@ -4,8 +4,9 @@ use maud::{Markup, PreEscaped, html};
 
 use crate::case::legend::colors;
 use crate::case::viewer::viewer;
-use crate::document::Document;
+use crate::document::{Document, Siblings};
 use crate::pixels::report_files::SceneNumbers;
+use crate::sequence::SEQUENCES_PAGE;
 use suite::Run;
 
 /// Scripts in the order in which they run.
@@ -20,8 +21,14 @@ const SCRIPTS: [&str; 8] = [
     include_str!("assets/address.js"),
 ];
 
-/// Writes the whole page.
-pub fn run_page(run: &Run, overview: &Markup, cases: &[Markup], numbers: &SceneNumbers) -> String {
+/// Writes the whole page. `links_sequences` is true where the page lies beside that of the sequences.
+pub fn run_page(
+    run: &Run,
+    overview: &Markup,
+    cases: &[Markup],
+    numbers: &SceneNumbers,
+    links_sequences: bool,
+) -> String {
     let document = Document {
         title: "Shuttertruth report",
         heading: html! { a href="#overview" { "Shuttertruth" } },
@@ -35,6 +42,14 @@ pub fn run_page(run: &Run, overview: &Markup, cases: &[Markup], numbers: &SceneN
                     p { "The numbers need no script; pictures, sorting and keys do." }
                 }
                 (failures(run))
+                @if !run.sequences.is_empty() {
+                    p.note {
+                        "Below are the first frames of sequences of " (run.frames.count) " frames. "
+                        "They play on the page "
+                        @if links_sequences { a href=(SEQUENCES_PAGE) { (SEQUENCES_PAGE) } } @else { (SEQUENCES_PAGE) }
+                        " beside run.json."
+                    }
+                }
                 (overview)
                 @for case in cases { (case) }
             }
@@ -43,7 +58,10 @@ pub fn run_page(run: &Run, overview: &Markup, cases: &[Markup], numbers: &SceneN
             script #colors type="application/json" { (PreEscaped(colors())) }
         },
         scripts: &SCRIPTS,
-        loads_siblings: numbers.folder.is_some(),
+        siblings: match numbers.folder {
+            Some(_) => Siblings::Numbers,
+            None => Siblings::None,
+        },
     };
     document.render()
 }

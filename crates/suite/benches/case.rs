@@ -61,6 +61,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         engine_scenes: Vec::new(),
         filters: vec![FilterChoice::new(Filter::builtin(filter)?, preset)?],
         inputs: vec![InputFormat::default()],
+        frames: suite::Frames::default(),
         jitter_frames: NOISE_FRAMES,
         render: RenderSettings {
             width: width.parse()?,

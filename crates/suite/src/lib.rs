@@ -75,6 +75,7 @@ pub use measure::estimate::{
 pub use measure::plan::RunPlan;
 pub use measure::references::scene_viewing;
 pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
+pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use monitor::{Monitor, Step};
 pub use printable::{printable, printable_lines, printable_path, printable_table};
 pub use render::frames::render_frame;
@@ -91,6 +92,7 @@ pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
 pub use run::layers::write_layers;
 pub use run::overall::Overall;
+pub use run::sequence::{Frames, MOST_FRAMES, Sequence, SequenceFrame};
 pub use run::{FORMAT, Run};
 pub use score::finished_picture::{FinishedPicture, read_finished_picture};
 pub use score::scores::{Scored, missing_scores, score};

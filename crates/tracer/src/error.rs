@@ -86,4 +86,19 @@ pub enum TraceError {
         /// Time, in frames.
         time: f64,
     },
+    /// A time of a later frame at which the scene is not defined.
+    #[error(
+        "scene {scene}: needs {what} at frame {time}, and the keys end at frame {last}; allowed: motions of two keys, which go on \
+         steadily, and others up to their last key or shape; take fewer frames, or give the scene more keys"
+    )]
+    Undefined {
+        /// The scene's name, with the frame.
+        scene: String,
+        /// What is not defined.
+        what: String,
+        /// Time of the last key, in frames of the scene's own clock.
+        last: f64,
+        /// Time that was asked for, in the same frames.
+        time: f64,
+    },
 }

@@ -17,6 +17,7 @@ mod material;
 mod motion;
 mod progress;
 mod scene;
+mod sequence;
 mod settings;
 mod stage;
 #[cfg(test)]

@@ -11,8 +11,11 @@ use crate::motion::keys::Motion;
 /// The input of a render. Indices are valid, numbers finite, meshes not empty.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Folder name, with the variant if one was chosen: `sliding_panel@64px_45deg`.
+    /// Folder name, with the variant if one was chosen, and the frame if it is a later one: `sliding_panel@64px_45deg`,
+    /// `fan/0003`.
     pub name: String,
+    /// Frames of the scene's own clock at its instant; above 0 for what [`Scene::at_frame`] made.
+    pub frame: u32,
     /// Defect that the scene exposes, in one sentence.
     pub exposes: String,
     /// Family, for leave-one-family-out cross-validation.

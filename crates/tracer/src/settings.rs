@@ -78,6 +78,7 @@ impl RenderSettings {
         )?;
         Alignment::Trailing.shutter(self.exposure(scene))?;
         check_samples(self.samples_per_pixel, 1)?;
+        scene.check_defined(0.0)?;
         check_field_of_view(scene, earliest_time(self.options.velocity), 0.0)
     }
 
@@ -91,6 +92,7 @@ impl RenderSettings {
         let shutter = alignment.shutter(self.exposure(scene))?;
         scene.shutter_profile.check()?;
         let whole = scene.shutter_profile.whole(shutter);
+        scene.check_defined(whole.close)?;
         check_field_of_view(scene, whole.open, whole.close)?;
         Ok(shutter)
     }

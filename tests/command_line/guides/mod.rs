@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 29] = [
+const NOT_RUN: [(&str, &str); 30] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -36,6 +36,10 @@ const NOT_RUN: [(&str, &str); 29] = [
     ),
     (
         "cargo test --locked -p cli --test fuzz",
+        "a part of `make test`",
+    ),
+    (
+        "cargo test -p tests --test scoring jod_parity",
         "a part of `make test`",
     ),
     (

@@ -102,6 +102,7 @@ impl Bench {
             engine_scenes: Vec::new(),
             filters,
             inputs: InputFormat::one_by_one(&[], &[], &[], &[]),
+            frames: suite::Frames::default(),
             jitter_frames: 0,
             render: RenderSettings {
                 width: 128,

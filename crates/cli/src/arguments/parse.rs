@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use suite::{MOST_REPLICATES, Objective, SIDES};
+use suite::{MOST_FRAMES, MOST_REPLICATES, Objective, SIDES};
 
 /// Number of replicates, or a part of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,6 +101,22 @@ pub fn parse_jitter_frames(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(frames @ 0..=1024) => Ok(frames),
         _ => Err("allowed: 0 to 1024".to_owned()),
+    }
+}
+
+/// Parses a number of frames of a sequence.
+pub fn parse_frames(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(count @ 1..=MOST_FRAMES) => Ok(count),
+        _ => Err(format!("allowed: 1 to {MOST_FRAMES}")),
+    }
+}
+
+/// Parses a number of frames per second.
+pub fn parse_per_second(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(rate) if rate > 0.0 && rate <= 1000.0 => Ok(rate),
+        _ => Err("allowed: a number above 0 and up to 1000, such as 60".to_owned()),
     }
 }
 

@@ -3,7 +3,9 @@
 use clap::Args;
 use frame::Alignment;
 
-use super::parse::{Replicates, parse_noise, parse_replicates, parse_size, parse_whole};
+use super::parse::{
+    Replicates, parse_frames, parse_noise, parse_replicates, parse_size, parse_whole,
+};
 use super::scenes::SceneArgs;
 
 /// `shuttertruth render`
@@ -14,6 +16,9 @@ pub struct RenderArgs {
     /// Picture size in pixels [default: each scene's own].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
+    /// Consecutive frames to render of every scene. Later frames lie in numbered folders below the scene's own.
+    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = parse_frames)]
+    pub frames: u32,
     /// Shutter alignments of the truths, separated by commas.
     #[arg(
         help_heading = "Truths",

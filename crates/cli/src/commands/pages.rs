@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use report::{LARGEST_PAGE, report};
+use report::{LARGEST_PAGE, SEQUENCES_PAGE, report, sequences_page};
 use suite::{Error, Finding, Run, printable_path};
 
 /// A file that a command wrote.
@@ -56,7 +56,15 @@ pub fn write_run_page(
     let page = report(run, findings, folder, html, LARGEST_PAGE)?;
     page.write()?;
     let siblings = page.siblings.into_iter().map(|(path, _)| path);
-    (std::iter::once(page.html).chain(siblings))
+    let sequences = match sequences_page(run) {
+        None => None,
+        Some(page) => {
+            let path = folder.join(SEQUENCES_PAGE);
+            frame::write_atomically(&path, page.as_bytes())?;
+            Some(path)
+        }
+    };
+    (std::iter::once(page.html).chain(sequences).chain(siblings))
         .map(WrittenFile::new)
         .collect()
 }

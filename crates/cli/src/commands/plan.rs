@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use frame::FrameOptions;
 use suite::{
-    BOUNDS_FILE, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, InputFormat,
-    RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds, read_bounds_file,
+    BOUNDS_FILE, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, Frames,
+    InputFormat, RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
+    read_bounds_file,
 };
 use tracer::{RenderSettings, Scene};
 
@@ -51,6 +52,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
             &args.velocity_defect,
         ),
         jitter_frames: args.jitter_frames,
+        frames: Frames::default(),
         render: make_render_settings(&args.scenes, size, args.replicates)?,
         out,
         intervals: false,

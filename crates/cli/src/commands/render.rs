@@ -27,8 +27,13 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     let mut noisy = Vec::new();
     let choices = select_scenes(&args.scenes.scenes_dir, &args.scenes.scenes)?;
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
+    check_frames(args, &choices)?;
     print_expected_renders(args, &choices)?;
-    for SceneChoice { scene, .. } in choices {
+    let frames = choices.iter().flat_map(|choice| {
+        let frames = 0..args.frames;
+        frames.map(|frame| choice.scene.at_frame(frame))
+    });
+    for scene in frames {
         match &args.replicates {
             Replicates::All(count) => noisy.extend(render_whole(args, &scene, *count)?),
             Replicates::Part(indices) if args.noise.is_none() => {
@@ -59,6 +64,20 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     }
 }
 
+/// Refuses frames at which a scene is not defined, before anything is rendered.
+fn check_frames(args: &RenderArgs, choices: &[SceneChoice]) -> Result<(), Error> {
+    for SceneChoice { scene, .. } in choices {
+        let settings = scene_settings(args, scene, RenderSettings::default().replicates)?;
+        for frame in 1..args.frames {
+            let later = scene.at_frame(frame);
+            for alignment in &args.alignments {
+                settings.check_truth(&later, *alignment)?;
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Prints the expected time of all scenes, none of which is rendered yet.
 fn print_expected_renders(args: &RenderArgs, choices: &[SceneChoice]) -> Result<(), Error> {
     let count = match &args.replicates {
@@ -69,6 +88,7 @@ fn print_expected_renders(args: &RenderArgs, choices: &[SceneChoice]) -> Result<
         .map(|choice| Ok((&choice.scene, scene_settings(args, &choice.scene, count)?)))
         .collect::<Result<Vec<_>, Error>>()?;
     let seconds = estimate_render_seconds(&renders, args.alignments.len());
+    let seconds = f64::from(args.frames) * seconds;
     let scenes = count_text(choices.len(), "scene", "scenes");
     print_expected_time(seconds, &scenes);
     Ok(())

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use suite::{Error, Level, Run, judge, open_gpu, printable_path, refuse_failures};
+use suite::{Error, Frames, Level, Run, judge, open_gpu, printable_path, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
@@ -16,12 +16,18 @@ use crate::tables::adapter::adapter_text;
 use crate::tables::cases::run_table;
 use crate::tables::failures::failures_text;
 use crate::tables::ranking::ranking_text;
+use crate::tables::sequence::sequence_table;
 
 /// Runs every case, writes `run.json` and the page, prints the ranking or the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let began = Instant::now();
     refuse_folder("--html", args.html.as_ref())?;
     let (mut plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
+    plan.frames = Frames {
+        count: args.frames,
+        per_second: args.fps,
+    };
+    plan.check()?;
     let size = (plan.render.width, plan.render.height);
     for bounds in bounds.values_mut() {
         *bounds = std::mem::take(bounds).at(size);
@@ -59,7 +65,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
             true => run_table(&run),
             false => ranking_text(&run.cases),
         };
-        let text = scores + &failures_text(&run.failures);
+        let text = scores + &sequence_table(&run.sequences) + &failures_text(&run.failures);
         print(&(text + &closing_text(&run, &pages, &plan.out, began.elapsed())))?;
     }
     refuse_failures(&run.failures)

@@ -14,4 +14,5 @@ pub mod listing;
 pub mod ranking;
 pub mod scene_means;
 pub mod sensitivity;
+pub mod sequence;
 pub mod tuning;

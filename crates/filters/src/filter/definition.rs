@@ -4,6 +4,7 @@ use frame::Alignment;
 
 use super::command::Command;
 use super::convention::Convention;
+use super::history::History;
 use super::lines::Lines;
 use super::parameter::Parameter;
 use super::pass::{Pass, Texture};
@@ -48,6 +49,8 @@ pub struct Filter {
     pub time_limit: f64,
     /// Textures between its passes.
     pub textures: Vec<Texture>,
+    /// Inputs of the frame before that its kernels read, each once.
+    pub history: Vec<History>,
     /// Passes, in the order in which they run.
     pub passes: Vec<Pass>,
     /// Form in which its shaders expect the frame.
@@ -105,15 +108,18 @@ impl Filter {
 
     /// Returns true for a texture that shaders can name.
     pub(crate) fn has_texture(&self, name: &str) -> bool {
-        let builtin = INPUTS.contains(&name) || name == "output";
+        let mut before = self.history.iter().map(|history| history.texture());
+        let builtin = INPUTS.contains(&name) || name == "output" || before.any(|it| it == name);
         builtin || (self.textures.iter()).any(|texture| texture.name == name)
     }
 
     /// Lists the textures that shaders can name.
     pub(crate) fn list_textures(&self) -> String {
         let declared = self.textures.iter().map(|texture| &texture.name[..]);
+        let before = self.history.iter().map(|history| history.texture());
         let names: Vec<&str> = INPUTS
             .into_iter()
+            .chain(before)
             .chain(["output"])
             .chain(declared)
             .collect();

@@ -5,6 +5,7 @@ mod convention;
 mod conversion;
 mod definition;
 mod expression;
+mod history;
 mod lines;
 mod parameter;
 mod pass;
@@ -22,6 +23,7 @@ pub use convention::{
 pub use definition::Filter;
 pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS};
 pub use expression::Expression;
+pub use history::History;
 pub(crate) use lines::Lines;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub use pass::{Holds, Pass, Repeat, Rounding, Texture};

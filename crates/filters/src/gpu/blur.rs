@@ -10,6 +10,7 @@ use super::place::Place;
 use super::transfer::{row_bytes, to_texels, velocity_texels};
 use super::uniforms::FrameValues;
 use super::uploaded_input::UploadedInput;
+use crate::filter::History;
 use crate::input::CameraUse;
 use crate::{Convention, Filter, FilterError, Format, Input, Settings};
 
@@ -21,6 +22,7 @@ pub struct Blur<'g> {
     size: [u32; 2],
     camera_use: CameraUse,
     convention: Convention,
+    history: Vec<History>,
     pub(super) passes: BoundPasses,
 }
 
@@ -54,6 +56,7 @@ impl<'g> Blur<'g> {
             size: [width, height],
             camera_use: filter.camera_use(),
             convention: filter.convention,
+            history: filter.history.clone(),
             passes: {
                 let specialised = kernels.specialise(settings)?;
                 BoundPasses::new(gpu, &specialised, settings, [width, height])?
@@ -66,13 +69,28 @@ impl<'g> Blur<'g> {
         input.check(&self.filter, self.size, self.camera_use)
     }
 
-    /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter.
+    /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter. For filters with
+    /// history the frame before is the input itself, as at the beginning of a sequence.
     pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
+        self.run_after(input, input)
+    }
+
+    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history behind another frame. That has as
+    /// many colour images, which go with those of the input.
+    pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         self.check(input)?;
+        self.check(before)?;
+        assert_eq!(
+            input.color.len(),
+            before.color.len(),
+            "every colour has one of the frame before"
+        );
         self.upload(input)?;
+        self.upload_layers_before(before)?;
         let mut outputs = Vec::new();
-        for color in input.color {
+        for (color, color_before) in input.color.iter().zip(before.color) {
             self.upload_color(color)?;
+            self.upload_color_before(color_before)?;
             // Results that do not depend on colour stay from the first image.
             let first = outputs.is_empty();
             outputs.push(self.blur(|dispatch| first || dispatch.depends_on_color)?);
@@ -94,11 +112,24 @@ impl<'g> Blur<'g> {
             self.gpu
                 .copy(&input.velocity, self.passes.target("velocity"));
             self.gpu.copy(&input.depth, self.passes.target("depth"));
+            for history in &self.history {
+                let own = match history {
+                    History::Velocity => &input.velocity,
+                    History::Depth => &input.depth,
+                    History::Color => continue,
+                };
+                self.gpu.copy(own, self.passes.target(history.texture()));
+            }
         })?;
         let mut outputs = Vec::new();
         for color in &input.color {
-            self.gpu
-                .catch_errors(place, || self.gpu.copy(color, self.passes.target("color")))?;
+            self.gpu.catch_errors(place, || {
+                self.gpu.copy(color, self.passes.target("color"));
+                if self.history.contains(&History::Color) {
+                    let before = self.passes.target(History::Color.texture());
+                    self.gpu.copy(color, before);
+                }
+            })?;
             let first = outputs.is_empty();
             outputs.push(self.blur(|dispatch| first || dispatch.depends_on_color)?);
         }
@@ -124,6 +155,8 @@ impl<'g> Blur<'g> {
         self.check(input)?;
         let color = input.color.first().expect("there is a colour to blur");
         self.upload_color(color)?;
+        self.upload_color_before(color)?;
+        self.upload_layers_before(input)?;
         let mut outputs = Vec::new();
         for frame_index in frame_indices {
             self.upload(&Input {
@@ -250,6 +283,33 @@ impl<'g> Blur<'g> {
             self.gpu.upload(self.passes.target("depth"), &depth.pixels);
             let frame = FrameValues::of(input, &self.convention);
             self.passes.upload_frame(self.gpu, frame);
+        })
+    }
+
+    /// Uploads velocity and depth of the frame before, if the filter reads them.
+    pub(super) fn upload_layers_before(&self, before: &Input) -> Result<(), FilterError> {
+        self.gpu.catch_errors(self.place("upload"), || {
+            for history in &self.history {
+                let values = match history {
+                    History::Velocity => velocity_texels(&self.convention, before),
+                    History::Depth => self.convention.convert_depth(before.depth).pixels,
+                    History::Color => continue,
+                };
+                let target = self.passes.target(history.texture());
+                self.gpu.upload(target, &values);
+            }
+        })
+    }
+
+    /// Uploads a colour of the frame before, if the filter reads it.
+    pub(super) fn upload_color_before(&self, color: &Image) -> Result<(), FilterError> {
+        if !self.history.contains(&History::Color) {
+            return Ok(());
+        }
+        let target = self.passes.target(History::Color.texture());
+        self.gpu.catch_errors(self.place("upload"), || {
+            self.gpu
+                .upload(target, &to_texels(color, self.color_scale()));
         })
     }
 

@@ -3,11 +3,15 @@
 use std::collections::BTreeSet;
 
 use crate::Filter;
+use crate::filter::History;
 use crate::shader::EntryPoint;
 
 /// Finds the passes whose result depends on the colour image, by themselves or through other passes.
 pub(super) fn find_color_dependent(filter: &Filter) -> Vec<bool> {
-    find_dependent(filter, BTreeSet::from(["color", "output"]), |_| false)
+    let before = History::Color.texture();
+    find_dependent(filter, BTreeSet::from(["color", before, "output"]), |_| {
+        false
+    })
 }
 
 /// Finds the passes whose result depends on the frame's index, by themselves or through other passes.

@@ -41,8 +41,13 @@ fn describe_targets<'f>(
     size: [u32; 2],
 ) -> Vec<TargetDescription<'f>> {
     let inputs = INPUTS.map(|name| (name, filter.convention.input_format(name)));
+    let before = filter.history.iter().map(|history| {
+        let format = filter.convention.input_format(history.input());
+        (history.texture(), format)
+    });
     let builtin = inputs
         .into_iter()
+        .chain(before)
         .chain([("output", output_format(filter))]);
     let builtin = builtin.map(|(name, format)| TargetDescription {
         name,

@@ -28,6 +28,8 @@ impl<'g> Blur<'g> {
         self.upload(input)?;
         let color = input.color.first().expect("there is a colour to blur");
         self.upload_color(color)?;
+        self.upload_color_before(color)?;
+        self.upload_layers_before(input)?;
         Ok(LoadedBlur { blur: self })
     }
 }

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::filter::Lines;
-use crate::filter::PassShader;
+use crate::filter::{INPUTS, Lines, PassShader};
 use crate::shader::{EntryPoint, Role, Shader, Texel, written_texture};
 use crate::{Filter, FilterError, Format, Length, Pass, Repeat, Stage};
 
@@ -135,6 +134,7 @@ impl Check<'_> {
         match (role, name) {
             (Role::Uniform, "parameters" | "frame") => Ok(()),
             (Role::Read(Texel::Float), "color" | "velocity" | "depth") => Ok(()),
+            (Role::Read(Texel::Float), name) if self.is_history(name) => Ok(()),
             (Role::Read(Texel::Uint), "color" | "velocity" | "depth") => {
                 Err("holds floats: texture_2d<f32>".into())
             }
@@ -165,12 +165,18 @@ impl Check<'_> {
         }
     }
 
+    /// Tells whether a name is that of a declared input of the frame before.
+    fn is_history(&self, name: &str) -> bool {
+        let mut history = self.filter.history.iter();
+        history.any(|history| history.texture() == name)
+    }
+
     fn refuse_undeclared(&self) -> String {
         let textures = &self.filter.textures;
         let names: Vec<&str> = textures.iter().map(|texture| &texture.name[..]).collect();
         format!(
-            "is no known input or output; uniforms: parameters, frame; read: color, velocity, depth or a [[texture]] by its \
-             name; written: output or a [[texture]] as <name>_out; textures of {}: {}",
+            "is no known input or output; uniforms: parameters, frame; read: color, velocity, depth, those of the frame before \
+             as color_before and so on if `history` names them, or a [[texture]] by its name; written: output or a [[texture]] as <name>_out; textures of {}: {}",
             self.lines.path.display(),
             if names.is_empty() {
                 "none".to_owned()
@@ -181,7 +187,8 @@ impl Check<'_> {
     }
 
     fn check_passes(&self) -> Result<(), FilterError> {
-        let mut ready = BTreeSet::from(["color", "velocity", "depth"]);
+        let before = self.filter.history.iter().map(|history| history.texture());
+        let mut ready: BTreeSet<&str> = INPUTS.into_iter().chain(before).collect();
         let mut used = BTreeSet::new();
         for (pass, line) in self.filter.passes.iter().zip(&self.lines.passes) {
             let refuse = |reason: String| {

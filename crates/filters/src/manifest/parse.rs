@@ -15,7 +15,7 @@ use super::passes::{PassEntry, TextureEntry, read_passes, read_textures};
 use super::presets::{PresetEntry, read_presets};
 use super::reach_by::{ReachEntry, read_reach_by};
 use super::time_limit::read_time_limit;
-use crate::filter::Lines;
+use crate::filter::{History, Lines};
 use crate::{Convention, Filter, FilterError};
 
 #[derive(Deserialize)]
@@ -39,6 +39,8 @@ struct Manifest {
     environment: Option<Spanned<Vec<String>>>,
     time_limit: Option<Spanned<f64>>,
     convention: Option<Spanned<Convention>>,
+    #[serde(default)]
+    history: Vec<Spanned<History>>,
     #[serde(default)]
     texture: Vec<Spanned<TextureEntry>>,
     #[serde(default)]
@@ -88,6 +90,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         presets: read_presets(&file, &manifest.preset, &parameters)?,
         passes: read_passes(&file, &manifest.pass, &textures, &parameters, &convention)?,
         convention,
+        history: read_history(&file, &manifest)?,
         command,
         time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
         reach_by: read_reach_by(&file, manifest.reach_by.as_ref(), &parameters)?,
@@ -108,6 +111,27 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
             passes: file.lines(&manifest.pass),
         },
     })
+}
+
+/// Reads the inputs of the frame before, each of which may stand once. A program gets none of them.
+fn read_history(file: &File, manifest: &Manifest) -> Result<Vec<History>, FilterError> {
+    let mut history = Vec::new();
+    for own in &manifest.history {
+        if manifest.command.is_some() {
+            let reason =
+                "history: allowed for filters with kernels; a program keeps what it saw itself";
+            return Err(file.at(own, reason.into()));
+        }
+        if history.contains(own.get_ref()) {
+            let reason = format!(
+                "history names \"{}\" twice; allowed: once",
+                own.get_ref().input()
+            );
+            return Err(file.at(own, reason));
+        }
+        history.push(*own.get_ref());
+    }
+    Ok(history)
 }
 
 /// Refuses a filter that is neither a command nor passes over kernels, or both.

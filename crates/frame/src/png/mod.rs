@@ -1,7 +1,9 @@
 //! PNG files.
 
+mod animation;
 mod palette;
 mod picture;
 
+pub use animation::write_animated_png;
 pub use palette::check_png_palette;
 pub use picture::{MOST_PNG_PIXELS, read_png, write_png};

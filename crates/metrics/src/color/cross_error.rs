@@ -82,7 +82,8 @@ pub fn psnr(squared_error: f64, floor: f64) -> f64 {
     -10.0 * squared_error.max(floor).max(limit).log10()
 }
 
-fn multiply(f: [f64; 3], g: [f64; 3], scale: f64) -> f64 {
+/// Computes the mean over the channels of a product, of radiance times `scale`.
+pub fn multiply(f: [f64; 3], g: [f64; 3], scale: f64) -> f64 {
     (f[0] * g[0] + f[1] * g[1] + f[2] * g[2]) * scale * scale / 3.0
 }
 

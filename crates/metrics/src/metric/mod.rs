@@ -5,6 +5,7 @@ mod row;
 mod rows;
 
 pub use name::Metric;
+pub(crate) use row::metrics;
 pub use row::{Group, Row};
 pub use rows::{
     EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, ImageMetric, ImageScores,

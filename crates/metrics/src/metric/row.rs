@@ -38,6 +38,8 @@ pub enum Group {
     Instant,
     /// Places that a filter gathers from.
     Gathered,
+    /// Change from frame to frame, of sequences alone.
+    Time,
     /// Scores in run.json that no page shows.
     RunJson,
 }
@@ -62,6 +64,7 @@ impl Group {
             Group::Silhouette => "Silhouette and mass of the worst mover",
             Group::Instant => "Without shadows, lights and reflections that move",
             Group::Gathered => "Where the filter gathers",
+            Group::Time => "From frame to frame",
             Group::RunJson => "Only in run.json",
         }
     }

@@ -7,7 +7,7 @@ use super::cells::ChangeCells;
 use super::pictures::Pictures;
 use super::runs::both_runs;
 use crate::charts::strip::Strip;
-use crate::document::Document;
+use crate::document::{Document, Siblings};
 use suite::Error;
 use suite::{Change, ChangeKind, rank_changes};
 use suite::{MeanChange, MeanKind};
@@ -58,7 +58,7 @@ pub fn compare_page(
         subtitle: &subtitle,
         body: html! { main { (body) } },
         scripts: &[include_str!("../assets/split.js")],
-        loads_siblings: false,
+        siblings: Siblings::None,
     };
     Ok(document.render())
 }

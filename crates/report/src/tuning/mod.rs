@@ -12,7 +12,7 @@ mod slices;
 
 use maud::{Markup, html};
 
-use crate::document::Document;
+use crate::document::{Document, Siblings};
 use suite::Error;
 
 pub use folder::TuneFolder;
@@ -57,7 +57,7 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
         subtitle: &subtitle,
         body: html! { main { (body) } },
         scripts: &[],
-        loads_siblings: false,
+        siblings: Siblings::None,
     };
     Ok(document.render())
 }

@@ -97,11 +97,16 @@ impl<'g> Runner<'g> {
         }
     }
 
-    /// Blurs every colour image of the input with the same weights, in order.
-    pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
+    /// Blurs every colour image of the input with the same weights, in order. Kernels with history read the frame before.
+    pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         match self {
-            Self::Kernels(blur) => blur.run(input),
+            Self::Kernels(blur) => blur.run_after(input, before),
             Self::Command(blur) => blur.run(input),
         }
+    }
+
+    /// Blurs every colour image of the input with the same weights, in order; the frame before is the input itself.
+    pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
+        self.run_after(input, input)
     }
 }

@@ -50,7 +50,7 @@ pub fn claim<'a>(
     if sharing == Sharing::Alone {
         remove_leftovers(out);
         for folder in &folders {
-            remove_all_leftovers(folder);
+            remove_all_leftovers(folder, DEPTH);
         }
     }
     Ok(claim)
@@ -98,13 +98,19 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     }
 }
 
-/// Removes leftovers in a scene's folder and in the folders of its cases and replicates.
-fn remove_all_leftovers(folder: &Path) {
+/// Folders below a scene's own: those of later frames, and below them those of cases and replicates.
+const DEPTH: u32 = 2;
+
+/// Removes leftovers in a scene's folder and in those below it.
+fn remove_all_leftovers(folder: &Path, depth: u32) {
     remove_leftovers(folder);
+    if depth == 0 {
+        return;
+    }
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         // Nothing behind a link is ours.
         if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
-            remove_leftovers(&entry.path());
+            remove_all_leftovers(&entry.path(), depth - 1);
         }
     }
 }

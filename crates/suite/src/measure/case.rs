@@ -39,6 +39,8 @@ pub(crate) struct CaseContext<'a> {
     pub frame: &'a Frame,
     /// The frame in the forms in which filters get it.
     pub stored_frames: &'a [(InputFormat, Frame)],
+    /// The frame before in these forms; empty for the first frame, and where no filter reads it.
+    pub frames_before: &'a [(InputFormat, Frame)],
     pub references: &'a TruthReferences<'a>,
     /// Reads the rung of a number of sub-frames, as a ladder of it alone.
     pub read_rung: &'a dyn Fn(u32) -> Result<Ladder, Error>,
@@ -132,11 +134,20 @@ impl CaseContext<'_> {
         let mut stored = self.stored_frames.iter();
         let frame = stored.find(|(format, _)| *format == input);
         let (_, frame) = frame.expect("the frame was stored in every form of the plan");
+        let mut before = self.frames_before.iter();
+        let before = before.find(|(format, _)| *format == input);
+        // The first frame stands in for the one before it.
+        let before = before.map_or(frame, |(_, before)| before);
         let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
         let ended = self.plan.monitor.ended;
         ended("filter made ready");
-        let output = blur_with_probes(&mut runner, frame, ended)
-            .map_err(|error| name_scene(error, self.scene))?;
+        let output = blur_with_probes(
+            &mut runner,
+            frame,
+            (before, self.scene.frame_index()),
+            ended,
+        )
+        .map_err(|error| name_scene(error, self.scene))?;
         let dilated_velocity = read_dilated_velocity(&choice.filter, &runner, frame)?;
         ended("mattes and probes");
         let jitter = self.measure_jitter(&mut runner, frame)?;

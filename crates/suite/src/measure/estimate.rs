@@ -1,9 +1,12 @@
 //! Estimates of the time, disk and memory that a run takes, before it begins.
 
+use std::convert::Infallible;
+
 use filters::Gpu;
 use tracer::{Progress, RenderSettings, Scene};
 
 use super::first_slice::{RenderCosts, count_small_pixels, measure_first_cases};
+use super::frames::visit_frames;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
@@ -47,6 +50,7 @@ pub struct RunEstimate {
 }
 
 /// Costs of a scene's pictures and cases, in seconds on the threads of this process.
+#[derive(Clone)]
 struct SceneCosts {
     render: RenderCosts,
     case: f64,
@@ -98,7 +102,8 @@ fn estimate_with(
     let filters = plan.scaled_filters();
     let mut estimate = RunEstimate::default();
     let pixels = count_pixels(&plan.render);
-    for scene in SceneContext::all(plan, &filters, gpu) {
+    let mut last: Option<SceneCosts> = None;
+    let visited = visit_frames(plan, &filters, gpu, |scene| {
         let planned = PlannedCase::all(plan, &filters, scene.scene);
         let kept = match plan.no_cache {
             true => 0,
@@ -118,10 +123,13 @@ fn estimate_with(
             (_, false) => scene.find_missing(),
         };
         let renders = frame || truths.contains(&true);
-        let costs = match due {
-            0 => None,
-            _ => Some(costs(&scene, renders)),
+        let costs = match (due, &last) {
+            (0, _) => None,
+            // Frames of one scene cost about the same.
+            (_, Some(last)) if scene.scene.frame_index() > 0 => Some(last.clone()),
+            _ => Some(costs(scene, renders)),
         };
+        last.clone_from(&costs);
         estimate
             .steps
             .push(step_seconds(plan, costs.as_ref(), (frame, &truths), due));
@@ -132,7 +140,9 @@ fn estimate_with(
             let memory = scene.scene.memory(&plan.render, truths);
             estimate.memory = estimate.memory.max(memory);
         }
-    }
+        Ok::<(), Infallible>(())
+    });
+    let Ok(()) = visited;
     let report = estimate.cases as f64 * pixels;
     let steps: f64 = estimate.steps.iter().flatten().sum();
     estimate.seconds = steps + report * SECONDS_PER_REPORT_PIXEL;

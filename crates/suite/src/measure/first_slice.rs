@@ -12,6 +12,7 @@ use super::run_scene::RunScene;
 use super::scene::SceneContext;
 use crate::filter::input_format::InputFormat;
 use crate::render::settings::SIDES;
+use crate::run::sequence::Frames;
 
 /// Pixels of the small picture.
 const PIXELS: f64 = 1500.0;
@@ -84,6 +85,7 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
     let plan = RunPlan {
         scenes: Vec::new(),
         engine_scenes: Vec::new(),
+        frames: Frames::default(),
         filters: vec![first.clone()],
         inputs: vec![InputFormat::default()],
         jitter_frames: scene.plan.jitter_frames,
@@ -103,11 +105,11 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
     };
     let planned = PlannedCase::all(&plan, &filters, scene.scene);
     let due: Vec<&PlannedCase> = planned.iter().collect();
-    let (frame, truths) = scene.render(&|_| {}).ok()?;
+    let frame = scene.render(&|_| {}).ok()?;
     let watch = |_: Progress| ControlFlow::Continue(());
     let (cases, seconds) = measure_time(|| {
         scene
-            .measure(&due, &frame, truths, &|_| {}, &watch)
+            .measure(&due, &frame, &|_| {}, &watch)
             .ok()
             .map(|cases| cases.len())
     });

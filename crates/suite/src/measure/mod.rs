@@ -2,8 +2,11 @@
 
 pub mod case;
 pub mod dilated_velocity;
+mod due_cases;
 pub mod estimate;
 mod first_slice;
+mod frames;
+mod history;
 pub mod pictures;
 pub mod plan;
 pub mod planned_case;
@@ -12,3 +15,4 @@ pub mod references;
 pub(crate) mod run_scene;
 pub mod scene;
 pub mod scenes;
+pub mod sequence;

@@ -10,6 +10,7 @@ use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
 use crate::ingest::engine_scene::EngineScene;
 use crate::render::settings::frame_settings;
+use crate::run::sequence::{Frames, MOST_FRAMES};
 use crate::{Error, Monitor};
 
 /// Everything that a run is told to do.
@@ -24,6 +25,8 @@ pub struct RunPlan {
     pub inputs: Vec<InputFormat>,
     /// Frames of noise that a noisy filter is tried with; fewer than 2 leave its noise alone.
     pub jitter_frames: u32,
+    /// Consecutive frames that every scene is rendered at.
+    pub frames: Frames,
     /// Settings of frames and truths.
     pub render: RenderSettings,
     /// Folder for all files.
@@ -50,10 +53,14 @@ impl RunPlan {
 
     /// Refuses settings with which a scene cannot be rendered, before anything is.
     pub fn check(&self) -> Result<(), Error> {
+        self.check_frames()?;
         for scene in &self.scenes {
-            frame_settings(&self.render).check_frame(scene)?;
-            for alignment in self.alignments() {
-                self.render.check_truth(scene, alignment)?;
+            for frame in 0..self.frames.count {
+                let scene = &scene.at_frame(frame);
+                frame_settings(&self.render).check_frame(scene)?;
+                for alignment in self.traced_alignments(frame) {
+                    self.render.check_truth(scene, alignment)?;
+                }
             }
         }
         for scene in &self.engine_scenes {
@@ -65,6 +72,39 @@ impl RunPlan {
             (input.defect).check(self.render.options.velocity, has_scenes)?;
         }
         Ok(())
+    }
+
+    /// Lists the alignments whose shutters are traced. Trailing and centred truths share their numbers of samples: a pilot looks at
+    /// both. The first frame is defined at all times.
+    fn traced_alignments(&self, frame: u32) -> Vec<Alignment> {
+        let mut alignments = self.alignments();
+        let shares = alignments.contains(&Alignment::Trailing);
+        if frame > 0 && shares && !alignments.contains(&Alignment::Centred) {
+            alignments.push(Alignment::Centred);
+        }
+        alignments
+    }
+
+    /// Refuses no frame, too many, or several of what an engine drew.
+    fn check_frames(&self) -> Result<(), Error> {
+        let Frames { count, per_second } = self.frames;
+        if !(1..=MOST_FRAMES).contains(&count) {
+            return Err(Error::Usage(format!(
+                "found {count} frames; allowed: 1 to {MOST_FRAMES}"
+            )));
+        }
+        if !(per_second.is_finite() && per_second > 0.0) {
+            return Err(Error::Usage(format!(
+                "found {per_second} frames per second; allowed: a number above 0, such as 60"
+            )));
+        }
+        match self.engine_scenes.first() {
+            Some(scene) if count > 1 => Err(Error::Usage(format!(
+                "{}: an engine drew one frame, and {count} are asked for; leave it out of a sequence",
+                scene.name
+            ))),
+            _ => Ok(()),
+        }
     }
 
     /// Lists the scenes that are rendered, then those that engines drew.

@@ -18,10 +18,12 @@ pub(crate) struct FilterOutput {
 }
 
 /// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
-/// probes, and on a mixture of colour and probe. `ended` hears of the end of each part.
+/// probes, and on a mixture of colour and probe, with the noise of one frame. `before` is the frame before, for filters with history; each of
+/// its pictures takes the place of that of the frame. `ended` hears of the end of each part.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     frame: &Frame,
+    (before, frame_index): (&Frame, u32),
     ended: fn(&'static str),
 ) -> Result<FilterOutput, FilterError> {
     let mattes = pack(&frame.coverage);
@@ -30,8 +32,16 @@ pub(crate) fn blur_with_probes(
     let mixture = mix(&frame.color, &probes[0]);
     let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
     colors.extend(&mattes);
+    let mattes_before = pack(&before.coverage);
+    let mixture_before = mix(&before.color, &probes[0]);
+    let mut colors_before = vec![&before.color, &probes[0], &probes[1], &mixture_before];
+    colors_before.extend(&mattes_before);
     ended("mattes and probes");
-    let outputs = runner.run(&input(frame, &colors))?;
+    let now = Input {
+        frame_index,
+        ..input(frame, &colors)
+    };
+    let outputs = runner.run_after(&now, &input(before, &colors_before))?;
     ended("kernels: colour, probes, mattes");
     let outputs = crop_all(outputs, frame.guard_band);
     Ok(FilterOutput {

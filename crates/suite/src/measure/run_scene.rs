@@ -38,6 +38,11 @@ impl<'a> RunScene<'a> {
         }
     }
 
+    /// Returns the frame of the scene's own clock, by which the noise of filters changes.
+    pub fn frame_index(self) -> u32 {
+        self.traced().map_or(0, |scene| scene.frame)
+    }
+
     /// Returns the family; none of an engine's scene.
     pub fn family(self) -> Option<Family> {
         match self {

@@ -1,34 +1,25 @@
 //! Cases of one scene: read back where their inputs are the same, measured where not.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use filters::{FilterError, Gpu};
-use frame::{Alignment, Frame, Ladder, Truth};
-use metrics::{ColorReference, Reference};
-use tracer::{Progress, Scene, Watch};
+use filters::Gpu;
+use frame::Frame;
 
-use super::case::{CaseContext, CommonTruth};
 use super::pictures::{write_frame, write_truth};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
-use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use crate::Error;
 use crate::cache::clear::clear_scene;
 use crate::cache::record::{
-    CASE_RECORD, hash_program, read_record, read_record_alone, remove_altered_files, write_record,
+    CASE_RECORD, read_record, read_record_alone, remove_altered_files, write_record,
 };
 use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
-use crate::filter::input_format::InputFormat;
 use crate::render::frames::render_frame;
-use crate::render::ladders::LadderFiles;
 use crate::render::shared::render_shared;
-use crate::render::truths::{render_replicates, render_truth};
 use crate::run::case::Case;
 use crate::run::failure::Failure;
-use crate::stats::intervals::truths_without_pairs;
 
 /// One scene of a run.
 #[derive(Clone)]
@@ -42,24 +33,23 @@ pub(crate) struct SceneContext<'a> {
     pub keys: Option<SceneKeys>,
 }
 
-pub(super) type Truths = BTreeMap<Alignment, Truth>;
-
 impl<'a> SceneContext<'a> {
-    /// Prepares every scene of a plan for measuring.
-    pub fn all(plan: &'a RunPlan, filters: &'a [FilterChoice], gpu: Option<&'a Gpu>) -> Vec<Self> {
-        let program = hash_program();
-        let context = |scene: RunScene<'a>| {
-            let alignments = scene.alignments(plan.alignments());
-            Self {
-                plan,
-                filters,
-                gpu,
-                scene,
-                keys: (program.as_ref())
-                    .map(|program| SceneKeys::new(program, scene, &plan.render, alignments)),
-            }
-        };
-        plan.all_scenes().into_iter().map(context).collect()
+    /// Prepares a scene of a plan for measuring. `program` is the hash of this program; none where it cannot be hashed.
+    pub fn new(
+        plan: &'a RunPlan,
+        filters: &'a [FilterChoice],
+        gpu: Option<&'a Gpu>,
+        program: Option<&str>,
+        scene: RunScene<'a>,
+    ) -> Self {
+        let alignments = scene.alignments(plan.alignments());
+        Self {
+            plan,
+            filters,
+            gpu,
+            scene,
+            keys: program.map(|program| SceneKeys::new(program, scene, &plan.render, alignments)),
+        }
     }
 }
 
@@ -82,14 +72,12 @@ impl SceneContext<'_> {
         }
         let truths = self.plan.alignments().len();
         self.scene.check(&self.plan.render, truths)?;
-        let (frame, truths) = self.render(advance)?;
+        let frame = self.render(advance)?;
         let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();
         let label = format!("{} blurs and scores", self.scene.name());
         let monitor = self.plan.monitor;
-        let measured = monitor.watch(&label, |watch| {
-            self.measure(&due, &frame, truths, advance, watch)
-        })?;
+        let measured = monitor.watch(&label, |watch| self.measure(&due, &frame, advance, watch))?;
         let mut measured = measured.into_iter();
         let cases = found.into_iter().map(|found| match found {
             Some(case) => Ok(case),
@@ -98,194 +86,51 @@ impl SceneContext<'_> {
         Ok((cases.collect(), read_back))
     }
 
-    /// Measures the cases that are due, and writes the record of each as soon as it is whole.
-    pub(super) fn measure(
-        &self,
-        due: &[&PlannedCase],
-        frame: &Frame,
-        truths: Truths,
-        advance: &dyn Fn(u64),
-        watch: Watch,
-    ) -> Result<Vec<Result<Case, Failure>>, Error> {
-        advance(self.render_steps());
-        if due.is_empty() {
-            return Ok(Vec::new());
-        }
-        let monitor = self.plan.monitor;
-        (monitor.ended)("frame and truths");
-        let viewing = frame.display.into();
-        let stored_frames: Vec<(InputFormat, Frame)> = (self.plan.inputs.iter())
-            .map(|format| Ok((*format, format.apply(frame, self.scene.traced())?)))
-            .collect::<Result<_, Error>>()?;
-        let common_alignment = self.plan.common_alignment();
-        let has_others = (due.iter()).any(|case| case.alignment != common_alignment);
-        // The common shutter comes first: only the colours of its truth stay in memory.
-        let mut truths: Vec<Truth> = truths.into_values().collect();
-        truths.sort_by_key(|truth| truth.alignment != common_alignment);
-        let mut common: Option<ColorReference> = None;
-        let mut cases = BTreeMap::new();
-        for truth in truths {
-            let is_common = truth.alignment == common_alignment;
-            let mut own = (due.iter().enumerate())
-                .filter(|(_, case)| case.alignment == truth.alignment)
-                .peekable();
-            if own.peek().is_none() {
-                if is_common {
-                    // Only FLIP is measured against it, which needs no ladder and no oracle.
-                    let frame = frame.cropped();
-                    common = Some(Reference::new(&frame, &truth, None, &viewing)?.into());
-                }
-                continue;
-            }
-            let without_pairs = self.truths_without_pairs(due, truth.alignment)?;
-            let references = TruthReferences::new(
-                frame,
-                &truth,
-                self.read_rungs(&truth),
-                &without_pairs,
-                &viewing,
-                monitor.ended,
-            )?;
-            (monitor.ended)("references");
-            for (at, planned) in own {
-                let progress = Progress {
-                    done: cases.len() as u64,
-                    total: due.len() as u64,
-                };
-                if watch(progress).is_break() {
-                    return Err(tracer::TraceError::Cancelled.into());
-                }
-                let context = CaseContext {
-                    plan: self.plan,
-                    gpu: self.gpu,
-                    scene: self.scene,
-                    frame,
-                    stored_frames: &stored_frames,
-                    references: &references,
-                    read_rung: &|subframes| self.read_rung(&truth, subframes),
-                    common: match &common {
-                        _ if is_common => CommonTruth::Own,
-                        Some(reference) => CommonTruth::Other(reference),
-                        None => CommonTruth::Missing,
-                    },
-                };
-                cases.insert(at, self.measure_case(&context, planned)?);
-            }
-            if is_common && has_others {
-                common = Some(references.reference.into());
-            }
-        }
-        Ok(cases.into_values().collect())
-    }
-
-    /// Measures a case and writes its record; a failure where it concerns this case alone.
-    fn measure_case(
-        &self,
-        context: &CaseContext,
-        planned: &PlannedCase,
-    ) -> Result<Result<Case, Failure>, Error> {
-        let (case, files) = match context.measure(planned) {
-            Ok(measured) => measured,
-            Err(error) => return Ok(Err(self.failure(error, planned)?)),
-        };
-        if let Some(key) = self.case_key(planned) {
-            write_record(&self.case_record(planned), key, &files, &case)?;
-        }
-        (self.plan.monitor.ended)("record");
-        Ok(Ok(case))
-    }
-
-    /// Turns an error that concerns one case into its failure. Any other error ends the run and comes back.
-    fn failure(&self, error: Error, planned: &PlannedCase) -> Result<Failure, Error> {
-        match &error {
-            Error::Filter(FilterError::Gpu { .. } | FilterError::Command { .. })
-            | Error::Measure(_) => Ok(Failure {
-                scene: self.scene.name().to_owned(),
-                filter: planned.name(),
-                alignment: planned.alignment.name().to_owned(),
-                reason: error.to_string(),
-            }),
-            _ => Err(error),
-        }
-    }
-
     /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or copies what an engine drew, and
     /// writes their pictures.
-    pub(super) fn render(&self, advance: &dyn Fn(u64)) -> Result<(Frame, Truths), Error> {
+    pub(super) fn render(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
         for (record, key) in self.render_records() {
             remove_altered_files(&record, &key);
         }
         let folder = self.folder();
-        let (frame, truths) = match self.scene {
-            RunScene::Traced(scene) => self.trace(scene, advance)?,
-            RunScene::Drawn(scene) => {
-                let frame = scene.copy_frame(&folder)?;
-                let truth = scene.copy_truth(&folder)?;
-                (frame, Truths::from([(truth.alignment, truth)]))
-            }
-        };
+        let frame = self.render_first(advance)?;
         let mut files = vec![write_frame(&folder, &frame)?];
-        for truth in truths.values() {
-            files.push(write_truth(
-                &folder,
-                truth,
-                self.scene.rungs(),
-                frame.display,
-            )?);
+        let alignments = self.scene.alignments(self.plan.alignments());
+        for (alignment, done) in alignments.into_iter().zip(0..) {
+            advance(1 + done * self.truth_steps());
+            let truth = self.read_truth(alignment)?;
+            self.ensure_ladder(&truth)?;
+            let rungs = self.scene.rungs();
+            files.push(write_truth(&folder, &truth, rungs, frame.display)?);
         }
         for ((record, key), files) in self.render_records().into_iter().zip(files) {
             write_record(&record, key, &files, &())?;
         }
-        Ok((frame, truths))
+        Ok(frame)
     }
 
-    /// Renders the frame and the truths of a scene.
-    fn trace(&self, scene: &Scene, advance: &dyn Fn(u64)) -> Result<(Frame, Truths), Error> {
+    /// Renders the frame, and what its truths have in common; copies the frame that an engine drew.
+    fn render_first(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
         let RunPlan {
             render,
             out,
             monitor,
             ..
         } = self.plan;
+        let scene = match self.scene {
+            RunScene::Traced(scene) => scene,
+            RunScene::Drawn(scene) => return scene.copy_frame(&self.folder()),
+        };
         let frame = render_frame(scene, render, out, *monitor)?;
+        advance(1);
         let alignments = self.plan.alignments();
         let replicates = 0..render.replicates;
-        advance(1);
         render_shared(scene, render, &alignments, replicates, out, *monitor)?;
-        let mut truths = Truths::new();
-        for (alignment, done) in alignments.into_iter().zip(0..) {
-            advance(1 + done * self.truth_steps());
-            let truth = render_truth(scene, render, alignment, out, *monitor)?;
-            LadderFiles::new(scene, render, &truth, out).ensure(*monitor)?;
-            truths.insert(alignment, truth);
-        }
-        Ok((frame, truths))
-    }
-
-    /// Reads the rungs of the ladder of a truth, one after another.
-    fn read_rungs(&self, truth: &Truth) -> impl Iterator<Item = Result<Ladder, Error>> {
-        let rungs = self.scene.rungs();
-        rungs.iter().map(|rung| self.read_rung(truth, *rung))
-    }
-
-    /// Reads a rung of the ladder of a truth, or renders it.
-    pub fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
-        let RunPlan {
-            render,
-            out,
-            monitor,
-            ..
-        } = self.plan;
-        match self.scene {
-            RunScene::Traced(scene) => {
-                LadderFiles::new(scene, render, truth, out).read_or_render(subframes, *monitor)
-            }
-            RunScene::Drawn(scene) => scene.read_rung(&self.folder(), subframes),
-        }
+        Ok(frame)
     }
 
     /// Names the folder of the scene's files.
-    fn folder(&self) -> PathBuf {
+    pub(super) fn folder(&self) -> PathBuf {
         self.scene.folder(&self.plan.out)
     }
 
@@ -295,37 +140,13 @@ impl SceneContext<'_> {
     }
 
     /// Counts a frame and the truths.
-    fn render_steps(&self) -> u64 {
+    pub(super) fn render_steps(&self) -> u64 {
         1 + self.plan.alignments().len() as u64 * self.truth_steps()
     }
 
     /// Counts the replicates of a truth, and its ladder.
     fn truth_steps(&self) -> u64 {
         u64::from(self.plan.render.replicates) + 1
-    }
-
-    /// Makes the truths of an alignment without one pair of replicates each; none where no filter of it is due, the plan asks for no
-    /// intervals, or an engine drew the truth.
-    fn truths_without_pairs(
-        &self,
-        due: &[&PlannedCase],
-        alignment: Alignment,
-    ) -> Result<Vec<Truth>, Error> {
-        let RunPlan {
-            render,
-            out,
-            monitor,
-            ..
-        } = self.plan;
-        let is_due = |case: &&PlannedCase| !case.is_reference() && case.alignment == alignment;
-        match self.scene {
-            RunScene::Traced(scene) if self.plan.intervals && due.iter().any(is_due) => {
-                let replicates = render_replicates(scene, render, alignment, out, *monitor)?;
-                Ok(truths_without_pairs(&replicates)?)
-            }
-            // Sub-frames are no random samples: those without some of them have holes.
-            _ => Ok(Vec::new()),
-        }
     }
 
     /// Reads a case that was measured before, without its intervals where the plan asks for none. One that lacks intervals is no
@@ -366,14 +187,14 @@ impl SceneContext<'_> {
         }
     }
 
-    fn case_key(&self, planned: &PlannedCase) -> Option<String> {
+    pub(super) fn case_key(&self, planned: &PlannedCase) -> Option<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
         let own = planned.inputs(self.plan, adapter)?;
         let keys = self.keys.as_ref()?;
         Some(keys.case(&own, planned.alignment, self.plan.common_alignment()))
     }
 
-    fn case_record(&self, planned: &PlannedCase) -> PathBuf {
+    pub(super) fn case_record(&self, planned: &PlannedCase) -> PathBuf {
         let folder = self.plan.out.join(planned.folder(self.scene));
         folder.join(CASE_RECORD)
     }

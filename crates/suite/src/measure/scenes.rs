@@ -4,10 +4,12 @@ use filters::Gpu;
 use tracer::{Progress, Watch};
 
 use super::estimate::{RunEstimate, estimate_run_roughly};
+use super::frames::{count_frames, visit_frames};
 use super::plan::RunPlan;
-use super::scene::SceneContext;
+use super::sequence::{FrameCases, measure_sequences};
 use crate::run::case::Case;
 use crate::run::failure::Failure;
+use crate::run::sequence::Sequence;
 use crate::run::{FORMAT, Run};
 use crate::stats::overall::overall;
 use crate::{Error, PROGRAM};
@@ -31,16 +33,23 @@ pub fn measure_scenes_as_expected(
     estimate: &RunEstimate,
 ) -> Result<Run, Error> {
     // The steps of a single scene show all of the progress.
-    let scenes = plan.all_scenes().len();
-    let monitor = match scenes {
+    let count = count_frames(plan);
+    let monitor = match count {
         1 => plan.monitor.without_progress(),
         _ => plan.monitor,
     };
-    let label = format!("{scenes} scenes in all");
-    let (cases, failures, read_back) =
-        monitor.watch_steps(&label, &estimate.steps.concat(), |watch| {
-            measure_all(plan, gpu, watch)
-        })?;
+    let label = match plan.frames.is_one() {
+        true => format!("{count} scenes in all"),
+        false => format!("{count} frames in all"),
+    };
+    let Measured {
+        cases,
+        sequences,
+        failures,
+        read_back,
+    } = monitor.watch_steps(&label, &estimate.steps.concat(), |watch| {
+        measure_all(plan, gpu, watch)
+    })?;
     Ok(Run {
         format: FORMAT,
         program: PROGRAM.to_owned(),
@@ -49,38 +58,61 @@ pub fn measure_scenes_as_expected(
         render: plan.render,
         common_alignment: plan.common_alignment().name().to_owned(),
         overall: overall(&cases),
+        frames: plan.frames,
+        sequences,
         failures,
         cases,
         read_back,
     })
 }
 
-/// Measures scene after scene, and counts the cases that were read back.
-fn measure_all(
-    plan: &RunPlan,
-    gpu: Option<&Gpu>,
-    watch: Watch,
-) -> Result<(Vec<Case>, Vec<Failure>, usize), Error> {
+/// What was measured of all scenes.
+#[derive(Default)]
+struct Measured {
+    /// Cases of the first frame of each scene.
+    cases: Vec<Case>,
+    sequences: Vec<Sequence>,
+    failures: Vec<Failure>,
+    /// Number of cases of all frames that were read back.
+    read_back: usize,
+}
+
+/// Measures scene after scene, and of each frame after frame.
+fn measure_all(plan: &RunPlan, gpu: Option<&Gpu>, watch: Watch) -> Result<Measured, Error> {
     let filters = plan.scaled_filters();
-    let (mut cases, mut failures, mut read_back) = (Vec::new(), Vec::new(), 0);
-    for (number, scene) in (0..).zip(SceneContext::all(plan, &filters, gpu)) {
+    let mut all = Measured::default();
+    let mut frames = FrameCases::default();
+    let mut number = 0;
+    visit_frames(plan, &filters, gpu, |scene| {
         let steps = scene.steps();
         let advance = |done: u64| {
             // A scene that is interrupted returns the error itself.
             let _ = watch(Progress {
                 done: number * steps + done.min(steps),
-                total: plan.all_scenes().len() as u64 * steps,
+                total: count_frames(plan) as u64 * steps,
             });
         };
         advance(0);
         let (measured, found) = scene.measure_cases(&advance)?;
-        read_back += found;
+        number += 1;
+        all.read_back += found;
+        let mut cases = Vec::new();
         for case in measured {
             match case {
                 Ok(case) => cases.push(case),
-                Err(failure) => failures.push(failure),
+                Err(failure) => all.failures.push(failure),
             }
         }
-    }
-    Ok((cases, failures, read_back))
+        let frame = scene.scene.frame_index();
+        if frame == 0 {
+            all.cases.extend_from_slice(&cases);
+            frames = FrameCases::default();
+        }
+        frames.cases.push(cases);
+        if frame > 0 && frame + 1 == plan.frames.count {
+            all.sequences.extend(measure_sequences(plan, &frames)?);
+        }
+        Ok::<(), Error>(())
+    })?;
+    Ok(all)
 }

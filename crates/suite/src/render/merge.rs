@@ -158,13 +158,24 @@ fn check_replicates(folder: &Path, replicates: &[Replicate]) -> Result<(), Error
 }
 
 /// Lists frames and replicates of a part, by their paths below it: `<scene>/frame.exr` and
-/// `<scene>/truth_<alignment>/replicate_<index>.exr`. Looks nowhere else, and so follows no loop of links.
+/// `<scene>/truth_<alignment>/replicate_<index>.exr`, and the same of later frames in `<scene>/0001` and so on. Looks nowhere else,
+/// and so follows no loop of links.
 fn rendered_below(part: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut found = Vec::new();
+    let mut scenes = Vec::new();
     for scene in entries(part)?.into_iter().map(PathBuf::from) {
         if !part.join(&scene).is_dir() {
             continue;
         }
+        let names = entries(&part.join(&scene))?.into_iter();
+        let is_frame = |name: &std::ffi::OsString| {
+            (name.to_str()).is_some_and(|name| name.bytes().all(|byte| byte.is_ascii_digit()))
+        };
+        let frames = names.filter(is_frame).map(|name| scene.join(name));
+        scenes.extend(frames.filter(|frame| part.join(frame).is_dir()));
+        scenes.push(scene);
+    }
+    for scene in scenes {
         let frame = scene.join("frame.exr");
         if part.join(&frame).exists() {
             found.push(frame);

@@ -10,6 +10,7 @@ use frame::Alignment;
 use super::Run;
 use super::case::Case;
 use super::failure::Failure;
+use super::sequence::{Frames, Sequence};
 use crate::measure::plan::RunPlan;
 use crate::measure::planned_case::PlannedCase;
 use crate::measure::run_scene::RunScene;
@@ -20,6 +21,7 @@ use crate::{Error, PROGRAM};
 /// The cases and failures of an earlier run that a plan does not measure again.
 pub struct EarlierCases {
     cases: Vec<Case>,
+    sequences: Vec<Sequence>,
     failures: Vec<Failure>,
     /// Cases of the earlier run that are out of date: their scene has changed since.
     pub outdated: usize,
@@ -71,8 +73,17 @@ impl EarlierCases {
         let failures = (run.failures.into_iter())
             .filter(|failure| is_left_out(&failure.scene, &failure.filter))
             .collect();
+        let is_outdated = |sequence: &Sequence| {
+            let of_scene = |case: &&Case| case.scene == sequence.scene;
+            outdated.iter().any(|case| of_scene(&case))
+        };
+        let sequences = (run.sequences.into_iter())
+            .filter(|own| !own.is_reference && is_left_out(&own.scene, &own.filter))
+            .filter(|own| !is_outdated(own))
+            .collect();
         Ok(Some(Self {
             cases,
+            sequences,
             failures,
             outdated: outdated.iter().filter(|case| !case.is_reference).count(),
         }))
@@ -103,9 +114,16 @@ impl EarlierCases {
             })
             .collect();
         let failures = run.failures.iter().chain(&self.failures).cloned().collect();
+        let sequences = run
+            .sequences
+            .iter()
+            .chain(&self.sequences)
+            .cloned()
+            .collect();
         Run {
             overall: overall(&cases),
             cases,
+            sequences,
             failures,
             ..run.clone()
         }
@@ -215,9 +233,12 @@ fn find_difference(
     let settings = std::iter::zip(list_settings(&run.render), list_settings(&plan.render));
     let settings = settings.map(|((setting, earlier), (_, now))| (setting, earlier, now));
     let adapters = ("the adapter", name(run.adapter.as_ref()), name(adapter));
+    let [earlier, now] = [run.frames, plan.frames].map(|frames: Frames| frames.count.to_string());
+    let frames = ("number of frames", earlier, now);
     // A run of programs alone has no adapter, and can stand beside any.
     let both = run.adapter.is_some() && adapter.is_some();
     (std::iter::once(program).chain(settings))
+        .chain([frames])
         .chain(both.then_some(adapters))
         .find(|(_, earlier, now)| earlier != now)
 }

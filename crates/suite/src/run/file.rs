@@ -7,6 +7,7 @@ use std::str::FromStr;
 use frame::Alignment;
 
 use super::case::Case;
+use super::sequence::{MOST_FRAMES, Sequence};
 use super::{FORMAT, Run};
 use crate::Error;
 use crate::json::file::read_text;
@@ -49,6 +50,7 @@ fn parse(text: &str) -> Result<Run, String> {
             run.cases.len()
         ));
     }
+    run.sequences.iter().try_for_each(check_sequence)?;
     let mut folders = HashSet::new();
     for case in &run.cases {
         check_case(case).map_err(|reason| format!("{} / {}: {reason}", case.scene, case.name()))?;
@@ -99,6 +101,28 @@ fn check_case(case: &Case) -> Result<(), String> {
     }
     let alignment = Alignment::from_str(&case.alignment)?;
     (alignment.shutter(case.exposure).map(drop)).map_err(|error| error.to_string())
+}
+
+fn check_sequence(sequence: &Sequence) -> Result<(), String> {
+    let paths = sequence
+        .frames
+        .iter()
+        .flat_map(|frame| [&frame.scene, &frame.folder]);
+    match paths.into_iter().find(|path| !is_below(path)) {
+        None if sequence.frames.len() <= MOST_FRAMES as usize => Ok(()),
+        None => Err(format!(
+            "the sequence {} / {} has {} frames; allowed: up to {MOST_FRAMES}",
+            sequence.scene,
+            sequence.filter,
+            sequence.frames.len()
+        )),
+        Some(path) => Err(format!(
+            "the sequence {} / {} names the folder \"{}\"; allowed: folders below run.json",
+            sequence.scene,
+            sequence.filter,
+            path.display()
+        )),
+    }
 }
 
 /// Tells whether a path leads below the folder that it starts from. Nothing is read or written elsewhere.

@@ -7,6 +7,7 @@ pub mod failure;
 pub mod file;
 pub mod layers;
 pub mod overall;
+pub mod sequence;
 
 use filters::AdapterDescription;
 use serde::{Deserialize, Serialize};
@@ -15,6 +16,7 @@ use tracer::RenderSettings;
 use self::case::Case;
 use self::failure::Failure;
 use self::overall::Overall;
+use self::sequence::{Frames, Sequence};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
 pub const FORMAT: u32 = 5;
@@ -36,8 +38,15 @@ pub struct Run {
     /// The shutter alignment that every case is compared with beside its own, so that filters of several alignments have one
     /// score in common: centred where a filter declares that, or else trailing, or else leading.
     pub common_alignment: String,
-    /// Per scene the reference pictures, then one case per filter preset and form of the input, in the order they ran.
+    /// Frames of each scene; left out where there is one.
+    #[serde(default, skip_serializing_if = "Frames::is_one")]
+    pub frames: Frames,
+    /// Per scene the reference pictures, then one case per filter preset and form of the input, in the order they ran. Of a
+    /// sequence the first frame.
     pub cases: Vec<Case>,
+    /// Scores over all frames, one entry per case that no frame lacks.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sequences: Vec<Sequence>,
     /// Cases that failed, with their reasons; they have no scores.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<Failure>,

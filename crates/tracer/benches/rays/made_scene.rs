@@ -44,6 +44,7 @@ pub fn made_scene(moving: bool) -> Scene {
     }
     Scene {
         name: "made".into(),
+        frame: 0,
         exposes: "the speed of rays".into(),
         family: Family::Limits,
         exposure: 1.0,

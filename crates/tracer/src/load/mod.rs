@@ -98,6 +98,7 @@ pub fn load_scene_and_files(
     let paths = meshes.files.paths();
     let scene = Scene {
         name: variant.map_or(name.clone(), |variant| format!("{name}@{variant}")),
+        frame: 0,
         exposes: table.exposes.into_inner(),
         family: table.family,
         exposure: table.exposure.into_inner(),

@@ -1,0 +1,73 @@
+//! Screen-fixed pattern: fine error that stands still on the screen while the picture moves below it, as dirt on a window does.
+
+use frame::{Image, Raster};
+
+use super::pairs::{mean_in, subtract};
+use crate::color::cross_error::multiply;
+use crate::math::raster::index_pixels;
+
+/// Pixels from the middle of the square whose mean is taken away, which leaves fine patterns alone.
+const RADIUS: u32 = 2;
+
+/// Fine parts of one frame's error.
+pub struct FineError {
+    /// Against each half of the truth.
+    halves: [Image; 2],
+    /// Pixels where anything moves.
+    moving: Raster<bool>,
+}
+
+impl FineError {
+    /// Takes the fine part of a picture's errors against the truth's halves.
+    pub fn new(picture: &Image, halves: [&Image; 2], moving: &Raster<bool>) -> Self {
+        Self {
+            halves: halves.map(|half| fine(&subtract(picture, half))),
+            moving: moving.clone(),
+        }
+    }
+}
+
+/// Averages the product of the fine errors of different frames at one place of the screen, over all pairs of frames, where both
+/// have motion. Each frame is compared with another half of the truth, so that noise of the truth does not bias it. None where no
+/// pair has a pixel in common.
+pub fn correlate(frames: &[FineError], scale: f64) -> Option<f64> {
+    let mut products = Vec::new();
+    for (index, now) in frames.iter().enumerate() {
+        for before in &frames[..index] {
+            let mask = now
+                .moving
+                .zip(&before.moving, |now, before| *now && *before);
+            let map = index_pixels(&mask, |at| {
+                let product = |a: usize, b: usize| {
+                    let [x, y] = [before.halves[a].pixels[at], now.halves[b].pixels[at]];
+                    multiply(x.map(f64::from), y.map(f64::from), scale)
+                };
+                0.5 * (product(0, 1) + product(1, 0))
+            });
+            products.extend(mean_in(&map, &mask));
+        }
+    }
+    let count = products.len() as f64;
+    (count > 0.0).then(|| products.iter().sum::<f64>() / count)
+}
+
+/// Takes the mean of the square around each pixel away, as far as that lies in the picture.
+pub fn fine(image: &Image) -> Image {
+    let [width, height] = [image.width as usize, image.height as usize];
+    index_pixels(image, |at| {
+        let [x, y] = [at % width, at / width];
+        let reach = |middle: usize, end: usize| {
+            let radius = RADIUS as usize;
+            middle.saturating_sub(radius)..=(middle + radius).min(end - 1)
+        };
+        let (mut sum, mut count) = ([0.0_f64; 3], 0.0);
+        for row in reach(y, height) {
+            for column in reach(x, width) {
+                let near = image.pixels[row * width + column];
+                sum = std::array::from_fn(|c| sum[c] + f64::from(near[c]));
+                count += 1.0;
+            }
+        }
+        std::array::from_fn(|c| (f64::from(image.pixels[at][c]) - sum[c] / count) as f32)
+    })
+}

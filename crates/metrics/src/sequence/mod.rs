@@ -1,0 +1,19 @@
+//! Scores of a sequence: what a viewer sees from frame to frame, and no single frame shows.
+
+mod along;
+mod fixed_pattern;
+mod instant;
+mod jod;
+mod measurement;
+mod pairs;
+mod popping;
+mod reference;
+mod rows;
+mod temporal_antialiasing;
+
+pub use instant::Instant;
+pub use jod::{JOD_DISPLAY, video_jod};
+pub use measurement::SequenceMeasurement;
+pub use reference::SequenceReference;
+pub use rows::{SequenceMetric, SequenceScores};
+pub use temporal_antialiasing::{NEW_SHARE, accumulate};

@@ -1,0 +1,73 @@
+//! Rows of the metrics of sequences.
+
+use serde::{Deserialize, Serialize};
+
+use crate::metric::{Group, Row, metrics};
+use crate::{ErrorMap, Ideal, Measured};
+
+/// Reason why bounds name no metric of a sequence.
+const NOT_BOUNDED: Option<&str> = Some("is a score of a sequence, and bounds judge single frames");
+
+metrics! {
+    /// A score of a sequence.
+    enum SequenceMetric;
+    /// Scores of a sequence of pictures against that of truths. Squared errors are those of display-scaled radiance, without the bias
+    /// of the truth's noise; they may be negative by noise.
+    struct SequenceScores of Measured {}
+
+    /// Mean over the frames of the squared error over what moves.
+    Error => error {
+        name: "error", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
+        meaning: "squared error of single frames where anything moves",
+        is_percentile: false, report_only: NOT_BOUNDED,
+    }
+
+    /// Squared error of the difference between consecutive frames, at fixed places of the screen.
+    Flicker => flicker {
+        name: "flicker", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
+        meaning: "error of the change from frame to frame",
+        is_percentile: false, report_only: NOT_BOUNDED,
+    }
+
+    /// Squared error of that difference along the motion, where both frames show the point.
+    FlickerAlong => flicker_along {
+        name: "flicker_along", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
+        meaning: "error of the change from frame to frame of what the eye follows",
+        is_percentile: false, report_only: NOT_BOUNDED,
+    }
+
+    /// Largest jump between consecutive frames of an object's root mean squared error.
+    Popping => popping {
+        name: "popping", unit: "white", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
+        meaning: "largest jump of an object's error from one frame to the next",
+        is_percentile: false, report_only: NOT_BOUNDED,
+    }
+
+    /// Mean product of the fine errors of different frames at one place of the screen.
+    FixedPattern => fixed_pattern {
+        name: "fixed_pattern", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
+        meaning: "fine error that stands still on the screen, as dirt on a window does",
+        is_percentile: false, report_only: NOT_BOUNDED,
+    }
+
+    /// Quality of the video by ColorVideoVDP, in just-objectionable differences: 10 is no visible difference.
+    Jod => jod {
+        name: "jod", unit: "JOD", ideal: Ideal::Highest, group: Group::Time, map: ErrorMap::Flip,
+        meaning: "quality of the video that ColorVideoVDP predicts; 10 is no visible difference",
+        is_percentile: false, report_only: NOT_BOUNDED,
+    }
+
+    /// `error` after temporal anti-aliasing of pictures and truths, without the first frame.
+    ErrorAfterTaa => error_after_taa {
+        name: "error_after_taa", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
+        meaning: "squared error that temporal anti-aliasing leaves",
+        is_percentile: false, report_only: NOT_BOUNDED,
+    }
+
+    /// `flicker_along` after temporal anti-aliasing of pictures and truths.
+    FlickerAfterTaa => flicker_after_taa {
+        name: "flicker_after_taa", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
+        meaning: "error of the change from frame to frame that temporal anti-aliasing leaves",
+        is_percentile: false, report_only: NOT_BOUNDED,
+    }
+}

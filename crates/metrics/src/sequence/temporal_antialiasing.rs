@@ -1,0 +1,71 @@
+//! Temporal anti-aliasing as it is commonly done, to tell what it would leave of a sequence's noise.
+
+use frame::Image;
+
+use super::along::{bilinear, inside};
+use super::instant::Instant;
+use crate::math::raster::index_pixels;
+
+/// Share of the new picture in the mean.
+pub const NEW_SHARE: f32 = 0.1;
+
+/// Accumulates pictures of consecutive frames; returns the accumulated picture of each.
+///
+/// Every pixel is the mean of its new colour, by [`NEW_SHARE`], and of its history. The history is the accumulated picture of the
+/// frame before, bilinearly at the place that the velocity leads back to. The velocity is that of the nearest of the nine pixels
+/// around (Karis 2014), so that edges keep their history. The history is clamped, channel by channel, to the least and the greatest of
+/// the nine new colours around. The first frame and points from outside the picture have no history.
+pub fn accumulate(pictures: &[Image], instants: &[Instant]) -> Vec<Image> {
+    assert_eq!(pictures.len(), instants.len(), "every frame has a picture");
+    let mut accumulated: Vec<Image> = Vec::with_capacity(pictures.len());
+    for (new, instant) in pictures.iter().zip(instants) {
+        let mean = match accumulated.last() {
+            None => new.clone(),
+            Some(history) => index_pixels(new, |at| blend(history, new, instant, at)),
+        };
+        accumulated.push(mean);
+    }
+    accumulated
+}
+
+fn blend(history: &Image, new: &Image, instant: &Instant, at: usize) -> [f32; 3] {
+    let own = new.pixels[at];
+    let velocity = instant.velocity.pixels[nearest_around(instant, at)];
+    let width = new.width as usize;
+    let [x, y] = [at % width, at / width].map(|index| index as f32);
+    let Some(place) = inside(instant, [x - velocity[0], y - velocity[1]]) else {
+        return own;
+    };
+    let history = bilinear(history, place);
+    let (mut least, mut greatest) = (own, own);
+    for near in around(new.width, new.height, at) {
+        for c in 0..3 {
+            least[c] = least[c].min(new.pixels[near][c]);
+            greatest[c] = greatest[c].max(new.pixels[near][c]);
+        }
+    }
+    std::array::from_fn(|c| {
+        let history = history[c].clamp(least[c], greatest[c]);
+        history + NEW_SHARE * (own[c] - history)
+    })
+}
+
+/// The pixel with the least depth among the nine around one; itself among equals.
+fn nearest_around(instant: &Instant, at: usize) -> usize {
+    let depth = &instant.depth;
+    around(depth.width, depth.height, at).fold(at, |nearest, other| {
+        match depth.pixels[other] < depth.pixels[nearest] {
+            true => other,
+            false => nearest,
+        }
+    })
+}
+
+/// Indices of the pixels of the picture among the nine around one.
+fn around(width: u32, height: u32, at: usize) -> impl Iterator<Item = usize> {
+    let [width, height] = [width as usize, height as usize];
+    let [x, y] = [at % width, at / width];
+    let rows = y.saturating_sub(1)..=(y + 1).min(height - 1);
+    let columns = x.saturating_sub(1)..=(x + 1).min(width - 1);
+    rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+}

@@ -1,0 +1,6 @@
+//! Page of the sequences of a run: pictures that play in step, and scores over time.
+
+mod page;
+mod scores;
+
+pub use page::{SEQUENCES_PAGE, sequences_page};

@@ -1,0 +1,139 @@
+//! Player of sequences.
+
+use maud::{PreEscaped, html};
+use serde::Serialize;
+use suite::{CHANGE_PICTURE, Run, Sequence};
+
+use super::scores::score_tables;
+use crate::document::{Document, Siblings};
+
+/// Name of the page, beside run.json: it shows pictures that lie below.
+pub const SEQUENCES_PAGE: &str = "sequences.html";
+
+/// What the player needs of one sequence. Paths are relative to the page.
+#[derive(Serialize)]
+struct Played {
+    name: String,
+    frames: Vec<PlayedFrame>,
+}
+
+#[derive(Serialize)]
+struct PlayedFrame {
+    instant: String,
+    truth: String,
+    output: String,
+    error: String,
+    /// None for the first frame.
+    change: Option<String>,
+    /// Root mean squared error in thousandths of white.
+    mse: Option<f64>,
+    /// Root mean squared error of the change along the motion, likewise.
+    flicker: Option<f64>,
+}
+
+/// Makes the page that plays the sequences of a run; none where it has none. It loads the pictures of the run's folder, in which it
+/// must lie.
+pub fn sequences_page(run: &Run) -> Option<String> {
+    if run.sequences.is_empty() {
+        return None;
+    }
+    let played: Vec<Played> = run.sequences.iter().map(play).collect();
+    let data = serde_json::to_string(&played).expect("it is plain data");
+    // No text may end the script that holds it.
+    let data = data.replace('<', "\\u003c");
+    let titles = [
+        ("instant", "instant"),
+        ("truth", "truth"),
+        ("output", "output"),
+        ("error", "error (FLIP)"),
+        ("change", "error of the change"),
+    ];
+    let frames = run.frames;
+    let document = Document {
+        title: "Shuttertruth sequences",
+        heading: html! { a href="report.html" { "Shuttertruth" } },
+        subtitle: &format!(
+            "{}, {} frames of {}x{} at {} per second",
+            run.program, frames.count, run.render.width, run.render.height, frames.per_second
+        ),
+        body: html! {
+            main {
+                section #overview {
+                    noscript { p { "The pictures need scripts; the tables below do not." } }
+                    div.toolbar #player data-rate=(frames.per_second) {
+                        select #sequence aria-label="Sequence" {
+                            @for (index, own) in played.iter().enumerate() { option value=(index) { (own.name) } }
+                        }
+                        button #play type="button" { "Play" }
+                        button #back type="button" aria-label="Frame before" { "◀" }
+                        button #on type="button" aria-label="Next frame" { "▶" }
+                        fieldset.choice {
+                            legend { "per second" }
+                            @for (index, rate) in rates(frames.per_second).iter().enumerate() {
+                                label {
+                                    input type="radio" name="rate" value=(rate) checked[index == 0];
+                                    span { (rate) }
+                                }
+                            }
+                        }
+                        output #readout {}
+                    }
+                    div.sequence #pictures style=(format!("--ratio: {} / {}", run.render.width, run.render.height)) {
+                        @for (name, title) in titles {
+                            figure { img id=(format!("picture_{name}")) alt=(title); figcaption { (title) } }
+                        }
+                    }
+                    p.key {
+                        "Space plays and stops, , and . go frame by frame, 1 to 3 choose the rate, [ and ] the sequence. The error of the \
+                         change is the difference of the output from the frame before, less that of the truth: black is none."
+                    }
+                    h2 { "Scores over time" }
+                    p.note { "Roots of squared errors, in thousandths of display white; lower is better. JOD as it is; higher is better. Italics: references." }
+                    (score_tables(run))
+                }
+            }
+            script #sequences type="application/json" { (PreEscaped(data)) }
+        },
+        scripts: &[include_str!("../assets/sequence.js")],
+        siblings: Siblings::Pictures,
+    };
+    Some(document.render())
+}
+
+/// The run's own rate, and the usual ones.
+fn rates(own: f64) -> Vec<f64> {
+    let mut rates = vec![60.0, 30.0, 12.0];
+    rates.retain(|rate| *rate != own);
+    rates.insert(0, own);
+    rates
+}
+
+fn play(own: &Sequence) -> Played {
+    let truth = format!("truth_{}.png", own.alignment);
+    let path = |folder: &std::path::Path, name: &str| {
+        let parts = folder.join(name);
+        let parts = parts.components();
+        let parts: Vec<_> = parts
+            .map(|part| part.as_os_str().to_string_lossy())
+            .collect();
+        parts.join("/")
+    };
+    let root = |square: Option<f64>| square.map(|square| 1000.0 * square.max(0.0).sqrt());
+    let frames = own
+        .frames
+        .iter()
+        .enumerate()
+        .map(|(index, frame)| PlayedFrame {
+            instant: path(&frame.scene, "frame.png"),
+            truth: path(&frame.scene, &truth),
+            output: path(&frame.folder, "output.png"),
+            error: path(&frame.folder, "flip.png"),
+            change: (index > 0).then(|| path(&frame.folder, CHANGE_PICTURE)),
+            mse: root(frame.error),
+            flicker: root(frame.flicker),
+        });
+    Played {
+        name: format!("{} / {} ({})", own.scene, own.filter, own.alignment),
+        frames: frames.collect(),
+    }
+}

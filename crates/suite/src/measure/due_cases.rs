@@ -1,0 +1,207 @@
+//! Measuring the cases of one scene that are due, against one truth after another.
+
+use std::collections::BTreeMap;
+
+use filters::FilterError;
+use frame::{Alignment, Frame, Ladder, Truth};
+use metrics::{ColorReference, Reference};
+use tracer::{Progress, Watch};
+
+use super::case::{CaseContext, CommonTruth};
+use super::history::{frames_before, store_frame};
+use super::plan::RunPlan;
+use super::planned_case::PlannedCase;
+use super::references::TruthReferences;
+use super::run_scene::RunScene;
+use super::scene::SceneContext;
+use crate::Error;
+use crate::cache::record::write_record;
+use crate::render::ladders::LadderFiles;
+use crate::render::truths::{render_replicates, render_truth};
+use crate::run::case::Case;
+use crate::run::failure::Failure;
+use crate::stats::intervals::truths_without_pairs;
+
+impl SceneContext<'_> {
+    /// Measures the cases that are due, and writes the record of each as soon as it is whole.
+    pub(super) fn measure(
+        &self,
+        due: &[&PlannedCase],
+        frame: &Frame,
+        advance: &dyn Fn(u64),
+        watch: Watch,
+    ) -> Result<Vec<Result<Case, Failure>>, Error> {
+        advance(self.render_steps());
+        if due.is_empty() {
+            return Ok(Vec::new());
+        }
+        let monitor = self.plan.monitor;
+        (monitor.ended)("frame and truths");
+        let viewing = frame.display.into();
+        let stored_frames = store_frame(&self.plan.inputs, frame, self.scene.traced())?;
+        let frames_before = frames_before(self.plan, self.filters, self.scene)?;
+        let common_alignment = self.plan.common_alignment();
+        let has_others = (due.iter()).any(|case| case.alignment != common_alignment);
+        // Truths take turns in memory. The common one comes first, since its colours stay.
+        let mut alignments = self.scene.alignments(self.plan.alignments());
+        alignments.sort_by_key(|alignment| *alignment != common_alignment);
+        let mut common: Option<ColorReference> = None;
+        let mut cases = BTreeMap::new();
+        for alignment in alignments {
+            let is_common = alignment == common_alignment;
+            let own: Vec<(usize, &&PlannedCase)> = (due.iter().enumerate())
+                .filter(|(_, case)| case.alignment == alignment)
+                .collect();
+            if own.is_empty() && !is_common {
+                continue;
+            }
+            let truth = self.read_truth(alignment)?;
+            if own.is_empty() {
+                // Only FLIP is measured against it, which needs no ladder and no oracle.
+                common = Some(Reference::new(&frame.cropped(), &truth, None, &viewing)?.into());
+                continue;
+            }
+            let without_pairs = self.truths_without_pairs(due, alignment)?;
+            let references = TruthReferences::new(
+                frame,
+                &truth,
+                self.read_rungs(&truth),
+                &without_pairs,
+                &viewing,
+                monitor.ended,
+            )?;
+            (monitor.ended)("references");
+            for (at, planned) in own {
+                let progress = Progress {
+                    done: cases.len() as u64,
+                    total: due.len() as u64,
+                };
+                if watch(progress).is_break() {
+                    return Err(tracer::TraceError::Cancelled.into());
+                }
+                let context = CaseContext {
+                    plan: self.plan,
+                    gpu: self.gpu,
+                    scene: self.scene,
+                    frame,
+                    stored_frames: &stored_frames,
+                    frames_before: &frames_before,
+                    references: &references,
+                    read_rung: &|subframes| self.read_rung(&truth, subframes),
+                    common: match &common {
+                        _ if is_common => CommonTruth::Own,
+                        Some(reference) => CommonTruth::Other(reference),
+                        None => CommonTruth::Missing,
+                    },
+                };
+                cases.insert(at, self.measure_case(&context, planned)?);
+            }
+            if is_common && has_others {
+                common = Some(references.reference.into());
+            }
+        }
+        Ok(cases.into_values().collect())
+    }
+
+    /// Measures a case and writes its record; a failure where it concerns this case alone.
+    fn measure_case(
+        &self,
+        context: &CaseContext,
+        planned: &PlannedCase,
+    ) -> Result<Result<Case, Failure>, Error> {
+        let (case, files) = match context.measure(planned) {
+            Ok(measured) => measured,
+            Err(error) => return Ok(Err(self.failure(error, planned)?)),
+        };
+        if let Some(key) = self.case_key(planned) {
+            write_record(&self.case_record(planned), key, &files, &case)?;
+        }
+        (self.plan.monitor.ended)("record");
+        Ok(Ok(case))
+    }
+
+    /// Turns an error that concerns one case into its failure. Any other error ends the run and comes back.
+    fn failure(&self, error: Error, planned: &PlannedCase) -> Result<Failure, Error> {
+        match &error {
+            Error::Filter(FilterError::Gpu { .. } | FilterError::Command { .. })
+            | Error::Measure(_) => Ok(Failure {
+                scene: self.scene.name().to_owned(),
+                filter: planned.name(),
+                alignment: planned.alignment.name().to_owned(),
+                reason: error.to_string(),
+            }),
+            _ => Err(error),
+        }
+    }
+
+    /// Reads a truth, or renders it; copies that which an engine drew.
+    pub(super) fn read_truth(&self, alignment: Alignment) -> Result<Truth, Error> {
+        let RunPlan {
+            render,
+            out,
+            monitor,
+            ..
+        } = self.plan;
+        match self.scene {
+            RunScene::Traced(scene) => render_truth(scene, render, alignment, out, *monitor),
+            RunScene::Drawn(scene) => scene.copy_truth(&self.folder()),
+        }
+    }
+
+    /// Renders those rungs of the ladder of a truth that are missing; an engine's are copied with its truth.
+    pub(super) fn ensure_ladder(&self, truth: &Truth) -> Result<(), Error> {
+        match self.scene {
+            RunScene::Traced(scene) => {
+                let RunPlan { render, out, .. } = self.plan;
+                LadderFiles::new(scene, render, truth, out).ensure(self.plan.monitor)
+            }
+            RunScene::Drawn(_) => Ok(()),
+        }
+    }
+
+    /// Reads the rungs of the ladder of a truth, one after another.
+    fn read_rungs(&self, truth: &Truth) -> impl Iterator<Item = Result<Ladder, Error>> {
+        let rungs = self.scene.rungs();
+        rungs.iter().map(|rung| self.read_rung(truth, *rung))
+    }
+
+    /// Reads a rung of the ladder of a truth, or renders it.
+    pub fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
+        let RunPlan {
+            render,
+            out,
+            monitor,
+            ..
+        } = self.plan;
+        match self.scene {
+            RunScene::Traced(scene) => {
+                LadderFiles::new(scene, render, truth, out).read_or_render(subframes, *monitor)
+            }
+            RunScene::Drawn(scene) => scene.read_rung(&self.folder(), subframes),
+        }
+    }
+
+    /// Makes the truths of an alignment without one pair of replicates each; none where no filter of it is due, the plan asks for no
+    /// intervals, or an engine drew the truth.
+    fn truths_without_pairs(
+        &self,
+        due: &[&PlannedCase],
+        alignment: Alignment,
+    ) -> Result<Vec<Truth>, Error> {
+        let RunPlan {
+            render,
+            out,
+            monitor,
+            ..
+        } = self.plan;
+        let is_due = |case: &&PlannedCase| !case.is_reference() && case.alignment == alignment;
+        match self.scene {
+            RunScene::Traced(scene) if self.plan.intervals && due.iter().any(is_due) => {
+                let replicates = render_replicates(scene, render, alignment, out, *monitor)?;
+                Ok(truths_without_pairs(&replicates)?)
+            }
+            // Sub-frames are no random samples: those without some of them have holes.
+            _ => Ok(Vec::new()),
+        }
+    }
+}

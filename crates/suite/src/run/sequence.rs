@@ -1,0 +1,67 @@
+//! A sequence: pictures of consecutive frames of one scene, with scores over time.
+
+use std::path::PathBuf;
+
+use metrics::SequenceScores;
+use serde::{Deserialize, Serialize};
+
+/// Upper limit on the frames of a sequence.
+pub const MOST_FRAMES: u32 = 1000;
+
+/// The pictures of one filter preset, or of one reference, over all frames of a scene.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Sequence {
+    /// Scene, with its variant.
+    pub scene: String,
+    /// `filter:preset`, and behind that the form of its input where that is not the default.
+    pub filter: String,
+    /// True for a reference picture.
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
+    /// The shutter alignment that the filter declares and is scored against.
+    pub alignment: String,
+    /// Scores over time.
+    pub scores: SequenceScores,
+    /// Frames, from the first on.
+    pub frames: Vec<SequenceFrame>,
+}
+
+/// One picture of a sequence. Its `case.json` has all scores of the single frame.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SequenceFrame {
+    /// Folder of the frame's own files, relative to `run.json`: frame and truth.
+    pub scene: PathBuf,
+    /// Folder of the picture's files, relative to `run.json`.
+    pub folder: PathBuf,
+    /// Hash of the truth's inputs.
+    pub truth_hash: String,
+    /// Squared error over what moves; none where nothing does.
+    pub error: Option<f64>,
+    /// Squared error of the change since the frame before, along the motion; none for the first frame.
+    pub flicker: Option<f64>,
+}
+
+/// Frames of a run, and how fast they are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Frames {
+    /// Number of consecutive frames of each scene.
+    pub count: u32,
+    /// Frames per second at which they are shown. It changes no picture, and no score but JOD: times are in frames.
+    pub per_second: f64,
+}
+
+impl Default for Frames {
+    fn default() -> Self {
+        Self {
+            count: 1,
+            per_second: 60.0,
+        }
+    }
+}
+
+impl Frames {
+    /// Tells whether there is one frame, as in a run without a sequence.
+    pub fn is_one(&self) -> bool {
+        self.count == 1
+    }
+}

@@ -1,0 +1,243 @@
+//! A scene at later frames of its own clock.
+
+use glam::DVec3;
+
+use crate::error::TraceError;
+use crate::motion::keys::Motion;
+use crate::scene::{Mesh, Scene};
+
+impl Scene {
+    /// Makes the scene as it is `frame` frames later: what happens at that time happens at time 0 of the result, of which
+    /// frame and truth are rendered. All keys and key shapes move; the settings, the seed and everything without keys stay.
+    /// The result has a name and a hash of its own. Frame 0 is the scene itself.
+    ///
+    /// Renders of a later frame refuse times at which the scene is not defined; see [`TraceError::Undefined`].
+    pub fn at_frame(&self, frame: u32) -> Self {
+        assert_eq!(self.frame, 0, "frames are counted from the scene's own");
+        let mut scene = self.clone();
+        if frame == 0 {
+            return scene;
+        }
+        let later = f64::from(frame);
+        let objects = scene.objects.iter_mut().map(|object| &mut object.motion);
+        for motion in objects.chain([&mut scene.camera.motion]) {
+            for key in &mut motion.keys {
+                key.time -= later;
+            }
+        }
+        for (time, _) in &mut scene.camera.vertical_fov {
+            *time -= later;
+        }
+        for shape in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.shapes) {
+            shape.time -= later;
+        }
+        scene.frame = frame;
+        scene.name = self.name_at_frame(frame);
+        let text = format!("{} at frame {frame}", self.hash);
+        scene.hash = blake3::hash(text.as_bytes()).to_hex().to_string();
+        scene
+    }
+
+    /// Names a later frame: `fan/0003`. It is the path of its files as well.
+    pub fn name_at_frame(&self, frame: u32) -> String {
+        format!("{}/{frame:04}", self.name)
+    }
+
+    /// Refuses a time of a later frame at which the scene is not defined. `time` is in frames after that frame's instant.
+    pub(crate) fn check_defined(&self, time: f64) -> Result<(), TraceError> {
+        if self.frame == 0 {
+            return Ok(());
+        }
+        let refuse = |what: String, last: f64| TraceError::Undefined {
+            scene: self.name.clone(),
+            what,
+            last: last + f64::from(self.frame),
+            time: time + f64::from(self.frame),
+        };
+        let camera = ("the camera".to_owned(), &self.camera.motion);
+        let objects = self.objects.iter().map(|object| {
+            let name = format!("object {}", object.name);
+            (name, &object.motion)
+        });
+        for (what, motion) in objects.chain([camera]) {
+            if let Some(last) = end_of_path(motion).filter(|last| *last < time) {
+                return Err(refuse(format!("the motion of {what}"), last));
+            }
+            if let Some(last) = end_of_scale(motion, time) {
+                return Err(refuse(format!("the scale of {what}"), last));
+            }
+        }
+        if let [.., (last, _)] = self.camera.vertical_fov[..]
+            && self.camera.vertical_fov.len() > STEADY_KEYS
+            && last < time
+        {
+            return Err(refuse("the camera's field of view".to_owned(), last));
+        }
+        for object in &self.objects {
+            if let Some(last) = end_of_shapes(&self.meshes[object.mesh])
+                && last < time
+            {
+                return Err(refuse(
+                    format!("the shapes of object {}", object.name),
+                    last,
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Keys that make a steady motion, which goes on for ever. More of them make a path, which ends at the last.
+const STEADY_KEYS: usize = 2;
+
+/// Finds the time at which a motion's path ends; none where it stands still or is steady.
+fn end_of_path(motion: &Motion) -> Option<f64> {
+    let keys = &motion.keys;
+    let is_path = keys.len() > STEADY_KEYS;
+    keys.last().filter(|_| is_path).map(|key| key.time)
+}
+
+/// Finds the last key of a motion whose scale passes 0 between that key and `time`; none where it keeps its sign.
+fn end_of_scale(motion: &Motion, time: f64) -> Option<f64> {
+    let last = motion.keys.last()?;
+    let segment = motion.segment(time.max(last.time));
+    let scale: DVec3 = segment.scale.at(segment.since(time.max(last.time)));
+    ((last.scale * scale).min_element() <= 0.0).then_some(last.time)
+}
+
+/// Finds the time of the last key shape; none of a rigid mesh.
+fn end_of_shapes(mesh: &Mesh) -> Option<f64> {
+    mesh.shapes.last().map(|shape| shape.time)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::load_scene;
+    use crate::test_scene::load_test_scene;
+    use crate::{Motion, RenderSettings};
+    use frame::Alignment;
+
+    use super::*;
+
+    /// Compares two poses. Coordinates of some 100 m are rounded to 1e-14 of their size.
+    fn assert_same(found: glam::DAffine3, expected: glam::DAffine3, what: &str) {
+        assert!(
+            found.abs_diff_eq(expected, 1e-9),
+            "{what}: {found} {expected}"
+        );
+    }
+
+    #[test]
+    fn a_later_frame_shows_what_happens_later() {
+        let scenes = ["fan", "walker", "dolly", "flag", "reversal", "ramp_floor"];
+        for name in scenes {
+            let scene = load_test_scene(name);
+            for frame in [1, 2, 7] {
+                let later = scene.at_frame(frame);
+                for time in [-1.0, -0.3, 0.0, 0.2] {
+                    let then = time + f64::from(frame);
+                    for object in 0..scene.objects.len() {
+                        let [found, expected] = [(&later, time), (&scene, then)]
+                            .map(|(scene, time)| scene.object_to_world(object, time));
+                        assert_same(found, expected, name);
+                    }
+                    let [found, expected] = [(&later, time), (&scene, then)]
+                        .map(|(scene, time)| scene.camera.motion.at(time));
+                    assert_same(found, expected, name);
+                    let [found, expected] = [(&later, time), (&scene, then)]
+                        .map(|(scene, time)| scene.camera.vertical_fov_at(time));
+                    assert!((found - expected).abs() < 1e-12);
+                    for (found, expected) in later.meshes.iter().zip(&scene.meshes) {
+                        let [found, expected] = [(found, time), (expected, then)]
+                            .map(|(mesh, time)| mesh.at(time).positions().next().unwrap());
+                        assert!(found.distance(expected) < 1e-9, "{name}");
+                    }
+                }
+                assert_ne!(later.hash, scene.hash);
+                assert_eq!(later.name, format!("{name}/{frame:04}"));
+            }
+        }
+    }
+
+    #[test]
+    fn frame_0_is_the_scene_itself() {
+        let scene = load_test_scene("fan");
+        let settings = RenderSettings::default();
+        let hash = |scene: &Scene| crate::truth_hash(scene, &settings, Alignment::Trailing);
+        let first = scene.at_frame(0);
+        assert_eq!(hash(&first), hash(&scene));
+        assert_eq!(first.name, scene.name);
+        assert_ne!(hash(&scene.at_frame(1)), hash(&scene));
+        assert_ne!(hash(&scene.at_frame(1)), hash(&scene.at_frame(2)));
+    }
+
+    #[test]
+    fn a_path_and_key_shapes_end_at_their_last_key() {
+        let check = |name: &str, frame: u32, alignment| {
+            let scene = load_test_scene(name).at_frame(frame);
+            RenderSettings::default().check_truth(&scene, alignment)
+        };
+        // The shapes of the flag go from -1 to 1.
+        assert_eq!(check("flag", 1, Alignment::Trailing).err(), None);
+        let text = check("flag", 1, Alignment::Leading)
+            .unwrap_err()
+            .to_string();
+        assert!(
+            text.contains("the shapes of object cloth at frame 1.5"),
+            "{text}"
+        );
+        assert!(text.contains("end at frame 1"), "{text}");
+        let text = check("reversal", 1, Alignment::Trailing)
+            .unwrap_err()
+            .to_string();
+        assert!(
+            text.contains("the motion of object lorry at frame 1"),
+            "{text}"
+        );
+        // Two keys make a steady motion.
+        assert_eq!(check("fan", 900, Alignment::Leading).err(), None);
+        // At their own instant all scenes are as they were.
+        assert_eq!(check("flag", 0, Alignment::Leading).err(), None);
+    }
+
+    #[test]
+    fn a_scale_does_not_pass_zero() {
+        let mut scene = load_test_scene("fan");
+        let shrink = |time: f64, scale: f64| crate::Key {
+            time,
+            scale: DVec3::splat(scale),
+            ..crate::Key::REST
+        };
+        scene.objects[0].motion = Motion {
+            keys: vec![shrink(0.0, 1.0), shrink(1.0, 0.75)],
+            ..Motion::default()
+        };
+        let check = |frame: u32| {
+            RenderSettings::default().check_truth(&scene.at_frame(frame), Alignment::Trailing)
+        };
+        assert_eq!(check(3).err(), None);
+        assert!(
+            check(4)
+                .unwrap_err()
+                .to_string()
+                .contains("the scale of object")
+        );
+    }
+
+    #[test]
+    fn most_shipped_scenes_go_on_and_the_others_say_where_they_end() {
+        let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
+        let mut ending = Vec::new();
+        for listing in crate::list_scenes(folder).unwrap() {
+            let scene = load_scene(&folder.join(&listing.name), None).unwrap();
+            let settings = RenderSettings::default();
+            if settings
+                .check_truth(&scene.at_frame(24), Alignment::Centred)
+                .is_err()
+            {
+                ending.push(scene.name);
+            }
+        }
+        assert_eq!(ending, ["flag", "reversal"]);
+    }
+}
