@@ -30,6 +30,7 @@ mod render;
 mod report;
 mod run;
 mod scenes;
+mod scenes_root;
 mod score;
 mod sensitivity;
 mod serve;
