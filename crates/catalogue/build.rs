@@ -19,7 +19,10 @@ fn main() {
         let packed = out.join(format!("{index}.deflate"));
         fs::write(&packed, deflate(&bytes)).expect("the build folder can be written");
         let name = path.strip_prefix(SCENES).expect("it lies below the scenes");
-        let name = name.to_str().expect("its name is Unicode").replace('\\', "/");
+        let name = name
+            .to_str()
+            .expect("its name is Unicode")
+            .replace('\\', "/");
         let size = bytes.len();
         writeln!(
             rows,

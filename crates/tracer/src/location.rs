@@ -132,12 +132,12 @@ impl Location {
 
 /// Lists the paths of files below a folder of a bundle, relative to that folder.
 fn below<'a>(bundle: &Bundle, folder: &'a str) -> impl Iterator<Item = &'static str> + use<'a> {
-    (bundle.list)().into_iter().filter_map(move |path| {
-        match folder.is_empty() {
+    (bundle.list)()
+        .into_iter()
+        .filter_map(move |path| match folder.is_empty() {
             true => Some(path),
             false => path.strip_prefix(folder)?.strip_prefix('/'),
-        }
-    })
+        })
 }
 
 impl fmt::Display for Location {

@@ -164,10 +164,7 @@ pub fn claim_out(plan: &RunPlan) -> Result<Claim, Error> {
 }
 
 /// Loads the named scenes of the folder `root` with their bounds; all of it where none is named.
-pub fn load_scenes(
-    root: &Location,
-    names: &[String],
-) -> Result<Vec<(Scene, SceneBounds)>, Error> {
+pub fn load_scenes(root: &Location, names: &[String]) -> Result<Vec<(Scene, SceneBounds)>, Error> {
     let choices = select_scenes(root, names)?;
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
     (choices.into_iter())

@@ -162,7 +162,11 @@ fn refuse_twins<T>(name: &str, [one, other]: [&Location; 2]) -> Result<T, Error>
 }
 
 fn load_choice(folder: &Location, variant: Option<&str>) -> Result<SceneChoice, Error> {
-    let own = folder.path.file_name().unwrap_or_default().to_string_lossy();
+    let own = folder
+        .path
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy();
     if own.contains('@') {
         return Err(Error::Usage(format!(
             "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant; rename it",

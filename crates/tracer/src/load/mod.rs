@@ -47,8 +47,8 @@ use scene_folder::{folder_name, read_document};
 use schema::SceneTable;
 use variants::ParsedScene;
 
-use crate::{Location, Scene};
 use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
+use crate::{Location, Scene};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
 const UNLIT: &str = "unlit";
@@ -56,10 +56,7 @@ const UNLIT: &str = "unlit";
 /// Loads the scene in `folder`, on disk or in a [`Bundle`](crate::Bundle), or one of its variants. The variant `unlit` is made of any scene.
 ///
 /// Refuses whatever a render could not use, with its place and what is allowed; repairs nothing.
-pub fn load_scene(
-    folder: impl Into<Location>,
-    variant: Option<&str>,
-) -> Result<Scene, SceneError> {
+pub fn load_scene(folder: impl Into<Location>, variant: Option<&str>) -> Result<Scene, SceneError> {
     load_scene_and_files(folder, variant).map(|(scene, _)| scene)
 }
 

@@ -4,8 +4,8 @@ mod file;
 mod known;
 mod size;
 
-use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use tracer::Location;
 
 use crate::Error;
