@@ -46,8 +46,14 @@ const NOT_RUN: [(&str, &str); 29] = [
         "cargo bench -p suite --bench case -- railing jump_flood:paper 1920x1080",
         "compiles in release mode",
     ),
-    ("cargo bench -p shuttertruth-tracer", "compiles in release mode"),
-    ("cargo bench -p shuttertruth-tracer", "compiles in release mode"),
+    (
+        "cargo bench -p shuttertruth-tracer",
+        "compiles in release mode",
+    ),
+    (
+        "cargo bench -p shuttertruth-tracer",
+        "compiles in release mode",
+    ),
     (
         "cargo bench -p shuttertruth-tracer -- truths",
         "compiles in release mode",
