@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 29] = [
+const NOT_RUN: [(&str, &str); 30] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -93,6 +93,10 @@ const NOT_RUN: [(&str, &str); 29] = [
     (
         "python3 examples/export/compare.py out/blurred.exr out/render/railing/truth_centred.exr",
         "needs a picture of Blender's",
+    ),
+    (
+        "cargo binstall --manifest-path crates/cli/Cargo.toml cli",
+        "fetches a release, of which there is none",
     ),
     (
         "cargo run -p generator",
