@@ -86,7 +86,8 @@ class Job:
         assert "".join(tokens) == expression, f"not understood: {expression}"
         words = {"&&": " and ", "||": " or ", "!": " not ", "always": "(lambda: True)", "success": f"(lambda: {not self.failed})"}
         python = "".join(words.get(token) or self.translate(token) for token in tokens)
-        return eval(python.strip()) and not (and_success and self.failed)
+        value = eval(python.strip())
+        return value and not self.failed if and_success else value
 
     def translate(self, token):
         if not re.match(r"[A-Za-z]", token):
@@ -117,6 +118,7 @@ def restore_cache(job, given):
 
 
 def save_cache(job, given):
+    assert given["key"], "a cache without a key"
     kept = job.inside(given["path"])
     if kept.is_dir():
         shutil.copytree(kept, job.store / given["key"], dirs_exist_ok=True)

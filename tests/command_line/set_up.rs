@@ -54,7 +54,7 @@ fn completions_know_every_command_in_every_shell() {
     assert_refused(
         &bench.shuttertruth(&["completions", "csh"]),
         2,
-        &["csh", "bash"],
+        &["csh", "zsh"],
     );
 }
 

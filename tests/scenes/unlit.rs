@@ -41,7 +41,7 @@ fn no_scene_has_noise_when_unlit() {
 fn an_unlit_scene_is_exported_with_colours_alone() {
     let folder = tempfile::tempdir().unwrap();
     let scene = load_scene(&scenes().join("railing"), Some("unlit")).unwrap();
-    export_gltf(&scene, "test", folder.path()).unwrap();
+    export_gltf(&scene, &tests::scenes().into(), "test", folder.path()).unwrap();
     let text = fs::read_to_string(folder.path().join("scene.gltf")).unwrap();
     let document: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(!text.contains("KHR_lights_punctual"));
