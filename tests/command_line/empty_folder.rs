@@ -58,7 +58,7 @@ fn other_commands_work_in_an_empty_folder() {
     assert!(path.join("out/gltf/fan/scene.gltf").is_file());
     assert_done(&execute(
         path,
-        "render --quiet --scenes fan@all --size 16x9 --samples-per-pixel 16",
+        "render --quiet --scenes fan@all --size 32x18 --samples-per-pixel 16",
     ));
     // The limits come along as well.
     let refused = execute(
