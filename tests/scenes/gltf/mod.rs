@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-5;
 #[test]
 fn every_scene_and_variant_plays_as_the_tracer_poses_it() {
     let mut compared = 0;
-    for listing in list_scenes(&scenes()).unwrap() {
+    for listing in list_scenes(scenes()).unwrap() {
         let variants = listing
             .variants
             .iter()
@@ -61,7 +61,7 @@ fn turns_beyond_half_a_circle_and_cubic_paths_are_kept() {
             keys: keys.clone(),
             interpolation,
         };
-        let mut scene = load_scene(&scenes().join("flat_field"), None).unwrap();
+        let mut scene = load_scene(scenes().join("flat_field"), None).unwrap();
         scene.objects[0].motion = motion.clone();
         scene.camera.motion = Motion {
             keys: (motion.keys.iter())
@@ -78,7 +78,7 @@ fn turns_beyond_half_a_circle_and_cubic_paths_are_kept() {
 
 #[test]
 fn a_zoom_is_refused_since_gltf_cannot_say_it() {
-    let mut scene = load_scene(&scenes().join("flat_field"), None).unwrap();
+    let mut scene = load_scene(scenes().join("flat_field"), None).unwrap();
     scene.camera.vertical_fov = vec![(-1.0, 0.6), (1.0, 0.7)];
     let folder = tempfile::tempdir().unwrap();
     let error = export_gltf(&scene, &tests::scenes().into(), "test", folder.path())
@@ -89,7 +89,7 @@ fn a_zoom_is_refused_since_gltf_cannot_say_it() {
 
 #[test]
 fn a_texture_of_holes_is_joined_with_that_of_the_color() {
-    let mut scene = load_scene(&scenes().join("railing"), None).unwrap();
+    let mut scene = load_scene(scenes().join("railing"), None).unwrap();
     let material = (scene.materials.iter_mut()).find(|own| own.diffuse_texture.is_some());
     let material = material.expect("a textured material");
     let texture = material.diffuse_texture.unwrap();
