@@ -1,12 +1,13 @@
 # `make run` does the main job; `make test` passes the tests. Three longer tests stand apart: `make guides` runs every command of every
-# page, `make fuzz` tries hostile input for ten minutes, and `make mutants` changes kernels to try the limits.
+# page, `make fuzz` tries hostile input for ten minutes, and `make mutants` changes kernels to try the limits. `make archive` makes the
+# release archive; `make action` and `make image` try it in a bare Debian and in two images. See docs/release.md.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, and numpy and OpenEXR compare presets with their originals. They need Chromium to open reports and
 # to draw scenes with three.js, node to install three.js and to drive it, and glslang to compile shaders in GLSL.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run test guides fuzz mutants vulkan python chromium node glslang
+.PHONY: run test guides fuzz mutants archive action image publish vulkan python chromium node glslang
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -30,6 +31,26 @@ SEED ?= $(shell date +%s)
 
 fuzz: vulkan
 	cargo test --package cli --test fuzz --locked -- --minutes $(MINUTES) --seed $(SEED) $(if $(TARGETS),--targets $(TARGETS))
+
+archive:
+	release/archive.sh $(TARGET)
+
+# The newest archive for this machine.
+ARCHIVE = $(shell ls -t target/archive/shuttertruth-*-$(shell rustc -vV | sed -n 's/^host: //p').tar.gz | head -n 1)
+
+# As root: makes a bare Debian with debootstrap, and runs the steps of action.yml in it.
+action: archive python
+	"$(PYTHON)" -c 'import yaml' 2>/dev/null || "$(PYTHON)" -m pip install -q pyyaml==6.0.3
+	"$(PYTHON)" release/try_action.py "$(ARCHIVE)" $(if $(ROOT),--root "$(ROOT)")
+
+# As root: BASE=IMAGE names another base than Debian's image of Docker Hub.
+image: archive
+	release/compare_images.sh
+
+# Publishes nothing: packs the libraries that others can use, compiles each from its package, and builds their pages.
+publish:
+	cargo publish --dry-run --locked -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-tracer
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --locked -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-tracer
 
 # `$(call given,NAME,--option)`: the option with the value of NAME, if whoever called make gave it one.
 given = $(if $(filter-out file undefined,$(origin $(1))),$(2) $($(1)))

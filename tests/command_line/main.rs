@@ -12,6 +12,7 @@ mod comparison;
 mod compilers;
 mod conventions;
 mod earlier_run;
+mod empty_folder;
 mod export;
 mod failures;
 mod fidelity;
@@ -33,6 +34,8 @@ mod report;
 mod score;
 mod sequences;
 mod serve;
+mod set_up;
+mod shipped_files;
 mod summary;
 mod terminal;
 #[cfg(unix)]

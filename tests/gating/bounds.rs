@@ -31,7 +31,7 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     let ladder = suite::LadderFiles::new(scene, &settings, &truth, out);
     let rung = ladder.read_or_render(64, Monitor::SILENT).unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::scene_viewing(scene)).unwrap();
-    let bounds = suite::read_bounds(&scenes(), &choice.folder).unwrap();
+    let bounds = suite::read_bounds(scenes(), &choice.folder).unwrap();
     // Bounds for all filters, required or not.
     let bounds = bounds.of("identity", "default");
     let judged = |picture: &Picture| {
@@ -62,7 +62,7 @@ fn describe(judged: &[JudgedScore]) -> String {
 
 #[test]
 fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none() {
-    let choices = cli::select_scenes(&scenes(), &[]).unwrap();
+    let choices = cli::select_scenes(scenes(), &[]).unwrap();
     assert!(choices.len() >= 5, "the shipped scenes are missing");
     let mut failures = Vec::new();
     let (out, _own) = lock_truths();

@@ -7,7 +7,7 @@ use tests::unwatched;
 use tracer::{RenderSettings, TruthTracer, load_scene, trace_truth};
 
 fn load_shipped(name: &str) -> tracer::Scene {
-    load_scene(&tests::scenes().join(name), None).unwrap()
+    load_scene(tests::scenes().join(name), None).unwrap()
 }
 
 fn render_settings(samples_per_pixel: u32, replicates: u32, seed: u64) -> RenderSettings {

@@ -12,7 +12,7 @@ const WIDTH: u32 = 96;
 const HEIGHT: u32 = 54;
 
 fn load(name: &str) -> Scene {
-    load_scene(&scenes().join(name), None).unwrap_or_else(|error| panic!("{error}"))
+    load_scene(scenes().join(name), None).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Traces what an engine hands over: the motion since the frame before, unless it is another.
@@ -70,7 +70,7 @@ fn expect(audit: &CaptureAudit, object: Option<&str>, is_cause: impl Fn(&Cause) 
 
 #[test]
 fn right_vectors_pass_in_every_scene() {
-    for listing in tracer::list_scenes(&scenes()).unwrap() {
+    for listing in tracer::list_scenes(scenes()).unwrap() {
         let scene = load_scene(&listing.folder, None).unwrap();
         let layers = trace(&scene, PointMotion::RIGHT);
         assert_passes(&scene, &capture(&layers, layers.velocity.clone()));

@@ -5,7 +5,7 @@ use tests::scenes;
 use tracer::{Scene, list_scenes, load_scene};
 
 fn load(name: &str, variant: Option<&str>) -> Scene {
-    load_scene(&scenes().join(name), variant).unwrap_or_else(|error| panic!("{error}"))
+    load_scene(scenes().join(name), variant).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Projects a world point into the still camera's picture, in pixels.
@@ -43,7 +43,7 @@ fn pixel_range(scene: &Scene, name: &str, time: f64) -> [DVec2; 2] {
 
 #[test]
 fn every_scene_loads_with_every_variant() {
-    let listings = list_scenes(&scenes()).unwrap_or_else(|error| panic!("{error}"));
+    let listings = list_scenes(scenes()).unwrap_or_else(|error| panic!("{error}"));
     let names: Vec<_> = listings
         .iter()
         .map(|listing| listing.name.as_str())
@@ -105,7 +105,7 @@ fn the_generator_reproduces_the_shipped_files() {
 
 #[test]
 fn the_panel_moves_at_the_speed_of_its_variant() {
-    let listings = list_scenes(&scenes()).unwrap();
+    let listings = list_scenes(scenes()).unwrap();
     let listing = listings.iter().find(|l| l.name == "sliding_panel").unwrap();
     assert_eq!(listing.variants.len(), 20, "five speeds in four directions");
     for variant in &listing.variants {
@@ -130,7 +130,7 @@ fn the_panel_moves_at_the_speed_of_its_variant() {
 
 #[test]
 fn the_panel_keeps_clear_of_the_border() {
-    for listing in list_scenes(&scenes()).unwrap() {
+    for listing in list_scenes(scenes()).unwrap() {
         if !listing.name.contains("panel") {
             continue;
         }

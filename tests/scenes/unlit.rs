@@ -25,7 +25,7 @@ fn render(scene: &Scene, seed: u64) -> frame::Image {
 #[test]
 fn no_scene_has_noise_when_unlit() {
     let mut differ = 0;
-    for listing in list_scenes(&scenes()).unwrap() {
+    for listing in list_scenes(scenes()).unwrap() {
         let scene = load_scene(&listing.folder, Some("unlit")).unwrap();
         assert_eq!(scene.name, format!("{}@unlit", listing.name));
         assert!(scene.sun.is_none());
@@ -40,8 +40,8 @@ fn no_scene_has_noise_when_unlit() {
 #[test]
 fn an_unlit_scene_is_exported_with_colours_alone() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = load_scene(&scenes().join("railing"), Some("unlit")).unwrap();
-    export_gltf(&scene, "test", folder.path()).unwrap();
+    let scene = load_scene(scenes().join("railing"), Some("unlit")).unwrap();
+    export_gltf(&scene, &tests::scenes().into(), "test", folder.path()).unwrap();
     let text = fs::read_to_string(folder.path().join("scene.gltf")).unwrap();
     let document: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(!text.contains("KHR_lights_punctual"));

@@ -8,7 +8,7 @@ use gltf_json::camera::{Perspective, Type as CameraType};
 use gltf_json::scene::{Node, Scene as GltfScene};
 use gltf_json::validation::{Checked, USize64};
 use gltf_json::{Asset, Buffer, Camera, Index, Material, Mesh};
-use tracer::{Parent, Scene};
+use tracer::{Location, Parent, Scene};
 
 use crate::animation::Channels;
 use crate::buffer::{BUFFER, Document};
@@ -26,11 +26,17 @@ const DOCUMENT: &str = "scene.gltf";
 /// Nearest depth that a camera shows, in metres: glTF asks for one, the tracer has none.
 const NEAR: f32 = 0.01;
 
-/// Exports a scene to a folder, which is made if it is not there. `program` names the writer.
+/// Exports a scene to a folder, which is made if it is not there. `origin` is the folder that the scene was loaded from, or one
+/// beside it, and `program` names the writer.
 ///
 /// Node 0 is the camera, node `id` the object with this id, and the last one the sun, if there is one. The animation plays
 /// 24 frames per second; [`Timeline`] says where the instant is.
-pub fn export_gltf(scene: &Scene, program: &str, folder: &Path) -> Result<Manifest, ExportError> {
+pub fn export_gltf(
+    scene: &Scene,
+    origin: &Location,
+    program: &str,
+    folder: &Path,
+) -> Result<Manifest, ExportError> {
     let timeline = Timeline::of(scene);
     refuse_zoom(scene, &timeline)?;
     let mut document = Document::default();
@@ -39,7 +45,7 @@ pub fn export_gltf(scene: &Scene, program: &str, folder: &Path) -> Result<Manife
         version: "2.0".to_owned(),
         ..Asset::default()
     };
-    let materials = push_materials(&mut document, scene, folder)?;
+    let materials = push_materials(&mut document, scene, origin, folder)?;
     let mut channels = Channels::default();
     let mut roots = push_nodes(&mut document, &mut channels, scene, &materials, &timeline);
     channels.finish(&mut document);
@@ -90,9 +96,10 @@ fn refuse_zoom(scene: &Scene, timeline: &Timeline) -> Result<(), ExportError> {
 fn push_materials(
     document: &mut Document,
     scene: &Scene,
+    origin: &Location,
     folder: &Path,
 ) -> Result<Vec<Index<Material>>, ExportError> {
-    let mut textures = Textures::new(scene, folder);
+    let mut textures = Textures::new(scene, origin, folder);
     (scene.materials.iter())
         .map(|material| push_material(document, &mut textures, material))
         .collect()

@@ -1,14 +1,14 @@
 //! Texture files of an export.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, display_srgb, write_atomically};
 use gltf_json::texture::{Info, MagFilter, MinFilter, Sampler, WrappingMode};
 use gltf_json::validation::Checked;
 use gltf_json::{Image, Index};
-use tracer::{Scene, Texture};
+use tracer::limits::LARGEST_IMAGE_FILE;
+use tracer::{Location, Scene, Texture};
 
 use crate::buffer::Document;
 use crate::error::ExportError;
@@ -19,6 +19,8 @@ const FOLDER: &str = "textures";
 /// Textures that are written so far.
 pub struct Textures<'a> {
     scene: &'a Scene,
+    /// Where the scene came from: on disk, or in the program.
+    origin: &'a Location,
     folder: PathBuf,
     sampler: Option<Index<Sampler>>,
     /// Textures of the document: those that are files of the scene, and those that join a colour with an opacity.
@@ -27,9 +29,10 @@ pub struct Textures<'a> {
 
 impl<'a> Textures<'a> {
     /// Makes an empty folder of textures below that of the document.
-    pub fn new(scene: &'a Scene, folder: &Path) -> Self {
+    pub fn new(scene: &'a Scene, origin: &'a Location, folder: &Path) -> Self {
         Self {
             scene,
+            origin,
             folder: folder.to_owned(),
             sampler: None,
             known: BTreeMap::new(),
@@ -47,7 +50,7 @@ impl<'a> Textures<'a> {
             return Ok(info(*known));
         }
         let path = &self.scene.textures[texture].path;
-        let bytes = fs::read(path).map_err(|source| FileError::io(path, "read", source))?;
+        let bytes = self.origin.at(path).read(LARGEST_IMAGE_FILE)?;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let name = format!("{texture}_{}", plain_name(&name));
         self.write(&name, &bytes)?;

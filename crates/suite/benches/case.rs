@@ -57,7 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = tempfile::tempdir()?;
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let plan = RunPlan {
-        scenes: vec![tracer::load_scene(&scenes.join(scene), None)?],
+        scenes: vec![tracer::load_scene(scenes.join(scene), None)?],
         engine_scenes: Vec::new(),
         filters: vec![FilterChoice::new(Filter::builtin(filter)?, preset)?],
         inputs: vec![InputFormat::default()],

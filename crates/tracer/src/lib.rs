@@ -13,6 +13,7 @@ mod ladder;
 mod light;
 pub mod limits;
 mod load;
+mod location;
 mod material;
 mod motion;
 mod progress;
@@ -35,6 +36,7 @@ pub use load::{
     MOST_COINCIDENT, SceneError, SceneListing, list_scene, list_scenes, load_scene,
     load_scene_and_files,
 };
+pub use location::{Bundle, Location};
 pub use motion::camera::View;
 pub use motion::curve::Interpolation;
 pub use motion::keys::{Key, Motion, Turn};

@@ -50,10 +50,16 @@ const NOT_RUN: [(&str, &str); 30] = [
         "cargo bench -p suite --bench case -- railing jump_flood:paper 1920x1080",
         "compiles in release mode",
     ),
-    ("cargo bench -p tracer", "compiles in release mode"),
-    ("cargo bench -p tracer", "compiles in release mode"),
     (
-        "cargo bench -p tracer -- truths",
+        "cargo bench -p shuttertruth-tracer",
+        "compiles in release mode",
+    ),
+    (
+        "cargo bench -p shuttertruth-tracer",
+        "compiles in release mode",
+    ),
+    (
+        "cargo bench -p shuttertruth-tracer -- truths",
         "compiles in release mode",
     ),
     (
@@ -91,6 +97,10 @@ const NOT_RUN: [(&str, &str); 30] = [
     (
         "python3 examples/export/compare.py out/blurred.exr out/render/railing/truth_centred.exr",
         "needs a picture of Blender's",
+    ),
+    (
+        "cargo binstall --manifest-path crates/cli/Cargo.toml cli",
+        "fetches a release, of which there is none",
     ),
     (
         "cargo run -p generator",

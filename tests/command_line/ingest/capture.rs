@@ -139,7 +139,7 @@ impl<'a> Capture<'a> {
 
 /// Renders the plate as it is at a time.
 fn render_instant(bench: &Bench, time: f64) -> Frame {
-    let mut scene: Scene = load_scene(&bench.path("scenes/plate"), None).unwrap();
+    let mut scene: Scene = load_scene(bench.path("scenes/plate"), None).unwrap();
     for object in &mut scene.objects {
         for key in &mut object.motion.keys {
             key.time -= time;

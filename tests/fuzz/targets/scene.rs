@@ -186,7 +186,7 @@ fn write(place: &Place, name: &str, input: &[u8]) -> PathBuf {
 
 /// Loads as `list` does and then as `run` does: the scene, then its first variants.
 fn load(place: &Place) -> Option<Scene> {
-    let listings = list_scenes(&place.folder.join("scenes")).ok()?;
+    let listings = list_scenes(place.folder.join("scenes")).ok()?;
     let listing = listings.first()?;
     for variant in listing.variants.iter().take(2) {
         drop(load_scene(&listing.folder, Some(variant)));

@@ -58,5 +58,5 @@ fn load(place: &Place, name: &str, input: &[u8]) {
         include_bytes!("../corpus/texture/dots.png"),
     );
     place.write(&format!("square/{name}"), input);
-    drop(load_scene(&place.folder.join("square"), None));
+    drop(load_scene(place.folder.join("square"), None));
 }

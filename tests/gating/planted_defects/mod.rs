@@ -92,7 +92,7 @@ impl Bench {
     }
 
     fn run(&self, filters: Vec<FilterChoice>, seed: u64) -> Run {
-        let scenes: Vec<Scene> = select_scenes(&tests::scenes(), &NAMES.map(str::to_owned))
+        let scenes: Vec<Scene> = select_scenes(tests::scenes(), &NAMES.map(str::to_owned))
             .unwrap()
             .into_iter()
             .map(|choice| choice.scene)

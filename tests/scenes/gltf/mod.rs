@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-5;
 #[test]
 fn every_scene_and_variant_plays_as_the_tracer_poses_it() {
     let mut compared = 0;
-    for listing in list_scenes(&scenes()).unwrap() {
+    for listing in list_scenes(scenes()).unwrap() {
         let variants = listing
             .variants
             .iter()
@@ -61,7 +61,7 @@ fn turns_beyond_half_a_circle_and_cubic_paths_are_kept() {
             keys: keys.clone(),
             interpolation,
         };
-        let mut scene = load_scene(&scenes().join("flat_field"), None).unwrap();
+        let mut scene = load_scene(scenes().join("flat_field"), None).unwrap();
         scene.objects[0].motion = motion.clone();
         scene.camera.motion = Motion {
             keys: (motion.keys.iter())
@@ -78,10 +78,10 @@ fn turns_beyond_half_a_circle_and_cubic_paths_are_kept() {
 
 #[test]
 fn a_zoom_is_refused_since_gltf_cannot_say_it() {
-    let mut scene = load_scene(&scenes().join("flat_field"), None).unwrap();
+    let mut scene = load_scene(scenes().join("flat_field"), None).unwrap();
     scene.camera.vertical_fov = vec![(-1.0, 0.6), (1.0, 0.7)];
     let folder = tempfile::tempdir().unwrap();
-    let error = export_gltf(&scene, "test", folder.path())
+    let error = export_gltf(&scene, &tests::scenes().into(), "test", folder.path())
         .unwrap_err()
         .to_string();
     assert!(error.contains("field of view changes"), "{error}");
@@ -89,7 +89,7 @@ fn a_zoom_is_refused_since_gltf_cannot_say_it() {
 
 #[test]
 fn a_texture_of_holes_is_joined_with_that_of_the_color() {
-    let mut scene = load_scene(&scenes().join("railing"), None).unwrap();
+    let mut scene = load_scene(scenes().join("railing"), None).unwrap();
     let material = (scene.materials.iter_mut()).find(|own| own.diffuse_texture.is_some());
     let material = material.expect("a textured material");
     let texture = material.diffuse_texture.unwrap();
@@ -100,7 +100,7 @@ fn a_texture_of_holes_is_joined_with_that_of_the_color() {
         .to_rgb8();
     scene.textures[texture].texels[0][3] = 0.25;
     let folder = tempfile::tempdir().unwrap();
-    export_gltf(&scene, "test", folder.path()).unwrap();
+    export_gltf(&scene, &tests::scenes().into(), "test", folder.path()).unwrap();
 
     let joined = format!("textures/{texture}_with_opacity_{texture}.png");
     let joined = image::open(folder.path().join(joined)).unwrap().to_rgba8();
@@ -118,7 +118,7 @@ fn a_texture_of_holes_is_joined_with_that_of_the_color() {
 /// Exports a scene, and compares camera, objects and vertices at random times within the animation.
 fn assert_plays(scene: &Scene) {
     let folder = tempfile::tempdir().unwrap();
-    export_gltf(scene, "test", folder.path()).unwrap();
+    export_gltf(scene, &tests::scenes().into(), "test", folder.path()).unwrap();
     let played = Played::read(folder.path());
     let timeline = Timeline::of(scene);
     let mut random = Random::new(7);

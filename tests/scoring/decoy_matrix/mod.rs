@@ -15,7 +15,7 @@ use scenes::scenes;
 
 /// Reads the bounds of every filter on every scene, required or not.
 fn shared_bounds() -> Bounds {
-    read_bounds_file(&tests::scenes().join("bounds.toml"))
+    read_bounds_file(tests::scenes().join("bounds.toml"))
         .unwrap()
         .default
 }

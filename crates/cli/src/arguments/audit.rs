@@ -3,6 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use tracer::Location;
+
+use super::scenes_root::{default_scenes_root, scenes_root_parser};
 
 /// `shuttertruth audit`
 #[derive(Debug, Args)]
@@ -16,9 +19,10 @@ pub struct AuditArgs {
     /// Scene that the engine drew, with @VARIANT [default: the one that capture.toml names].
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
-    /// Folder that holds the scenes.
-    #[arg(long, value_name = "FOLDER", default_value = "scenes")]
-    pub scenes_dir: PathBuf,
+    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
     /// Folder for audit.json, and for a picture of the worst place of each object that is wrong [default: out/audit/<name of DIR>].
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -14,7 +14,7 @@ pub struct Group {
 }
 
 /// All commands.
-pub const GROUPS: [Group; 6] = [
+pub const GROUPS: [Group; 7] = [
     Group {
         heading: "Measure",
         commands: &["run", "score", "bench"],
@@ -45,6 +45,10 @@ pub const GROUPS: [Group; 6] = [
         heading: "Do one step alone",
         commands: &["render", "merge", "blur"],
     },
+    Group {
+        heading: "Set up",
+        commands: &["completions", "man"],
+    },
 ];
 
 /// Lists the names of the commands, in the order of the help.
@@ -55,6 +59,11 @@ pub fn list_commands() -> Vec<String> {
 
 /// Column at which a command's description begins.
 const DESCRIPTIONS: usize = 19;
+
+/// Makes the command line without groups, for completions and the manual: all commands are visible.
+pub fn visible_command_line() -> Command {
+    Cli::command().mut_subcommands(allow_negative_numbers)
+}
 
 /// Makes the command line, whose help lists the commands by their groups.
 pub fn command_line() -> Command {

@@ -3,6 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use tracer::Location;
+
+use super::scenes_root::{default_scenes_root, scenes_root_parser};
 
 /// `shuttertruth ingest`
 #[derive(Debug, Args)]
@@ -18,7 +21,8 @@ pub struct IngestArgs {
     /// Folder to write, which gives the scene its name [default: out/engine/<name of DIR>].
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Folder that holds the scenes, for the display exposure of the one that capture.toml names.
-    #[arg(long, value_name = "FOLDER", default_value = "scenes")]
-    pub scenes_dir: PathBuf,
+    /// Folder that holds the scenes, for the display exposure of the one that capture.toml names; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
 }

@@ -1,10 +1,10 @@
 //! Arguments of `list`.
 
-use std::path::PathBuf;
-
 use clap::Args;
+use tracer::Location;
 
 use super::adapter::AdapterArgs;
+use super::scenes_root::{default_scenes_root, scenes_root_parser};
 
 /// `shuttertruth list`
 #[derive(Debug, Args)]
@@ -22,9 +22,10 @@ pub struct ListArgs {
         value_name = "FILTERS"
     )]
     pub filters: Vec<String>,
-    /// Folder that holds the scenes.
-    #[arg(long, value_name = "FOLDER", default_value = "scenes")]
-    pub scenes_dir: PathBuf,
+    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Print JSON.

@@ -12,6 +12,7 @@ mod check;
 mod commands_page;
 mod compare;
 mod compare_presets;
+mod completions;
 mod evaluate;
 mod export;
 mod groups;
@@ -20,6 +21,7 @@ mod guides;
 mod import;
 mod ingest;
 mod list;
+mod man;
 mod measure;
 mod merge;
 mod output;
@@ -30,6 +32,7 @@ mod render;
 mod report;
 mod run;
 mod scenes;
+mod scenes_root;
 mod score;
 mod sensitivity;
 mod serve;
@@ -46,12 +49,14 @@ pub use candidate::CandidateArgs;
 pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use compare_presets::ComparePresetsArgs;
+pub use completions::CompletionsArgs;
 pub use evaluate::EvaluateArgs;
 pub use export::ExportArgs;
-pub use groups::command_line;
+pub use groups::{command_line, visible_command_line};
 pub use import::ImportArgs;
 pub use ingest::IngestArgs;
 pub use list::ListArgs;
+pub use man::ManArgs;
 pub use measure::MeasureArgs;
 pub use merge::MergeArgs;
 pub use output::{Color, OutputArgs};
@@ -66,12 +71,15 @@ pub use sensitivity::SensitivityArgs;
 pub use serve::ServeArgs;
 pub use tune::TuneArgs;
 
+/// Version, commit and target of the program.
+const VERSION: &str = env!("SHUTTERTRUTH_VERSION");
+
 /// Measures real-time motion blur against true shutter blur: renders the truth of moving scenes, runs filters on one frame
 /// of each, and measures how far their pictures are from the truth.
 #[derive(Debug, Parser)]
 #[command(
     name = "shuttertruth",
-    version,
+    version = VERSION,
     max_term_width = 100,
     arg_required_else_help = true
 )]
@@ -131,4 +139,8 @@ pub enum Command {
     Audit(AuditArgs),
     /// List scenes, filters, parameters and presets.
     List(ListArgs),
+    /// Print completions for a shell.
+    Completions(CompletionsArgs),
+    /// Write the pages of the manual.
+    Man(ManArgs),
 }

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
-use tracer::RenderSettings;
+use tracer::{Location, RenderSettings};
 
 use super::parse::{parse_exposure, parse_whole};
+use super::scenes_root::{default_scenes_root, scenes_root_parser};
 
 /// On or off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -30,9 +31,10 @@ pub struct SceneArgs {
         value_name = "SCENES"
     )]
     pub scenes: Vec<String>,
-    /// Folder that holds the scenes.
-    #[arg(long, value_name = "FOLDER", default_value = "scenes")]
-    pub scenes_dir: PathBuf,
+    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
     /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of
     /// the picture get more, quiet ones fewer.
     #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel, value_parser = parse_whole::<u32>)]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use suite::Error;
-use tracer::Scene;
+use tracer::{Location, Scene};
 
 use crate::selection::select_scenes;
 
@@ -18,7 +18,7 @@ pub fn name_folder(capture: &Path, out: Option<&PathBuf>, below: &str) -> Result
 }
 
 /// Loads the one scene that an engine drew.
-pub fn load_drawn_scene(scenes: &Path, name: &str) -> Result<Scene, Error> {
+pub fn load_drawn_scene(scenes: &Location, name: &str) -> Result<Scene, Error> {
     let mut choices = select_scenes(scenes, &[name.to_owned()])?;
     match choices.len() {
         1 => Ok(choices.remove(0).scene),

@@ -9,6 +9,7 @@ use suite::{
     check_names, compare_with_baseline, judge, open_gpu, refuse_tracked, require_bounds,
     size_for_bounds,
 };
+use tracer::Location;
 
 use super::ending::Ending;
 use super::margins::read_margins;
@@ -155,7 +156,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
             "{}: no score of it has a bound, and no check is no success; bounds are looked for in {} and beside each scene \
              below it: name another folder with --scenes-dir",
             path.display(),
-            root.join(BOUNDS_FILE).display()
+            root.join(BOUNDS_FILE)
         )));
     }
     if args.evidence {
@@ -175,7 +176,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
 }
 
 /// Reads the bounds of a run's scenes, for pictures of the run's size, from the folder of scenes.
-fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
+fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
     let mut found = RunBounds::new();
     for case in &run.cases {
         if found.contains_key(&case.scene) {
@@ -188,13 +189,13 @@ fn read_run_bounds(run: &Run, root: &Path) -> Result<RunBounds, Error> {
                     "{}: an engine drew it, and its bounds lie beside what was ingested, which is not in {}; name the folder \
                      above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check --scenes",
                     case.scene,
-                    root.display()
+                    root
                 ));
             }
             let folder = scene_folder_below(root, &case.scene);
             Error::Usage(format!(
                 "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",
-                folder.display()
+                folder
             ))
         })?;
         found.insert(case.scene.clone(), bounds);

@@ -19,7 +19,8 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
     let mut text = String::new();
     for choice in &choices {
         let folder = args.gltf.join(&choice.scene.name);
-        let manifest = export_gltf(&choice.scene, PROGRAM, &folder).map_err(word_error)?;
+        let manifest =
+            export_gltf(&choice.scene, &choice.folder, PROGRAM, &folder).map_err(word_error)?;
         text += &describe(&manifest, &printable_path(&folder));
     }
     print(&text)

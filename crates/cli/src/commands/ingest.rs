@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use frame::{Display, Region};
 use suite::{Capture, EngineScene, Error, Ingested, ingest, printable_path};
-use tracer::Scene;
+use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
 use crate::arguments::IngestArgs;
@@ -47,14 +47,14 @@ fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
 }
 
 /// Loads the scene that the capture names; none where it names none, or there is no such scene.
-fn find_scene(capture: &Capture, scenes: &Path) -> Option<Scene> {
+fn find_scene(capture: &Capture, scenes: &Location) -> Option<Scene> {
     let name = capture.description.scene.as_deref()?;
     let found = load_drawn_scene(scenes, name).ok();
     if found.is_none() {
         print_note(&format!(
             "{} has no scene {name}, whose display exposure the pictures would have; name the folder of scenes with \
              --scenes-dir",
-            scenes.display()
+            scenes
         ));
     }
     found

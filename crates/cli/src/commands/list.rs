@@ -56,7 +56,7 @@ fn list_all(args: &ListArgs) -> Result<Listing, Error> {
     let wants = |what: &str| args.what.is_empty() || args.what.iter().any(|own| own == what);
     let mut listing = Listing::default();
     if args.what.is_empty() && !args.scenes_dir.is_dir() {
-        let folder = args.scenes_dir.display();
+        let folder = &args.scenes_dir;
         print_note(&format!(
             "no scenes: there is no folder {folder}; --scenes-dir names another one"
         ));

@@ -1,15 +1,15 @@
 //! Margins of scores, in the folder of scenes.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use suite::{BOUNDS_FILE, Error, Margin, read_bounds_file};
+use tracer::Location;
 
 /// Reads the margins by which scores may differ before it matters; none where the folder has no bounds.
-pub fn read_margins(root: &Path) -> Result<BTreeMap<String, Margin>, Error> {
-    let path = root.join(BOUNDS_FILE);
-    match path.exists() {
-        true => Ok(read_bounds_file(&path)?.margins),
+pub fn read_margins(root: &Location) -> Result<BTreeMap<String, Margin>, Error> {
+    let file = root.join(BOUNDS_FILE);
+    match file.exists() {
+        true => Ok(read_bounds_file(&file)?.margins),
         false => Ok(BTreeMap::new()),
     }
 }

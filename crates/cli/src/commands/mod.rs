@@ -10,6 +10,7 @@ mod capture;
 mod check;
 mod compare;
 mod compare_presets;
+mod completions;
 mod convention;
 mod ending;
 mod evaluate;
@@ -18,6 +19,7 @@ mod export;
 mod import;
 mod ingest;
 mod list;
+mod man;
 mod margins;
 mod measured_run;
 mod merge;
@@ -89,6 +91,8 @@ pub fn execute(cli: Cli) -> Result<Ending, Error> {
         Some(Command::Audit(args)) => return audit::execute(&args),
         Some(Command::Ingest(args)) => ingest::execute(&args),
         Some(Command::List(args)) => list::execute(&args),
+        Some(Command::Completions(args)) => completions::execute(&args),
+        Some(Command::Man(args)) => man::execute(&args),
         None => Err(Error::Usage(
             "no command given; shuttertruth --help lists all commands".to_owned(),
         )),

@@ -8,7 +8,7 @@ use suite::{
     InputFormat, RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
     read_bounds_file,
 };
-use tracer::{RenderSettings, Scene};
+use tracer::{Location, RenderSettings, Scene};
 
 use super::render_settings::make_render_settings;
 use crate::arguments::{MeasureArgs, SceneArgs};
@@ -147,14 +147,15 @@ pub fn read_engine_bounds(folder: &Path) -> Result<SceneBounds, Error> {
 /// Reads the bounds of a case's scene, below the folder `root`, for pictures of one size; none where there is no such scene. What an
 /// engine drew has none of the bounds of ours.
 pub fn read_case_bounds(
-    root: &Path,
+    root: &Location,
     case: &Case,
     size: (u32, u32),
 ) -> Result<Option<SceneBounds>, Error> {
     let folder = scene_folder_below(root, &case.scene);
-    match (case.drawn.is_some(), EngineScene::is_in(&folder)) {
-        (true, true) => Ok(Some(read_engine_bounds(&folder)?.at(size))),
-        (true, false) => Ok(None),
+    let drawn = (folder.on_disk()).filter(|folder| EngineScene::is_in(folder));
+    match (case.drawn.is_some(), drawn) {
+        (true, Some(folder)) => Ok(Some(read_engine_bounds(folder)?.at(size))),
+        (true, None) => Ok(None),
         (false, _) => read_bounds_at(root, &folder, size),
     }
 }
@@ -165,7 +166,7 @@ pub fn claim_out(plan: &RunPlan) -> Result<Claim, Error> {
 }
 
 /// Loads the named scenes of the folder `root` with their bounds; all of it where none is named.
-pub fn load_scenes(root: &Path, names: &[String]) -> Result<Vec<(Scene, SceneBounds)>, Error> {
+pub fn load_scenes(root: &Location, names: &[String]) -> Result<Vec<(Scene, SceneBounds)>, Error> {
     let choices = select_scenes(root, names)?;
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
     (choices.into_iter())
@@ -177,14 +178,14 @@ pub fn load_scenes(root: &Path, names: &[String]) -> Result<Vec<(Scene, SceneBou
 }
 
 /// Names the folder of a scene, which may be a variant, below the folder of scenes.
-pub fn scene_folder_below(root: &Path, scene: &str) -> PathBuf {
+pub fn scene_folder_below(root: &Location, scene: &str) -> Location {
     root.join(scene.split_once('@').map_or(scene, |(name, _)| name))
 }
 
 /// Reads the bounds of a scene for pictures of one size; none where there is no such folder.
 fn read_bounds_at(
-    root: &Path,
-    folder: &Path,
+    root: &Location,
+    folder: &Location,
     size: (u32, u32),
 ) -> Result<Option<SceneBounds>, Error> {
     match folder.is_dir() {

@@ -1,9 +1,9 @@
 //! Selection of scenes.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use suite::{EngineScene, Error};
-use tracer::{Scene, list_scene, list_scenes, load_scene};
+use tracer::{Location, Scene, list_scene, list_scenes, load_scene};
 
 use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};
 use super::path::is_path;
@@ -11,7 +11,7 @@ use super::path::is_path;
 /// A loaded scene and the folder that it came from.
 pub struct SceneChoice {
     /// Holds scene.toml, and bounds.toml if the scene has bounds of its own.
-    pub folder: PathBuf,
+    pub folder: Location,
     /// The scene.
     pub scene: Scene,
 }
@@ -20,7 +20,11 @@ pub struct SceneChoice {
 ///
 /// A name is that of a folder under `root`, a pattern of such names, or the path of any scene folder, then optionally
 /// `@variant`; `@all` takes every variant.
-pub fn select_scenes(root: &Path, names: &[String]) -> Result<Vec<SceneChoice>, Error> {
+pub fn select_scenes(
+    root: impl Into<Location>,
+    names: &[String],
+) -> Result<Vec<SceneChoice>, Error> {
+    let root = &root.into();
     refuse_empty_names("--scenes", names)?;
     // Where every scene is given by its path, `root` need not exist.
     let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
@@ -28,7 +32,7 @@ pub fn select_scenes(root: &Path, names: &[String]) -> Result<Vec<SceneChoice>, 
         false if !root.is_dir() => {
             return Err(Error::Usage(format!(
                 "{}: there is no such folder of scenes; name one with --scenes-dir, or a scene by its path with --scenes",
-                root.display()
+                root
             )));
         }
         false => list_scenes(root)?,
@@ -60,7 +64,7 @@ pub fn select_scenes(root: &Path, names: &[String]) -> Result<Vec<SceneChoice>, 
 /// Reads the scenes that engines drew among the named ones; returns the names of the others as well. A scene of `root` goes before a
 /// folder of the same name elsewhere.
 pub fn select_engine_scenes(
-    root: &Path,
+    root: &Location,
     names: &[String],
 ) -> Result<(Vec<EngineScene>, Vec<String>), Error> {
     let is_ingested = |name: &&String| {
@@ -72,17 +76,18 @@ pub fn select_engine_scenes(
         .collect::<Result<_, _>>()?;
     for (index, scene) in scenes.iter().enumerate() {
         if let Some(other) = scenes[..index].iter().find(|it| it.name == scene.name) {
-            return refuse_twins(&scene.name, [&other.folder, &scene.folder]);
+            let folders = [&other.folder, &scene.folder].map(Location::from);
+            return refuse_twins(&scene.name, folders.each_ref());
         }
     }
     Ok((scenes, others.into_iter().cloned().collect()))
 }
 
 /// Finds the folders of a name, a pattern or a path. A scene of `root` goes before a folder of the same name elsewhere.
-fn find_folders(root: &Path, name: &str, known: &[String]) -> Result<Vec<PathBuf>, Error> {
+fn find_folders(root: &Location, name: &str, known: &[String]) -> Result<Vec<Location>, Error> {
     let below_root = |name: &String| root.join(name);
     if is_path(name) {
-        return Ok(vec![PathBuf::from(name)]);
+        return Ok(vec![Path::new(name).into()]);
     }
     if known.iter().any(|own| own == name) {
         return Ok(vec![root.join(name)]);
@@ -94,13 +99,22 @@ fn find_folders(root: &Path, name: &str, known: &[String]) -> Result<Vec<PathBuf
         }
     }
     if Path::new(name).is_dir() {
-        return Ok(vec![PathBuf::from(name)]);
+        return Ok(vec![Path::new(name).into()]);
     }
     Err(Error::Usage(format!(
-        "--scenes: no scene \"{name}\" in {}; {} A scene elsewhere is named by its path, such as ./{name}",
-        root.display(),
-        suggest_names(name, known)
+        "--scenes: no scene \"{name}\" in {root}; {}{} A scene elsewhere is named by its path, such as ./{name}",
+        suggest_names(name, known),
+        suggest_built_in(root, name)
     )))
+}
+
+/// Says how to get a scene of the program's own, where another folder of scenes hides it.
+fn suggest_built_in(root: &Location, name: &str) -> &'static str {
+    let built_in = Location::of_bundle(&catalogue::SCENES).join(name);
+    match root.bundle.is_none() && built_in.is_dir() {
+        true => " The program brings one along: --scenes-dir built-in.",
+        false => "",
+    }
 }
 
 /// Splits a text into a scene and its variant. Folders above the scene's own may have an @ in their names.
@@ -114,12 +128,12 @@ fn split_variant(text: &str) -> (&str, Option<&str>) {
 }
 
 /// Loads every variant of the scene in a folder.
-fn load_all_variants(folder: &Path) -> Result<Vec<SceneChoice>, Error> {
+fn load_all_variants(folder: &Location) -> Result<Vec<SceneChoice>, Error> {
     let variants = list_scene(folder)?.variants;
     if variants.is_empty() {
         return Err(Error::Usage(format!(
             "--scenes: {} has no variants for @all; name the scene without it",
-            folder.display()
+            folder
         )));
     }
     (variants.iter())
@@ -139,31 +153,34 @@ fn refuse_duplicates(scenes: &[SceneChoice]) -> Result<(), Error> {
     Ok(())
 }
 
-fn refuse_twins<T>(name: &str, [one, other]: [&PathBuf; 2]) -> Result<T, Error> {
+fn refuse_twins<T>(name: &str, [one, other]: [&Location; 2]) -> Result<T, Error> {
     Err(Error::Usage(format!(
         "--scenes: {name} is named twice, as {} and {}; allowed: each name once; rename one of the folders, or \
          run them into two --out folders",
-        one.display(),
-        other.display()
+        one, other
     )))
 }
 
-fn load_choice(folder: &Path, variant: Option<&str>) -> Result<SceneChoice, Error> {
-    let own = folder.file_name().unwrap_or_default().to_string_lossy();
+fn load_choice(folder: &Location, variant: Option<&str>) -> Result<SceneChoice, Error> {
+    let own = folder
+        .path
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy();
     if own.contains('@') {
         return Err(Error::Usage(format!(
             "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant; rename it",
-            folder.display()
+            folder
         )));
     }
-    if EngineScene::is_in(folder) {
+    if folder.on_disk().is_some_and(EngineScene::is_in) {
         return Err(Error::Usage(format!(
             "--scenes: {} holds what an engine drew, and nothing to render; `run` and `check` measure it",
-            folder.display()
+            folder
         )));
     }
     Ok(SceneChoice {
-        folder: folder.to_owned(),
+        folder: folder.clone(),
         scene: load_scene(folder, variant)?,
     })
 }

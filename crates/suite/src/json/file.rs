@@ -1,8 +1,7 @@
 //! Reader of JSON files that others may have written.
 
-use std::path::Path;
-
-use frame::{FileError, read_bounded};
+use frame::FileError;
+use tracer::Location;
 
 /// Upper limit on the bytes of run.json, a baseline, bench.json, a journal and other files of numbers.
 pub const MOST_JSON_BYTES: u64 = 1 << 28;
@@ -11,9 +10,10 @@ pub const MOST_JSON_BYTES: u64 = 1 << 28;
 ///
 /// # Errors
 /// The file cannot be read, is larger, or holds something else than UTF-8.
-pub fn read_text(path: &Path) -> Result<String, FileError> {
-    String::from_utf8(read_bounded(path, MOST_JSON_BYTES)?).map_err(|error| FileError::Foreign {
-        path: path.to_owned(),
+pub fn read_text(file: impl Into<Location>) -> Result<String, FileError> {
+    let file = file.into();
+    String::from_utf8(file.read(MOST_JSON_BYTES)?).map_err(|error| FileError::Foreign {
+        path: file.path.clone(),
         reason: format!(
             "is no text: byte {} is not UTF-8; name a file that this program wrote",
             error.utf8_error().valid_up_to()

@@ -3,20 +3,22 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use frame::{FileError, read_bounded};
+use frame::FileError;
+
+use crate::Location;
 
 /// Files of a scene that have been read.
 pub(super) struct Files {
-    folder: PathBuf,
+    folder: Location,
     /// Hashes by name, relative to the folder.
     hashes: BTreeMap<String, blake3::Hash>,
 }
 
 impl Files {
     /// Starts with no files of the scene in `folder`.
-    pub(super) fn new(folder: &Path) -> Self {
+    pub(super) fn new(folder: &Location) -> Self {
         Self {
-            folder: folder.to_owned(),
+            folder: folder.clone(),
             hashes: BTreeMap::new(),
         }
     }
@@ -24,9 +26,9 @@ impl Files {
     /// Reads a regular file of at most `limit` bytes. The error is a reason alone: the caller knows the line that names
     /// the file.
     pub(super) fn read(&mut self, path: &Path, limit: u64) -> Result<Vec<u8>, String> {
-        let bytes = read_bounded(path, limit).map_err(describe)?;
+        let bytes = self.folder.at(path).read(limit).map_err(describe)?;
         // Relative to the scene, so that a copy of the folder elsewhere has the same hash.
-        let name = path.strip_prefix(&self.folder).unwrap_or(path);
+        let name = path.strip_prefix(&self.folder.path).unwrap_or(path);
         let name = name.to_string_lossy().replace('\\', "/");
         self.hashes.insert(name, blake3::hash(&bytes));
         Ok(bytes)
@@ -41,7 +43,7 @@ impl Files {
     pub(super) fn paths(&self) -> Vec<PathBuf> {
         self.hashes
             .keys()
-            .map(|name| self.folder.join(name))
+            .map(|name| self.folder.path.join(name))
             .collect()
     }
 

@@ -1,19 +1,18 @@
 //! Lists of the scenes in a folder, and what each says about itself.
 
 use std::io;
-use std::path::{Path, PathBuf};
 
 use super::error::SceneError;
 use super::files::Files;
 use super::scene_folder::{folder_name, read_document};
 use super::variants::ParsedScene;
-use crate::Family;
+use crate::{Family, Location};
 
 /// Description of a scene, without its meshes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct SceneListing {
     /// Folder to load it from.
-    pub folder: PathBuf,
+    pub folder: Location,
     /// Name of the folder.
     pub name: String,
     /// Family, for leave-one-family-out cross-validation.
@@ -25,31 +24,34 @@ pub struct SceneListing {
 }
 
 /// Lists the scenes in `root` by name: every folder that holds a scene.toml. A folder without scenes is an error.
-pub fn list_scenes(root: &Path) -> Result<Vec<SceneListing>, SceneError> {
+pub fn list_scenes(root: impl Into<Location>) -> Result<Vec<SceneListing>, SceneError> {
+    let root = root.into();
     let unreadable = |error| {
         let reason = format!(
             "the folder of scenes cannot be read: {error}; name another one with --scenes-dir"
         );
-        SceneError::in_file(root, reason)
+        SceneError::in_file(&root.path, reason)
     };
     let mut folders = Vec::new();
-    for entry in std::fs::read_dir(root).map_err(unreadable)? {
-        let folder = entry.map_err(unreadable)?.path();
+    for folder in root.list().map_err(unreadable)? {
         if holds_scene(&folder)? {
             folders.push(folder);
         }
     }
-    folders.sort();
+    folders.sort_by(|a, b| a.path.cmp(&b.path));
     if folders.is_empty() {
         let reason = "holds no scene; a scene is a folder with a scene.toml";
-        return Err(SceneError::in_file(root, reason));
+        return Err(SceneError::in_file(&root.path, reason));
     }
-    folders.iter().map(|folder| list_scene(folder)).collect()
+    folders.iter().map(list_scene).collect()
 }
 
 /// Tells whether a folder holds something named scene.toml. A folder that cannot be read is an error: skipped in silence,
 /// its scene would be missing from every mean.
-fn holds_scene(folder: &Path) -> Result<bool, SceneError> {
+fn holds_scene(location: &Location) -> Result<bool, SceneError> {
+    let Some(folder) = location.on_disk() else {
+        return Ok(location.join("scene.toml").is_file());
+    };
     let unreadable = |error: io::Error| {
         let reason =
             format!("cannot be read: {error}; mend it, or move it out of the folder of scenes");
@@ -66,15 +68,16 @@ fn holds_scene(folder: &Path) -> Result<bool, SceneError> {
 }
 
 /// Describes the scene in a folder.
-pub fn list_scene(folder: &Path) -> Result<SceneListing, SceneError> {
-    let document = read_document(&mut Files::new(folder), folder)?;
+pub fn list_scene(folder: impl Into<Location>) -> Result<SceneListing, SceneError> {
+    let folder = folder.into();
+    let document = read_document(&mut Files::new(&folder), &folder.path)?;
     let parsed = ParsedScene::parse(&document)?;
     let table = parsed.read(None)?;
     Ok(SceneListing {
-        folder: folder.to_owned(),
-        name: folder_name(folder)?,
+        name: folder_name(&folder.path)?,
         family: table.family,
         exposes: table.exposes.into_inner(),
         variants: parsed.variant_names().to_vec(),
+        folder,
     })
 }

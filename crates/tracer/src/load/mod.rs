@@ -34,7 +34,7 @@ mod transform_range;
 mod variant_changes;
 mod variants;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use document::Document;
 pub use error::SceneError;
@@ -47,25 +47,27 @@ use scene_folder::{folder_name, read_document};
 use schema::SceneTable;
 use variants::ParsedScene;
 
-use crate::Scene;
 use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
+use crate::{Location, Scene};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
 const UNLIT: &str = "unlit";
 
-/// Loads the scene in `folder`, or one of its variants. The variant `unlit` is made of any scene.
+/// Loads the scene in `folder`, on disk or in a [`Bundle`](crate::Bundle), or one of its variants. The variant `unlit` is made of any scene.
 ///
 /// Refuses whatever a render could not use, with its place and what is allowed; repairs nothing.
-pub fn load_scene(folder: &Path, variant: Option<&str>) -> Result<Scene, SceneError> {
+pub fn load_scene(folder: impl Into<Location>, variant: Option<&str>) -> Result<Scene, SceneError> {
     load_scene_and_files(folder, variant).map(|(scene, _)| scene)
 }
 
 /// Loads a scene, and returns it with the paths of all files that it was made from.
 pub fn load_scene_and_files(
-    folder: &Path,
+    folder: impl Into<Location>,
     variant: Option<&str>,
 ) -> Result<(Scene, Vec<PathBuf>), SceneError> {
-    let mut files = Files::new(folder);
+    let folder = folder.into();
+    let mut files = Files::new(&folder);
+    let folder = folder.path.as_path();
     let document = read_document(&mut files, folder)?;
     let parsed = ParsedScene::parse(&document)?;
     let is_unlit =

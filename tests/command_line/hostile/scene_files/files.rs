@@ -38,7 +38,7 @@ fn an_irregular_file_is_refused_before_it_is_opened() {
             make(&bench.path("scenes/plate").join(file));
             // This runs in the test's own process, since there are so many cases. A file that gets opened after all
             // hangs the test.
-            let error = tracer::load_scene(&bench.path("scenes/plate"), None).unwrap_err();
+            let error = tracer::load_scene(bench.path("scenes/plate"), None).unwrap_err();
             let message = error.to_string();
             assert_contains(
                 &message,
@@ -76,7 +76,7 @@ fn letters_of_other_languages_are_allowed() {
         scene.replace("nothing: it serves", "Ничего: it serves")
     });
     let name = "scenes/été_桜";
-    let scene = tracer::load_scene(&bench.path(name), None).unwrap();
+    let scene = tracer::load_scene(bench.path(name), None).unwrap();
     assert_eq!(scene.name, "été_桜");
 }
 
@@ -84,7 +84,7 @@ fn letters_of_other_languages_are_allowed() {
 #[test]
 fn an_unreadable_scene_is_named_and_not_skipped() {
     let message = |bench: &Bench| {
-        let error = tracer::list_scenes(&bench.path("scenes")).unwrap_err();
+        let error = tracer::list_scenes(bench.path("scenes")).unwrap_err();
         error.to_string()
     };
     let link = std::os::unix::fs::symlink::<&str, std::path::PathBuf>;
@@ -98,7 +98,7 @@ fn an_unreadable_scene_is_named_and_not_skipped() {
     // One scene.toml does not exist, and one is a folder.
     let bench = Bench::new();
     fs::create_dir(bench.path("scenes/half")).unwrap();
-    assert_eq!(tracer::list_scenes(&bench.path("scenes")).unwrap().len(), 1);
+    assert_eq!(tracer::list_scenes(bench.path("scenes")).unwrap().len(), 1);
     link("nowhere", bench.path("scenes/half/scene.toml")).unwrap();
     let found = message(&bench);
     assert!(found.contains("half/scene.toml: cannot be read"), "{found}");

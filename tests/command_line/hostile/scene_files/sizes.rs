@@ -34,7 +34,7 @@ fn loads_soon<T>(load: impl FnOnce() -> T) -> T {
 #[test]
 fn loading_time_grows_linearly_with_the_scene() {
     let bench = Bench::new();
-    let load = || loads_soon(|| tracer::load_scene(&bench.path("scenes/plate"), None));
+    let load = || loads_soon(|| tracer::load_scene(bench.path("scenes/plate"), None));
 
     // 16,000 objects in chains of 250.
     with_more(&bench, |scene| {
@@ -53,7 +53,7 @@ fn loading_time_grows_linearly_with_the_scene() {
         }
     });
     assert_eq!(load().unwrap().objects.len(), 4_001);
-    let listings = loads_soon(|| tracer::list_scenes(&bench.path("scenes")).unwrap());
+    let listings = loads_soon(|| tracer::list_scenes(bench.path("scenes")).unwrap());
     assert_eq!(listings[0].variants.len(), 4_000);
 
     // 30,000 groups with a material each, and 200 objects that show all of them.

@@ -7,6 +7,7 @@ use std::str::FromStr;
 use metrics::Metric;
 use serde::Deserialize;
 use toml::Spanned;
+use tracer::Location;
 
 use super::{Bound, Bounds, Level};
 use crate::json::file::read_text;
@@ -71,8 +72,10 @@ struct Entry {
 }
 
 /// Reads a bounds.toml. [`check_names`](super::check_names) checks that its filters exist.
-pub fn read_bounds_file(path: &Path) -> Result<BoundsFile, Error> {
-    let text = read_text(path)?;
+pub fn read_bounds_file(file: impl Into<Location>) -> Result<BoundsFile, Error> {
+    let file = file.into();
+    let text = read_text(&file)?;
+    let path = file.path.as_path();
     let source = Source { path, text: &text };
     let contents: Contents = toml::from_str(&text)
         .map_err(|error| source.refuse(error.span().map(|span| span.start), error.message()))?;

@@ -1,8 +1,7 @@
 //! Checks that bounds name scenes and filters that exist, and that every case has a bound.
 
-use std::path::Path;
-
 use filters::Filter;
+use tracer::Location;
 
 use super::{BOUNDS_FILE, BoundsFile, Level, SceneBounds, read_bounds_file};
 use crate::{Error, FilterChoice};
@@ -10,11 +9,11 @@ use crate::{Error, FilterChoice};
 /// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, the bounds of the
 /// scenes that take part.
 pub fn check_names<'a>(
-    root: &Path,
+    root: impl Into<Location>,
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &[FilterChoice],
 ) -> Result<(), Error> {
-    for file in read_bounds_of_scenes(root)? {
+    for file in read_bounds_of_scenes(&root.into())? {
         check_filters(&file, filters)?;
     }
     for file in scenes.flat_map(|bounds| &bounds.files) {
@@ -26,11 +25,11 @@ pub fn check_names<'a>(
 /// Refuses a case without a bound, and bounds of which none is required: such a check cannot fail. `scenes` are the names and the
 /// bounds of scenes in the folder `root`.
 pub fn require_bounds<'a>(
-    root: &Path,
+    root: impl Into<Location>,
     scenes: impl Iterator<Item = (&'a str, &'a SceneBounds)>,
     filters: &[FilterChoice],
 ) -> Result<(), Error> {
-    let root = root.display();
+    let root = root.into();
     let mut required = false;
     for (scene, bounds) in scenes {
         for choice in filters {
@@ -57,13 +56,10 @@ pub fn require_bounds<'a>(
 }
 
 /// Reads the bounds of every scene below `root`, judged or not.
-fn read_bounds_of_scenes(root: &Path) -> Result<Vec<BoundsFile>, Error> {
+fn read_bounds_of_scenes(root: &Location) -> Result<Vec<BoundsFile>, Error> {
     // `root` need not exist if every scene is given by its path.
-    let Ok(entries) = std::fs::read_dir(root) else {
-        return Ok(Vec::new());
-    };
-    let mut folders: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
-    folders.sort();
+    let mut folders = root.list().unwrap_or_default();
+    folders.sort_by(|a, b| a.path.cmp(&b.path));
     let mut files = Vec::new();
     for folder in folders {
         let path = folder.join(BOUNDS_FILE);
@@ -74,8 +70,7 @@ fn read_bounds_of_scenes(root: &Path) -> Result<Vec<BoundsFile>, Error> {
             return Err(Error::Usage(format!(
                 "{}: bounds of a scene that does not exist: {} has no scene.toml; rename the folder as the scene, or remove \
                  the bounds",
-                path.display(),
-                folder.display()
+                path, folder
             )));
         }
         files.push(read_bounds_file(&path)?);

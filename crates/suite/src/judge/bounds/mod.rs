@@ -4,10 +4,9 @@ mod file;
 mod known;
 mod size;
 
-use std::collections::BTreeMap;
-use std::path::Path;
-
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use tracer::Location;
 
 use crate::Error;
 
@@ -83,21 +82,25 @@ impl SceneBounds {
 }
 
 /// Reads `bounds.toml` beside the scenes and beside the scene, if they exist.
-pub fn read_bounds(root: &Path, scene_folder: &Path) -> Result<SceneBounds, Error> {
-    let read = |folder: &Path| -> Result<Option<BoundsFile>, Error> {
-        let path = folder.join(BOUNDS_FILE);
-        path.exists().then(|| read_bounds_file(&path)).transpose()
+pub fn read_bounds(
+    root: impl Into<Location>,
+    scene_folder: impl Into<Location>,
+) -> Result<SceneBounds, Error> {
+    let root = root.into();
+    let read = |folder: &Location| -> Result<Option<BoundsFile>, Error> {
+        let file = folder.join(BOUNDS_FILE);
+        (file.exists()).then(|| read_bounds_file(&file)).transpose()
     };
-    let beside_scene = read(scene_folder)?;
+    let beside_scene = read(&scene_folder.into())?;
     if let Some(file) = &beside_scene
         && let Some(margin) = file.margins.values().next()
     {
         return Err(Error::Usage(format!(
             "{}: a margin is for all scenes together; it belongs into {}",
             margin.place,
-            root.join(BOUNDS_FILE).display()
+            root.join(BOUNDS_FILE)
         )));
     }
-    let files = read(root)?.into_iter().chain(beside_scene).collect();
+    let files = read(&root)?.into_iter().chain(beside_scene).collect();
     Ok(SceneBounds { files })
 }

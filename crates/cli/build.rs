@@ -1,0 +1,65 @@
+//! Names the program's version, with the commit and the target that it is built from and for.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Sources that the program is made of, relative to this crate.
+const SOURCES: [&str; 4] = [
+    "../../Cargo.lock",
+    "../../crates",
+    "../../scenes",
+    "../../shaders",
+];
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-env-changed=SHUTTERTRUTH_COMMIT");
+    let version = env("CARGO_PKG_VERSION");
+    let target = env("TARGET");
+    let source = match env("PROFILE").as_str() {
+        "release" => describe_source(),
+        // A commit named here would be an old one soon, or every commit would compile the program again.
+        _ => "development build".to_owned(),
+    };
+    println!("cargo::rustc-env=SHUTTERTRUTH_VERSION={version} ({source}, {target})");
+}
+
+/// Describes the source: a commit that whoever builds it names, or that git names, or none.
+fn describe_source() -> String {
+    if let Ok(commit) = std::env::var("SHUTTERTRUTH_COMMIT")
+        && !commit.trim().is_empty()
+    {
+        return format!("commit {}", commit.trim());
+    }
+    // A folder without git of its own may lie in a repository of another project.
+    let root = Path::new("../..").canonicalize().ok();
+    let top = git(&["rev-parse", "--show-toplevel"]).map(|top| Path::new(&top).canonicalize());
+    let is_own = matches!((root, top), (Some(root), Some(Ok(top))) if root == top);
+    let Some(commit) = git(&["rev-parse", "--short=12", "HEAD"]).filter(|_| is_own) else {
+        return "unknown commit: built without git".to_owned();
+    };
+    for path in git(&["rev-parse", "--git-path", "logs/HEAD"])
+        .iter()
+        .map(String::as_str)
+        .chain(SOURCES)
+    {
+        println!("cargo::rerun-if-changed={path}");
+    }
+    let changed =
+        git(&["status", "--porcelain", "--untracked-files=no"]).is_none_or(|text| !text.is_empty());
+    match changed {
+        true => format!("commit {commit} with changes"),
+        false => format!("commit {commit}"),
+    }
+}
+
+/// Runs git; returns what it prints, or none if there is no git or no repository.
+fn git(words: &[&str]) -> Option<String> {
+    let output = Command::new("git").args(words).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
+}
+
+fn env(name: &str) -> String {
+    std::env::var(name).expect("cargo sets it")
+}

@@ -1,0 +1,43 @@
+//! The folder of scenes: on disk, or the program's own.
+
+use std::path::PathBuf;
+
+use clap::builder::{PathBufValueParser, TypedValueParser};
+use tracer::Location;
+
+/// Folder that holds the scenes where no other is named.
+const DEFAULT: &str = "scenes";
+
+/// Makes the parser of `--scenes-dir`: the name of the program's own scenes, or the path of any folder.
+pub fn scenes_root_parser() -> impl TypedValueParser<Value = Location> {
+    PathBufValueParser::new().map(scenes_root)
+}
+
+/// Finds the folder of scenes where none is named: `scenes`, or the program's own where there is no such folder.
+pub fn default_scenes_root() -> Location {
+    let folder = PathBuf::from(DEFAULT);
+    match folder.exists() {
+        true => folder.into(),
+        false => Location::of_bundle(&catalogue::SCENES),
+    }
+}
+
+fn scenes_root(path: PathBuf) -> Location {
+    match path.to_str() == Some(catalogue::SCENES.name) {
+        true => Location::of_bundle(&catalogue::SCENES),
+        false => path.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_bare_name_means_the_scenes_of_the_program() {
+        assert!(scenes_root("built-in".into()).bundle.is_some());
+        for path in ["./built-in", "scenes", "built-in/fan"] {
+            assert!(scenes_root(path.into()).bundle.is_none(), "{path}");
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Locations of scenes and their files: on disk, or in what a program brings along.
+
+use std::fmt;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use frame::{FileError, read_bounded};
+
+/// Folder of files that a program brings along.
+#[derive(Debug)]
+pub struct Bundle {
+    /// Name of the folder, which begins the paths of its files in messages.
+    pub name: &'static str,
+    /// Lists the paths of all files below the folder, with `/` between their parts.
+    pub list: fn() -> Vec<&'static str>,
+    /// Unpacks the file of a path; none if there is no such file.
+    pub unpack: fn(&str) -> Option<Vec<u8>>,
+}
+
+/// Folder or file, on disk or in a [`Bundle`].
+#[derive(Clone, Debug)]
+pub struct Location {
+    /// Path on disk; in a bundle it begins with the bundle's name.
+    pub path: PathBuf,
+    /// Bundle that holds it; none for what lies on disk.
+    pub bundle: Option<&'static Bundle>,
+}
+
+impl Location {
+    /// The whole of a bundle.
+    pub fn of_bundle(bundle: &'static Bundle) -> Self {
+        Self {
+            path: bundle.name.into(),
+            bundle: Some(bundle),
+        }
+    }
+
+    /// The location of another path in the same store.
+    pub fn at(&self, path: &Path) -> Self {
+        Self {
+            path: path.to_owned(),
+            bundle: self.bundle,
+        }
+    }
+
+    /// The location of a name below this folder.
+    pub fn join(&self, name: impl AsRef<Path>) -> Self {
+        self.at(&self.path.join(name))
+    }
+
+    /// The path, if it lies on disk.
+    pub fn on_disk(&self) -> Option<&Path> {
+        self.bundle.is_none().then_some(self.path.as_path())
+    }
+
+    /// Tells whether this is a folder.
+    pub fn is_dir(&self) -> bool {
+        match self.bundle {
+            None => self.path.is_dir(),
+            Some(bundle) => self
+                .name_in(bundle)
+                .is_some_and(|name| below(bundle, &name).next().is_some()),
+        }
+    }
+
+    /// Tells whether this is a file.
+    pub fn is_file(&self) -> bool {
+        match self.bundle {
+            None => self.path.is_file(),
+            Some(bundle) => self
+                .name_in(bundle)
+                .is_some_and(|name| (bundle.list)().contains(&name.as_str())),
+        }
+    }
+
+    /// Tells whether there is anything, which need not be readable.
+    pub fn exists(&self) -> bool {
+        match self.bundle {
+            None => self.path.exists(),
+            Some(_) => self.is_file() || self.is_dir(),
+        }
+    }
+
+    /// Lists what a folder holds, in no order.
+    pub fn list(&self) -> io::Result<Vec<Self>> {
+        let Some(bundle) = self.bundle else {
+            let entries = std::fs::read_dir(&self.path)?;
+            return entries
+                .map(|entry| entry.map(|entry| self.at(&entry.path())))
+                .collect();
+        };
+        let name = self.name_in(bundle).ok_or(io::ErrorKind::NotFound)?;
+        let mut names: Vec<&str> = below(bundle, &name)
+            .map(|rest| rest.split('/').next().unwrap_or(rest))
+            .collect();
+        names.dedup();
+        Ok(names.into_iter().map(|name| self.join(name)).collect())
+    }
+
+    /// Reads a file of at most `limit` bytes.
+    ///
+    /// # Errors
+    /// Fails if there is no such file, if it is no regular file, or if it is larger than `limit`.
+    pub fn read(&self, limit: u64) -> Result<Vec<u8>, FileError> {
+        let Some(bundle) = self.bundle else {
+            return read_bounded(&self.path, limit);
+        };
+        let found = self.name_in(bundle).and_then(|name| (bundle.unpack)(&name));
+        let missing = || FileError::io(&self.path, "read", io::ErrorKind::NotFound.into());
+        let bytes = found.ok_or_else(missing)?;
+        match bytes.len() as u64 <= limit {
+            true => Ok(bytes),
+            false => Err(FileError::Foreign {
+                path: self.path.clone(),
+                reason: format!("has {} bytes; allowed: up to {limit}", bytes.len()),
+            }),
+        }
+    }
+
+    /// The name in the bundle, with `/` between its parts; empty for the bundle itself. None for a path that leaves it.
+    fn name_in(&self, bundle: &Bundle) -> Option<String> {
+        let path = self.path.strip_prefix(bundle.name).ok()?;
+        let parts: Option<Vec<&str>> = (path.components())
+            .map(|part| match part {
+                Component::Normal(part) => part.to_str(),
+                _ => None,
+            })
+            .collect();
+        Some(parts?.join("/"))
+    }
+}
+
+/// Lists the paths of files below a folder of a bundle, relative to that folder.
+fn below<'a>(bundle: &Bundle, folder: &'a str) -> impl Iterator<Item = &'static str> + use<'a> {
+    (bundle.list)()
+        .into_iter()
+        .filter_map(move |path| match folder.is_empty() {
+            true => Some(path),
+            false => path.strip_prefix(folder)?.strip_prefix('/'),
+        })
+}
+
+impl fmt::Display for Location {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.path.display().fmt(formatter)
+    }
+}
+
+impl From<PathBuf> for Location {
+    fn from(path: PathBuf) -> Self {
+        Self { path, bundle: None }
+    }
+}
+
+impl From<&PathBuf> for Location {
+    fn from(path: &PathBuf) -> Self {
+        path.clone().into()
+    }
+}
+
+impl From<&Path> for Location {
+    fn from(path: &Path) -> Self {
+        path.to_owned().into()
+    }
+}
+
+impl From<&Location> for Location {
+    fn from(location: &Location) -> Self {
+        location.clone()
+    }
+}

@@ -1,0 +1,102 @@
+//! Version, completions and pages of the manual.
+
+use std::fs;
+use std::process::Command;
+
+use tests::root;
+
+use crate::bench::{Bench, assert_refused};
+
+/// Lists the commands, as the page of commands has them.
+fn list_commands() -> Vec<String> {
+    let page = fs::read_to_string(root().join("docs/commands.md")).unwrap();
+    let headings = page.lines().filter_map(|line| line.strip_prefix("### "));
+    headings.map(str::to_owned).collect()
+}
+
+#[test]
+fn the_version_says_which_source_and_which_target() {
+    let version = Bench::new().execute(&["--version"]);
+    let own = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"), " (");
+    let rest = version
+        .strip_prefix(own)
+        .unwrap_or_else(|| panic!("{version}"));
+    let (source, target) = rest
+        .trim_end()
+        .trim_end_matches(')')
+        .split_once(", ")
+        .unwrap();
+    let known = ["development build", "unknown commit: built without git"];
+    assert!(
+        known.contains(&source) || source.starts_with("commit "),
+        "{version}"
+    );
+    assert!(target.contains(std::env::consts::ARCH), "{version}");
+    assert!(target.contains(std::env::consts::OS), "{version}");
+}
+
+#[test]
+fn completions_know_every_command_in_every_shell() {
+    let bench = Bench::new();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = bench.execute(&["completions", shell]);
+        for command in list_commands() {
+            assert!(
+                script.contains(&command),
+                "{shell} does not complete {command}"
+            );
+        }
+        assert!(
+            script.contains("scenes-dir"),
+            "{shell} does not complete options"
+        );
+    }
+    assert_refused(
+        &bench.shuttertruth(&["completions", "csh"]),
+        2,
+        &["csh", "zsh"],
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn bash_completes_a_command() {
+    let bench = Bench::new();
+    fs::write(
+        bench.path("completions"),
+        bench.execute(&["completions", "bash"]),
+    )
+    .unwrap();
+    let script = "source completions; COMP_WORDS=(shuttertruth compl); COMP_CWORD=1; _shuttertruth shuttertruth compl shuttertruth; \
+                  echo \"${COMPREPLY[@]}\"";
+    let output = Command::new("bash")
+        .current_dir(bench.path(""))
+        .args(["-c", script])
+        .output()
+        .unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), "completions\n");
+}
+
+#[test]
+fn the_manual_has_a_page_for_every_command() {
+    let bench = Bench::new();
+    let printed = bench.execute(&["man", "--out", "pages"]);
+    let commands = list_commands();
+    assert_eq!(
+        printed,
+        format!("written: pages ({} pages)\n", commands.len() + 1)
+    );
+    let read =
+        |name: &str| fs::read_to_string(bench.path("pages").join(format!("{name}.1"))).unwrap();
+    let first = read("shuttertruth");
+    for command in commands {
+        // In a manual a hyphen has a backslash.
+        let escaped = command.replace('-', "\\-");
+        let link = format!("shuttertruth\\-{escaped}(1)");
+        assert!(first.contains(&link), "no page leads to {command}");
+        let page = read(&format!("shuttertruth-{command}"));
+        let name = format!("shuttertruth\\-{escaped} \\- ");
+        assert!(page.contains(&name), "{page}");
+    }
+    assert!(read("shuttertruth-run").contains("samples\\-per\\-pixel"));
+}

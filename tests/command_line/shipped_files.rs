@@ -1,0 +1,133 @@
+//! The action of GitHub and the release archive: what pages and files say about them is what they are.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use tests::root;
+
+fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap()
+}
+
+/// Reads the inputs or the outputs of action.yml, each with its lines.
+fn read_section(section: &str) -> BTreeMap<String, Vec<String>> {
+    let action = read("action.yml");
+    let lines = action
+        .lines()
+        .skip_while(|line| *line != format!("{section}:"));
+    let mut found = BTreeMap::new();
+    let mut current = String::new();
+    for line in lines
+        .skip(1)
+        .take_while(|line| line.is_empty() || line.starts_with(' '))
+    {
+        match line
+            .strip_prefix("  ")
+            .filter(|rest| !rest.starts_with(' '))
+        {
+            Some(name) => {
+                current = name.trim_end_matches(':').to_owned();
+                found.insert(current.clone(), Vec::new());
+            }
+            None if line.is_empty() => {}
+            None => found
+                .get_mut(&current)
+                .unwrap()
+                .push(line.trim().to_owned()),
+        }
+    }
+    found
+}
+
+/// Reads the rows of the table below a line that begins with `first`: the name, and the other cells.
+fn read_table(page: &str, first: &str) -> BTreeMap<String, Vec<String>> {
+    let rows = page
+        .lines()
+        .skip_while(|line| !line.starts_with(first))
+        .skip(2);
+    (rows.take_while(|line| line.starts_with('|')))
+        .map(|row| {
+            let cells: Vec<String> = row
+                .trim_matches('|')
+                .split('|')
+                .map(|cell| cell.trim().to_owned())
+                .collect();
+            (cells[0].trim_matches('`').to_owned(), cells[1..].to_vec())
+        })
+        .collect()
+}
+
+#[test]
+fn the_page_on_ci_lists_the_inputs_of_the_action_and_their_defaults() {
+    let inputs = read_section("inputs");
+    let table = read_table(&read("docs/ci.md"), "| input |");
+    assert!(inputs.len() > 5);
+    assert_eq!(
+        inputs.keys().collect::<Vec<_>>(),
+        table.keys().collect::<Vec<_>>()
+    );
+    for (name, lines) in inputs {
+        let default = lines.iter().find_map(|line| line.strip_prefix("default: "));
+        let said = match default.map(|text| text.trim_matches('\'')) {
+            None => {
+                assert!(
+                    lines.contains(&"required: true".to_owned()),
+                    "{name} has no default"
+                );
+                "required".to_owned()
+            }
+            Some("") => "-".to_owned(),
+            Some(text) => format!("`{text}`"),
+        };
+        assert_eq!(table[&name][0], said, "the default of {name} on the page");
+    }
+}
+
+#[test]
+fn the_page_on_ci_lists_the_outputs_of_the_action() {
+    let outputs = read_section("outputs");
+    let table = read_table(&read("docs/ci.md"), "| output |");
+    assert!(outputs.len() > 3);
+    assert_eq!(
+        outputs.keys().collect::<Vec<_>>(),
+        table.keys().collect::<Vec<_>>()
+    );
+}
+
+#[test]
+fn no_script_of_the_action_has_an_expression_in_its_text() {
+    // GitHub puts the value into the script itself, where it would be executed: it belongs into `env`.
+    let action = read("action.yml");
+    let mut script = None;
+    for (number, line) in action.lines().enumerate() {
+        let indentation = line.len() - line.trim_start().len();
+        if line.trim() == "run: |" {
+            script = Some(indentation);
+        } else if script.is_some_and(|own| indentation <= own && !line.is_empty()) {
+            script = None;
+        }
+        assert!(
+            script.is_none() || !line.contains("${{"),
+            "action.yml:{}: {line}",
+            number + 1
+        );
+    }
+}
+
+#[test]
+fn cargo_binstall_looks_for_the_archive_by_its_name() {
+    let manifest: toml::Table = read("crates/cli/Cargo.toml").parse().unwrap();
+    let binstall = &manifest["package"]["metadata"]["binstall"];
+    let script = read("release/archive.sh");
+    assert!(script.contains("name=shuttertruth-$version-$target\n"));
+    let name = "shuttertruth-{ version }-{ target }";
+    let url = binstall["pkg-url"].as_str().unwrap();
+    assert!(
+        url.ends_with(&format!("/v{{ version }}/{name}.tar.gz")),
+        "{url}"
+    );
+    assert_eq!(
+        binstall["bin-dir"].as_str().unwrap(),
+        format!("{name}/shuttertruth{{ binary-ext }}")
+    );
+}
