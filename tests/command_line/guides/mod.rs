@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 30] = [
+const NOT_RUN: [(&str, &str); 31] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",

@@ -9,8 +9,9 @@ pub struct Misplacement {
     pub distance: f64,
     /// Signed shift of the centre of all mass, in pixels; positive = ahead.
     pub centroid: f64,
-    /// Standard deviation along the motion over the truth's: 1 = right length.
-    pub extent: f64,
+    /// Standard deviation along the motion over the truth's: 1 = right length. None where negative mass leaves no variance, as a
+    /// filter's noise makes it.
+    pub extent: Option<f64>,
 }
 
 /// Compares rows. For `distance` and `extent` each row is normalised to a mass of 1, so that lateral errors do not count. Rows weigh
@@ -33,7 +34,7 @@ pub fn measure_misplacement(output: &Grid, truth: &Grid) -> Option<Misplacement>
     (weight > 0.0 && true_variance > 0.0).then(|| Misplacement {
         distance: distance / weight,
         centroid,
-        extent: (variance / true_variance).sqrt(),
+        extent: (variance >= 0.0).then(|| (variance / true_variance).sqrt()),
     })
 }
 
@@ -91,5 +92,20 @@ mod tests {
         // 6 of 8 px of mass lie 4 px ahead; the mean over rows would be 2. Exact in binary.
         assert_eq!(found.centroid, 3.0);
         assert_eq!(found.distance, 2.0);
+    }
+
+    #[test]
+    fn negative_mass_far_away_leaves_no_length() {
+        let rows = Rows::new([1.0, 0.0], 20, 1);
+        let truth = Raster::from_fn(20, 1, |x, _| if (8..12).contains(&x) { 0.5 } else { 0.0 });
+        let output = Raster::from_fn(20, 1, |x, _| match x {
+            8..12 => 0.5,
+            0 | 19 => -0.25,
+            _ => 0.0,
+        });
+        let found = measure_misplacement(&rows.spread(&output), &rows.spread(&truth))
+            .expect("both have mass");
+        assert_eq!(found.extent, None);
+        assert!(found.distance > 0.0 && found.centroid == 0.0, "{found:?}");
     }
 }

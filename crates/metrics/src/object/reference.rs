@@ -210,16 +210,20 @@ impl ObjectReference {
         };
         let found = measure_misplacement(&grid, &rows.truth);
         let noise = rows.misplacement_noise;
-        let pick = |metric, part: fn(Misplacement) -> f64| {
-            let reason = "has no mass where the truth has some";
-            score(metric, found.map(part), noise.map(part), reason)
+        let pick = |metric, part: fn(Misplacement) -> Option<f64>| {
+            let reason = match found {
+                None => "has no mass where the truth has some",
+                Some(_) => "has negative mass, which leaves it no length",
+            };
+            let noise = noise.and_then(part);
+            score(metric, found.and_then(part), noise, reason)
         };
         [
             growth,
             gain,
             loss,
-            pick(ObjectMetric::Misplacement, |found| found.distance),
-            pick(ObjectMetric::Centroid, |found| found.centroid),
+            pick(ObjectMetric::Misplacement, |found| Some(found.distance)),
+            pick(ObjectMetric::Centroid, |found| Some(found.centroid)),
             pick(ObjectMetric::Extent, |found| found.extent),
             Measured::score(
                 grid.total_variation() / rows.truth.total_variation() - 1.0,
