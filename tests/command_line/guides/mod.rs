@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 31] = [
+const NOT_RUN: [(&str, &str); 30] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -89,10 +89,6 @@ const NOT_RUN: [(&str, &str); 31] = [
     (
         "shuttertruth run --scenes out/engine/railing --filter jimenez:slides_2014,kino,mcguire:tuned,bevy:high",
         "needs a capture, for which three.js is installed",
-    ),
-    (
-        "blender -b --python examples/export/blender.py -- out/gltf/railing out/blurred.exr 160 90 centred",
-        "needs Blender",
     ),
     (
         "python3 examples/export/compare.py out/blurred.exr out/render/railing/truth_centred.exr",

@@ -48,7 +48,10 @@ pub fn sequences_page(run: &Run) -> Option<String> {
         ("error", "error (FLIP)"),
         ("change", "error of the change"),
     ];
+    let mut sequences = run.sequences.iter();
+    let first_filter = (sequences.position(|own| !own.is_reference)).unwrap_or(0);
     let frames = run.frames;
+    let rates = rates(frames.per_second);
     let document = Document {
         title: "Shuttertruth sequences",
         heading: html! { a href="report.html" { "Shuttertruth" } },
@@ -62,14 +65,16 @@ pub fn sequences_page(run: &Run) -> Option<String> {
                     noscript { p { "The pictures need scripts; the tables below do not." } }
                     div.toolbar #player data-rate=(frames.per_second) {
                         select #sequence aria-label="Sequence" {
-                            @for (index, own) in played.iter().enumerate() { option value=(index) { (own.name) } }
+                            @for (index, own) in played.iter().enumerate() {
+                                option value=(index) selected[index == first_filter] { (own.name) }
+                            }
                         }
                         button #play type="button" { "Play" }
                         button #back type="button" aria-label="Frame before" { "◀" }
                         button #on type="button" aria-label="Next frame" { "▶" }
                         fieldset.choice {
                             legend { "per second" }
-                            @for (index, rate) in rates(frames.per_second).iter().enumerate() {
+                            @for (index, rate) in rates.iter().enumerate() {
                                 label {
                                     input type="radio" name="rate" value=(rate) checked[index == 0];
                                     span { (rate) }
@@ -84,8 +89,8 @@ pub fn sequences_page(run: &Run) -> Option<String> {
                         }
                     }
                     p.key {
-                        "Space plays and stops, , and . go frame by frame, 1 to 3 choose the rate, [ and ] the sequence. The error of the \
-                         change is the difference of the output from the frame before, less that of the truth: black is none."
+                        "Space plays and stops, , and . go frame by frame, 1 to " (rates.len()) " choose the rate, [ and ] the sequence. The \
+                         error of the change is the difference of the output from the frame before, less that of the truth: black is none."
                     }
                     h2 { "Scores over time" }
                     p.note { "Roots of squared errors, in thousandths of display white; lower is better. JOD as it is; higher is better. Italics: references." }

@@ -166,7 +166,7 @@ impl SceneContext<'_> {
     }
 
     /// Reads a rung of the ladder of a truth, or renders it.
-    pub fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
+    fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
         let RunPlan {
             render,
             out,
