@@ -229,7 +229,7 @@ mod tests {
         let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
         let mut ending = Vec::new();
         for listing in crate::list_scenes(folder).unwrap() {
-            let scene = load_scene(&folder.join(&listing.name), None).unwrap();
+            let scene = load_scene(folder.join(&listing.name), None).unwrap();
             let settings = RenderSettings::default();
             if settings
                 .check_truth(&scene.at_frame(24), Alignment::Centred)

@@ -27,15 +27,14 @@ const PER_TRIANGLE: u64 = 600;
 const PER_POSE: u64 = 500;
 
 /// Memory of measuring without any picture, in bytes.
-const MEASURING: u64 = 112 << 20;
-/// Bytes per pixel of a frame and of the case that is being measured, beside their coverages.
-const PER_MEASURED_PIXEL: u64 = 350;
+const MEASURING: u64 = 136 << 20;
+/// Bytes per pixel of a frame, of the truth that filters are measured by, and of the case that is measured, beside their coverages,
+/// for any number of replicates.
+const PER_MEASURED_PIXEL: u64 = 760;
 /// Bytes per such pixel and coverage.
-const PER_MEASURED_COVERAGE: u64 = 20;
-/// Bytes per pixel of each truth that filters are measured by, beside its coverages, for any number of replicates.
-const PER_TRUTH_PIXEL: u64 = 410;
-/// Bytes per such pixel and coverage.
-const PER_TRUTH_COVERAGE: u64 = 25;
+const PER_MEASURED_COVERAGE: u64 = 43;
+/// Bytes per pixel of the colours of a further truth.
+const PER_FURTHER_TRUTH: u64 = 330;
 
 /// Refuses to render a frame, and a truth of a number of replicates, where memory does not suffice. Refuses nothing where the
 /// system does not tell what is free.
@@ -64,9 +63,8 @@ pub(crate) fn check_measuring_memory(
 pub(crate) fn measuring_memory(scene: &Scene, settings: &RenderSettings, truths: usize) -> u64 {
     let pixels = u64::from(settings.width) * u64::from(settings.height);
     let coverages = count_coverages(scene);
-    let case = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * coverages;
-    let truth = PER_TRUTH_PIXEL + PER_TRUTH_COVERAGE * coverages;
-    let pixel = case + truth * truths as u64;
+    let further = PER_FURTHER_TRUTH * truths.saturating_sub(1) as u64;
+    let pixel = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * coverages + further;
     let measuring = MEASURING.saturating_add(pixels.saturating_mul(pixel));
     measuring.max(rendering_memory(scene, settings, settings.replicates))
 }
