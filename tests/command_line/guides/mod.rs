@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 30] = [
+const NOT_RUN: [(&str, &str); 31] = [
     ("cargo test --workspace", "runs this test and all others"),
     (
         "cargo install --path crates/cli",
@@ -97,6 +97,10 @@ const NOT_RUN: [(&str, &str); 30] = [
     (
         "cargo binstall --manifest-path crates/cli/Cargo.toml cli",
         "fetches a release, of which there is none",
+    ),
+    (
+        "cargo build --release --locked --bin shuttertruth",
+        "compiles in release mode",
     ),
     (
         "cargo run -p generator",
