@@ -10,7 +10,7 @@ use crate::Error;
 const PROGRAM: u64 = 80 << 20;
 /// Bytes per pixel of a truth, beside its replicates and coverages. This number and the next ones are measured slopes of the largest
 /// resident size of `render` and `run`, between 512x512 and 1024x1024 pixels and between 6 and 11 coverages.
-const PER_PIXEL: u64 = 370;
+const PER_PIXEL: u64 = 400;
 /// Bytes per pixel and coverage.
 const PER_COVERAGE: u64 = 27;
 /// Bytes per pixel and replicate: its colour, its reference to the instant, and its support.
@@ -30,7 +30,7 @@ const PER_POSE: u64 = 500;
 const MEASURING: u64 = 136 << 20;
 /// Bytes per pixel of a frame, of the truth that filters are measured by, and of the case that is measured, beside their coverages,
 /// for any number of replicates.
-const PER_MEASURED_PIXEL: u64 = 760;
+const PER_MEASURED_PIXEL: u64 = 780;
 /// Bytes per such pixel and coverage.
 const PER_MEASURED_COVERAGE: u64 = 43;
 /// Bytes per pixel of the colours of a further truth.
