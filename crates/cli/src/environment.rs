@@ -4,11 +4,11 @@
 #[cfg(unix)]
 const RUNTIME_FOLDER: &str = "XDG_RUNTIME_DIR";
 /// Variable of glibc: blocks of this many bytes or more go back to the system as soon as they are freed.
-#[cfg(unix)]
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
 const GIVE_BACK_FROM: &str = "MALLOC_MMAP_THRESHOLD_";
 /// The plane of a picture of 512x512 pixels. glibc raises its own threshold to the size of what is freed, up to 32 MiB, and
 /// from then on keeps planes below that, so that pictures that do not live at the same time take memory together.
-#[cfg(unix)]
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
 const PLANE: &str = "1048576";
 
 /// Begins the program anew with the variables that it needs and that nobody has set: a place for Mesa to look for a display, since it
@@ -25,6 +25,7 @@ pub fn set_environment(loud: bool) {
             // No display lies below a file: nothing is found there, and nothing can be planted.
             due.push((RUNTIME_FOLDER, "/dev/null"));
         }
+        #[cfg(all(target_os = "linux", target_env = "gnu"))]
         if std::env::var_os(GIVE_BACK_FROM).is_none() {
             due.push((GIVE_BACK_FROM, PLANE));
         }

@@ -1,6 +1,6 @@
 //! Table of sequences: one row per filter, with its scores over time.
 
-use metrics::{Measured, SequenceMetric};
+use metrics::SequenceMetric;
 use suite::{Sequence, printable};
 
 use super::columns::{bracket_name, legend_text, list_once, number_table, row_style};
@@ -43,25 +43,11 @@ pub fn sequence_table(sequences: &[Sequence]) -> String {
                 let name = bracket_name(&own.filter, own.is_reference);
                 let scores = COLUMNS
                     .iter()
-                    .map(|(_, metric)| score_text(own.scores.get(*metric), *metric));
+                    .map(|(_, metric)| metric.text(own.scores.get(*metric)));
                 let cells = std::iter::once(name).chain(scores).collect();
                 table.push_styled(cells, row_style(own.is_reference));
             }
         }
     }
     format!("\n{}{}", table.text(), legend_text(KEY))
-}
-
-/// Formats a score in thousandths of display white.
-fn score_text(score: &Measured, metric: SequenceMetric) -> String {
-    let Some(value) = score.value() else {
-        return "n/a".to_owned();
-    };
-    // Below 0 by the truth's noise alone.
-    let root = match metric.row().unit {
-        "white^2" => value.max(0.0).sqrt(),
-        "JOD" => return format!("{value:.2}"),
-        _ => value,
-    };
-    format!("{:.1}", 1000.0 * root)
 }

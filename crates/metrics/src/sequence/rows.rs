@@ -8,6 +8,22 @@ use crate::{ErrorMap, Ideal, Measured};
 /// Reason why bounds name no metric of a sequence.
 const NOT_BOUNDED: Option<&str> = Some("is a score of a sequence, and bounds judge single frames");
 
+impl SequenceMetric {
+    /// Formats a score as tables show it: in thousandths of display white, squared errors by their roots; JOD as it is.
+    pub fn text(self, score: &Measured) -> String {
+        let Some(value) = score.value() else {
+            return "n/a".to_owned();
+        };
+        let root = match self.row().unit {
+            // Below 0 by the truth's noise alone.
+            "white^2" => value.max(0.0).sqrt(),
+            "JOD" => return format!("{value:.2}"),
+            _ => value,
+        };
+        format!("{:.1}", 1000.0 * root)
+    }
+}
+
 metrics! {
     /// A score of a sequence.
     enum SequenceMetric;

@@ -51,23 +51,10 @@ fn row(index: usize, own: &Sequence) -> Markup {
                 }
             }
             @for metric in SequenceMetric::ALL {
-                td title=(score_title(own.scores.get(metric))) { (score_text(own.scores.get(metric), metric)) }
+                td title=(score_title(own.scores.get(metric))) { (metric.text(own.scores.get(metric))) }
             }
         }
     }
-}
-
-/// Formats a score in thousandths of display white; squared errors by their roots.
-fn score_text(score: &Measured, metric: SequenceMetric) -> String {
-    let Some(value) = score.value() else {
-        return "n/a".to_owned();
-    };
-    let root = match metric.row().unit {
-        "white^2" => value.max(0.0).sqrt(),
-        "JOD" => return format!("{value:.2}"),
-        _ => value,
-    };
-    format!("{:.1}", 1000.0 * root)
 }
 
 fn score_title(score: &Measured) -> String {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use filters::FilterError;
 use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::{ColorReference, Reference};
-use tracer::{Progress, Watch};
+use tracer::{Progress, Scene, Watch};
 
 use super::case::{CaseContext, CommonTruth};
 use super::history::{frames_before, store_frame};
@@ -61,7 +61,11 @@ impl SceneContext<'_> {
                 common = Some(Reference::new(&frame.cropped(), &truth, None, &viewing)?.into());
                 continue;
             }
-            let without_pairs = self.truths_without_pairs(due, alignment)?;
+            let has_filters = own.iter().any(|(_, case)| !case.is_reference());
+            let without_pairs = match has_filters && self.plan.intervals {
+                true => self.truths_without_pairs(alignment)?,
+                false => Vec::new(),
+            };
             let references = TruthReferences::new(
                 frame,
                 &truth,
@@ -136,14 +140,11 @@ impl SceneContext<'_> {
 
     /// Reads a truth, or renders it; copies that which an engine drew.
     pub(super) fn read_truth(&self, alignment: Alignment) -> Result<Truth, Error> {
-        let RunPlan {
-            render,
-            out,
-            monitor,
-            ..
-        } = self.plan;
+        let RunPlan { render, out, .. } = self.plan;
         match self.scene {
-            RunScene::Traced(scene) => render_truth(scene, render, alignment, out, *monitor),
+            RunScene::Traced(scene) => {
+                render_truth(scene, render, alignment, out, self.plan.monitor)
+            }
             RunScene::Drawn(scene) => scene.copy_truth(&self.folder()),
         }
     }
@@ -151,10 +152,7 @@ impl SceneContext<'_> {
     /// Renders those rungs of the ladder of a truth that are missing; an engine's are copied with its truth.
     pub(super) fn ensure_ladder(&self, truth: &Truth) -> Result<(), Error> {
         match self.scene {
-            RunScene::Traced(scene) => {
-                let RunPlan { render, out, .. } = self.plan;
-                LadderFiles::new(scene, render, truth, out).ensure(self.plan.monitor)
-            }
+            RunScene::Traced(scene) => self.ladder(scene, truth).ensure(self.plan.monitor),
             RunScene::Drawn(_) => Ok(()),
         }
     }
@@ -167,41 +165,27 @@ impl SceneContext<'_> {
 
     /// Reads a rung of the ladder of a truth, or renders it.
     fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
-        let RunPlan {
-            render,
-            out,
-            monitor,
-            ..
-        } = self.plan;
         match self.scene {
             RunScene::Traced(scene) => {
-                LadderFiles::new(scene, render, truth, out).read_or_render(subframes, *monitor)
+                let ladder = self.ladder(scene, truth);
+                ladder.read_or_render(subframes, self.plan.monitor)
             }
             RunScene::Drawn(scene) => scene.read_rung(&self.folder(), subframes),
         }
     }
 
-    /// Makes the truths of an alignment without one pair of replicates each; none where no filter of it is due, the plan asks for no
-    /// intervals, or an engine drew the truth.
-    fn truths_without_pairs(
-        &self,
-        due: &[&PlannedCase],
-        alignment: Alignment,
-    ) -> Result<Vec<Truth>, Error> {
-        let RunPlan {
-            render,
-            out,
-            monitor,
-            ..
-        } = self.plan;
-        let is_due = |case: &&PlannedCase| !case.is_reference() && case.alignment == alignment;
-        match self.scene {
-            RunScene::Traced(scene) if self.plan.intervals && due.iter().any(is_due) => {
-                let replicates = render_replicates(scene, render, alignment, out, *monitor)?;
-                Ok(truths_without_pairs(&replicates)?)
-            }
-            // Sub-frames are no random samples: those without some of them have holes.
-            _ => Ok(Vec::new()),
-        }
+    fn ladder<'s>(&self, scene: &'s Scene, truth: &'s Truth) -> LadderFiles<'s> {
+        LadderFiles::new(scene, &self.plan.render, truth, &self.plan.out)
+    }
+
+    /// Makes the truths of an alignment without one pair of replicates each. None of what an engine drew: sub-frames are no random
+    /// samples, and those without some of them have holes.
+    fn truths_without_pairs(&self, alignment: Alignment) -> Result<Vec<Truth>, Error> {
+        let RunScene::Traced(scene) = self.scene else {
+            return Ok(Vec::new());
+        };
+        let RunPlan { render, out, .. } = self.plan;
+        let replicates = render_replicates(scene, render, alignment, out, self.plan.monitor)?;
+        Ok(truths_without_pairs(&replicates)?)
     }
 }
