@@ -71,7 +71,9 @@ mod tests {
         write_animated_png(&path, &frames, 30.0).unwrap();
         let bytes = std::fs::read(&path).unwrap();
         let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
-        assert_eq!(reader.info().animation_control.unwrap().num_frames, 3);
+        let animation = reader.info().animation_control.unwrap();
+        // 0 plays are plays without end.
+        assert_eq!((animation.num_frames, animation.num_plays), (3, 0));
         for value in [0, 102, 255] {
             let mut pixels = vec![7; reader.output_buffer_size().unwrap()];
             reader.next_frame(&mut pixels).unwrap();
