@@ -36,8 +36,12 @@ fn main() {
 
 /// Lists the bounds of all scenes, and every file of each scene, in the order of their paths.
 fn find_files(root: &Path) -> Vec<PathBuf> {
-    let mut found = vec![root.join("bounds.toml")];
+    let mut found = Vec::new();
     for folder in list_folder(root) {
+        let name = folder.file_name().unwrap_or_default().to_string_lossy();
+        if name.starts_with("bounds") && name.ends_with(".toml") {
+            found.push(folder.clone());
+        }
         if folder.join("scene.toml").is_file() {
             collect(&folder, &mut found);
         }

@@ -31,7 +31,7 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     let ladder = suite::LadderFiles::new(scene, &settings, &truth, out);
     let rung = ladder.read_or_render(64, Monitor::SILENT).unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::scene_viewing(scene)).unwrap();
-    let bounds = suite::read_bounds(scenes(), &choice.folder).unwrap();
+    let bounds = suite::read_bounds(scenes(), &choice.folder, Some((160, 90))).unwrap();
     // Bounds for all filters, required or not.
     let bounds = bounds.of("identity", "default");
     let judged = |picture: &Picture| {
@@ -104,7 +104,7 @@ fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> 
     let filters =
         cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let check = || {
-        let bounds = suite::read_bounds(folder.path(), &scene)?;
+        let bounds = suite::read_bounds(folder.path(), &scene, None)?;
         suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
         suite::require_bounds(folder.path(), std::iter::once(("fan", &bounds)), &filters)?;
         Ok(bounds)
@@ -181,6 +181,61 @@ fn limits_hold_only_at_their_own_size() {
     // At another size, the limit for any size is left.
     let left = |size| small.clone().at(size).of("identity", "default")["flip_moving"].limit;
     assert_eq!([left((160, 90)), left((320, 180))], [0.2, 0.1]);
+}
+
+#[test]
+fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("fan");
+    fs::create_dir(&scene).unwrap();
+    fs::write(scene.join("scene.toml"), "").unwrap();
+    let write = |name: &str, text: &str| fs::write(scene.join(name), text).unwrap();
+    let table = |limit: f64, size: &str| {
+        format!(
+            "[filter.identity]\nflip_moving = {{ limit = {limit}, {size} why = \"it serves a test\" }}\n"
+        )
+    };
+    let filters =
+        cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
+    let read = |asked| {
+        let bounds = suite::read_bounds(folder.path(), &scene, asked)?;
+        suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
+        let size = suite::size_for_bounds(std::iter::once(&bounds), &filters, asked)?;
+        let limit = bounds.of("identity", "default")["flip_moving"].limit;
+        Ok::<_, suite::Error>((limit, size))
+    };
+    let refused = |asked| read(asked).unwrap_err().to_string();
+    write("bounds.toml", &table(0.2, "size = [160, 90],"));
+    write("bounds_1280x720.toml", &table(0.1, ""));
+    assert_eq!(read(None).unwrap(), (0.2, Some((160, 90))));
+    assert_eq!(read(Some((160, 90))).unwrap(), (0.2, Some((160, 90))));
+    assert_eq!(read(Some((1280, 720))).unwrap(), (0.1, Some((1280, 720))));
+    assert_contains(
+        &refused(Some((320, 180))),
+        &["put them into bounds_320x180.toml beside the scene"],
+    );
+
+    write("bounds_1280x720.toml", &table(0.1, "size = [160, 90],"));
+    let other_size = [
+        "fan/bounds_1280x720.toml:2: flip_moving: size = [160, 90] in a file for 1280x720",
+        "move the limit to bounds_160x90.toml",
+    ];
+    // Files for sizes that nobody asked for are checked as well.
+    assert_contains(&refused(None), &other_size);
+    assert_contains(&refused(Some((1280, 720))), &other_size);
+    write("bounds_1280x720.toml", "[margin]\nflip_moving = 0.1\n");
+    assert_contains(
+        &refused(Some((1280, 720))),
+        &["bounds_1280x720.toml:2: a margin is for pictures of every size"],
+    );
+    write("bounds_1280x720.toml", &table(0.1, ""));
+    write("bounds_720p.toml", &table(0.1, ""));
+    assert_contains(
+        &refused(None),
+        &[
+            "bounds_720p.toml: nothing reads a file of that name; allowed: bounds.toml, and bounds_COLUMNSxROWS.toml",
+        ],
+    );
 }
 
 #[test]

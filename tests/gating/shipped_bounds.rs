@@ -28,7 +28,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
     assert!(choices.len() >= 23, "the shipped scenes are missing");
     let bounds: RunBounds = (choices.iter())
         .map(|choice| {
-            let bounds = read_bounds(&root, &choice.folder).unwrap();
+            let bounds = read_bounds(&root, &choice.folder, None).unwrap();
             (choice.scene.name.clone(), bounds)
         })
         .collect();

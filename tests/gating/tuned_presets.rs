@@ -18,7 +18,7 @@ fn scenes_but(left_out: &[String]) -> Vec<(Scene, SceneBounds)> {
     let all = select_scenes(&root, &[]).unwrap().into_iter();
     all.filter(|choice| !left_out.contains(&choice.scene.name))
         .map(|choice| {
-            let bounds = read_bounds(&root, &choice.folder).unwrap();
+            let bounds = read_bounds(&root, &choice.folder, None).unwrap();
             (choice.scene, bounds)
         })
         .collect()

@@ -39,7 +39,7 @@ impl Bench {
         let scenes = select_scenes(&scenes(), &options.scenes)?;
         let bounds = (scenes.iter())
             .map(|choice| {
-                let bounds = read_bounds(&tests::scenes(), &choice.folder)?;
+                let bounds = read_bounds(&tests::scenes(), &choice.folder, options.size)?;
                 Ok((choice.scene.name.clone(), bounds))
             })
             .collect::<Result<RunBounds, Error>>()?;

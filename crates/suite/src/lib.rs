@@ -59,7 +59,8 @@ pub use judge::baseline::{
 };
 pub use judge::bounds::{
     BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds, check_names,
-    read_bounds, read_bounds_file, require_bounds, size_for_bounds,
+    read_bounds, read_bounds_beside_scenes, read_bounds_file, require_bounds, size_for_bounds,
+    sized_bounds_file,
 };
 pub use judge::calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use judge::check::{CHECK_FORMAT, Check, check};

@@ -39,9 +39,12 @@ fn run(place: &mut Place, input: &[u8]) {
     drop(read_bounds_file(&path));
     let scene = root.join("plate");
     let beside = place.write("scenes/plate/bounds.toml", input);
-    drop(read_bounds(&root, &scene));
+    drop(read_bounds(&root, &scene, None));
     std::fs::remove_file(beside).unwrap();
-    let Ok(bounds) = read_bounds(&root, &scene) else {
+    let sized = place.write("scenes/plate/bounds_16x16.toml", input);
+    drop(read_bounds(&root, &scene, Some((16, 16))));
+    std::fs::remove_file(sized).unwrap();
+    let Ok(bounds) = read_bounds(&root, &scene, None) else {
         return;
     };
     let filters = &place.filters;

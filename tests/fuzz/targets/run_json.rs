@@ -118,7 +118,7 @@ fn read_by_all(run: &Run, folder: &Path, place: &Place) {
 /// Reads the fixture's bounds for every scene that the run names.
 fn bounds(run: &Run, place: &Place) -> RunBounds {
     let root = place.fixture.join("scenes");
-    let own = read_bounds(&root, root.join("plate")).unwrap();
+    let own = read_bounds(&root, root.join("plate"), None).unwrap();
     let scenes = run.cases.iter().map(|case| case.scene.clone());
     scenes.map(|scene| (scene, own.clone())).collect()
 }

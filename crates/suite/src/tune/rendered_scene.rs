@@ -22,7 +22,7 @@ pub struct RenderedScene {
     pub frame: Frame,
     /// Reference that pictures are compared with.
     pub truth: Truth,
-    /// The scene's bounds, for every filter.
+    /// The scene's bounds for pictures of this size, for every filter.
     pub bounds: SceneBounds,
     /// Display that errors are seen on.
     pub viewing: Viewing,
@@ -43,7 +43,7 @@ pub fn render_scenes(
             frame: render_frame(scene, render, out, monitor)?,
             truth: render_truth(scene, render, alignment, out, monitor)?,
             viewing: scene_viewing(scene),
-            bounds: bounds.clone(),
+            bounds: bounds.clone().at((render.width, render.height)),
         })
     };
     scenes.iter().map(render_scene).collect()

@@ -3,6 +3,7 @@
 use filters::Filter;
 use tracer::Location;
 
+use super::sized::{list_bounds_files, read_sized_bounds};
 use super::{BOUNDS_FILE, BoundsFile, Level, SceneBounds, read_bounds_file};
 use crate::{Error, FilterChoice};
 
@@ -55,27 +56,35 @@ pub fn require_bounds<'a>(
     )))
 }
 
-/// Reads the bounds of every scene below `root`, judged or not.
+/// Reads the bounds of every scene below `root`, for every picture size, judged or not.
 fn read_bounds_of_scenes(root: &Location) -> Result<Vec<BoundsFile>, Error> {
     // `root` need not exist if every scene is given by its path.
     let mut folders = root.list().unwrap_or_default();
     folders.sort_by(|a, b| a.path.cmp(&b.path));
-    let mut files = Vec::new();
-    for folder in folders {
-        let path = folder.join(BOUNDS_FILE);
-        if !path.is_file() {
-            continue;
-        }
-        if !folder.join("scene.toml").is_file() {
+    let mut files = read_all(root)?;
+    for folder in folders.iter().filter(|folder| folder.is_dir()) {
+        let found = read_all(folder)?;
+        if !found.is_empty() && !folder.join("scene.toml").is_file() {
             return Err(Error::Usage(format!(
                 "{}: bounds of a scene that does not exist: {} has no scene.toml; rename the folder as the scene, or remove \
                  the bounds",
-                path, folder
+                found[0].path.display(),
+                folder
             )));
         }
-        files.push(read_bounds_file(&path)?);
+        files.extend(found);
     }
     Ok(files)
+}
+
+/// Reads every file of bounds in one folder.
+fn read_all(folder: &Location) -> Result<Vec<BoundsFile>, Error> {
+    (list_bounds_files(folder)?.into_iter())
+        .map(|(file, size)| match size {
+            None => read_bounds_file(&file),
+            Some(size) => read_sized_bounds(&file, size),
+        })
+        .collect()
 }
 
 fn check_filters(file: &BoundsFile, choices: &[FilterChoice]) -> Result<(), Error> {

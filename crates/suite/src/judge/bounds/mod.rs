@@ -3,6 +3,7 @@
 mod file;
 mod known;
 mod size;
+mod sized;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -13,8 +14,9 @@ use crate::Error;
 pub use file::{BoundsFile, FilterBounds, Margin, read_bounds_file};
 pub use known::{check_names, require_bounds};
 pub use size::size_for_bounds;
+pub use sized::sized_bounds_file;
 
-/// Name of the file of bounds, beside the scenes and beside one scene.
+/// Name of the file of bounds, beside the scenes and beside one scene. [`sized_bounds_file`] names those for one picture size.
 pub const BOUNDS_FILE: &str = "bounds.toml";
 
 /// Bounds by metric name.
@@ -81,26 +83,48 @@ impl SceneBounds {
     }
 }
 
-/// Reads `bounds.toml` beside the scenes and beside the scene, if they exist.
+/// Reads the bounds beside the scenes and beside the scene: `bounds.toml` if there is one, then, if a size is given, the file for
+/// pictures of that size, whose limits replace those of `bounds.toml` before it.
 pub fn read_bounds(
     root: impl Into<Location>,
     scene_folder: impl Into<Location>,
+    size: Option<(u32, u32)>,
 ) -> Result<SceneBounds, Error> {
     let root = root.into();
-    let read = |folder: &Location| -> Result<Option<BoundsFile>, Error> {
-        let file = folder.join(BOUNDS_FILE);
-        (file.exists()).then(|| read_bounds_file(&file)).transpose()
-    };
-    let beside_scene = read(&scene_folder.into())?;
-    if let Some(file) = &beside_scene
-        && let Some(margin) = file.margins.values().next()
-    {
+    let mut files = read_folder(&root, size)?;
+    let beside_scene = read_folder(&scene_folder.into(), size)?;
+    if let Some(margin) = (beside_scene.iter()).find_map(|file| file.margins.values().next()) {
         return Err(Error::Usage(format!(
             "{}: a margin is for all scenes together; it belongs into {}",
             margin.place,
             root.join(BOUNDS_FILE)
         )));
     }
-    let files = read(&root)?.into_iter().chain(beside_scene).collect();
+    files.extend(beside_scene);
     Ok(SceneBounds { files })
+}
+
+/// Reads the bounds beside the scenes alone, as [`read_bounds`] does.
+pub fn read_bounds_beside_scenes(
+    root: impl Into<Location>,
+    size: Option<(u32, u32)>,
+) -> Result<SceneBounds, Error> {
+    let files = read_folder(&root.into(), size)?;
+    Ok(SceneBounds { files })
+}
+
+/// Reads the files of bounds in one folder.
+fn read_folder(folder: &Location, size: Option<(u32, u32)>) -> Result<Vec<BoundsFile>, Error> {
+    let any = folder.join(BOUNDS_FILE);
+    let mut files = Vec::new();
+    if any.exists() {
+        files.push(read_bounds_file(&any)?);
+    }
+    if let Some(size) = size {
+        let sized = folder.join(sized_bounds_file(size));
+        if sized.exists() {
+            files.push(sized::read_sized_bounds(&sized, size)?);
+        }
+    }
+    Ok(files)
 }

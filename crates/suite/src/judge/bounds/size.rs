@@ -1,6 +1,6 @@
 //! Picture size that bounds hold for.
 
-use super::{Bound, SceneBounds};
+use super::{Bound, SceneBounds, sized_bounds_file};
 use crate::{Error, FilterChoice};
 
 /// Returns the size that all limits on these filters hold for; `asked` if they hold for any size. Refuses limits for another size
@@ -24,9 +24,10 @@ pub fn size_for_bounds<'a>(
             );
             if let Some(asked) = asked.filter(|asked| *asked != size) {
                 return Err(Error::Usage(format!(
-                    "{holds}, and the pictures are to have {}; leave the size out, or measure limits for it: `shuttertruth \
-                     calibrate`",
-                    text(asked)
+                    "{holds}, and the pictures are to have {}; leave the size out, or measure limits for it with `shuttertruth \
+                     calibrate` and put them into {} beside the scene",
+                    text(asked),
+                    sized_bounds_file(asked)
                 )));
             }
             let (other, common) = first.get_or_insert_with(|| (bound.clone(), size));
