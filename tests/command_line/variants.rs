@@ -83,3 +83,31 @@ fn bad_kinds_of_frames_are_refused() {
         assert_refused(&refused, 2, &parts);
     }
 }
+
+#[test]
+fn a_sealed_scene_has_another_truth_and_not_the_limits_of_its_scene() {
+    let bench = Bench::new();
+    bench.write_bound(0.0001);
+    let run = |more: &[&str]| {
+        let run = measure(&bench, more);
+        let case = run.cases.iter().find(|case| !case.is_reference).unwrap();
+        (case.scene.clone(), case.truth_hash.clone(), error(&run))
+    };
+    let plain = run(&[]);
+    let sealed = run(&["--seal", "7"]);
+    assert_eq!(sealed, run(&["--scenes", "plate@seal7"]));
+    assert_eq!(sealed.0, "plate@seal7");
+    assert_ne!(sealed.1, plain.1);
+    let check = |more: &[&str]| bench.check(&[&["--filters", "identity"], more].concat());
+    assert_refused(
+        &check(&["--seal", "7"]),
+        2,
+        &["plate@seal7 / identity:default: has no bound"],
+    );
+    let variant = check(&["--seal", "7", "--scenes", "plate@fast"]);
+    assert_refused(
+        &variant,
+        2,
+        &["--seal: plate@fast is a variant; allowed: scenes in their default variant"],
+    );
+}

@@ -8,4 +8,5 @@ mod gltf;
 mod reading;
 mod refusals;
 mod scene_folder;
+mod sealed;
 mod unlit;

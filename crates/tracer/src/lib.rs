@@ -18,6 +18,7 @@ mod material;
 mod motion;
 mod progress;
 mod scene;
+mod seal;
 mod sequence;
 mod settings;
 mod stage;
@@ -47,6 +48,7 @@ pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
     Object, Parent, Scene, Shape, Sun, Texture,
 };
+pub use seal::Seal;
 pub use settings::RenderSettings;
 pub use stage::Stage;
 pub use truth::{TruthTracer, trace_truth};

@@ -1,12 +1,16 @@
 //! Shipped scenes for unit tests.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::load::load_scene;
 use crate::scene::Scene;
 
+/// The folder of the shipped scenes.
+pub(crate) fn scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
+}
+
 /// Loads a shipped scene by its name.
 pub(crate) fn load_test_scene(name: &str) -> Scene {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    load_scene(folder.join(name), None).expect("the shipped scenes load")
+    load_scene(scenes().join(name), None).expect("the shipped scenes load")
 }

@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
+use suite::Error;
 use tracer::{Location, RenderSettings};
 
 use super::parse::{parse_exposure, parse_whole};
 use super::scenes_root::{default_scenes_root, scenes_root_parser};
+use crate::selection::split_variant;
 
 /// On or off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -31,6 +33,9 @@ pub struct SceneArgs {
         value_name = "SCENES"
     )]
     pub scenes: Vec<String>,
+    /// Take the sealed variant SCENE@sealS of every scene. It has other speeds, directions, places, times and colours.
+    #[arg(long, value_name = "S", value_parser = parse_whole::<u64>)]
+    pub seal: Option<u64>,
     /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
     /// built-in where there is no such folder].
     #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
@@ -67,6 +72,24 @@ pub struct SceneArgs {
 }
 
 impl SceneArgs {
+    /// Names the scenes, each in its sealed variant where --seal asks for one.
+    pub fn names(&self) -> Result<Vec<String>, Error> {
+        let Some(seed) = self.seal else {
+            return Ok(self.scenes.clone());
+        };
+        if self.scenes.is_empty() {
+            return Ok(vec![format!("*@seal{seed}")]);
+        }
+        (self.scenes.iter())
+            .map(|name| match split_variant(name).1 {
+                None => Ok(format!("{}@seal{seed}", name.trim_end_matches(['/', '\\']))),
+                Some(_) => Err(Error::Usage(format!(
+                    "--seal: {name} is a variant; allowed: scenes in their default variant, which sealed ones are made of"
+                ))),
+            })
+            .collect()
+    }
+
     /// Makes the options of a frame.
     pub fn frame_options(&self) -> FrameOptions {
         FrameOptions {

@@ -8,6 +8,7 @@ use suite::{
 use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
+use super::plan::load_scenes;
 use super::render_settings::make_render_settings;
 use crate::arguments::{CandidateArgs, SceneArgs};
 use crate::output::count::count_text;
@@ -20,6 +21,15 @@ pub fn select_candidate(args: &CandidateArgs) -> Result<FilterChoice, Error> {
     let choice =
         select_filters(&names, args.from.as_deref(), &[], args.programs.programs())?.remove(0);
     Ok(choice.as_written(args.as_written).scaled_to(args.size.0))
+}
+
+/// Loads the scenes that candidates are scored on, with their bounds for pictures of the size that is asked for.
+pub fn load_candidate_scenes(args: &CandidateArgs) -> Result<Vec<(Scene, SceneBounds)>, Error> {
+    load_scenes(
+        &args.scenes.scenes_dir,
+        &args.scenes.names()?,
+        Some(args.size),
+    )
 }
 
 /// Makes the settings that scenes are rendered by.

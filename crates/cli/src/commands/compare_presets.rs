@@ -3,10 +3,9 @@
 use suite::{Error, Evaluator, Objective, Sharing, compare_candidates};
 
 use super::candidate::{
-    candidate_render_settings, claim_and_render, open_candidate_gpu, print_expected_scoring,
-    select_candidate,
+    candidate_render_settings, claim_and_render, load_candidate_scenes, open_candidate_gpu,
+    print_expected_scoring, select_candidate,
 };
-use super::plan::load_scenes;
 use super::result::CommandResult;
 use crate::arguments::ComparePresetsArgs;
 use crate::output::progress::make_monitor;
@@ -19,7 +18,7 @@ pub fn execute(args: &ComparePresetsArgs) -> Result<(), Error> {
     let presets = [&args.first, &args.second];
     let [first, second] = presets.map(|preset| choice.preset_at(preset, candidate.size.0));
     let (first, second) = (first?, second?);
-    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let scenes = load_candidate_scenes(candidate)?;
     let gpu = open_candidate_gpu(&choice, candidate)?;
     let render = candidate_render_settings(candidate)?;
     print_expected_scoring(&scenes, &render, 2, f64::INFINITY);

@@ -9,8 +9,9 @@ use suite::{
     Error, Evaluator, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, evaluate_candidate,
 };
 
-use super::candidate::{claim_and_render, open_candidate_gpu, select_candidate};
-use super::plan::load_scenes;
+use super::candidate::{
+    claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,
+};
 use crate::arguments::EvaluateArgs;
 use crate::output::print::print_json;
 use crate::output::progress::make_monitor;
@@ -20,7 +21,7 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = select_candidate(candidate)?;
     let settings = read_params(&args.params, &choice)?;
-    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let scenes = load_candidate_scenes(candidate)?;
     let gpu = open_candidate_gpu(&choice, candidate)?;
     let (_, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Together)?;
     let bleed = candidate.objective.contains(&Objective::Bleed);

@@ -6,9 +6,9 @@ use frame::FrameOptions;
 use suite::{
     BOUNDS_FILE, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, Frames,
     InputFormat, RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
-    read_bounds_file,
+    read_bounds_beside_scenes, read_bounds_file,
 };
-use tracer::{Location, RenderSettings, Scene};
+use tracer::{Location, RenderSettings, Scene, Seal};
 
 use super::render_settings::make_render_settings;
 use crate::arguments::{MeasureArgs, SceneArgs};
@@ -19,12 +19,10 @@ use crate::selection::{select_engine_scenes, select_filters, select_scenes};
 
 /// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.
 pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
-    let SceneArgs {
-        scenes_dir, scenes, ..
-    } = &args.scenes;
-    let (engine_scenes, names) = select_engine_scenes(scenes_dir, scenes)?;
+    let scenes_dir = &args.scenes.scenes_dir;
+    let (engine_scenes, names) = select_engine_scenes(scenes_dir, &args.scenes.names()?)?;
     let scenes = match engine_scenes.is_empty() || !names.is_empty() {
-        true => load_scenes(scenes_dir, &names)?,
+        true => load_scenes(scenes_dir, &names, args.size)?,
         false => Vec::new(),
     };
     let mut bounds: RunBounds = (scenes.iter())
@@ -156,7 +154,10 @@ pub fn read_case_bounds(
     match (case.drawn.is_some(), drawn) {
         (true, Some(folder)) => Ok(Some(read_engine_bounds(folder)?.at(size))),
         (true, None) => Ok(None),
-        (false, _) => read_bounds_at(root, &folder, size),
+        (false, _) if !folder.is_dir() => Ok(None),
+        (false, _) => Ok(Some(
+            read_scene_bounds(root, &folder, &case.scene, Some(size))?.at(size),
+        )),
     }
 }
 
@@ -165,13 +166,17 @@ pub fn claim_out(plan: &RunPlan) -> Result<Claim, Error> {
     claim(&plan.out, &plan.scenes, Sharing::Alone)
 }
 
-/// Loads the named scenes of the folder `root` with their bounds; all of it where none is named.
-pub fn load_scenes(root: &Location, names: &[String]) -> Result<Vec<(Scene, SceneBounds)>, Error> {
+/// Loads the named scenes of the folder `root` with their bounds, those for pictures of `size` too; all of it where none is named.
+pub fn load_scenes(
+    root: &Location,
+    names: &[String],
+    size: Option<(u32, u32)>,
+) -> Result<Vec<(Scene, SceneBounds)>, Error> {
     let choices = select_scenes(root, names)?;
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
     (choices.into_iter())
         .map(|choice| {
-            let bounds = read_bounds(root, &choice.folder)?;
+            let bounds = read_scene_bounds(root, &choice.folder, &choice.scene.name, size)?;
             Ok((choice.scene, bounds))
         })
         .collect()
@@ -182,15 +187,19 @@ pub fn scene_folder_below(root: &Location, scene: &str) -> Location {
     root.join(scene.split_once('@').map_or(scene, |(name, _)| name))
 }
 
-/// Reads the bounds of a scene for pictures of one size; none where there is no such folder.
-fn read_bounds_at(
+/// Reads the bounds of a scene, which may be a variant. A sealed one has those beside the scenes alone: limits on its scene were
+/// measured at other speeds.
+fn read_scene_bounds(
     root: &Location,
     folder: &Location,
-    size: (u32, u32),
-) -> Result<Option<SceneBounds>, Error> {
-    match folder.is_dir() {
-        true => Ok(Some(read_bounds(root, folder)?.at(size))),
-        false => Ok(None),
+    name: &str,
+    size: Option<(u32, u32)>,
+) -> Result<SceneBounds, Error> {
+    // A later frame's name goes on: `fan@seal7/0003`.
+    let variant = (name.split_once('@')).and_then(|(_, variant)| variant.split('/').next());
+    match variant.and_then(Seal::seed_in) {
+        Some(_) => read_bounds_beside_scenes(root, size),
+        None => read_bounds(root, folder, size),
     }
 }
 

@@ -3,10 +3,9 @@
 use suite::{Error, Evaluator, Sharing, Space, analyze_sensitivity, count_candidates};
 
 use super::candidate::{
-    candidate_render_settings, claim_and_render, open_candidate_gpu, print_expected_scoring,
-    select_candidate,
+    candidate_render_settings, claim_and_render, load_candidate_scenes, open_candidate_gpu,
+    print_expected_scoring, select_candidate,
 };
-use super::plan::load_scenes;
 use super::result::CommandResult;
 use crate::arguments::SensitivityArgs;
 use crate::output::progress::make_monitor;
@@ -23,7 +22,7 @@ pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
         )));
     }
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
-    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let scenes = load_candidate_scenes(candidate)?;
     let gpu = open_candidate_gpu(&choice, candidate)?;
     let count = count_candidates(space.axes.len(), args.rows);
     let render = candidate_render_settings(candidate)?;

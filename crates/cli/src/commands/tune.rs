@@ -12,7 +12,8 @@ use suite::{
 use tracer::{Progress, RenderSettings};
 
 use super::candidate::{
-    candidate_render_settings, open_candidate_gpu, print_expected_scoring, select_candidate,
+    candidate_render_settings, load_candidate_scenes, open_candidate_gpu, print_expected_scoring,
+    select_candidate,
 };
 use super::plan::load_scenes;
 use super::render_settings::make_render_settings;
@@ -63,9 +64,9 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let held_out = match args.held_out.as_slice() {
         [] => Vec::new(),
-        words => load_scenes(&scene_args.scenes_dir, words)?,
+        words => load_scenes(&scene_args.scenes_dir, words, Some(args.held_out_size))?,
     };
-    let mut open = load_scenes(&scene_args.scenes_dir, &scene_args.scenes)?;
+    let mut open = load_candidate_scenes(candidate)?;
     if scene_args.scenes.is_empty() {
         // Every scene means every one that is not held out.
         open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.name != scene.name));

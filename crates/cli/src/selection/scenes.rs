@@ -118,7 +118,7 @@ fn suggest_built_in(root: &Location, name: &str) -> &'static str {
 }
 
 /// Splits a text into a scene and its variant. Folders above the scene's own may have an @ in their names.
-fn split_variant(text: &str) -> (&str, Option<&str>) {
+pub fn split_variant(text: &str) -> (&str, Option<&str>) {
     let name = text.trim_end_matches(['/', '\\']);
     let own = name.rfind(['/', '\\']).map_or(0, |separator| separator + 1);
     match name[own..].split_once('@') {

@@ -48,12 +48,13 @@ use schema::SceneTable;
 use variants::ParsedScene;
 
 use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
-use crate::{Location, Scene};
+use crate::{Location, Scene, Seal};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
 const UNLIT: &str = "unlit";
 
-/// Loads the scene in `folder`, on disk or in a [`Bundle`](crate::Bundle), or one of its variants. The variant `unlit` is made of any scene.
+/// Loads the scene in `folder`, on disk or in a [`Bundle`](crate::Bundle), or one of its variants. The variants `unlit` and `seal7`, with
+/// any seed, are made of any scene.
 ///
 /// Refuses whatever a render could not use, with its place and what is allowed; repairs nothing.
 pub fn load_scene(folder: impl Into<Location>, variant: Option<&str>) -> Result<Scene, SceneError> {
@@ -70,9 +71,12 @@ pub fn load_scene_and_files(
     let folder = folder.path.as_path();
     let document = read_document(&mut files, folder)?;
     let parsed = ParsedScene::parse(&document)?;
-    let is_unlit =
-        variant == Some(UNLIT) && parsed.variant_names().iter().all(|name| name != UNLIT);
-    let table = parsed.read(variant.filter(|_| !is_unlit))?;
+    let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
+    let made = variant.filter(|name| !own(name));
+    let is_unlit = made == Some(UNLIT);
+    let seed = made.and_then(Seal::seed_in);
+    let is_made = is_unlit || seed.is_some();
+    let table = parsed.read(variant.filter(|_| !is_made))?;
     parsed.check_variants()?;
     check_picture(&document, &table)?;
 
@@ -84,7 +88,7 @@ pub fn load_scene_and_files(
         .as_ref()
         .map(|sun| light::read_sun(&document, sun));
     let display = light::read_display(&document, &table.display)?;
-    let interval = rendered_interval(&table, shutter_profile.rolling);
+    let interval = rendered_interval(&table, shutter_profile.rolling, seed.is_some());
     let meshes = MeshLoader::new(&document, folder, files, interval);
     let mut loader = ObjectLoader::new(&document, meshes, interval);
     loader.add_objects(&table.camera, &camera, &table.object)?;
@@ -99,7 +103,7 @@ pub fn load_scene_and_files(
     let name = folder_name(folder)?;
     let paths = meshes.files.paths();
     let scene = Scene {
-        name: variant.map_or(name.clone(), |variant| format!("{name}@{variant}")),
+        name: variant.map_or_else(|| name.clone(), |variant| format!("{name}@{variant}")),
         frame: 0,
         exposes: table.exposes.into_inner(),
         family: table.family,
@@ -118,13 +122,22 @@ pub fn load_scene_and_files(
         notes,
         hash: meshes.files.hash(variant),
     };
-    let scene = if is_unlit { scene.unlit() } else { scene };
+    let scene = match seed {
+        _ if is_unlit => scene.unlit(),
+        Some(seed) => Seal::new(seed, &name).apply(scene),
+        None => scene,
+    };
     Ok((scene, paths))
 }
 
 /// Finds the times, in frames, that a render may ask for: those of an open shutter, and a frame to either side.
-fn rendered_interval(table: &SceneTable, rolling: f64) -> [f64; 2] {
+fn rendered_interval(table: &SceneTable, rolling: f64, is_sealed: bool) -> [f64; 2] {
     let longest = 1.0 + table.exposure.get_ref() + rolling.abs();
+    let longest = if is_sealed {
+        Seal::farthest(longest)
+    } else {
+        longest
+    };
     [-longest, longest]
 }
 

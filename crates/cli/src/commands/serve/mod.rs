@@ -11,9 +11,10 @@ use suite::{Error, Evaluator, Objective, SceneScore, Sharing, evaluate_candidate
 
 use self::inbox::{Inbox, ScoreRequest};
 use self::reply::print_reply;
-use super::candidate::{claim_and_render, open_candidate_gpu, select_candidate};
+use super::candidate::{
+    claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,
+};
 use super::evaluate::change_settings;
-use super::plan::load_scenes;
 use crate::arguments::ServeArgs;
 use crate::output::progress::make_monitor;
 
@@ -21,7 +22,7 @@ use crate::output::progress::make_monitor;
 pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = select_candidate(candidate)?;
-    let scenes = load_scenes(&candidate.scenes.scenes_dir, &candidate.scenes.scenes)?;
+    let scenes = load_candidate_scenes(candidate)?;
     let gpu = open_candidate_gpu(&choice, candidate)?;
     // The claim on the folder ends here: all is read.
     let (_, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Together)?;

@@ -1,0 +1,396 @@
+//! Sealed variants: scenes changed by a seed, which no tuning has met.
+
+use std::ops::RangeInclusive;
+
+use glam::{DQuat, DVec3, Vec3};
+
+use crate::motion::keys::{Key, Motion, Turn};
+use crate::scene::{Background, Material, Mesh, Scene};
+
+/// The word before the seed in the name of a variant: `fan@seal7`.
+const WORD: &str = "seal";
+/// Factor on all speeds.
+const SPEED: RangeInclusive<f64> = 0.75..=1.3;
+/// Frames by which everything happens earlier or later.
+const DELAY: RangeInclusive<f64> = -0.2..=0.2;
+/// Degrees by which the camera turns about its line of sight.
+const ROLL: RangeInclusive<f64> = -4.0..=4.0;
+/// Turn of the camera to the side and upwards, as a fraction of the vertical field of view.
+const PAN: RangeInclusive<f64> = -0.05..=0.05;
+/// Factor on the width of the field of view.
+const ZOOM: RangeInclusive<f64> = 0.9..=1.1;
+/// Factor on the albedo of each material.
+const SHADE: RangeInclusive<f64> = 0.7..=1.0;
+
+/// The changes that a seed makes to a scene. They keep what the scene is about, and change what a preset could have been fitted to:
+/// speeds, directions, places in the picture, timing and colours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seal {
+    /// The seed.
+    pub seed: u64,
+    /// The world is mirrored, left for right.
+    pub mirrored: bool,
+    /// Time runs backwards.
+    pub reversed: bool,
+    /// Factor on all speeds.
+    pub speed: f64,
+    /// Frames by which everything happens later.
+    pub delay: f64,
+    /// Radians by which the camera turns about its line of sight.
+    pub roll: f64,
+    /// Turn of the camera to the right and upwards, as a fraction of the vertical field of view.
+    pub pan: [f64; 2],
+    /// Factor on the width of the field of view.
+    pub zoom: f64,
+    /// Component that becomes red, green and blue.
+    pub colors: [usize; 3],
+}
+
+impl Seal {
+    /// Reads the seed from the name of a variant, `seal7`; none for another name.
+    pub fn seed_in(variant: &str) -> Option<u64> {
+        let seed = variant.strip_prefix(WORD)?.parse::<u64>().ok()?;
+        (format!("{WORD}{seed}") == variant).then_some(seed)
+    }
+
+    /// Largest time of the scene that the sealed one shows `time` frames after its instant, or as many before it.
+    pub(crate) fn farthest(time: f64) -> f64 {
+        SPEED.end() * (time + DELAY.end())
+    }
+
+    /// Draws the changes of a seed for the scene of a name. Each scene has changes of its own.
+    pub fn new(seed: u64, scene: &str) -> Self {
+        let mut chance = Chance::new(seed, scene);
+        const ORDERS: [[usize; 3]; 6] = [
+            [0, 1, 2],
+            [1, 2, 0],
+            [2, 0, 1],
+            [0, 2, 1],
+            [2, 1, 0],
+            [1, 0, 2],
+        ];
+        Self {
+            seed,
+            mirrored: chance.between(0.0..=1.0) < 0.5,
+            reversed: chance.between(0.0..=1.0) < 0.5,
+            speed: chance.between(SPEED),
+            delay: chance.between(DELAY),
+            roll: chance.between(ROLL).to_radians(),
+            pan: [chance.between(PAN), chance.between(PAN)],
+            zoom: chance.between(ZOOM),
+            colors: ORDERS[(chance.between(0.0..=5.999)) as usize],
+        }
+    }
+
+    /// Makes the variant of a scene. Name and hash stay the caller's to set.
+    pub fn apply(&self, mut scene: Scene) -> Scene {
+        self.change_times(&mut scene);
+        self.move_camera(&mut scene);
+        self.change_colors(&mut scene);
+        match self.mirrored {
+            true => mirror(scene),
+            false => scene,
+        }
+    }
+
+    /// Changes what happens when: what happened at `t` happens at `delay + t / speed`, or at `delay - t / speed`.
+    fn change_times(&self, scene: &mut Scene) {
+        let sign = if self.reversed { -1.0 } else { 1.0 };
+        let change = |time: &mut f64| *time = self.delay + sign * *time / self.speed;
+        let objects = scene.objects.iter_mut().map(|object| &mut object.motion);
+        for motion in objects.chain([&mut scene.camera.motion]) {
+            for key in &mut motion.keys {
+                change(&mut key.time);
+            }
+            if self.reversed {
+                reverse(motion);
+            }
+        }
+        for (time, _) in &mut scene.camera.vertical_fov {
+            change(time);
+        }
+        for mesh in &mut scene.meshes {
+            for shape in &mut mesh.shapes {
+                change(&mut shape.time);
+            }
+        }
+        if self.reversed {
+            scene.camera.vertical_fov.reverse();
+            scene.meshes.iter_mut().for_each(reverse_shapes);
+        }
+    }
+
+    /// Turns the camera about itself, and changes its field of view.
+    fn move_camera(&self, scene: &mut Scene) {
+        let camera = &mut scene.camera;
+        let widest =
+            (camera.vertical_fov.iter()).fold(0.0, |widest: f64, (_, fov)| widest.max(*fov));
+        let [right, up] = self.pan.map(|part| part * widest);
+        let turn = DQuat::from_rotation_y(-right)
+            * DQuat::from_rotation_x(up)
+            * DQuat::from_rotation_z(self.roll);
+        for key in &mut camera.motion.keys {
+            key.orientation = (key.orientation * turn).normalize();
+        }
+        for (_, fov) in &mut camera.vertical_fov {
+            *fov = 2.0 * (self.zoom * (*fov / 2.0).tan()).atan();
+        }
+    }
+
+    /// Swaps the components of all colours, and darkens each material.
+    fn change_colors(&self, scene: &mut Scene) {
+        let swap = |color: &mut Vec3| *color = Vec3::from(self.colors.map(|from| color[from]));
+        let mut shades = Chance::new(self.seed, "shades");
+        for Material {
+            diffuse, emission, ..
+        } in &mut scene.materials
+        {
+            swap(diffuse);
+            swap(emission);
+            *diffuse *= shades.between(SHADE) as f32;
+        }
+        for texel in scene
+            .textures
+            .iter_mut()
+            .flat_map(|texture| &mut texture.texels)
+        {
+            let [r, g, b] = self.colors.map(|from| texel[from]);
+            *texel = [r, g, b, texel[3]];
+        }
+        match &mut scene.background {
+            Background::Constant(color) => swap(color),
+            Background::Gradient {
+                ground,
+                horizon,
+                zenith,
+            } => [ground, horizon, zenith].into_iter().for_each(swap),
+            Background::Map(map) => {
+                for texel in &mut map.texels {
+                    *texel = self.colors.map(|from| texel[from]);
+                }
+            }
+        }
+        if let Some(sun) = &mut scene.sun {
+            swap(&mut sun.irradiance);
+        }
+    }
+}
+
+/// Reverses the order of keys whose times have changed their signs.
+fn reverse(motion: &mut Motion) {
+    let turns: Vec<Turn> = motion.keys.iter().map(|key| key.turn).collect();
+    motion.keys.reverse();
+    // A turn belongs to the key that it begins at, which was the one that it ended at.
+    let back = turns.iter().rev().skip(1).map(|turn| Turn {
+        angle: -turn.angle,
+        ..*turn
+    });
+    let turns = back.chain([Turn::NONE]);
+    for (key, turn) in motion.keys.iter_mut().zip(turns) {
+        key.turn = turn;
+    }
+}
+
+/// Reverses the order of key shapes whose times have changed their signs.
+fn reverse_shapes(mesh: &mut Mesh) {
+    mesh.shapes.reverse();
+    if let Some(first) = mesh.shapes.first() {
+        mesh.positions.clone_from(&first.positions);
+        mesh.normals.clone_from(&first.normals);
+    }
+}
+
+/// Mirrors a scene at the plane x = 0, camera and lights included: its picture is that of the scene, left for right.
+fn mirror(mut scene: Scene) -> Scene {
+    for mesh in &mut scene.meshes {
+        let shapes = (mesh.shapes.iter_mut())
+            .flat_map(|shape| shape.positions.iter_mut().chain(&mut shape.normals));
+        for vector in (mesh.positions.iter_mut().chain(&mut mesh.normals)).chain(shapes) {
+            vector.x = -vector.x;
+        }
+        for triangle in &mut mesh.triangles {
+            triangle.swap(1, 2);
+        }
+    }
+    let objects = scene.objects.iter_mut().map(|object| &mut object.motion);
+    for motion in objects.chain([&mut scene.camera.motion]) {
+        motion.keys.iter_mut().for_each(mirror_key);
+    }
+    if let Background::Map(map) = &mut scene.background {
+        for row in map.texels.chunks_exact_mut(map.width as usize) {
+            row.reverse();
+        }
+        map.rotation = -map.rotation;
+    }
+    if let Some(sun) = &mut scene.sun {
+        sun.direction.x = -sun.direction.x;
+    }
+    scene
+}
+
+fn mirror_key(key: &mut Key) {
+    let mirror_axis = |axis: DVec3| DVec3::new(axis.x, -axis.y, -axis.z);
+    key.translation.x = -key.translation.x;
+    let axis = mirror_axis(key.orientation.xyz());
+    key.orientation = DQuat::from_xyzw(axis.x, axis.y, axis.z, key.orientation.w);
+    key.turn.axis = mirror_axis(key.turn.axis);
+}
+
+/// Numbers that a seed and a name give, the same everywhere.
+struct Chance(blake3::OutputReader);
+
+impl Chance {
+    fn new(seed: u64, name: &str) -> Self {
+        let text = format!("sealed variant {seed} of {name}");
+        Self(blake3::Hasher::new().update(text.as_bytes()).finalize_xof())
+    }
+
+    /// The next number, uniform in a range.
+    fn between(&mut self, range: RangeInclusive<f64>) -> f64 {
+        let mut bytes = [0; 8];
+        self.0.fill(&mut bytes);
+        let unit = (u64::from_le_bytes(bytes) >> 11) as f64 / (1u64 << 53) as f64;
+        range.start() + unit * (range.end() - range.start())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DAffine3;
+
+    use crate::load::list_scenes;
+    use crate::test_scene::load_test_scene;
+
+    use super::*;
+
+    /// A seal that changes nothing.
+    const NOTHING: Seal = Seal {
+        seed: 0,
+        mirrored: false,
+        reversed: false,
+        speed: 1.0,
+        delay: 0.0,
+        roll: 0.0,
+        pan: [0.0; 2],
+        zoom: 1.0,
+        colors: [0, 1, 2],
+    };
+    const SCENES: [&str; 6] = ["fan", "walker", "dolly", "flag", "reversal", "cockpit"];
+
+    /// Compares what a sealed scene shows with what its scene shows at another time.
+    fn assert_moves(seal: &Seal, then: impl Fn(f64) -> f64, expect: impl Fn(DAffine3) -> DAffine3) {
+        for name in SCENES {
+            let scene = load_test_scene(name);
+            let sealed = seal.apply(scene.clone());
+            for time in [-1.3, -0.5, -0.1, 0.0, 0.24, 0.9] {
+                for object in 0..scene.objects.len() {
+                    let found = sealed.object_to_world(object, time);
+                    let expected = expect(scene.object_to_world(object, then(time)));
+                    assert!(
+                        found.abs_diff_eq(expected, 1e-9),
+                        "{name}, object {object} at {time}: {found} {expected}"
+                    );
+                }
+                let found = sealed.camera.motion.at(time);
+                let expected = expect(scene.camera.motion.at(then(time)));
+                assert!(found.abs_diff_eq(expected, 1e-9), "{name} at {time}");
+            }
+        }
+    }
+
+    #[test]
+    fn times_are_changed_together() {
+        let seal = Seal {
+            speed: 1.25,
+            delay: 0.1,
+            ..NOTHING
+        };
+        assert_moves(&seal, |time| 1.25 * (time - 0.1), |pose| pose);
+        let reversed = Seal {
+            reversed: true,
+            ..seal
+        };
+        assert_moves(&reversed, |time| -1.25 * (time - 0.1), |pose| pose);
+    }
+
+    #[test]
+    fn key_shapes_run_backwards() {
+        let scene = load_test_scene("flag");
+        let reversed = Seal {
+            reversed: true,
+            ..NOTHING
+        };
+        let sealed = reversed.apply(scene.clone());
+        let mut meshes = 0;
+        for (before, after) in scene.meshes.iter().zip(&sealed.meshes) {
+            let Some((first, last)) = before.shapes.first().zip(before.shapes.last()) else {
+                continue;
+            };
+            meshes += 1;
+            assert_eq!(after.shapes[0].time, -last.time);
+            assert_eq!(after.positions, last.positions);
+            assert_eq!(after.shapes.last().unwrap().positions, first.positions);
+        }
+        assert!(meshes > 0);
+    }
+
+    #[test]
+    fn a_mirrored_world_moves_as_in_a_mirror() {
+        let seal = Seal {
+            mirrored: true,
+            ..NOTHING
+        };
+        let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+        assert_moves(&seal, |time| time, |pose| mirror * pose * mirror);
+    }
+
+    #[test]
+    fn colors_are_swapped() {
+        let scene = load_test_scene("neon");
+        let seal = Seal {
+            colors: [1, 2, 0],
+            ..NOTHING
+        };
+        let sealed = seal.apply(scene.clone());
+        for (before, after) in scene.materials.iter().zip(&sealed.materials) {
+            let emission = before.emission;
+            let expected = Vec3::new(emission.y, emission.z, emission.x);
+            assert_eq!(after.emission, expected);
+            let shade = after.diffuse.x / before.diffuse.y;
+            assert!(
+                shade.is_nan() || SHADE.contains(&f64::from(shade)),
+                "{shade}"
+            );
+        }
+    }
+
+    #[test]
+    fn each_seed_and_each_scene_has_changes_of_its_own() {
+        let names: Vec<String> = (list_scenes(crate::test_scene::scenes())
+            .unwrap()
+            .into_iter())
+        .map(|listing| listing.name)
+        .collect();
+        let all: Vec<Seal> = (0..10)
+            .flat_map(|seed| names.iter().map(move |name| Seal::new(seed, name)))
+            .collect();
+        let share = |is: fn(&Seal) -> bool| {
+            all.iter().filter(|seal| is(seal)).count() as f64 / all.len() as f64
+        };
+        for part in [share(|seal| seal.mirrored), share(|seal| seal.reversed)] {
+            assert!((0.4..0.6).contains(&part), "{part}");
+        }
+        for (index, seal) in all.iter().enumerate() {
+            assert!(SPEED.contains(&seal.speed) && DELAY.contains(&seal.delay));
+            assert!(all[..index].iter().all(|other| other.speed != seal.speed));
+        }
+    }
+
+    #[test]
+    fn a_variant_names_its_seed() {
+        assert_eq!(Seal::seed_in("seal7"), Some(7));
+        for other in ["seal", "seal07", "seal-1", "sealed7", "unlit"] {
+            assert_eq!(Seal::seed_in(other), None, "{other}");
+        }
+    }
+}
