@@ -1,15 +1,19 @@
 //! How the ranking of filters changes with the picture's size, as Markdown: `cargo run -p cli --example compare_sizes --
-//! out/160x90/run.json out/320x180/run.json out/1280x720/run.json`.
+//! out/160x90/run.json out/320x180/run.json results/1280x720_llvmpipe.json`.
 
 use std::path::Path;
 use std::process::ExitCode;
 
-use suite::{Agreement, Error, FilterAtSizes, Headline, Run, SizeComparison, compare_sizes};
+use suite::{
+    Agreement, Error, FilterAtSizes, Headline, Results, Run, SizeComparison, compare_sizes,
+};
 
 fn main() -> ExitCode {
     let paths: Vec<String> = std::env::args().skip(1).collect();
     if paths.is_empty() {
-        eprintln!("no run given; name a run.json per size, of the same scenes and filters");
+        eprintln!(
+            "nothing given; name a run.json or a file of results per size, of the same scenes and filters"
+        );
         return ExitCode::from(2);
     }
     match print_tables(&paths) {
@@ -22,11 +26,11 @@ fn main() -> ExitCode {
 }
 
 fn print_tables(paths: &[String]) -> Result<(), Error> {
-    let runs: Vec<Run> = (paths.iter())
-        .map(|path| Run::read(Path::new(path)))
+    let results: Vec<Results> = (paths.iter())
+        .map(|path| read(Path::new(path)))
         .collect::<Result<_, _>>()?;
     for headline in [Headline::FLIP, Headline::LABEL] {
-        for comparison in compare_sizes(&runs, headline)? {
+        for comparison in compare_sizes(&results, headline)? {
             println!(
                 "## {}, {} shutter\n\nMean over {}, and rank.\n",
                 headline.name(),
@@ -39,6 +43,14 @@ fn print_tables(paths: &[String]) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// Reads a run.json, or a file of results.
+fn read(path: &Path) -> Result<Results, Error> {
+    match path.ends_with("run.json") {
+        true => Results::from_runs(&[Run::read(path)?]),
+        false => Results::read(path),
+    }
 }
 
 fn print_means(comparison: &SizeComparison, headline: Headline) {

@@ -31,6 +31,7 @@ mod own_filter;
 mod reference_width;
 mod refusals;
 mod report;
+mod results;
 mod score;
 mod sequences;
 mod serve;

@@ -19,6 +19,7 @@ mod monitor;
 mod named;
 mod printable;
 mod render;
+mod results;
 mod run;
 mod score;
 mod stats;
@@ -36,7 +37,7 @@ pub use capture::folder::Capture;
 pub use compare::{
     Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
     Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
-    compare_sizes, filter_label, pair_cases, rank_changes, score_change,
+    compare_sizes, compare_with_last, filter_label, pair_cases, rank_changes, score_change,
 };
 pub use error::Error;
 pub use filter::border::Border;
@@ -86,6 +87,7 @@ pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, SIDES};
 pub use render::shared::render_shared;
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
+pub use results::{RESULTS_FORMAT, ResultScores, Results};
 pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
 pub use run::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use run::error_maps::ErrorMaps;

@@ -12,6 +12,7 @@ pub mod input_forms;
 pub mod layout;
 pub mod listing;
 pub mod ranking;
+pub mod results_page;
 pub mod scene_means;
 pub mod sensitivity;
 pub mod sequence;

@@ -19,7 +19,9 @@ pub use mean::{MeanChange, MeanKind};
 pub use pairing::{Pair, filter_label, pair_cases};
 pub use settings::SettingChange;
 pub use side::Side;
-pub use sizes::{Agreement, FilterAtSizes, Reversal, SizeComparison, compare_sizes};
+pub use sizes::{
+    Agreement, FilterAtSizes, Reversal, SizeComparison, compare_sizes, compare_with_last,
+};
 
 use mean::average_changes;
 use noise::measure_changes;

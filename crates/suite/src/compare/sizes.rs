@@ -1,4 +1,4 @@
-//! Comparison of runs at several picture sizes: does a small picture rank filters as a large one does?
+//! Comparison of results at several picture sizes: does a small picture rank filters as a large one does?
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use crate::stats::headline::Headline;
 use crate::stats::scene_mean::{SceneMean, TWO_SIDED, plain_mean};
 use crate::tune::random::Random;
-use crate::{Error, Run};
+use crate::{Error, Results};
 
 /// Number of resamples of the scenes.
 const RESAMPLES: usize = 2000;
@@ -18,7 +18,7 @@ pub struct SizeComparison {
     pub alignment: String,
     /// Scenes that every mean is over.
     pub scenes: Vec<String>,
-    /// Columns and rows of each run, the smallest picture first.
+    /// Columns and rows of each file of results.
     pub sizes: Vec<(u32, u32)>,
     /// Filters, the best at the largest size first.
     pub filters: Vec<FilterAtSizes>,
@@ -68,52 +68,61 @@ pub struct Reversal {
 /// Scores of every filter at one size: `[filter][scene]`, smaller is better.
 type Badness = Vec<Vec<f64>>;
 
-/// Compares runs of the same filters and scenes at rising sizes by a score; one comparison per shutter alignment. A size orders two
+/// Compares results of the same filters and scenes at rising sizes by a score; one comparison per shutter alignment. A size orders two
 /// filters if the 95 % CI of their mean difference over scenes does not hold 0. That needs five scenes.
 ///
-/// Scenes and filters that a run lacks are an error.
-pub fn compare_sizes(runs: &[Run], headline: Headline) -> Result<Vec<SizeComparison>, Error> {
-    let mut runs: Vec<&Run> = runs.iter().collect();
-    runs.sort_by_key(|run| u64::from(run.render.width) * u64::from(run.render.height));
-    let Some(largest) = runs.last() else {
-        return Err(Error::Usage("no run to compare".to_owned()));
+/// Scenes and filters that one of them lacks are an error.
+pub fn compare_sizes(
+    results: &[Results],
+    headline: Headline,
+) -> Result<Vec<SizeComparison>, Error> {
+    let mut results: Vec<&Results> = results.iter().collect();
+    results.sort_by_key(|own| u64::from(own.size[0]) * u64::from(own.size[1]));
+    compare_with_last(&results, headline)
+}
+
+/// Compares results of the same filters and scenes as [`compare_sizes`] does, each with the last.
+pub fn compare_with_last(
+    results: &[&Results],
+    headline: Headline,
+) -> Result<Vec<SizeComparison>, Error> {
+    let Some(last) = results.last() else {
+        return Err(Error::Usage("no results to compare".to_owned()));
     };
-    let alignments: BTreeSet<&str> = (largest.cases.iter())
-        .filter(|case| !case.is_reference)
-        .map(|case| case.alignment.as_str())
+    let alignments: BTreeSet<&str> = (last.scores.iter())
+        .map(|own| own.alignment.as_str())
         .collect();
     (alignments.into_iter())
-        .map(|alignment| compare_group(&runs, alignment, headline))
+        .map(|alignment| compare_group(results, alignment, headline))
         .collect()
 }
 
 fn compare_group(
-    runs: &[&Run],
+    results: &[&Results],
     alignment: &str,
     headline: Headline,
 ) -> Result<SizeComparison, Error> {
-    let largest = runs.last().expect("there is a run");
-    let own =
-        || (largest.cases.iter()).filter(|case| !case.is_reference && case.alignment == alignment);
-    let names: BTreeSet<String> = own().map(|case| case.name()).collect();
+    let last = results.last().expect("there are results");
+    let own = || (last.scores.iter()).filter(|own| own.alignment == alignment);
+    let names: BTreeSet<&str> = own().map(|own| own.name.as_str()).collect();
     // A still scene orders no filters, and has no score where nothing moves.
     let scenes: BTreeSet<&str> = (own())
-        .filter(|case| headline.estimate(case).is_some())
-        .map(|case| case.scene.as_str())
+        .filter(|own| own.score(headline).is_some())
+        .map(|own| own.scene.as_str())
         .collect();
-    let badness: Vec<Badness> = (runs.iter())
-        .map(|run| {
+    let badness: Vec<Badness> = (results.iter())
+        .map(|results| {
             (names.iter())
                 .map(|name| {
                     (scenes.iter())
-                        .map(|scene| find(run, scene, name, headline))
+                        .map(|scene| find(results, scene, name, headline))
                         .collect()
                 })
                 .collect()
         })
         .collect::<Result<_, Error>>()?;
-    let at_largest = badness.last().expect("there is a run");
-    let names: Vec<String> = names.into_iter().collect();
+    let at_largest = badness.last().expect("there are results");
+    let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let mut filters: Vec<FilterAtSizes> = (names.iter().enumerate())
         .map(|(index, name)| FilterAtSizes {
             name: name.clone(),
@@ -127,9 +136,7 @@ fn compare_group(
     Ok(SizeComparison {
         alignment: alignment.to_owned(),
         scenes: scenes.into_iter().map(str::to_owned).collect(),
-        sizes: (runs.iter())
-            .map(|run| (run.render.width, run.render.height))
-            .collect(),
+        sizes: results.iter().map(|own| own.size.into()).collect(),
         filters,
         agreement: (badness.iter())
             .map(|size| compare_order(&names, size, at_largest))
@@ -138,18 +145,18 @@ fn compare_group(
 }
 
 /// Finds how bad a filter is on a scene.
-fn find(run: &Run, scene: &str, name: &str, headline: Headline) -> Result<f64, Error> {
-    let case = (run.cases.iter())
-        .find(|case| !case.is_reference && case.scene == scene && case.name() == name);
-    let value = case.and_then(|case| headline.estimate(case));
-    value.map(|value| headline.ideal().badness(value)).ok_or_else(|| {
-        Error::Usage(format!(
-            "the run of {}x{} pixels has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
-            run.render.width,
-            run.render.height,
-            headline.name()
-        ))
-    })
+fn find(results: &Results, scene: &str, name: &str, headline: Headline) -> Result<f64, Error> {
+    let found = (results.scores.iter()).find(|own| own.scene == scene && own.name == name);
+    let value = found.and_then(|own| own.score(headline));
+    value
+        .map(|value| headline.ideal().badness(value))
+        .ok_or_else(|| {
+            Error::Usage(format!(
+                "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
+                results.file_name(),
+                headline.name()
+            ))
+        })
 }
 
 fn mean(values: &[f64]) -> f64 {

@@ -95,6 +95,14 @@ impl Headline {
         }
     }
 
+    /// Finds the noise floor of a case's score; none where the score does not apply.
+    pub fn floor(self, case: &Case) -> Option<f64> {
+        match self.measured(case) {
+            Measured::Score(score) => Some(score.floor),
+            Measured::NotApplicable { .. } => None,
+        }
+    }
+
     /// Finds the interval of a case's score; none where the run has no intervals.
     pub fn interval(self, case: &Case) -> Option<&Interval> {
         case.intervals.get(&self.metric(&case.scores)?.name())

@@ -1,7 +1,5 @@
 //! Ranking of a run's filters by FLIP, with ties.
 
-use metrics::Measured;
-
 use super::headline::Headline;
 use super::scene_mean::{TWO_SIDED, plain_mean};
 use crate::{Case, InputFormat};
@@ -31,16 +29,26 @@ pub struct RankedFilter {
     pub presets: usize,
 }
 
-/// Estimated FLIP of one filter on one scene.
-struct SceneScore {
-    scene: String,
-    flip: f64,
-    floor: f64,
+/// FLIP of one filter preset on one scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlipScore {
+    /// Name of the scene.
+    pub scene: String,
+    /// Name of the filter alone.
+    pub filter: String,
+    /// `jump_flood:paper`, followed by what is not as usual.
+    pub name: String,
+    /// Shutter alignment that it is scored against.
+    pub alignment: String,
+    /// Estimate against a truth without noise.
+    pub flip: f64,
+    /// Noise floor.
+    pub floor: f64,
 }
 
 struct Entry {
     ranked: RankedFilter,
-    scores: Vec<SceneScore>,
+    scores: Vec<FlipScore>,
 }
 
 /// Upper limit on presets that a summary ranks one by one.
@@ -48,10 +56,10 @@ pub const MOST_RANKED: usize = 16;
 
 /// Ranks filters for a summary, with the full form of their input where the run tried others as well. Where the presets are too many for it, the best preset of each filter stands for the filter.
 pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
-    let full = cases
-        .iter()
-        .filter(|case| case.input == InputFormat::default());
-    let full: Vec<&Case> = full.collect();
+    let full: Vec<FlipScore> = (cases.iter())
+        .filter(|case| !case.is_reference && case.input == InputFormat::default())
+        .filter_map(FlipScore::of)
+        .collect();
     let presets = rank_by_flip(&full, false);
     match presets.iter().map(Vec::len).sum() {
         ..=MOST_RANKED => presets,
@@ -59,34 +67,37 @@ pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
     }
 }
 
-/// Ranks filters of one shutter among each other, the best first: one group per shutter. References are left out. With
-/// `best_presets`, the best preset stands for its filter.
+impl FlipScore {
+    /// The FLIP of a case; none where nothing moves.
+    fn of(case: &Case) -> Option<Self> {
+        Some(Self {
+            scene: case.scene.clone(),
+            filter: case.filter.clone(),
+            name: case.name(),
+            alignment: case.alignment.clone(),
+            flip: Headline::FLIP.estimate(case)?,
+            floor: Headline::FLIP.floor(case)?,
+        })
+    }
+}
+
+/// Ranks filters of one shutter among each other, the best first: one group per shutter. With `best_presets`, the best preset stands
+/// for its filter.
 ///
 /// Two filters tie where the mean difference over their common scenes is not told from 0: its 95 % CI holds 0. On a single
 /// scene they tie within the noise floor.
-fn rank_by_flip(cases: &[&Case], best_presets: bool) -> Vec<Vec<RankedFilter>> {
+pub(crate) fn rank_by_flip(scores: &[FlipScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
-    for case in cases.iter().filter(|case| !case.is_reference) {
-        let (Measured::Score(score), Some(flip)) =
-            (Headline::FLIP.measured(case), Headline::FLIP.estimate(case))
-        else {
-            continue;
-        };
-        let score = SceneScore {
-            scene: case.scene.clone(),
-            flip,
-            floor: score.floor,
-        };
-        let group = (groups.iter()).position(|group| group[0].ranked.alignment == case.alignment);
+    for score in scores {
+        let group = (groups.iter()).position(|group| group[0].ranked.alignment == score.alignment);
         let group = group.unwrap_or_else(|| {
             groups.push(Vec::new());
             groups.len() - 1
         });
-        let name = case.name();
-        let entry = (groups[group].iter_mut()).find(|entry| entry.ranked.name == name);
+        let entry = (groups[group].iter_mut()).find(|entry| entry.ranked.name == score.name);
         match entry {
-            Some(entry) => entry.scores.push(score),
-            None => groups[group].push(new_entry(case, name, score)),
+            Some(entry) => entry.scores.push(score.clone()),
+            None => groups[group].push(new_entry(score)),
         }
     }
     (groups.into_iter())
@@ -94,12 +105,12 @@ fn rank_by_flip(cases: &[&Case], best_presets: bool) -> Vec<Vec<RankedFilter>> {
         .collect()
 }
 
-fn new_entry(case: &Case, name: String, score: SceneScore) -> Entry {
+fn new_entry(score: &FlipScore) -> Entry {
     Entry {
         ranked: RankedFilter {
-            name,
-            filter: case.filter.clone(),
-            alignment: case.alignment.clone(),
+            name: score.name.clone(),
+            filter: score.filter.clone(),
+            alignment: score.alignment.clone(),
             rank: 0,
             is_tied: false,
             flip: 0.0,
@@ -108,7 +119,7 @@ fn new_entry(case: &Case, name: String, score: SceneScore) -> Entry {
             worst: (String::new(), 0.0),
             presets: 1,
         },
-        scores: vec![score],
+        scores: vec![score.clone()],
     }
 }
 

@@ -1,0 +1,223 @@
+//! The page of kept results, in Markdown.
+
+use std::fmt::Write;
+
+use suite::{Error, Headline, RankedFilter, Results, SizeComparison, compare_with_last};
+use tracer::{Family, Location, list_scenes};
+
+use super::columns::list_once;
+
+const FAMILIES: [Family; 7] = [
+    Family::Translation,
+    Family::Rotation,
+    Family::Camera,
+    Family::Thin,
+    Family::Overlap,
+    Family::Deforming,
+    Family::Limits,
+];
+
+/// Makes the page of files of results: one part per size, the one with most scenes first, with its sealed variants beside it.
+pub fn results_page(all: &[Results]) -> Result<String, Error> {
+    let mut catalogues: Vec<&Results> = all.iter().filter(|own| own.seal.is_none()).collect();
+    catalogues.sort_by_key(|own| (std::cmp::Reverse(own.scenes().len()), own.size));
+    let mut page = HEAD.to_owned();
+    for catalogue in catalogues {
+        let sealed = (all.iter()).find(|own| {
+            own.seal.is_some() && own.size == catalogue.size && own.adapter == catalogue.adapter
+        });
+        push_size(&mut page, catalogue, sealed)?;
+    }
+    Ok(page)
+}
+
+const HEAD: &str = "\
+# Results
+
+How near each filter comes to the truth, by FLIP where anything moves; lower is better. `cargo run -p cli --example results` writes this
+page from the files beside it. Nothing is entered by hand: add a filter's folder, run the command of a part, and name the run.json:
+
+    cargo run -p cli --example results -- out/results/run.json
+
+- Compare filters of one shutter only.
+- Filters with one rank (=) are too close to tell apart: the 95 % CI of the mean difference over scenes holds 0.
+- *Sealed* are the same scenes with speeds, directions, places, times and colours that follow from a number, as in `fan@seal1`. A preset
+  that was fitted to the catalogue falls there. Their scores lie elsewhere, because the speeds do: compare the ranks.
+- [What each filter is](../shaders/README.md), [what it costs](../docs/results.md#cost), and [what the scores mean](../crates/metrics/README.md).
+";
+
+fn push_size(page: &mut String, results: &Results, sealed: Option<&Results>) -> Result<(), Error> {
+    let [width, height] = results.size;
+    let scenes = results.scenes();
+    let _ = write!(
+        page,
+        "\n## {width}x{height}, {} scenes\n\nOn {}:\n\n    {}\n",
+        scenes.len(),
+        results.adapter.as_deref().unwrap_or("no adapter"),
+        command(results, &scenes)
+    );
+    if let Some(sealed) = sealed {
+        let _ = writeln!(page, "    {}", command(sealed, &scenes));
+    }
+    let sealed_groups = sealed.map(|sealed| sealed.ranking(None));
+    for group in results.ranking(None) {
+        let alignment = &group[0].alignment;
+        let others =
+            (sealed_groups.iter().flatten()).find(|other| other[0].alignment == *alignment);
+        let _ = write!(page, "\n### {width}x{height}, {alignment} shutter\n\n");
+        push_ranking(page, &group, others.map(Vec::as_slice));
+        if let Some(sealed) = sealed {
+            push_agreement(page, results, sealed, alignment)?;
+        }
+        push_families(page, results, &group);
+    }
+    Ok(())
+}
+
+/// The command that makes the run.
+fn command(results: &Results, scenes: &[&str]) -> String {
+    let [width, height] = results.size;
+    let filters = list_once(results.scores.iter().map(|own| own.filter.as_str()));
+    let (seal, folder) = match results.seal {
+        Some(seed) => (format!(" --seal {seed}"), format!("out/results_seal{seed}")),
+        None => (String::new(), "out/results".to_owned()),
+    };
+    let shipped = list_scenes(Location::of_bundle(&catalogue::SCENES)).unwrap_or_default();
+    let is_all = shipped
+        .iter()
+        .all(|listing| scenes.contains(&listing.name.as_str()));
+    let scenes = match is_all {
+        true => String::new(),
+        false => format!(" --scenes {}", scenes.join(",")),
+    };
+    format!(
+        "shuttertruth run{scenes}{seal} --size {width}x{height} --samples-per-pixel {} --jitter-frames 0 --filter {} --out {folder}",
+        results.samples_per_pixel,
+        filters.join(",")
+    )
+}
+
+fn push_ranking(page: &mut String, group: &[RankedFilter], sealed: Option<&[RankedFilter]>) {
+    let more = ["", " sealed: rank | FLIP (95 % CI) |"][usize::from(sealed.is_some())];
+    let rule = ["", "---|---|"][usize::from(sealed.is_some())];
+    let _ = writeln!(
+        page,
+        "| rank | filter | FLIP (95 % CI) |{more} worst scene |"
+    );
+    let _ = writeln!(page, "|---|---|---|{rule}---|");
+    for ranked in group {
+        let _ = write!(
+            page,
+            "| {} | `{}` | {} |",
+            rank(ranked),
+            ranked.name,
+            mean(ranked)
+        );
+        if let Some(sealed) = sealed {
+            match sealed.iter().find(|other| other.name == ranked.name) {
+                Some(other) => write!(page, " {} | {} |", rank(other), mean(other)),
+                None => write!(page, " | |"),
+            }
+            .expect("text grows");
+        }
+        let (scene, worst) = &ranked.worst;
+        let _ = writeln!(page, " {scene} {} |", Headline::FLIP.number(*worst));
+    }
+}
+
+fn rank(ranked: &RankedFilter) -> String {
+    format!("{}{}", ranked.rank, if ranked.is_tied { "=" } else { "" })
+}
+
+fn mean(ranked: &RankedFilter) -> String {
+    let number = |value| Headline::FLIP.number(value);
+    match ranked.interval {
+        Some([low, high]) => {
+            format!(
+                "{} ({} to {})",
+                number(ranked.flip),
+                number(low),
+                number(high)
+            )
+        }
+        None => number(ranked.flip),
+    }
+}
+
+/// Says whether the sealed variants order the filters as the catalogue does.
+fn push_agreement(
+    page: &mut String,
+    results: &Results,
+    sealed: &Results,
+    alignment: &str,
+) -> Result<(), Error> {
+    let compared = compare_with_last(&[results, sealed], Headline::FLIP)?;
+    let Some(SizeComparison { agreement, .. }) =
+        (compared.into_iter()).find(|own| own.alignment == alignment)
+    else {
+        return Ok(());
+    };
+    let own = &agreement[0];
+    let _ = write!(
+        page,
+        "\nKendall's tau of the catalogue's order and the sealed variants' is {:.2}",
+        own.tau
+    );
+    if let Some([low, high]) = own.interval {
+        let _ = write!(page, " (95 % CI {low:.2} to {high:.2})");
+    }
+    let _ = writeln!(
+        page,
+        ". Both order {} pairs of filters alike; {} pairs are turned round.",
+        own.alike,
+        own.reversed.len()
+    );
+    for turned in &own.reversed {
+        let _ = writeln!(
+            page,
+            "`{}` is better than `{}` on the catalogue, and worse on the sealed variants.",
+            turned.better_here, turned.better_at_largest
+        );
+    }
+    Ok(())
+}
+
+/// The mean of each filter over the scenes of each family, with its rank there.
+fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
+    let alignment = &group[0].alignment;
+    let families: Vec<(Family, Vec<RankedFilter>)> = (FAMILIES.into_iter())
+        .filter_map(|family| {
+            let groups = results.ranking(Some(family)).into_iter();
+            let own = groups
+                .into_iter()
+                .find(|own| own[0].alignment == *alignment)?;
+            Some((family, own))
+        })
+        .collect();
+    if families.len() < 2 {
+        return;
+    }
+    let names: String = (families.iter())
+        .map(|(family, ranked)| format!(" {} ({}) |", family.name(), ranked[0].scenes))
+        .collect();
+    let _ = write!(
+        page,
+        "\nMean FLIP and rank per family, with its number of scenes:\n\n| filter |{names}\n|---|{}\n",
+        "---|".repeat(families.len())
+    );
+    for ranked in group {
+        let _ = write!(page, "| `{}` |", ranked.name);
+        for (_, family) in &families {
+            let _ = match family.iter().find(|own| own.name == ranked.name) {
+                Some(own) => write!(
+                    page,
+                    " {}, {} |",
+                    Headline::FLIP.number(own.flip),
+                    rank(own)
+                ),
+                None => write!(page, " |"),
+            };
+        }
+        page.push('\n');
+    }
+}

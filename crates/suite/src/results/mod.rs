@@ -1,0 +1,255 @@
+//! Results: the scores of runs in short, to be kept beside the code and compared.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use tracer::{Family, Seal};
+
+use crate::json::file::read_text;
+use crate::run::failure::refuse_failures;
+use crate::stats::ranking::{FlipScore, RankedFilter, rank_by_flip};
+use crate::{Case, Error, Headline, InputFormat, Run};
+
+/// Version of the layout of a file of results.
+pub const RESULTS_FORMAT: u32 = 1;
+
+/// Significant digits of a kept score.
+const DIGITS: usize = 5;
+
+/// The scores of all filters on some scenes, at one picture size.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Results {
+    /// [`RESULTS_FORMAT`].
+    pub format: u32,
+    /// Program name and version.
+    pub program: String,
+    /// Adapter that the kernels ran on; none where every filter is a command.
+    pub adapter: Option<String>,
+    /// Columns and rows.
+    pub size: [u32; 2],
+    /// Mean samples per pixel of the truths.
+    pub samples_per_pixel: u32,
+    /// Number of the sealed variants that the scenes were taken in; none for the scenes themselves.
+    pub seal: Option<u64>,
+    /// One per scene and filter preset.
+    pub scores: Vec<ResultScores>,
+}
+
+/// The scores of one filter preset on one scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultScores {
+    /// Name of the scene, without the seal.
+    pub scene: String,
+    /// Family of the scene.
+    pub family: Option<Family>,
+    /// Name of the filter alone.
+    pub filter: String,
+    /// `jump_flood:paper`, followed by what is not as usual.
+    pub name: String,
+    /// Shutter alignment that it is scored against.
+    pub alignment: String,
+    /// Noise floor of its FLIP.
+    pub floor: f64,
+    /// Scores of [`Headline::OF_MEANS`] by name, of five digits; those that do not apply are missing.
+    pub scores: BTreeMap<String, f64>,
+}
+
+impl Results {
+    /// Joins runs of different scenes with the same settings. References, and forms of the input other than the full one, are left
+    /// out.
+    ///
+    /// # Errors
+    /// There is no run, a case failed, two runs differ in size, samples, adapter or seal, or a case is there twice.
+    pub fn from_runs(runs: &[Run]) -> Result<Self, Error> {
+        let Some(first) = runs.first() else {
+            return Err(Error::Usage("no run to take results from".to_owned()));
+        };
+        let mut results = Self {
+            format: RESULTS_FORMAT,
+            program: first.program.clone(),
+            adapter: adapter_of(first),
+            size: [first.render.width, first.render.height],
+            samples_per_pixel: first.render.samples_per_pixel,
+            seal: first.cases.first().and_then(|case| parts_of(&case.scene).1),
+            scores: Vec::new(),
+        };
+        let mut known = BTreeSet::new();
+        for run in runs {
+            refuse_failures(&run.failures)?;
+            for case in &run.cases {
+                results.refuse_other(run, case)?;
+                if case.is_reference || case.input != InputFormat::default() {
+                    continue;
+                }
+                if !known.insert((case.scene.clone(), case.name())) {
+                    return Err(Error::Usage(format!(
+                        "{} / {} is in two runs; allowed: each case once",
+                        case.scene,
+                        case.name()
+                    )));
+                }
+                results.scores.push(ResultScores::of(case));
+            }
+        }
+        Ok(results)
+    }
+
+    /// Refuses a case of another run than those before it.
+    fn refuse_other(&self, run: &Run, case: &Case) -> Result<(), Error> {
+        let texts = |size: [u32; 2], samples: u32, adapter: &Option<String>, seal: Option<u64>| {
+            let adapter = adapter.as_deref().unwrap_or("none");
+            let seal = seal.map_or("none".to_owned(), |seed| seed.to_string());
+            [
+                ("pictures", format!("{}x{}", size[0], size[1])),
+                ("samples per pixel", samples.to_string()),
+                ("adapter", adapter.to_owned()),
+                ("seal", seal),
+            ]
+        };
+        let render = &run.render;
+        let seal = parts_of(&case.scene).1;
+        let size = [render.width, render.height];
+        let own = texts(size, render.samples_per_pixel, &adapter_of(run), seal);
+        let first = texts(self.size, self.samples_per_pixel, &self.adapter, self.seal);
+        for ((what, own), (_, first)) in own.iter().zip(&first) {
+            if own != first {
+                return Err(Error::Usage(format!(
+                    "{}: {what}: {own}, and the first run has {first}; allowed: runs that differ in their scenes and filters alone",
+                    case.scene
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads a file of results.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
+        let results: Self = serde_json::from_str(&read_text(path)?)
+            .map_err(|error| refuse(format!("no results of this program: {error}")))?;
+        match results.format {
+            RESULTS_FORMAT => Ok(results),
+            other => Err(refuse(format!(
+                "has format {other}; allowed: {RESULTS_FORMAT}"
+            ))),
+        }
+    }
+
+    /// Formats a file of results: a line per case, so that a change of one is a change of one line.
+    pub fn text(&self) -> String {
+        let lines: Vec<String> = self.scores.iter().map(json).collect();
+        let Self {
+            format,
+            program,
+            adapter,
+            size,
+            samples_per_pixel,
+            seal,
+            scores: _,
+        } = self;
+        format!(
+            "{{\n\"format\": {format},\n\"program\": {},\n\"adapter\": {},\n\"size\": {},\n\"samples_per_pixel\": {samples_per_pixel},\n\
+             \"seal\": {},\n\"scores\": [\n{}\n]\n}}\n",
+            json(program),
+            json(adapter),
+            json(size),
+            json(seal),
+            lines.join(",\n")
+        )
+    }
+
+    /// Names the file: `320x180_llvmpipe.json`, or `320x180_llvmpipe_seal1.json`.
+    pub fn file_name(&self) -> String {
+        let adapter = self.adapter.as_deref().unwrap_or("none");
+        let word = adapter.split_whitespace().next().unwrap_or("none");
+        let word: String = word
+            .chars()
+            .filter(|letter| letter.is_ascii_alphanumeric())
+            .collect();
+        let seal = self
+            .seal
+            .map_or(String::new(), |seed| format!("_seal{seed}"));
+        let [width, height] = self.size;
+        format!("{width}x{height}_{}{seal}.json", word.to_lowercase())
+    }
+
+    /// Lists the scenes in their order.
+    pub fn scenes(&self) -> Vec<&str> {
+        let mut scenes = Vec::new();
+        for own in &self.scores {
+            if !scenes.contains(&own.scene.as_str()) {
+                scenes.push(own.scene.as_str());
+            }
+        }
+        scenes
+    }
+
+    /// Ranks the filter presets of each shutter by FLIP, over the scenes of one family or over all.
+    pub fn ranking(&self, family: Option<Family>) -> Vec<Vec<RankedFilter>> {
+        let of_family = |own: &&ResultScores| family.is_none() || own.family == family;
+        let scores: Vec<FlipScore> = (self.scores.iter().filter(of_family))
+            .filter_map(ResultScores::flip)
+            .collect();
+        rank_by_flip(&scores, false)
+    }
+}
+
+impl ResultScores {
+    fn of(case: &Case) -> Self {
+        let scores = (Headline::OF_MEANS.into_iter())
+            .filter_map(|headline| Some((headline.name(), rounded(headline.estimate(case)?))));
+        Self {
+            scene: parts_of(&case.scene).0.to_owned(),
+            family: case.family,
+            filter: case.filter.clone(),
+            name: case.name(),
+            alignment: case.alignment.clone(),
+            floor: Headline::FLIP.floor(case).map_or(0.0, rounded),
+            scores: scores.collect(),
+        }
+    }
+
+    /// A score by its headline; none if it does not apply.
+    pub fn score(&self, headline: Headline) -> Option<f64> {
+        self.scores.get(&headline.name()).copied()
+    }
+
+    fn flip(&self) -> Option<FlipScore> {
+        Some(FlipScore {
+            scene: self.scene.clone(),
+            filter: self.filter.clone(),
+            name: self.name.clone(),
+            alignment: self.alignment.clone(),
+            flip: self.score(Headline::FLIP)?,
+            floor: self.floor,
+        })
+    }
+}
+
+fn json<T: Serialize>(value: &T) -> String {
+    serde_json::to_string(value).expect("results are plain data")
+}
+
+fn adapter_of(run: &Run) -> Option<String> {
+    run.adapter.as_ref().map(|adapter| adapter.name.clone())
+}
+
+/// Takes the name of a scene apart into its own and the number of its seal.
+fn parts_of(scene: &str) -> (&str, Option<u64>) {
+    match scene.rsplit_once('@') {
+        Some((name, variant)) => match Seal::seed_in(variant) {
+            Some(seed) => (name, Some(seed)),
+            None => (scene, None),
+        },
+        None => (scene, None),
+    }
+}
+
+/// Rounds to [`DIGITS`] significant digits.
+fn rounded(value: f64) -> f64 {
+    let text = format!("{value:.*e}", DIGITS - 1);
+    text.parse().expect("a number as text is a number")
+}
