@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use cli::results_page;
 use suite::{Headline, Results, Run};
+use tests::filter_folder::copy_changed_filter;
+use tracer::Seal;
 
 use crate::bench::{Bench, assert_done};
 
@@ -64,10 +66,11 @@ fn run(bench: &Bench, more: &[&str]) -> Run {
 
 #[test]
 fn results_of_two_runs_are_those_of_one() {
-    let bench = Bench::two_scenes();
-    let both = run(&bench, &[]);
-    let plate = run(&bench, &["--scenes", "plate"]);
-    let slow = run(&bench, &["--scenes", "slow"]);
+    // A run keeps the cases of earlier ones in its folder, so that each has its own.
+    let run = |more: &[&str]| run(&Bench::two_scenes(), more);
+    let both = run(&[]);
+    let plate = run(&["--scenes", "plate"]);
+    let slow = run(&["--scenes", "slow"]);
     let whole = Results::from_runs(&[both]).unwrap();
     let joined = Results::from_runs(&[plate.clone(), slow]).unwrap();
     assert_eq!(joined, whole);
@@ -85,7 +88,7 @@ fn results_of_two_runs_are_those_of_one() {
         twice.contains("plate / identity:default is in two runs"),
         "{twice}"
     );
-    let sealed = run(&bench, &["--scenes", "slow", "--seal", "3"]);
+    let sealed = run(&["--scenes", "slow", "--seal", "3"]);
     let mixed = refused(&[plate, sealed.clone()]);
     assert!(
         mixed.contains("slow@seal3: seal: 3, and the first run has none"),
@@ -99,7 +102,8 @@ fn results_of_two_runs_are_those_of_one() {
         sealed.file_name()
     );
 
-    let path = bench.path("kept.json");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("kept.json");
     fs::write(&path, whole.text()).unwrap();
     assert_eq!(Results::read(&path).unwrap(), whole);
     fs::write(
@@ -111,5 +115,67 @@ fn results_of_two_runs_are_those_of_one() {
     assert!(
         other.contains("kept.json: has format 9; allowed: 1"),
         "{other}"
+    );
+}
+
+/// Writes the filter `learnt`: a gather along the velocity that the plate has, whatever the velocity buffer says.
+fn write_learnt_filter(bench: &Bench) {
+    let folder = bench.path("learnt");
+    copy_changed_filter("velocity_gather", &folder, |kernels| {
+        let read = "textureLoad(velocity, pixel, 0).xy";
+        assert!(kernels.contains(read));
+        // 1.6 m of a picture that is 4.62 m and 32 pixels high.
+        kernels.replace(read, &format!("(vec2(11.09, 0.0) + 0.0 * {read})"))
+    });
+    fs::rename(
+        folder.join("velocity_gather.wgsl"),
+        folder.join("learnt.wgsl"),
+    )
+    .unwrap();
+    let manifest = fs::read_to_string(folder.join("filter.toml")).unwrap();
+    let manifest = manifest.replace("velocity_gather", "learnt");
+    fs::write(folder.join("filter.toml"), manifest).unwrap();
+}
+
+#[test]
+fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
+    let names = ["plate", "dim", "bright", "warm", "cold"];
+    let colors = [
+        "0.1, 0.1, 0.1",
+        "0.6, 0.6, 0.6",
+        "0.3, 0.2, 0.1",
+        "0.1, 0.2, 0.3",
+    ];
+    let make_bench = || {
+        let bench = Bench::new();
+        for (name, color) in names[1..].iter().zip(colors) {
+            bench.copy_scene(name, |text| text.replace("0.2, 0.2, 0.2", color));
+        }
+        write_learnt_filter(&bench);
+        bench
+    };
+    // One that lets most of the plates move the other way.
+    let turns_round = |seed: u64| {
+        let turned = |name: &&str| {
+            let seal = Seal::new(seed, name);
+            seal.mirrored != seal.reversed
+        };
+        names.iter().filter(|name| turned(name)).count() > names.len() / 2
+    };
+    let seed = (0..).find(|seed| turns_round(*seed)).unwrap().to_string();
+    let ranks = |more: &[&str]| {
+        let bench = make_bench();
+        let words = ["--filters", "velocity_gather:fine,learnt:fine"];
+        assert_done(&bench.run(&[&words[..], more].concat()));
+        let results = Results::from_runs(&[bench.read_run()]).unwrap();
+        assert_eq!(results.scenes().len(), names.len());
+        let ranking = results.ranking(None).remove(0);
+        let names: Vec<String> = ranking.into_iter().map(|ranked| ranked.name).collect();
+        names
+    };
+    assert_eq!(ranks(&[]), ["learnt:fine", "velocity_gather:fine"]);
+    assert_eq!(
+        ranks(&["--seal", &seed]),
+        ["velocity_gather:fine", "learnt:fine"]
     );
 }

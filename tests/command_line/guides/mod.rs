@@ -119,7 +119,7 @@ const NOT_RUN: [(&str, &str); 31] = [
         "compiles the program again",
     ),
     (
-        "cargo run -p cli --example compare_sizes -- out/160x90/run.json out/320x180/run.json out/1280x720/run.json",
+        "cargo run -p cli --example compare_sizes -- results/160x90_llvmpipe.json results/320x180_llvmpipe.json results/1280x720_llvmpipe.json",
         "compiles the program again",
     ),
     (
