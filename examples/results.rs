@@ -1,5 +1,5 @@
-//! Keeps results: joins runs of different scenes into one file below `results/`, and writes `results/README.md` from all files there:
-//! `cargo run -p cli --example results -- out/run.json`. Without a run it writes the page alone.
+//! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes `results/README.md` from all
+//! files there: `cargo run -p cli --example results -- out/run.json`. Without a run it writes the page alone.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,8 +29,12 @@ fn keep(paths: &[PathBuf]) -> Result<(), Error> {
     let runs: Vec<Run> = (paths.iter())
         .map(|path| Run::read(path))
         .collect::<Result<_, _>>()?;
-    let results = Results::from_runs(&runs)?;
+    let mut results = Results::from_runs(&runs)?;
     let path = Path::new(FOLDER).join(results.file_name());
+    if path.exists() {
+        let newer = std::mem::replace(&mut results, Results::read(&path)?);
+        results.update(newer)?;
+    }
     frame::write_atomically(&path, results.text().as_bytes())?;
     println!("{}", path.display());
     Ok(())

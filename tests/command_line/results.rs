@@ -102,6 +102,26 @@ fn results_of_two_runs_are_those_of_one() {
         sealed.file_name()
     );
 
+    // A filter that was measured later joins those of its scene.
+    let without = |scene: &str, name: &str| {
+        let mut results = whole.clone();
+        (results.scores).retain(|own| (own.scene.as_str(), own.name.as_str()) != (scene, name));
+        results
+    };
+    let mut part = without("plate", "velocity_gather:coarse");
+    assert_eq!(part.scores.len(), 5);
+    part.update(whole.clone()).unwrap();
+    assert_eq!(part, whole);
+    let other = Results {
+        samples_per_pixel: 4096,
+        ..whole.clone()
+    };
+    let refused = part.update(other).unwrap_err().to_string();
+    assert!(
+        refused.contains("with 4096 samples per pixel cannot go into"),
+        "{refused}"
+    );
+
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("kept.json");
     fs::write(&path, whole.text()).unwrap();

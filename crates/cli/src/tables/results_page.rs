@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use suite::{Error, Headline, RankedFilter, Results, SizeComparison, compare_with_last};
+use suite::{
+    Error, FEWEST_SCENES, Headline, RankedFilter, Results, SizeComparison, compare_with_last,
+};
 use tracer::{Family, Location, list_scenes};
 
 use super::columns::list_once;
@@ -35,7 +37,8 @@ const HEAD: &str = "\
 # Results
 
 How near each filter comes to the truth, by FLIP where anything moves; lower is better. `cargo run -p cli --example results` writes this
-page from the files beside it. Nothing is entered by hand: add a filter's folder, run the command of a part, and name the run.json:
+page from the files beside it. Nothing is entered by hand. To enter a filter, add its folder to `shaders/`, run the commands of a part with
+`--filter` and its name, and put each run.json into its file:
 
     cargo run -p cli --example results -- out/results/run.json
 
@@ -182,7 +185,7 @@ fn push_agreement(
     Ok(())
 }
 
-/// The mean of each filter over the scenes of each family, with its rank there.
+/// The mean of each filter over the scenes of each family, with its rank there if the scenes are enough to order filters.
 fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
     let alignment = &group[0].alignment;
     let families: Vec<(Family, Vec<RankedFilter>)> = (FAMILIES.into_iter())
@@ -202,19 +205,20 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
         .collect();
     let _ = write!(
         page,
-        "\nMean FLIP and rank per family, with its number of scenes:\n\n| filter |{names}\n|---|{}\n",
+        "\nMean FLIP per family, with its number of scenes, and the rank where there are {FEWEST_SCENES} or more; fewer order nothing:\n\n| filter |{names}\n|---|{}\n",
         "---|".repeat(families.len())
     );
     for ranked in group {
         let _ = write!(page, "| `{}` |", ranked.name);
         for (_, family) in &families {
             let _ = match family.iter().find(|own| own.name == ranked.name) {
-                Some(own) => write!(
-                    page,
-                    " {}, {} |",
-                    Headline::FLIP.number(own.flip),
-                    rank(own)
-                ),
+                Some(own) => {
+                    let place = match own.scenes >= FEWEST_SCENES {
+                        true => format!(", {}", rank(own)),
+                        false => String::new(),
+                    };
+                    write!(page, " {}{place} |", Headline::FLIP.number(own.flip))
+                }
                 None => write!(page, " |"),
             };
         }

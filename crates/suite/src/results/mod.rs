@@ -125,6 +125,34 @@ impl Results {
         Ok(())
     }
 
+    /// Puts newer scores into these: those of a case that is here already take its place, others join their scene.
+    ///
+    /// # Errors
+    /// The newer results are of another size, adapter or seal, or of truths with other samples.
+    pub fn update(&mut self, newer: Self) -> Result<(), Error> {
+        let settings = |own: &Self| (own.file_name(), own.samples_per_pixel);
+        let [(own, samples), (other, others)] = [settings(self), settings(&newer)];
+        if (&own, samples) != (&other, others) {
+            return Err(Error::Usage(format!(
+                "{other} with {others} samples per pixel cannot go into {own} with {samples}; measure with the same settings, or \
+                 all filters anew"
+            )));
+        }
+        self.program = newer.program;
+        self.adapter = newer.adapter;
+        for score in newer.scores {
+            let is_same = |own: &ResultScores| own.scene == score.scene && own.name == score.name;
+            if let Some(own) = self.scores.iter_mut().find(|own| is_same(own)) {
+                *own = score;
+                continue;
+            }
+            let last = (self.scores.iter()).rposition(|own| own.scene == score.scene);
+            let place = last.map_or(self.scores.len(), |last| last + 1);
+            self.scores.insert(place, score);
+        }
+        Ok(())
+    }
+
     /// Reads a file of results.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));

@@ -3,8 +3,8 @@
 use filters::Filter;
 use tracer::Location;
 
-use super::sized::{list_bounds_files, read_sized_bounds};
-use super::{BOUNDS_FILE, BoundsFile, Level, SceneBounds, read_bounds_file};
+use super::sized::read_all_bounds;
+use super::{BOUNDS_FILE, BoundsFile, Level, SceneBounds};
 use crate::{Error, FilterChoice};
 
 /// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, the bounds of the
@@ -61,9 +61,9 @@ fn read_bounds_of_scenes(root: &Location) -> Result<Vec<BoundsFile>, Error> {
     // `root` need not exist if every scene is given by its path.
     let mut folders = root.list().unwrap_or_default();
     folders.sort_by(|a, b| a.path.cmp(&b.path));
-    let mut files = read_all(root)?;
+    let mut files = read_all_bounds(root)?;
     for folder in folders.iter().filter(|folder| folder.is_dir()) {
-        let found = read_all(folder)?;
+        let found = read_all_bounds(folder)?;
         if !found.is_empty() && !folder.join("scene.toml").is_file() {
             return Err(Error::Usage(format!(
                 "{}: bounds of a scene that does not exist: {} has no scene.toml; rename the folder as the scene, or remove \
@@ -75,16 +75,6 @@ fn read_bounds_of_scenes(root: &Location) -> Result<Vec<BoundsFile>, Error> {
         files.extend(found);
     }
     Ok(files)
-}
-
-/// Reads every file of bounds in one folder.
-fn read_all(folder: &Location) -> Result<Vec<BoundsFile>, Error> {
-    (list_bounds_files(folder)?.into_iter())
-        .map(|(file, size)| match size {
-            None => read_bounds_file(&file),
-            Some(size) => read_sized_bounds(&file, size),
-        })
-        .collect()
 }
 
 fn check_filters(file: &BoundsFile, choices: &[FilterChoice]) -> Result<(), Error> {

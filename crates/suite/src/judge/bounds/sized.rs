@@ -39,11 +39,9 @@ pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<Bou
     Ok(read)
 }
 
-/// Lists the files of bounds in a folder, each with the size in its name, in the order of their names. Refuses a file that its name
-/// makes look like one of them, since nothing would read it.
-pub(super) fn list_bounds_files(
-    folder: &Location,
-) -> Result<Vec<(Location, Option<(u32, u32)>)>, Error> {
+/// Reads all files of bounds in a folder, in the order of their names. Refuses a file that its name makes look like one of them, since
+/// nothing would read it.
+pub(super) fn read_all_bounds(folder: &Location) -> Result<Vec<BoundsFile>, Error> {
     let mut files = Vec::new();
     for file in folder.list().unwrap_or_default() {
         let name = file.path.file_name().and_then(|name| name.to_str());
@@ -62,9 +60,12 @@ pub(super) fn list_bounds_files(
                 ))
             })?),
         };
-        files.push((file, size));
+        files.push(match size {
+            None => read_bounds_file(&file)?,
+            Some(size) => read_sized_bounds(&file, size)?,
+        });
     }
-    files.sort_by(|a, b| a.0.path.cmp(&b.0.path));
+    files.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(files)
 }
 
