@@ -38,7 +38,7 @@ impl SceneContext<'_> {
         let monitor = self.plan.monitor;
         (monitor.ended)("frame and truths");
         let viewing = frame.display.into();
-        let stored_frames = store_frame(&self.plan.inputs, frame, self.scene.traced())?;
+        let stored_frames = store_frame(&self.plan.inputs, frame, self.scene.traced(), monitor)?;
         let frames_before = frames_before(self.plan, self.filters, self.scene)?;
         let common_alignment = self.plan.common_alignment();
         let has_others = (due.iter()).any(|case| case.alignment != common_alignment);
