@@ -13,6 +13,41 @@ fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     })
 }
 
+/// Measures how far to the right the middle of the plate lies in the output of one frame of a sequence, in pixels.
+fn plate_middle(bench: &Bench, sequence: &Sequence, frame: usize) -> f64 {
+    let folder = bench.path("out").join(&sequence.frames[frame].folder);
+    let output = read_exr(&folder.join("output.exr")).unwrap();
+    let plate = output.plane("coverage.plate").unwrap();
+    let columns = plate.pixels.iter().enumerate().map(|(at, share)| {
+        let column = at % plate.width as usize;
+        (column as f64 * f64::from(*share), f64::from(*share))
+    });
+    let (sum, area) = columns.fold((0.0, 0.0), |all, own| (all.0 + own.0, all.1 + own.1));
+    sum / area
+}
+
+#[test]
+fn the_jitter_of_a_sequence_goes_on_from_frame_to_frame() {
+    let bench = Bench::new();
+    let words = "--filters identity --frames 3 --camera-jitter left_in";
+    assert_done(&bench.run(&split(words)));
+    let run = bench.read_run();
+    let find = |name: &str| {
+        let own = run.sequences.iter().find(|own| own.filter == name);
+        own.expect("it has a sequence")
+    };
+    let [still, jittered] = ["identity:default", "identity:default jitter=left_in"].map(find);
+    // The second to the fourth number of the Halton sequence of base 2, less a half.
+    for (frame, jitter) in [-0.25, 0.25, -0.375].into_iter().enumerate() {
+        let [own, other] = [jittered, still].map(|it| plate_middle(&bench, it, frame));
+        // Few samples see the edges of a plate of 3 by 3 pixels.
+        assert!(
+            (own - other - jitter).abs() < 0.08,
+            "frame {frame}: {own} {other}"
+        );
+    }
+}
+
 fn flip(cases: &[Case], name: &str) -> f64 {
     find_case(cases, name).scores.moving.flip.value().unwrap()
 }

@@ -109,5 +109,15 @@ mod tests {
         assert_eq!(row, [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5]);
         let column: Vec<u32> = (0..10).map(|y| read.at(0, y).1).collect();
         assert_eq!(column, [0, 0, 1, 1, 1, 2, 2, 2, 3, 3]);
+        // The centres of 7 pixels lie at 0.2, 0.6, 1.1, 1.5, 1.9, 2.4 and 2.8 of 3.
+        let bare = |width| Extent {
+            picture: [width, 1],
+            band: 0,
+        };
+        let three = Raster::from_fn(3, 1, |x, _| x);
+        assert_eq!(
+            read_nearest(&three, bare(3), bare(7)).pixels,
+            [0, 0, 1, 1, 1, 2, 2]
+        );
     }
 }

@@ -29,6 +29,7 @@ pub(super) fn frames_before(
     plan: &RunPlan,
     filters: &[FilterChoice],
     scene: RunScene,
+    inputs: &[InputFormat],
 ) -> Result<Vec<(InputFormat, Frame)>, Error> {
     let has_history = filters
         .iter()
@@ -43,5 +44,5 @@ pub(super) fn frames_before(
     let first = plan.scenes.iter().find(is_own);
     let before = first.expect("it is in the plan").at_frame(later.frame - 1);
     let frame = render_frame(&before, &plan.render, &plan.out, plan.monitor)?;
-    store_frame(&plan.inputs, &frame, Some(&before), plan.monitor)
+    store_frame(inputs, &frame, Some(&before), plan.monitor)
 }
