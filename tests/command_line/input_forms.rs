@@ -1,7 +1,7 @@
 //! Forms in which engines hand over a frame: sizes of buffers, samples, jitter, scale.
 
 use frame::read_exr;
-use suite::{BufferSize, CameraJitter, Case, Multisampling, RenderScale};
+use suite::{BufferSize, CameraJitter, Case, Multisampling, RenderScale, Sequence};
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 
