@@ -43,18 +43,13 @@ impl Multisampling {
         if self == Self::None {
             return Ok(frame.clone());
         }
-        let mut settings = settings_of(frame);
-        settings.options.color = ColorSampling::Point;
-        settings.samples_per_pixel = (settings.samples_per_pixel / SAMPLES.len() as u32).max(1);
-        let RenderSettings { width, height, .. } = settings;
         let label = format!("{} frame with 4 samples per pixel", scene.name);
         let samples = monitor.watch(&label, |watch| {
-            let grids = SAMPLES.map(|offset| PixelGrid {
-                size: [width, height],
-                offset,
-            });
-            (grids.iter())
-                .map(|grid| trace_frame_on(scene, &settings, grid, watch))
+            (SAMPLES.into_iter().zip(sample_settings(frame)))
+                .map(|(offset, settings)| {
+                    let size = [settings.width, settings.height];
+                    trace_frame_on(scene, &settings, &PixelGrid { size, offset }, watch)
+                })
                 .collect::<Result<Vec<Frame>, _>>()
         })?;
         Ok(self.resolve(frame, &samples))
@@ -100,6 +95,17 @@ impl Multisampling {
     }
 }
 
+/// Lists the settings of the four samples: each has a quarter of the frame's rays, at one place, and random numbers of its own.
+fn sample_settings(frame: &Frame) -> [RenderSettings; 4] {
+    let mut settings = settings_of(frame);
+    settings.options.color = ColorSampling::Point;
+    settings.samples_per_pixel = (settings.samples_per_pixel / SAMPLES.len() as u32).max(1);
+    [1, 2, 3, 4].map(|sample| RenderSettings {
+        seed: settings.seed.wrapping_add(sample),
+        ..settings
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,6 +140,21 @@ mod tests {
             assert_eq!(resolved.color.pixels, [[3.0, 0.0, 1.0]]);
             assert_eq!(resolved.coverage[0].pixels, [0.5]);
         }
+    }
+
+    #[test]
+    fn samples_share_the_rays_of_a_pixel_and_no_random_numbers() {
+        let mut frame = test_frame(4, 3);
+        frame.provenance.samples_per_pixel = 64;
+        frame.provenance.seed = u64::MAX;
+        let settings = sample_settings(&frame);
+        assert!(settings.iter().all(|own| own.samples_per_pixel == 16));
+        let mut seeds = settings.map(|own| own.seed).to_vec();
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 4);
+        frame.provenance.samples_per_pixel = 2;
+        assert_eq!(sample_settings(&frame)[0].samples_per_pixel, 1);
     }
 
     #[test]
