@@ -22,6 +22,7 @@ mod guides;
 mod hostile;
 mod import;
 mod ingest;
+mod input_forms;
 #[cfg(unix)]
 mod interrupts;
 mod kept;

@@ -74,6 +74,24 @@ fn a_run_scales_a_preset_to_its_width_and_reports_it() {
 }
 
 #[test]
+fn a_small_frame_scales_a_preset_to_its_own_width() {
+    let bench = set_up();
+    let words = split("--filter mine --render-scale 50_blur_first,50_upscale_first");
+    assert_done(&bench.run(&words));
+    let cases = bench.read_run().cases;
+    let radius = |name: &str| {
+        let case = cases.iter().find(|case| case.name() == name);
+        case.expect("it was measured").parameters["radius"].clone()
+    };
+    assert_eq!(radius("mine:engine"), Value::Integer(4));
+    assert_eq!(
+        radius("mine:engine scale=50_upscale_first"),
+        Value::Integer(4)
+    );
+    assert_eq!(radius("mine:engine scale=50_blur_first"), Value::Integer(2));
+}
+
+#[test]
 fn a_guard_band_is_not_part_of_the_width() {
     let bench = set_up();
     let case = measure_case(&bench, &["--guard-band", "32"]);

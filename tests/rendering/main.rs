@@ -14,6 +14,7 @@ mod intersection;
 mod materials;
 mod motion;
 mod moving_shapes;
+mod pixel_grid;
 mod regions;
 mod shutter;
 mod small_truths;

@@ -41,9 +41,13 @@ pub use compare::{
 };
 pub use error::Error;
 pub use filter::border::Border;
+pub use filter::buffer_size::BufferSize;
+pub use filter::camera_jitter::CameraJitter;
 pub use filter::choice::FilterChoice;
 pub use filter::depth_format::DepthFormat;
-pub use filter::input_format::InputFormat;
+pub use filter::input_format::{InputFormat, InputForms};
+pub use filter::multisampling::Multisampling;
+pub use filter::render_scale::RenderScale;
 pub use filter::runner::{Runner, open_adapter, open_gpu};
 pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;

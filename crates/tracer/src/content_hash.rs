@@ -4,6 +4,7 @@ use std::fmt::Debug;
 
 use frame::{Alignment, FrameOptions, Provenance};
 
+use crate::pixel_grid::PixelGrid;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
@@ -19,6 +20,16 @@ pub fn frame_hash(scene: &Scene, settings: &RenderSettings) -> String {
         ..*settings
     };
     content_hash(scene, "frame", &own)
+}
+
+/// The content hash of the frame that [`trace_frame_on`](crate::trace_frame_on) would render; on the picture's own pixels it is that
+/// of [`frame_hash`].
+pub(crate) fn grid_hash(scene: &Scene, settings: &RenderSettings, grid: &PixelGrid) -> String {
+    let frame = frame_hash(scene, settings);
+    if *grid == PixelGrid::of_picture(settings.width, settings.height) {
+        return frame;
+    }
+    content_hash(scene, "grid", &(frame, grid))
 }
 
 /// The content hash that all replicates of a truth share, independent of their number; see [`frame_hash`].

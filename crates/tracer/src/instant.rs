@@ -3,7 +3,7 @@
 use frame::{ColorSampling, FAR_DEPTH, Frame, Plane, Raster, Vectors, VelocityKind};
 use rayon::prelude::*;
 
-use crate::content_hash::{frame_hash, provenance};
+use crate::content_hash::{grid_hash, provenance};
 use crate::error::TraceError;
 use crate::film::canvas::Canvas;
 use crate::film::finite::{check_layer, check_picture};
@@ -13,6 +13,7 @@ use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::Stream;
 use crate::light::integrator::Integrator;
 use crate::motion::velocity::{PointMotion, TrackedPoint, camera, camera_velocity, reprojection};
+use crate::pixel_grid::{PixelGrid, scale_camera, scale_reprojection};
 use crate::progress::{Meter, Watch};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
@@ -43,12 +44,23 @@ pub fn trace_frame(
     settings: &RenderSettings,
     watch: Watch,
 ) -> Result<Frame, TraceError> {
+    let own = PixelGrid::of_picture(settings.width, settings.height);
+    trace_frame_on(scene, settings, &own, watch)
+}
+
+/// Renders the instant as [`trace_frame`] does, on another grid of pixels over the picture of the settings. The guard band is in
+/// pixels of the grid.
+///
+/// # Errors
+/// The settings or the grid do not fit the scene, a pixel is not finite, or the watcher cancelled.
+pub fn trace_frame_on(
+    scene: &Scene,
+    settings: &RenderSettings,
+    grid: &PixelGrid,
+    watch: Watch,
+) -> Result<Frame, TraceError> {
     settings.check_frame(scene)?;
-    let canvas = Canvas {
-        width: settings.width,
-        height: settings.height,
-        guard_band: settings.guard_band,
-    };
+    let canvas = check_canvas(settings, grid)?;
     let stage = Stage::try_new(scene, 0.0, 0.0)?;
     let stage = &stage;
     let make_film = |samples, replicates, stream| Film {
@@ -85,13 +97,13 @@ pub fn trace_frame(
             settings.seed,
             settings.samples_per_pixel,
             1,
-            frame_hash(scene, settings),
+            grid_hash(scene, settings, grid),
         ),
         exposure: settings.exposure(scene),
         options: settings.options,
         guard_band: settings.guard_band,
-        reprojection: reprojection(scene, [settings.width, settings.height]),
-        camera: Some(camera(scene, [settings.width, settings.height])),
+        reprojection: scale_reprojection(reprojection(scene, canvas.view), canvas.step),
+        camera: Some(scale_camera(camera(scene, canvas.view), canvas.step)),
         display: scene.display,
         objects: scene.object_names(),
         color: picture.color,
@@ -112,12 +124,22 @@ pub fn trace_motion(
     settings: &RenderSettings,
     motion: &PointMotion,
 ) -> Result<PointLayers, TraceError> {
+    let own = PixelGrid::of_picture(settings.width, settings.height);
+    trace_motion_on(scene, settings, motion, &own)
+}
+
+/// Samples what a rasteriser writes as [`trace_motion`] does, on another grid of pixels over the picture of the settings.
+///
+/// # Errors
+/// The settings or the grid do not fit the scene, or a velocity is not finite.
+pub fn trace_motion_on(
+    scene: &Scene,
+    settings: &RenderSettings,
+    motion: &PointMotion,
+    grid: &PixelGrid,
+) -> Result<PointLayers, TraceError> {
     settings.check_frame(scene)?;
-    let canvas = Canvas {
-        width: settings.width,
-        height: settings.height,
-        guard_band: settings.guard_band,
-    };
+    let canvas = check_canvas(settings, grid)?;
     let stage = Stage::try_new(scene, motion.seen_at, motion.seen_at)?;
     let points = sample_points(&stage, canvas, settings, motion);
     let velocity = points.map(|point| point.velocity);
@@ -129,6 +151,19 @@ pub fn trace_motion(
     })
 }
 
+/// Makes the canvas of a grid; refuses a grid of a size that no picture has.
+fn check_canvas(settings: &RenderSettings, grid: &PixelGrid) -> Result<Canvas, TraceError> {
+    let [width, height] = grid.size;
+    let own = RenderSettings {
+        width,
+        height,
+        ..*settings
+    };
+    own.check_sizes()?;
+    let band = settings.guard_band;
+    Ok(Canvas::new(settings.width, settings.height, band, grid))
+}
+
 /// Samples what a rasteriser writes, at the centres of all pixels.
 fn sample_points(
     stage: &Stage,
@@ -138,14 +173,14 @@ fn sample_points(
 ) -> Raster<PointSample> {
     let scene = stage.scene;
     let options = settings.options;
-    let size = [canvas.width, canvas.height];
+    let size = canvas.view;
     let view = scene.camera.view(motion.seen_at, size[0], size[1]);
     let before = reprojection(scene, size);
     let points = (canvas.pixels().into_par_iter())
         .map_init(
             || stage.poses(),
             |poses, pixel| {
-                let centre = canvas.corner(pixel).map(|corner| corner + 0.5);
+                let centre = canvas.place(pixel, [0.5; 2]);
                 let ray = view.ray(centre[0], centre[1]);
                 let hit = stage.closest(poses.at(motion.seen_at), &ray);
                 let depth = hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32);
@@ -159,7 +194,7 @@ fn sample_points(
                     tracked.velocity(scene, size, options.velocity, motion)
                 };
                 PointSample {
-                    velocity: velocity.map(|component| component as f32),
+                    velocity: [0, 1].map(|axis| (velocity[axis] / canvas.step[axis]) as f32),
                     depth,
                     object_id: hit.map_or(0, |hit| hit.object as u32 + 1),
                 }

@@ -16,6 +16,7 @@ mod load;
 mod location;
 mod material;
 mod motion;
+mod pixel_grid;
 mod progress;
 mod scene;
 mod seal;
@@ -31,7 +32,7 @@ pub use error::TraceError;
 pub use film::sampler::MOST_SAMPLES;
 pub use geometry::hit::Hit;
 pub use geometry::ray::Ray;
-pub use instant::{PointLayers, trace_frame, trace_motion};
+pub use instant::{PointLayers, trace_frame, trace_frame_on, trace_motion, trace_motion_on};
 pub use ladder::{LadderTracer, trace_ladder};
 pub use load::{
     MOST_COINCIDENT, SceneError, SceneListing, list_scene, list_scenes, load_scene,
@@ -43,6 +44,7 @@ pub use motion::curve::Interpolation;
 pub use motion::keys::{Key, Motion, Turn};
 pub use motion::poses::Poses;
 pub use motion::velocity::{ObjectsBefore, PointMotion};
+pub use pixel_grid::PixelGrid;
 pub use progress::{Progress, Watch};
 pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,

@@ -70,16 +70,21 @@ impl RenderSettings {
 
     /// Refuses settings with which the scene's frame cannot be rendered.
     pub fn check_frame(&self, scene: &Scene) -> Result<(), TraceError> {
+        self.check_sizes()?;
+        Alignment::Trailing.shutter(self.exposure(scene))?;
+        check_samples(self.samples_per_pixel, 1)?;
+        scene.check_defined(0.0)?;
+        check_field_of_view(scene, earliest_time(self.options.velocity), 0.0)
+    }
+
+    /// Refuses a frame of no size that a picture has, with its guard band or without.
+    pub(crate) fn check_sizes(&self) -> Result<(), TraceError> {
         let band = self.guard_band.saturating_mul(2);
         check_size(self.width, self.height)?;
         check_size(
             self.width.saturating_add(band),
             self.height.saturating_add(band),
-        )?;
-        Alignment::Trailing.shutter(self.exposure(scene))?;
-        check_samples(self.samples_per_pixel, 1)?;
-        scene.check_defined(0.0)?;
-        check_field_of_view(scene, earliest_time(self.options.velocity), 0.0)
+        )
     }
 
     /// Refuses settings with which the scene's truth cannot be rendered; returns the shutter.

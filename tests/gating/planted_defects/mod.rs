@@ -101,7 +101,7 @@ impl Bench {
             scenes,
             engine_scenes: Vec::new(),
             filters,
-            inputs: InputFormat::one_by_one(&[], &[], &[], &[]),
+            inputs: vec![InputFormat::default()],
             frames: suite::Frames::default(),
             jitter_frames: 0,
             render: RenderSettings {

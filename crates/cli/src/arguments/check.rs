@@ -8,7 +8,7 @@ use super::adapter::AdapterArgs;
 use super::measure::MeasureArgs;
 
 /// Arguments that only a check that measures may have.
-const MEASURING: [&str; 21] = [
+const MEASURING: [&str; 25] = [
     "scenes",
     "samples_per_pixel",
     "exposure",
@@ -28,6 +28,10 @@ const MEASURING: [&str; 21] = [
     "velocity_defect",
     "depth_format",
     "border",
+    "buffer_size",
+    "msaa",
+    "camera_jitter",
+    "render_scale",
     "jitter_frames",
     "adapter",
 ];

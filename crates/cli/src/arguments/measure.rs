@@ -1,11 +1,10 @@
 //! Arguments of commands that measure scenes: `run`, `check` and `calibrate`.
 
-use clap::Args;
-use suite::{Border, DepthFormat, VelocityDefect, VelocityFormat};
-
-use super::parse::{parse_jitter_frames, parse_named, parse_size, parse_whole};
+use super::input_forms::InputFormArgs;
+use super::parse::{parse_jitter_frames, parse_size, parse_whole};
 use super::programs::ProgramArgs;
 use super::scenes::SceneArgs;
+use clap::Args;
 
 /// Choice of scenes, filters and inputs to measure.
 #[derive(Clone, Debug, Args)]
@@ -45,18 +44,8 @@ pub struct MeasureArgs {
         value_parser = parse_whole::<u32>
     )]
     pub replicates: u32,
-    /// Formats of the velocity buffer to try on every filter beside 32-bit floats, separated by commas.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(VelocityFormat::ALL, VelocityFormat::name, VelocityFormat::help), value_delimiter = ',', value_name = "FORMATS")]
-    pub velocity_format: Vec<VelocityFormat>,
-    /// Defects of the velocity buffer to try on every filter beside the right one, separated by commas. They show what each costs.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(VelocityDefect::ALL, VelocityDefect::name, VelocityDefect::help), value_delimiter = ',', value_name = "DEFECTS")]
-    pub velocity_defect: Vec<VelocityDefect>,
-    /// Formats of the depth buffer to try beside 32-bit floats, separated by commas.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(DepthFormat::ALL, DepthFormat::name, DepthFormat::help), value_delimiter = ',', value_name = "FORMATS")]
-    pub depth_format: Vec<DepthFormat>,
-    /// Content beyond the border to try beside each filter's own, separated by commas; see also --guard-band.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(Border::ALL, Border::name, Border::help), value_delimiter = ',', value_name = "POLICIES")]
-    pub border: Vec<Border>,
+    #[command(flatten)]
+    pub forms: InputFormArgs,
     /// Frames to run a noisy filter on, to tell its noise from its other errors; 0 for none.
     #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = parse_jitter_frames)]
     pub jitter_frames: u32,

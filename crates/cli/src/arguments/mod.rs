@@ -20,6 +20,7 @@ mod groups;
 mod guides;
 mod import;
 mod ingest;
+mod input_forms;
 mod list;
 mod man;
 mod measure;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use frame::FrameOptions;
 use suite::{
     BOUNDS_FILE, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, Frames,
-    InputFormat, RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
+    RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
     read_bounds_beside_scenes, read_bounds_file,
 };
 use tracer::{Location, RenderSettings, Scene, Seal};
@@ -43,12 +43,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
         engine_scenes,
         filters,
-        inputs: InputFormat::one_by_one(
-            &args.velocity_format,
-            &args.depth_format,
-            &args.border,
-            &args.velocity_defect,
-        ),
+        inputs: args.forms.input_forms().one_by_one(),
         jitter_frames: args.jitter_frames,
         frames: Frames::default(),
         render: make_render_settings(&args.scenes, size, args.replicates)?,

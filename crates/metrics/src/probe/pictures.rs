@@ -17,10 +17,15 @@ pub struct Probes {
 impl Probes {
     /// Makes the pictures to run through a filter: (x, y, 1) and (xx, xy, yy).
     pub fn images(width: u32, height: u32) -> [Image; 2] {
+        Self::images_with_step(width, height, [1.0; 2])
+    }
+
+    /// Makes them for a filter that runs on a smaller picture, whose pixels are `step` pixels wide and high.
+    pub fn images_with_step(width: u32, height: u32, step: [f32; 2]) -> [Image; 2] {
         let place = |x: u32, y: u32| {
             [
-                x as f32 + 0.5 - 0.5 * width as f32,
-                y as f32 + 0.5 - 0.5 * height as f32,
+                step[0] * (x as f32 + 0.5 - 0.5 * width as f32),
+                step[1] * (y as f32 + 0.5 - 0.5 * height as f32),
             ]
         };
         [

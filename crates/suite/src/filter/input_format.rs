@@ -1,14 +1,18 @@
-//! Formats in which an engine stores the input of its motion blur.
+//! Forms in which an engine hands over the input of its motion blur.
 
-use frame::Frame;
+use frame::{Frame, VelocityKind};
 use serde::{Deserialize, Serialize};
 use tracer::Scene;
 
 use super::border::{Border, repeat_border, smear_margin};
+use super::buffer_size::BufferSize;
+use super::camera_jitter::CameraJitter;
 use super::depth_format::DepthFormat;
+use super::multisampling::Multisampling;
+use super::render_scale::RenderScale;
 use super::velocity_defect::VelocityDefect;
 use super::velocity_format::VelocityFormat;
-use crate::Error;
+use crate::{Error, Monitor};
 
 /// The form in which a filter gets its frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -20,37 +24,72 @@ pub struct InputFormat {
     /// Policy beyond the picture.
     pub border: Border,
     /// Defect of the velocity buffer.
-    #[serde(default, skip_serializing_if = "is_right")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub defect: VelocityDefect,
+    /// Size of the velocity and depth buffers.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub buffers: BufferSize,
+    /// Samples per pixel of the rasteriser.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub msaa: Multisampling,
+    /// Jitter of the camera.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub jitter: CameraJitter,
+    /// Scale of the frame.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub scale: RenderScale,
 }
 
-fn is_right(defect: &VelocityDefect) -> bool {
-    *defect == VelocityDefect::None
+/// Forms to try, part by part.
+#[derive(Clone, Debug, Default)]
+pub struct InputForms {
+    /// Formats of the velocity buffer.
+    pub velocity: Vec<VelocityFormat>,
+    /// Formats of the depth buffer.
+    pub depth: Vec<DepthFormat>,
+    /// Policies beyond the picture.
+    pub border: Vec<Border>,
+    /// Defects of the velocity buffer.
+    pub defect: Vec<VelocityDefect>,
+    /// Sizes of the velocity and depth buffers.
+    pub buffers: Vec<BufferSize>,
+    /// Samples per pixel of the rasteriser.
+    pub msaa: Vec<Multisampling>,
+    /// Jitters of the camera.
+    pub jitter: Vec<CameraJitter>,
+    /// Scales of the frame.
+    pub scale: Vec<RenderScale>,
+}
+
+fn is_default<T: Default + PartialEq>(part: &T) -> bool {
+    *part == T::default()
+}
+
+impl InputForms {
+    /// Lists the full form, and then each of the others alone, so that a change of scores has one cause.
+    pub fn one_by_one(&self) -> Vec<InputFormat> {
+        let full = InputFormat::default();
+        let mut formats = vec![full];
+        let mut try_each = |others: &mut dyn Iterator<Item = InputFormat>| {
+            for format in others {
+                if !formats.contains(&format) {
+                    formats.push(format);
+                }
+            }
+        };
+        try_each(&mut (self.velocity.iter()).map(|&velocity| InputFormat { velocity, ..full }));
+        try_each(&mut (self.depth.iter()).map(|&depth| InputFormat { depth, ..full }));
+        try_each(&mut (self.border.iter()).map(|&border| InputFormat { border, ..full }));
+        try_each(&mut (self.defect.iter()).map(|&defect| InputFormat { defect, ..full }));
+        try_each(&mut (self.buffers.iter()).map(|&buffers| InputFormat { buffers, ..full }));
+        try_each(&mut (self.msaa.iter()).map(|&msaa| InputFormat { msaa, ..full }));
+        try_each(&mut (self.jitter.iter()).map(|&jitter| InputFormat { jitter, ..full }));
+        try_each(&mut (self.scale.iter()).map(|&scale| InputFormat { scale, ..full }));
+        formats
+    }
 }
 
 impl InputFormat {
-    /// Lists the full form, and then each of the others alone, so that a change of scores has one cause.
-    pub fn one_by_one(
-        velocities: &[VelocityFormat],
-        depths: &[DepthFormat],
-        borders: &[Border],
-        defects: &[VelocityDefect],
-    ) -> Vec<Self> {
-        let full = Self::default();
-        let mut formats = vec![full];
-        formats.extend(velocities.iter().map(|&velocity| Self { velocity, ..full }));
-        formats.extend(depths.iter().map(|&depth| Self { depth, ..full }));
-        formats.extend(borders.iter().map(|&border| Self { border, ..full }));
-        formats.extend(defects.iter().map(|&defect| Self { defect, ..full }));
-        let mut once = Vec::new();
-        for format in formats {
-            if !once.contains(&format) {
-                once.push(format);
-            }
-        }
-        once
-    }
-
     /// Names what differs from the full form, as the command line does: `velocity=float16`; none for the full form.
     pub fn change(&self) -> Option<String> {
         let full = Self::default();
@@ -59,6 +98,10 @@ impl InputFormat {
             ("depth", self.depth.name(), full.depth.name()),
             ("border", self.border.name(), full.border.name()),
             ("defect", self.defect.name(), full.defect.name()),
+            ("buffers", self.buffers.name(), full.buffers.name()),
+            ("msaa", self.msaa.name(), full.msaa.name()),
+            ("jitter", self.jitter.name(), full.jitter.name()),
+            ("scale", self.scale.name(), full.scale.name()),
         ];
         let changes: Vec<String> = (all.iter().filter(|(_, own, full)| own != full))
             .map(|(part, own, _)| format!("{part}={own}"))
@@ -66,17 +109,53 @@ impl InputFormat {
         (!changes.is_empty()).then(|| changes.join(","))
     }
 
-    /// Returns the frame as it comes out of these buffers. Some defects of velocity need the scene.
+    /// Refuses a form of what is not known: of motion that a capture, or a buffer of the camera's motion alone, does not have, or of a
+    /// scene that an engine drew.
+    pub(crate) fn check(&self, kind: VelocityKind, has_scene: bool) -> Result<(), Error> {
+        let rendered_again = [
+            ("--msaa", self.msaa.name(), is_default(&self.msaa)),
+            (
+                "--camera-jitter",
+                self.jitter.name(),
+                is_default(&self.jitter),
+            ),
+            ("--render-scale", self.scale.name(), is_default(&self.scale)),
+        ];
+        match rendered_again.iter().find(|(.., is_full)| !is_full) {
+            Some((option, name, _)) if !has_scene => Err(Error::Usage(format!(
+                "{option} {name}: renders the scene again, which an engine's capture does not have; leave the option out, \
+                 or leave out the capture"
+            ))),
+            _ => self.defect.check(kind, has_scene),
+        }
+    }
+
+    /// Returns the frame as a filter gets it. Some forms need the scene, to render it again.
     ///
     /// # Errors
-    /// The defect needs a scene, and there is none; or its motion cannot be traced.
-    pub fn apply(&self, frame: &Frame, scene: Option<&Scene>) -> Result<Frame, Error> {
+    /// The form needs a scene, and there is none; or the scene cannot be rendered so.
+    pub fn apply(
+        &self,
+        frame: &Frame,
+        scene: Option<&Scene>,
+        monitor: Monitor,
+    ) -> Result<Frame, Error> {
+        self.check(frame.options.velocity, scene.is_some())?;
+        let rendered = match scene {
+            None => frame.clone(),
+            Some(scene) => {
+                let frame = self.msaa.apply(frame, scene, monitor)?;
+                let frame = self.jitter.apply(&frame, scene, monitor)?;
+                self.scale.apply(&frame, scene, monitor)?
+            }
+        };
         let mut stored = Frame {
-            velocity: self.defect.apply(frame, scene)?,
-            depth: self.depth.apply(&frame.depth),
-            ..frame.clone()
+            velocity: self.defect.apply(&rendered, scene)?,
+            depth: self.depth.apply(&rendered.depth),
+            ..rendered
         };
         stored.velocity = self.velocity.apply(&stored);
+        let stored = self.buffers.apply(stored);
         Ok(match self.border {
             Border::Leave => stored,
             Border::Clamp => repeat_border(&stored, smear_margin(frame)),
@@ -90,12 +169,17 @@ mod tests {
 
     #[test]
     fn each_form_is_tried_alone_and_once() {
-        let formats = InputFormat::one_by_one(
-            &[VelocityFormat::Float32, VelocityFormat::Linear8],
-            &[DepthFormat::Float16],
-            &[Border::Clamp, Border::Leave],
-            &[VelocityDefect::Lag],
-        );
+        let forms = InputForms {
+            velocity: vec![VelocityFormat::Float32, VelocityFormat::Linear8],
+            depth: vec![DepthFormat::Float16],
+            border: vec![Border::Clamp, Border::Leave],
+            defect: vec![VelocityDefect::Lag],
+            buffers: vec![BufferSize::Half, BufferSize::Full],
+            msaa: vec![Multisampling::First],
+            jitter: vec![CameraJitter::LeftIn],
+            scale: vec![RenderScale::HalfBlurFirst],
+        };
+        let formats = forms.one_by_one();
         let changes: Vec<_> = formats.iter().map(|format| format.change()).collect();
         let said = |text: &str| Some(text.to_owned());
         assert_eq!(
@@ -105,8 +189,38 @@ mod tests {
                 said("velocity=linear8"),
                 said("depth=float16"),
                 said("border=clamp"),
-                said("defect=lag")
+                said("defect=lag"),
+                said("buffers=half"),
+                said("msaa=first"),
+                said("jitter=left_in"),
+                said("scale=50_blur_first"),
             ]
         );
+    }
+
+    #[test]
+    fn forms_that_render_again_are_refused_without_a_scene() {
+        let forms = InputForms {
+            buffers: vec![BufferSize::Half],
+            msaa: vec![Multisampling::Nearest],
+            jitter: vec![CameraJitter::Resolved],
+            scale: vec![RenderScale::HalfUpscaleFirst],
+            ..InputForms::default()
+        };
+        let refused: Vec<_> = (forms.one_by_one().iter())
+            .map(|form| form.check(VelocityKind::Instantaneous, false).err())
+            .map(|error| error.map(|error| error.to_string()))
+            .collect();
+        assert_eq!(refused[..2], [None, None]);
+        for (error, option) in refused[2..].iter().zip([
+            "--msaa nearest: ",
+            "--camera-jitter resolved: ",
+            "--render-scale 50_upscale_first: ",
+        ]) {
+            assert!(error.as_ref().unwrap().starts_with(option), "{error:?}");
+        }
+        for form in forms.one_by_one() {
+            assert!(form.check(VelocityKind::Instantaneous, true).is_ok());
+        }
     }
 }

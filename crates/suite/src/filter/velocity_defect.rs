@@ -1,8 +1,9 @@
 //! Defects of a velocity buffer, as engines have had them.
 
 use frame::{Frame, Vectors, VelocityKind};
-use tracer::{PointMotion, RenderSettings, Scene, trace_motion};
+use tracer::{PointMotion, Scene, trace_motion};
 
+use super::traced_again::settings_of;
 use crate::Error;
 use crate::named::named;
 
@@ -105,13 +106,5 @@ impl VelocityDefect {
 
 /// Traces the velocity of other points, or of another motion, in the frame's own kind.
 fn trace_defect(frame: &Frame, scene: &Scene, motion: &PointMotion) -> Result<Vectors, Error> {
-    let band = frame.guard_band;
-    let settings = RenderSettings {
-        width: frame.color.width - 2 * band,
-        height: frame.color.height - 2 * band,
-        guard_band: band,
-        options: frame.options,
-        ..RenderSettings::default()
-    };
-    Ok(trace_motion(scene, &settings, motion)?.velocity)
+    Ok(trace_motion(scene, &settings_of(frame), motion)?.velocity)
 }

@@ -138,6 +138,8 @@ impl CaseContext<'_> {
         let before = before.find(|(format, _)| *format == input);
         // The first frame stands in for the one before it.
         let before = before.map_or(frame, |(_, before)| before);
+        let choice = &self.fit(choice, input);
+        let picture = self.picture_size();
         let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
         let ended = self.plan.monitor.ended;
         ended("filter made ready");
@@ -145,10 +147,15 @@ impl CaseContext<'_> {
             &mut runner,
             frame,
             (before, self.scene.frame_index()),
+            picture,
             ended,
         )
         .map_err(|error| name_scene(error, self.scene))?;
-        let dilated_velocity = read_dilated_velocity(&choice.filter, &runner, frame)?;
+        // A smaller one would not fit into the output's file.
+        let dilated_velocity = match input.scale.blurred_size(picture) == picture {
+            true => read_dilated_velocity(&choice.filter, &runner, frame)?,
+            false => None,
+        };
         ended("mattes and probes");
         let jitter = self.measure_jitter(&mut runner, frame)?;
         ended("noise of the filter");
@@ -163,6 +170,24 @@ impl CaseContext<'_> {
             jitter,
             dilated_velocity,
         })
+    }
+
+    /// Returns columns and rows of the picture.
+    fn picture_size(&self) -> [u32; 2] {
+        let band = 2 * self.frame.guard_band;
+        [
+            self.frame.color.width - band,
+            self.frame.color.height - band,
+        ]
+    }
+
+    /// Returns the filter with its lengths in pixels of the picture that it gets, which may be smaller than the plan's.
+    fn fit(&self, choice: &FilterChoice, input: InputFormat) -> FilterChoice {
+        let picture = self.picture_size();
+        match input.scale.blurred_size(picture) {
+            blurred if blurred == picture => choice.clone(),
+            [width, _] => self.plan.scaled_to(choice, width),
+        }
     }
 
     /// Measures the intervals of the scores; empty where none are asked for.
@@ -185,7 +210,8 @@ impl CaseContext<'_> {
         if self.plan.jitter_frames < 2 {
             return Ok(None);
         }
-        let outputs = blur_noise_frames(runner, frame, self.plan.jitter_frames)
+        let frames = self.plan.jitter_frames;
+        let outputs = blur_noise_frames(runner, frame, frames, self.picture_size())
             .map_err(|error| name_scene(error, self.scene))?;
         (self.plan.monitor.ended)("kernels: noise frames");
         Ok(outputs
@@ -220,9 +246,10 @@ impl CaseContext<'_> {
             ended,
         )?;
         let choice = match planned.source {
-            PictureSource::Filter(choice, _) => Some(choice),
+            PictureSource::Filter(choice, input) => Some(self.fit(choice, input)),
             _ => None,
         };
+        let choice = choice.as_ref();
         let command = choice.and_then(|choice| choice.filter.command.as_ref());
         let convention = choice.map(|choice| choice.filter.convention);
         let convention = convention.filter(|it| *it != Convention::default());

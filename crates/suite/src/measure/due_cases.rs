@@ -16,6 +16,7 @@ use super::run_scene::RunScene;
 use super::scene::SceneContext;
 use crate::Error;
 use crate::cache::record::write_record;
+use crate::filter::input_format::InputFormat;
 use crate::render::ladders::LadderFiles;
 use crate::render::truths::{render_replicates, render_truth};
 use crate::run::case::Case;
@@ -38,8 +39,10 @@ impl SceneContext<'_> {
         let monitor = self.plan.monitor;
         (monitor.ended)("frame and truths");
         let viewing = frame.display.into();
-        let stored_frames = store_frame(&self.plan.inputs, frame, self.scene.traced())?;
-        let frames_before = frames_before(self.plan, self.filters, self.scene)?;
+        let is_due = |input: &&InputFormat| due.iter().any(|case| case.input() == **input);
+        let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_due).copied().collect();
+        let stored_frames = store_frame(&inputs, frame, self.scene.traced(), monitor)?;
+        let frames_before = frames_before(self.plan, self.filters, self.scene, &inputs)?;
         let common_alignment = self.plan.common_alignment();
         let has_others = (due.iter()).any(|case| case.alignment != common_alignment);
         // Truths take turns in memory. The common one comes first, since its colours stay.

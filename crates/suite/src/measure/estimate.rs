@@ -137,7 +137,7 @@ fn estimate_with(
             let truths = truths.iter().filter(|missing| **missing).count();
             estimate.disk += count_bytes(&plan.render, (frame, truths), due);
             let truths = plan.alignments().len();
-            let memory = scene.scene.memory(&plan.render, truths);
+            let memory = (scene.scene).memory(&plan.render, truths, plan.inputs.len());
             estimate.memory = estimate.memory.max(memory);
         }
         Ok::<(), Infallible>(())

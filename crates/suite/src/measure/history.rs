@@ -5,20 +5,21 @@ use tracer::Scene;
 
 use super::plan::RunPlan;
 use super::run_scene::RunScene;
-use crate::Error;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
 use crate::render::frames::render_frame;
+use crate::{Error, Monitor};
 
 /// A frame in the forms in which filters get it.
 pub(super) fn store_frame(
     inputs: &[InputFormat],
     frame: &Frame,
     scene: Option<&Scene>,
+    monitor: Monitor,
 ) -> Result<Vec<(InputFormat, Frame)>, Error> {
     let stored = inputs.iter();
     stored
-        .map(|format| Ok((*format, format.apply(frame, scene)?)))
+        .map(|format| Ok((*format, format.apply(frame, scene, monitor)?)))
         .collect()
 }
 
@@ -28,6 +29,7 @@ pub(super) fn frames_before(
     plan: &RunPlan,
     filters: &[FilterChoice],
     scene: RunScene,
+    inputs: &[InputFormat],
 ) -> Result<Vec<(InputFormat, Frame)>, Error> {
     let has_history = filters
         .iter()
@@ -42,5 +44,5 @@ pub(super) fn frames_before(
     let first = plan.scenes.iter().find(is_own);
     let before = first.expect("it is in the plan").at_frame(later.frame - 1);
     let frame = render_frame(&before, &plan.render, &plan.out, plan.monitor)?;
-    store_frame(&plan.inputs, &frame, Some(&before))
+    store_frame(inputs, &frame, Some(&before), plan.monitor)
 }

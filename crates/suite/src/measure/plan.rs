@@ -51,6 +51,13 @@ impl RunPlan {
             .collect()
     }
 
+    /// Scales a filter of the plan to pictures of another width than the plan's.
+    pub(super) fn scaled_to(&self, choice: &FilterChoice, width: u32) -> FilterChoice {
+        let mut own = self.filters.iter();
+        let own = own.find(|own| own.name() == choice.name());
+        own.expect("it is a filter of the plan").scaled_to(width)
+    }
+
     /// Refuses settings with which a scene cannot be rendered, before anything is.
     pub fn check(&self) -> Result<(), Error> {
         self.check_frames()?;
@@ -69,7 +76,7 @@ impl RunPlan {
         }
         for input in &self.inputs {
             let has_scenes = self.engine_scenes.is_empty();
-            (input.defect).check(self.render.options.velocity, has_scenes)?;
+            input.check(self.render.options.velocity, has_scenes)?;
         }
         Ok(())
     }

@@ -4,6 +4,7 @@ use filters::{FilterError, Input};
 use frame::{Frame, Image, Picture, Plane, Raster};
 use metrics::Probes;
 
+use crate::filter::render_scale::upscale_picture;
 use crate::filter::runner::Runner;
 
 /// The output of a filter, without the frame's guard band.
@@ -19,16 +20,22 @@ pub(crate) struct FilterOutput {
 
 /// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
 /// probes, and on a mixture of colour and probe, with the noise of one frame. `before` is the frame before, for filters with history; each of
-/// its pictures takes the place of that of the frame. `ended` hears of the end of each part.
+/// its pictures takes the place of that of the frame. The output is upscaled to `picture` where the frame shows it smaller. `ended`
+/// hears of the end of each part.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     frame: &Frame,
     (before, frame_index): (&Frame, u32),
+    picture: [u32; 2],
     ended: fn(&'static str),
 ) -> Result<FilterOutput, FilterError> {
     let mattes = pack(&frame.coverage);
     let (width, height) = frame.size();
-    let probes = Probes::images(width, height);
+    let step = [
+        picture[0] as f32 / (width - 2 * frame.guard_band) as f32,
+        picture[1] as f32 / (height - 2 * frame.guard_band) as f32,
+    ];
+    let probes = Probes::images_with_step(width, height, step);
     let mixture = mix(&frame.color, &probes[0]);
     let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
     colors.extend(&mattes);
@@ -44,12 +51,14 @@ pub(crate) fn blur_with_probes(
     let outputs = runner.run_after(&now, &input(before, &colors_before))?;
     ended("kernels: colour, probes, mattes");
     let outputs = crop_all(outputs, frame.guard_band);
+    let nonlinearity = nonlinearity(
+        &mixture.cropped(frame.guard_band),
+        &outputs[3],
+        &mix(&outputs[0], &outputs[1]),
+    );
+    let outputs = upscale_all(outputs, picture);
     Ok(FilterOutput {
-        nonlinearity: nonlinearity(
-            &mixture.cropped(frame.guard_band),
-            &outputs[3],
-            &mix(&outputs[0], &outputs[1]),
-        ),
+        nonlinearity,
         probes: Probes::of([&outputs[1], &outputs[2]]),
         picture: Picture {
             color: outputs[0].clone(),
@@ -80,14 +89,28 @@ fn nonlinearity(mixture: &Image, blurred: &Image, expected: &Image) -> f64 {
     length(blurred, expected) / change.max(f64::MIN_POSITIVE)
 }
 
-/// Runs the filter on the frame's colour with a number of frames of its noise; none where it has no noise.
+/// Runs the filter on the frame's colour with a number of frames of its noise; none where it has no noise. Outputs are upscaled to
+/// `picture` as those of [`blur_with_probes`].
 pub(crate) fn blur_noise_frames(
     runner: &mut Runner,
     frame: &Frame,
     frames: u32,
+    picture: [u32; 2],
 ) -> Result<Option<Vec<Image>>, FilterError> {
     let outputs = runner.run_noise(&input(frame, &[&frame.color]), 0..frames)?;
-    Ok(outputs.map(|outputs| crop_all(outputs, frame.guard_band)))
+    Ok(outputs.map(|outputs| upscale_all(crop_all(outputs, frame.guard_band), picture)))
+}
+
+/// Upscales outputs of a smaller size.
+fn upscale_all(outputs: Vec<Image>, picture: [u32; 2]) -> Vec<Image> {
+    let is_whole = |output: &Image| [output.width, output.height] == picture;
+    match outputs.iter().all(is_whole) {
+        true => outputs,
+        false => (outputs
+            .iter()
+            .map(|output| upscale_picture(output, picture)))
+        .collect(),
+    }
 }
 
 /// Removes the frame's guard band from outputs.

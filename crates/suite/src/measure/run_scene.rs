@@ -109,20 +109,26 @@ impl<'a> RunScene<'a> {
     }
 
     /// Refuses settings with which the scene cannot be measured, and too little memory for this many truths.
-    pub fn check(self, settings: &RenderSettings, truths: usize) -> Result<(), Error> {
+    pub fn check(
+        self,
+        settings: &RenderSettings,
+        truths: usize,
+        forms: usize,
+    ) -> Result<(), Error> {
         match self {
             Self::Traced(scene) => {
                 frame_settings(settings).check_frame(scene)?;
-                check_measuring_memory(scene, settings, truths)
+                check_measuring_memory(scene, settings, truths, forms)
             }
             Self::Drawn(scene) => scene.check_truth(),
         }
     }
 
-    /// Estimates the bytes of memory that measuring takes against this many truths; nothing for a scene that is not rendered.
-    pub fn memory(self, settings: &RenderSettings, truths: usize) -> u64 {
+    /// Estimates the bytes of memory that measuring takes against this many truths, with this many forms of the frame; nothing for a
+    /// scene that is not rendered.
+    pub fn memory(self, settings: &RenderSettings, truths: usize, forms: usize) -> u64 {
         match self {
-            Self::Traced(scene) => measuring_memory(scene, settings, truths),
+            Self::Traced(scene) => measuring_memory(scene, settings, truths, forms),
             Self::Drawn(_) => 0,
         }
     }

@@ -71,7 +71,8 @@ impl SceneContext<'_> {
             return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
         }
         let truths = self.plan.alignments().len();
-        self.scene.check(&self.plan.render, truths)?;
+        let forms = self.plan.inputs.len();
+        self.scene.check(&self.plan.render, truths, forms)?;
         let frame = self.render(advance)?;
         let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();

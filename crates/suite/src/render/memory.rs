@@ -35,6 +35,10 @@ const PER_MEASURED_PIXEL: u64 = 780;
 const PER_MEASURED_COVERAGE: u64 = 43;
 /// Bytes per pixel of the colours of a further truth.
 const PER_FURTHER_TRUTH: u64 = 330;
+/// Bytes per pixel of a further form of the frame, beside its coverages: what its rasters hold.
+const PER_FURTHER_FORM: u64 = 32;
+/// Bytes per such pixel and coverage.
+const PER_FURTHER_FORM_COVERAGE: u64 = 4;
 
 /// Refuses to render a frame, and a truth of a number of replicates, where memory does not suffice. Refuses nothing where the
 /// system does not tell what is free.
@@ -55,15 +59,26 @@ pub(crate) fn check_measuring_memory(
     scene: &Scene,
     settings: &RenderSettings,
     truths: usize,
+    forms: usize,
 ) -> Result<(), Error> {
-    refuse_beyond_free(scene, settings, measuring_memory(scene, settings, truths))
+    let needed = measuring_memory(scene, settings, truths, forms);
+    refuse_beyond_free(scene, settings, needed)
 }
 
-/// Estimates the bytes that it takes to render a scene and to measure filters against a number of its truths.
-pub(crate) fn measuring_memory(scene: &Scene, settings: &RenderSettings, truths: usize) -> u64 {
+/// Estimates the bytes that it takes to render a scene and to measure filters against a number of its truths, each on a number of forms
+/// of the frame.
+pub(crate) fn measuring_memory(
+    scene: &Scene,
+    settings: &RenderSettings,
+    truths: usize,
+    forms: usize,
+) -> u64 {
     let pixels = u64::from(settings.width) * u64::from(settings.height);
     let coverages = count_coverages(scene);
-    let further = PER_FURTHER_TRUTH * truths.saturating_sub(1) as u64;
+    let further_truths = PER_FURTHER_TRUTH * truths.saturating_sub(1) as u64;
+    let form = PER_FURTHER_FORM + PER_FURTHER_FORM_COVERAGE * coverages;
+    let further_forms = form * forms.saturating_sub(1) as u64;
+    let further = further_truths + further_forms;
     let pixel = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * coverages + further;
     let measuring = MEASURING.saturating_add(pixels.saturating_mul(pixel));
     measuring.max(rendering_memory(scene, settings, settings.replicates))

@@ -1,8 +1,10 @@
 //! The pixels of a picture and of the guard band around it.
 
+use crate::pixel_grid::PixelGrid;
+
 /// The size of a picture and of its guard band, which only frames have. Positions count from the picture's top left corner:
 /// in the band they are negative or beyond the size.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Canvas {
     /// Pixels per row of the picture.
     pub width: u32,
@@ -10,15 +12,29 @@ pub(crate) struct Canvas {
     pub height: u32,
     /// Pixels by which the rasters extend beyond the picture on every side.
     pub guard_band: u32,
+    /// Size of the picture in the pixels that the camera's view counts in.
+    pub view: [u32; 2],
+    /// Width and height of a pixel, in pixels of the view.
+    pub step: [f64; 2],
+    /// Distance by which every pixel looks to the right of its place, and below it, in pixels.
+    pub offset: [f64; 2],
 }
 
 impl Canvas {
     /// A picture without a band.
     pub fn bare(width: u32, height: u32) -> Self {
+        Self::new(width, height, 0, &PixelGrid::of_picture(width, height))
+    }
+
+    /// A grid of pixels over a picture of `width` x `height`, with a band of pixels of the grid.
+    pub fn new(width: u32, height: u32, guard_band: u32, grid: &PixelGrid) -> Self {
         Self {
-            width,
-            height,
-            guard_band: 0,
+            width: grid.size[0],
+            height: grid.size[1],
+            guard_band,
+            view: [width, height],
+            step: grid.step(width, height),
+            offset: grid.offset,
         }
     }
 
@@ -48,6 +64,12 @@ impl Canvas {
     pub fn corner(&self, pixel: u32) -> [f64; 2] {
         [pixel % self.columns(), pixel / self.columns()]
             .map(|index| f64::from(index) - f64::from(self.guard_band))
+    }
+
+    /// The place in the camera's view of a place in a pixel, which counts from its top left corner.
+    pub fn place(&self, pixel: u32, within: [f64; 2]) -> [f64; 2] {
+        let corner = self.corner(pixel);
+        [0, 1].map(|axis| self.step[axis] * (corner[axis] + within[axis] + self.offset[axis]))
     }
 
     /// The number that seeds a pixel. Inside the picture it does not depend on the guard band, and so neither do the random

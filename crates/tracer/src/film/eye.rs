@@ -25,11 +25,11 @@ impl<'a> Eye<'a> {
         instant.at(0.0);
         Self {
             scene,
-            view: (scene.camera).view(poses.time(), canvas.width, canvas.height),
+            view: (scene.camera).view(poses.time(), canvas.view[0], canvas.view[1]),
             poses,
             instant,
             moves: !scene.camera.stands_still(),
-            size: [canvas.width, canvas.height],
+            size: canvas.view,
         }
     }
 

@@ -161,12 +161,12 @@ impl<'a> Film<'a> {
         &self,
         eye: &mut Eye,
         pixel: u32,
-        [x, y]: [f64; 2],
+        within: [f64; 2],
         time: f64,
         sampler: &Sampler,
     ) -> FilmSample {
-        let [left, top] = self.canvas.corner(pixel);
-        let ray = eye.view_at(time).ray(left + x, top + y);
+        let [x, y] = self.canvas.place(pixel, within);
+        let ray = eye.view_at(time).ray(x, y);
         let path = self.integrator.trace(&mut eye.poses, ray, sampler);
         let at_instant = self.instant.as_ref().map(|instant| {
             let poses = (&mut eye.poses, &mut eye.instant);
@@ -178,7 +178,7 @@ impl<'a> Film<'a> {
             InstantSample {
                 point,
                 shift,
-                centre: [left + 0.5, top + 0.5],
+                centre: self.canvas.place(pixel, [0.5; 2]),
             }
         });
         FilmSample { path, at_instant }

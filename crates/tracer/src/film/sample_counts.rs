@@ -98,6 +98,9 @@ mod tests {
         width: 8,
         height: 4,
         guard_band: 0,
+        view: [8, 4],
+        step: [1.0; 2],
+        offset: [0.0; 2],
     };
 
     #[test]

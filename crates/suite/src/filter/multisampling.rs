@@ -1,0 +1,171 @@
+//! Frames with several samples per pixel (MSAA).
+
+use frame::{ColorSampling, Frame, Raster};
+use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_on};
+
+use super::traced_again::settings_of;
+use crate::named::named;
+use crate::{Error, Monitor};
+
+/// Places of the four samples from the pixel's centre, in pixels: the standard pattern of Direct3D and Vulkan.
+const SAMPLES: [[f64; 2]; 4] = [
+    [-0.125, -0.375],
+    [0.375, -0.125],
+    [-0.375, 0.125],
+    [0.125, 0.375],
+];
+
+named! {
+    /// A choice of the sample whose velocity and depth a filter gets, of four per pixel. Colour is their mean.
+    pub enum Multisampling {
+        /// No samples: colour over the whole pixel, velocity and depth at its centre.
+        None = "none",
+        /// Velocity and depth of sample 0.
+        First = "first",
+        /// Velocity and depth of the nearest of the four samples.
+        Nearest = "nearest",
+        /// Velocity and depth of the farthest of the four samples.
+        Farthest = "farthest",
+    }
+}
+
+impl Multisampling {
+    /// Returns the frame as it comes out of four samples per pixel.
+    ///
+    /// # Errors
+    /// The scene cannot be rendered so, or the monitor interrupts.
+    pub(crate) fn apply(
+        self,
+        frame: &Frame,
+        scene: &Scene,
+        monitor: Monitor,
+    ) -> Result<Frame, Error> {
+        if self == Self::None {
+            return Ok(frame.clone());
+        }
+        let label = format!("{} frame with 4 samples per pixel", scene.name);
+        let samples = monitor.watch(&label, |watch| {
+            (SAMPLES.into_iter().zip(sample_settings(frame)))
+                .map(|(offset, settings)| {
+                    let size = [settings.width, settings.height];
+                    trace_frame_on(scene, &settings, &PixelGrid { size, offset }, watch)
+                })
+                .collect::<Result<Vec<Frame>, _>>()
+        })?;
+        Ok(self.resolve(frame, &samples))
+    }
+
+    /// Averages colour and coverage of the samples, and takes velocity and depth of one of them.
+    fn resolve(self, frame: &Frame, samples: &[Frame]) -> Frame {
+        let (width, height) = frame.size();
+        let count = samples.len() as f32;
+        let mean = |of: &dyn Fn(&Frame) -> f32| samples.iter().map(of).sum::<f32>() / count;
+        let coverage = (0..frame.coverage.len()).map(|object| {
+            Raster::from_fn(width, height, |x, y| {
+                mean(&|sample| *sample.coverage[object].at(x, y))
+            })
+        });
+        let taken = Raster::from_fn(width, height, |x, y| {
+            let depths = samples.iter().map(|sample| *sample.depth.at(x, y));
+            self.choose(depths)
+        });
+        let each = |x: u32, y: u32| &samples[*taken.at(x, y)];
+        Frame {
+            color: Raster::from_fn(width, height, |x, y| {
+                [0, 1, 2].map(|band| mean(&|sample| sample.color.at(x, y)[band]))
+            }),
+            coverage: coverage.collect(),
+            velocity: Raster::from_fn(width, height, |x, y| *each(x, y).velocity.at(x, y)),
+            depth: Raster::from_fn(width, height, |x, y| *each(x, y).depth.at(x, y)),
+            object_id: Raster::from_fn(width, height, |x, y| *each(x, y).object_id.at(x, y)),
+            ..frame.clone()
+        }
+    }
+
+    /// Chooses a sample by the depths of all; the first among equals.
+    fn choose(self, depths: impl Iterator<Item = f32>) -> usize {
+        let chosen = depths
+            .enumerate()
+            .reduce(|best, own| match (self, own.1 < best.1) {
+                (Self::Nearest, true) => own,
+                (Self::Farthest, _) if own.1 > best.1 => own,
+                _ => best,
+            });
+        chosen.map_or(0, |(index, _)| index)
+    }
+}
+
+/// Lists the settings of the four samples: each has a quarter of the frame's rays, at one place, and random numbers of its own.
+fn sample_settings(frame: &Frame) -> [RenderSettings; 4] {
+    let mut settings = settings_of(frame);
+    settings.options.color = ColorSampling::Point;
+    settings.samples_per_pixel = (settings.samples_per_pixel / SAMPLES.len() as u32).max(1);
+    [1, 2, 3, 4].map(|sample| RenderSettings {
+        seed: settings.seed.wrapping_add(sample),
+        ..settings
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::filter::test_frame::test_frame;
+
+    #[test]
+    fn colour_is_the_mean_and_depth_is_that_of_the_chosen_sample() {
+        let samples: Vec<Frame> = [(5.0, 0.0), (2.0, 4.0), (9.0, 0.0), (2.0, 8.0)]
+            .into_iter()
+            .enumerate()
+            .map(|(index, (depth, red))| {
+                let mut sample = test_frame(1, 1);
+                sample.depth.pixels = vec![depth];
+                sample.color.pixels = vec![[red, 0.0, 1.0]];
+                sample.velocity.pixels = vec![[index as f32, 0.0]];
+                sample.coverage = vec![Raster::filled(1, 1, f32::from(depth > 4.0))];
+                sample
+            })
+            .collect();
+        let full = Frame {
+            coverage: samples[0].coverage.clone(),
+            ..test_frame(1, 1)
+        };
+        for (choice, index, depth) in [
+            (Multisampling::First, 0.0, 5.0),
+            (Multisampling::Nearest, 1.0, 2.0),
+            (Multisampling::Farthest, 2.0, 9.0),
+        ] {
+            let resolved = choice.resolve(&full, &samples);
+            assert_eq!(resolved.velocity.pixels, [[index, 0.0]]);
+            assert_eq!(resolved.depth.pixels, [depth]);
+            assert_eq!(resolved.color.pixels, [[3.0, 0.0, 1.0]]);
+            assert_eq!(resolved.coverage[0].pixels, [0.5]);
+        }
+    }
+
+    #[test]
+    fn samples_share_the_rays_of_a_pixel_and_no_random_numbers() {
+        let mut frame = test_frame(4, 3);
+        frame.provenance.samples_per_pixel = 64;
+        frame.provenance.seed = u64::MAX;
+        let settings = sample_settings(&frame);
+        assert!(settings.iter().all(|own| own.samples_per_pixel == 16));
+        let mut seeds = settings.map(|own| own.seed).to_vec();
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 4);
+        frame.provenance.samples_per_pixel = 2;
+        assert_eq!(sample_settings(&frame)[0].samples_per_pixel, 1);
+    }
+
+    #[test]
+    fn the_samples_are_the_standard_pattern() {
+        // Vulkan's standard locations, in parts of a pixel from its top left corner.
+        let vulkan = [
+            [0.375, 0.125],
+            [0.875, 0.375],
+            [0.125, 0.625],
+            [0.625, 0.875],
+        ];
+        assert_eq!(SAMPLES.map(|place| place.map(|part| part + 0.5)), vulkan);
+    }
+}

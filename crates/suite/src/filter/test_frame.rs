@@ -1,0 +1,23 @@
+//! A small frame for tests of forms of the input.
+
+use frame::{Display, FAR_DEPTH, Frame, FrameOptions, Provenance, Raster, Reprojection};
+
+/// Makes a black frame of nothing.
+pub(crate) fn test_frame(width: u32, height: u32) -> Frame {
+    Frame {
+        provenance: Provenance::default(),
+        exposure: 1.0,
+        options: FrameOptions::default(),
+        guard_band: 0,
+        reprojection: Reprojection::STILL,
+        camera: None,
+        display: Display::default(),
+        objects: vec!["background".to_owned()],
+        color: Raster::filled(width, height, [0.0; 3]),
+        velocity: Raster::filled(width, height, [0.0; 2]),
+        depth: Raster::filled(width, height, FAR_DEPTH),
+        object_id: Raster::filled(width, height, 0),
+        coverage: vec![Raster::filled(width, height, 1.0)],
+        samples: None,
+    }
+}

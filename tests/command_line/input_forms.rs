@@ -1,0 +1,146 @@
+//! Forms in which engines hand over a frame: sizes of buffers, samples, jitter, scale.
+
+use frame::read_exr;
+use suite::{BufferSize, CameraJitter, Case, Multisampling, RenderScale, Sequence};
+
+use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+
+fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
+    let found = cases.iter().find(|case| case.name() == name);
+    found.unwrap_or_else(|| {
+        let names: Vec<String> = cases.iter().map(Case::name).collect();
+        panic!("no {name} among {names:?}")
+    })
+}
+
+/// Measures how far to the right the middle of the plate lies in the output of one frame of a sequence, in pixels.
+fn plate_middle(bench: &Bench, sequence: &Sequence, frame: usize) -> f64 {
+    let folder = bench.path("out").join(&sequence.frames[frame].folder);
+    let output = read_exr(&folder.join("output.exr")).unwrap();
+    let plate = output.plane("coverage.plate").unwrap();
+    let columns = plate.pixels.iter().enumerate().map(|(at, share)| {
+        let column = at % plate.width as usize;
+        (column as f64 * f64::from(*share), f64::from(*share))
+    });
+    let (sum, area) = columns.fold((0.0, 0.0), |all, own| (all.0 + own.0, all.1 + own.1));
+    sum / area
+}
+
+#[test]
+fn the_jitter_of_a_sequence_goes_on_from_frame_to_frame() {
+    let bench = Bench::new();
+    let words = "--filters identity --frames 3 --camera-jitter left_in";
+    assert_done(&bench.run(&split(words)));
+    let run = bench.read_run();
+    let find = |name: &str| {
+        let own = run.sequences.iter().find(|own| own.filter == name);
+        own.expect("it has a sequence")
+    };
+    let [still, jittered] = ["identity:default", "identity:default jitter=left_in"].map(find);
+    // The second to the fourth number of the Halton sequence of base 2, less a half.
+    for (frame, jitter) in [-0.25, 0.25, -0.375].into_iter().enumerate() {
+        let [own, other] = [jittered, still].map(|it| plate_middle(&bench, it, frame));
+        // Few samples see the edges of a plate of 3 by 3 pixels.
+        assert!(
+            (own - other - jitter).abs() < 0.08,
+            "frame {frame}: {own} {other}"
+        );
+    }
+}
+
+fn flip(cases: &[Case], name: &str) -> f64 {
+    find_case(cases, name).scores.moving.flip.value().unwrap()
+}
+
+#[test]
+fn smaller_buffers_change_filters_that_read_them() {
+    let bench = Bench::new();
+    let output = bench.run(&split(
+        "--filters identity,velocity_gather:fine \
+         --buffer-size full,full_dilated,half,half_dilated,quarter,quarter_dilated",
+    ));
+    assert_done(&output);
+    let cases = bench.read_filter_cases();
+    assert_eq!(cases.len(), 2 * 6);
+    let identity = flip(&cases, "identity:default");
+    let whole = flip(&cases, "velocity_gather:fine");
+    for size in BufferSize::ALL.iter().skip(1) {
+        let change = format!("buffers={}", size.name());
+        assert_eq!(
+            flip(&cases, &format!("identity:default {change}")),
+            identity
+        );
+        let changed = flip(&cases, &format!("velocity_gather:fine {change}"));
+        assert!((changed - whole).abs() > 1e-4, "{change} {changed} {whole}");
+        assert!(stdout(&output).contains(&change));
+    }
+    let case = find_case(&cases, "velocity_gather:fine buffers=quarter");
+    assert_eq!(case.input.buffers, BufferSize::Quarter);
+    // The plate's background stands still: blocks without the plate's own motion blur less than those that spread it.
+    let [quarter, dilated] = ["quarter", "quarter_dilated"]
+        .map(|size| flip(&cases, &format!("velocity_gather:fine buffers={size}")));
+    assert_ne!(quarter, dilated);
+    let refused = bench.run(&["--buffer-size", "eighth"]);
+    assert_refused(&refused, 2, &["eighth", "quarter_dilated"]);
+}
+
+#[test]
+fn samples_jitter_and_scale_change_what_filters_get() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&split(
+        "--filters identity,velocity_gather:fine --msaa first,nearest,farthest \
+         --camera-jitter removed,left_in,resolved \
+         --render-scale 50_blur_first,50_upscale_first,67_blur_first,67_upscale_first",
+    )));
+    let cases = bench.read_filter_cases();
+    assert_eq!(cases.len(), 2 * 11);
+    let own = |change: &str| flip(&cases, &format!("identity:default {change}"));
+    let gathered = |change: &str| flip(&cases, &format!("velocity_gather:fine {change}"));
+    let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(&cases, it));
+
+    // Colour is the same whichever sample velocity is of; four samples are coarser than the whole pixel.
+    assert_eq!(own("msaa=first"), own("msaa=nearest"));
+    assert_eq!(own("msaa=first"), own("msaa=farthest"));
+    assert!((own("msaa=first") - identity).abs() < 0.02);
+    assert_ne!(gathered("msaa=nearest"), gathered("msaa=farthest"));
+
+    // Anti-aliased colour is that of the frame; a jittered one lies elsewhere, whatever its vectors.
+    assert_eq!(own("jitter=resolved"), identity);
+    assert_eq!(own("jitter=removed"), own("jitter=left_in"));
+    assert_ne!(own("jitter=removed"), identity);
+    assert_ne!(gathered("jitter=removed"), gathered("jitter=left_in"));
+    assert_ne!(gathered("jitter=resolved"), whole);
+
+    // Without a blur it does not matter whether it comes before or after upscaling.
+    for scale in [50, 67] {
+        let [before, after] =
+            ["blur_first", "upscale_first"].map(|it| format!("scale={scale}_{it}"));
+        assert!((own(&before) - own(&after)).abs() < 1e-6);
+        assert_ne!(gathered(&before), gathered(&after));
+        assert!((own(&before) - identity).abs() > 1e-3);
+        // The gather blurs in the small picture as far as in the whole one: it stays far from the identity.
+        assert!(gathered(&before) < 0.8 * own(&before));
+        assert!(gathered(&after) < 0.8 * own(&after));
+    }
+    let case = find_case(&cases, "velocity_gather:fine scale=50_blur_first");
+    assert_eq!(case.input.scale, RenderScale::HalfBlurFirst);
+    let size = |case: &Case| {
+        let output = bench.path("out").join(&case.folder).join("output.exr");
+        let output = read_exr(&output).unwrap();
+        (output.width, output.height)
+    };
+    let plain = find_case(&cases, "velocity_gather:fine");
+    assert_eq!(size(case), size(plain));
+    // Places that the filter gathers from are in pixels of the whole picture.
+    let offset = |case: &Case| case.scores.probes.gather_offset.value().unwrap();
+    assert!(
+        (offset(case) - offset(plain)).abs() < 0.5,
+        "{} {}",
+        offset(case),
+        offset(plain)
+    );
+    assert!(case.scores.probes.unity.value().unwrap() < 1e-3);
+    let other = find_case(&cases, "identity:default jitter=left_in");
+    assert_eq!(other.input.jitter, CameraJitter::LeftIn);
+    assert_eq!(other.input.msaa, Multisampling::None);
+}
