@@ -103,9 +103,10 @@ fn command(results: &Results, scenes: &[&str]) -> String {
 fn push_ranking(page: &mut String, group: &[RankedFilter], sealed: Option<&[RankedFilter]>) {
     let more = ["", " sealed: rank | FLIP (95 % CI) |"][usize::from(sealed.is_some())];
     let rule = ["", "---|---|"][usize::from(sealed.is_some())];
+    let of = ["", " of the catalogue"][usize::from(sealed.is_some())];
     let _ = writeln!(
         page,
-        "| rank | filter | FLIP (95 % CI) |{more} worst scene |"
+        "| rank | filter | FLIP (95 % CI) |{more} worst scene{of} |"
     );
     let _ = writeln!(page, "|---|---|---|{rule}---|");
     for ranked in group {
