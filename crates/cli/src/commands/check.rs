@@ -15,10 +15,10 @@ use super::ending::Ending;
 use super::margins::read_margins;
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
-use super::plan::{
+use super::run_files::write_judged_run;
+use super::run_plan::{
     check_replicates_for_intervals, make_plan, read_case_bounds, scene_folder_below,
 };
-use super::run_files::write_judged_run;
 use crate::arguments::CheckArgs;
 use crate::output::annotations::{annotations, summary};
 use crate::output::junit::junit;

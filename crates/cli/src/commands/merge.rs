@@ -1,12 +1,31 @@
 //! The command `merge`.
 
-use suite::{Error, merge, printable_path};
+use std::path::PathBuf;
 
+use suite::{Error, holds_run, merge, merge_runs, printable_path, refuse_failures};
+
+use super::run_files::write_run;
 use crate::arguments::MergeArgs;
+use crate::output::count::count_text;
 use crate::output::print::print;
+use crate::tables::failures::failures_text;
 
-/// Joins parts and prints the truths that they made.
+/// Joins parts and prints the truths, or the run, that they made.
 pub fn execute(args: &MergeArgs) -> Result<(), Error> {
+    let (runs, others): (Vec<&PathBuf>, Vec<&PathBuf>) =
+        args.parts.iter().partition(|part| holds_run(part));
+    match (runs.first(), others.first()) {
+        (None, _) => join_replicates(args),
+        (Some(_), None) => join_runs(args),
+        (Some(run), Some(other)) => Err(Error::Usage(format!(
+            "{} holds a run, {} none; allowed: finished runs alone, or parts of truths alone",
+            run.display(),
+            other.display()
+        ))),
+    }
+}
+
+fn join_replicates(args: &MergeArgs) -> Result<(), Error> {
     for merged in merge(&args.parts, &args.out)? {
         print(&format!(
             "{} ({} replicates)\n",
@@ -15,4 +34,23 @@ pub fn execute(args: &MergeArgs) -> Result<(), Error> {
         ))?;
     }
     Ok(())
+}
+
+fn join_runs(args: &MergeArgs) -> Result<(), Error> {
+    let command = match args.command.as_slice() {
+        [] => std::env::args().collect(),
+        words => words.to_vec(),
+    };
+    let merged = merge_runs(&args.parts, command, &args.out)?;
+    write_run(&merged.run, &args.out)?;
+    let run = &merged.run;
+    let mut text = failures_text(&run.failures);
+    text += &format!(
+        "{} ({} of {})\n",
+        printable_path(&args.out.join("run.json")),
+        count_text(run.cases.len() + run.failures.len(), "case", "cases"),
+        count_text(args.parts.len(), "part", "parts")
+    );
+    print(&text)?;
+    refuse_failures(&run.failures)
 }
