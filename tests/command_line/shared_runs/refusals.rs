@@ -135,13 +135,30 @@ fn missing_cases_are_named() {
 }
 
 #[test]
+fn truths_are_not_looked_for_in_vain() {
+    let bench = Bench::new();
+    let run = |more: &[&str]| {
+        let words = [&["run", "--filter", "identity"], &split(QUICK)[..], more].concat();
+        bench.shuttertruth(&words)
+    };
+    let found = [
+        "--truths nowhere: there is no such folder",
+        "render --ladders",
+    ];
+    assert_refused(&run(&["--truths", "nowhere"]), 2, &found);
+    let output = run(&["--truths", "scenes", "--no-cache"]);
+    assert_refused(&output, 2, &["--truths", "--no-cache"]);
+    assert!(!bench.path("out").exists());
+}
+
+#[test]
 fn what_holds_no_run_is_refused() {
     let bench = two_parts();
     fs::create_dir(bench.path("empty")).unwrap();
     refused(
         &bench,
         &["plate", "empty"],
-        &["plate holds a run, empty none"],
+        &["empty holds no replicates", "or finished runs alone"],
     );
     fs::write(bench.path("empty/run.json"), "{").unwrap();
     refused(

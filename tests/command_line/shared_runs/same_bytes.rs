@@ -184,6 +184,7 @@ fn a_part_holds_its_references_or_its_filters_and_has_no_report() {
 fn a_plan_of_a_user_s_own_files_names_them() {
     let bench = Bench::new();
     tests::filter_folder::copy_shipped_filter("velocity_gather", &bench.path("my_blur"));
+    fs::create_dir(bench.path("kept")).unwrap();
     let words = format!("{QUICK} --scenes ./scenes/plate --filter my_blur:fine --truths kept");
     let jobs = plan(&bench, &split(&words));
     let job = |name: &str| jobs.iter().find(|job| job["job"] == name).unwrap();

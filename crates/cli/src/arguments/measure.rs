@@ -56,7 +56,7 @@ pub struct MeasureArgs {
     #[arg(help_heading = "Scenes and files", long, value_name = "FOLDER")]
     pub truths: Option<PathBuf>,
     /// Remove the truths and cases in --out, and make all anew.
-    #[arg(help_heading = "Scenes and files", long)]
+    #[arg(help_heading = "Scenes and files", long, conflicts_with = "truths")]
     pub no_cache: bool,
     #[command(flatten)]
     pub programs: ProgramArgs,

@@ -109,6 +109,12 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
         let scenes = bounds.iter().map(|(name, bounds)| (name.as_str(), bounds));
         require_bounds(root, scenes, &plan.filters)?;
     }
+    if let Some(truths) = &plan.truths {
+        refuse_tracked(
+            truths,
+            "choose a folder outside of the repository for --truths",
+        )?;
+    }
     if !plan.no_cache {
         let way_out = "choose a folder outside of the repository for --out, or have all made anew with --no-cache";
         refuse_tracked(&plan.out, way_out)?;

@@ -1,7 +1,5 @@
 //! The command `merge`.
 
-use std::path::PathBuf;
-
 use suite::{Error, holds_run, merge, merge_runs, printable_path, refuse_failures};
 
 use super::run_files::write_run;
@@ -10,18 +8,11 @@ use crate::output::count::count_text;
 use crate::output::print::print;
 use crate::tables::failures::failures_text;
 
-/// Joins parts and prints the truths, or the run, that they made.
+/// Joins runs where every part is one, and replicates otherwise; prints the run, or the truths, that they made.
 pub fn execute(args: &MergeArgs) -> Result<(), Error> {
-    let (runs, others): (Vec<&PathBuf>, Vec<&PathBuf>) =
-        args.parts.iter().partition(|part| holds_run(part));
-    match (runs.first(), others.first()) {
-        (None, _) => join_replicates(args),
-        (Some(_), None) => join_runs(args),
-        (Some(run), Some(other)) => Err(Error::Usage(format!(
-            "{} holds a run, {} none; allowed: finished runs alone, or parts of truths alone",
-            run.display(),
-            other.display()
-        ))),
+    match args.parts.iter().all(|part| holds_run(part)) {
+        true => join_runs(args),
+        false => join_replicates(args),
     }
 }
 

@@ -55,6 +55,12 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         truths: args.truths.clone(),
         monitor: make_monitor(),
     };
+    if let Some(truths) = plan.truths.as_ref().filter(|truths| !truths.is_dir()) {
+        return Err(Error::Usage(format!(
+            "--truths {}: there is no such folder; allowed: one into which `shuttertruth render --ladders` or `run` wrote",
+            truths.display()
+        )));
+    }
     plan.check()?;
     Ok((plan, bounds))
 }

@@ -250,11 +250,14 @@ impl Planner<'_> {
             self.plan.common_alignment().name(),
             "--part",
             part,
-            "--truths",
-            &path_word(&self.truths)?,
             "--out",
             &path_word(&folder)?,
         ]));
+        // What an engine drew has its truth beside it.
+        if scene.is_rendered {
+            let truths = path_word(&self.truths)?;
+            job.arguments.extend(words(["--truths", &truths]));
+        }
         job.outputs = vec![path_word(&folder.join("run.json"))?];
         Ok(job)
     }

@@ -12,6 +12,8 @@ pub struct SceneWords {
     pub word: String,
     /// Name, which no other scene of the plan has.
     pub name: String,
+    /// True if its frame and truths are rendered, and false if an engine drew them.
+    pub is_rendered: bool,
     /// Its files on disk.
     pub files: Vec<String>,
 }
@@ -38,13 +40,19 @@ fn words_of_scene(args: &SceneArgs, choice: &SceneChoice) -> Result<SceneWords, 
         false => as_path(path_word(&choice.folder.path)?) + &variant,
     };
     let files = (choice.folder.on_disk()).map_or(Ok(Vec::new()), files_below)?;
-    Ok(SceneWords { word, name, files })
+    Ok(SceneWords {
+        word,
+        name,
+        is_rendered: true,
+        files,
+    })
 }
 
 fn words_of_drawn(scene: &EngineScene) -> Result<SceneWords, Error> {
     Ok(SceneWords {
         word: as_path(path_word(&scene.folder)?),
         name: scene.name.clone(),
+        is_rendered: false,
         files: files_below(&scene.folder)?,
     })
 }
