@@ -103,11 +103,11 @@ fn find_adapter(parts: &[RunPart]) -> Result<Option<filters::AdapterDescription>
 }
 
 /// Lists things of all parts, each once, with the part that each comes from. Two of one key must be equal.
-fn join<'a, T, K>(
-    parts: &'a [RunPart],
+fn join<T, K>(
+    parts: &[RunPart],
     list: fn(&Run) -> &Vec<T>,
     key: fn(&T) -> K,
-) -> Result<Vec<(T, &'a RunPart)>, Error>
+) -> Result<Vec<(T, &RunPart)>, Error>
 where
     T: Clone + Joined,
     K: std::hash::Hash + Eq,
