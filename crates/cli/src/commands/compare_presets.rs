@@ -7,7 +7,6 @@ use super::candidate::{
     print_expected_scoring, select_candidate,
 };
 use super::result::CommandResult;
-use super::run_plan::load_scenes;
 use crate::arguments::ComparePresetsArgs;
 use crate::output::progress::make_monitor;
 use crate::tables::tuning::paired_table;

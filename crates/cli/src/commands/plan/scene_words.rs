@@ -20,7 +20,7 @@ pub struct SceneWords {
 
 /// Lists the scenes that are rendered, then those that engines drew.
 pub fn list_scene_words(args: &SceneArgs) -> Result<Vec<SceneWords>, Error> {
-    let (drawn, names) = select_engine_scenes(&args.scenes_dir, &args.scenes)?;
+    let (drawn, names) = select_engine_scenes(&args.scenes_dir, &args.names()?)?;
     let rendered = match drawn.is_empty() || !names.is_empty() {
         true => select_scenes(&args.scenes_dir, &names)?,
         false => Vec::new(),
