@@ -66,7 +66,7 @@ pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let intervals = if plan.intervals { INTERVALS } else { 1.0 };
     let all = plan.all_scenes().into_iter();
     let jobs = all.map(|scene| {
-        let memory = scene.memory(render, truths);
+        let memory = scene.memory(render, truths, plan.inputs.len());
         let cpu_seconds = frames * threads * renders;
         let planned = PlannedCase::all(plan, &plan.filters, scene);
         let references = planned.iter().filter(|case| case.is_reference());
@@ -91,7 +91,7 @@ pub fn estimate_report(plan: &RunPlan, cases: usize) -> JobCost {
     let memory = plan
         .all_scenes()
         .into_iter()
-        .map(|scene| scene.memory(&plan.render, 1));
+        .map(|scene| scene.memory(&plan.render, 1, 1));
     JobCost {
         cpu_seconds: CASE_CORES * seconds,
         memory: memory.max().unwrap_or(0),
