@@ -1,12 +1,22 @@
-"""Optuna drives `shuttertruth serve`: two objectives, a bad candidate ended early. Give the words of serve as arguments."""
+"""Optuna drives `shuttertruth serve`: two objectives, a bad candidate ended early. Give the words of serve as arguments.
+
+With `--journal FILE` any number of these processes share one study, and one that is killed costs the trial that it was at."""
+import argparse
 import json
 import subprocess
-import sys
 
 import optuna
+from optuna.storages import JournalStorage
+from optuna.storages.journal import JournalFileBackend
+from optuna.study import MaxTrialsCallback
+from optuna.trial import TrialState
 
-server = subprocess.Popen(
-    ["shuttertruth", "serve", *sys.argv[1:]], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+parser = argparse.ArgumentParser(allow_abbrev=False)
+parser.add_argument("--journal", help="file of a study that several processes share, on a disk that all of them see")
+parser.add_argument("--trials", type=int, default=20, help="trials of all processes together")
+options, words = parser.parse_known_args()
+
+server = subprocess.Popen(["shuttertruth", "serve", *words], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 scenes = json.loads(server.stdout.readline())["scenes"]
 
 
@@ -24,8 +34,14 @@ def objective(trial):
             raise optuna.TrialPruned()
         if "done" in line:
             return line["done"]["error"], line["done"]["bleed"]
+    raise RuntimeError("shuttertruth serve ended")
 
 
-study = optuna.create_study(directions=["minimize", "minimize"], sampler=optuna.samplers.NSGAIISampler(seed=1))
-study.optimize(objective, n_trials=20)
+# Processes with one seed would try the same candidates.
+sampler = optuna.samplers.NSGAIISampler(seed=None if options.journal else 1)
+storage = JournalStorage(JournalFileBackend(options.journal)) if options.journal else None
+study = optuna.create_study(study_name="shuttertruth", storage=storage, load_if_exists=True,
+                            directions=["minimize", "minimize"], sampler=sampler)
+enough = MaxTrialsCallback(options.trials, states=(TrialState.COMPLETE, TrialState.PRUNED))
+study.optimize(objective, callbacks=[enough])
 print(json.dumps([[best.values, best.params] for best in study.best_trials]))

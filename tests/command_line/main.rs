@@ -29,6 +29,7 @@ mod kept;
 mod kept_cases;
 mod links;
 mod own_filter;
+mod python;
 mod reference_width;
 mod refusals;
 mod report;
@@ -37,7 +38,10 @@ mod score;
 mod sequences;
 mod serve;
 mod set_up;
+mod shared_runs;
 mod shipped_files;
+#[cfg(target_os = "linux")]
+mod snakemake;
 mod summary;
 mod terminal;
 #[cfg(unix)]

@@ -4,10 +4,12 @@ use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{ChildStdin, Command, Stdio};
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
 use crate::bench::{Bench, assert_refused, split, stderr, stdout};
+use crate::python::python_with;
 
 pub const SERVE: &str = "serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
 
@@ -146,26 +148,24 @@ fn parameters_of_a_file_are_checked() {
     assert!(!bench.path("out").exists());
 }
 
-/// `make test` installs Optuna and names its Python in PYTHON.
+/// Makes the command of the example, which finds the program on its PATH; `more` are options of the example.
+fn optuna(bench: &Bench, more: &[&str]) -> Command {
+    let example = tests::root().join("examples/optuna_tune.py");
+    let program = Path::new(env!("CARGO_BIN_EXE_shuttertruth"));
+    let path = std::env::var("PATH").unwrap_or_default();
+    let mut command = Command::new(python_with("optuna"));
+    command.current_dir(bench.path("")).arg(example).args(more);
+    let folder = program.parent().unwrap().display();
+    command.env("PATH", format!("{folder}:{path}"));
+    let words = SERVE.replace("flip ", "flip,bleed ");
+    command.args(&split(&words)[1..]);
+    command
+}
+
 #[test]
 fn optuna_finds_something_better_through_the_service() {
-    let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
-    let has_optuna = Command::new(&python).args(["-c", "import optuna"]).output();
-    assert!(
-        has_optuna.is_ok_and(|output| output.status.success()),
-        "{python} has no Optuna: `make test` installs it; or pip install optuna, and set PYTHON to the Python that has it"
-    );
     let bench = Bench::new();
-    let example = tests::root().join("examples/optuna_tune.py");
-    let program = Path::new(env!("CARGO_BIN_EXE_shuttertruth"))
-        .parent()
-        .unwrap();
-    let path = std::env::var("PATH").unwrap_or_default();
-    let mut command = Command::new(python);
-    command.current_dir(bench.path("")).arg(example);
-    command.env("PATH", format!("{}:{path}", program.display()));
-    let words = SERVE.replace("flip ", "flip,bleed ");
-    let output = command.args(&split(&words)[1..]).output().unwrap();
+    let output = optuna(&bench, &[]).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let errors = found
@@ -175,4 +175,77 @@ fn optuna_finds_something_better_through_the_service() {
         .map(|best| best[0][0].as_f64().unwrap());
     let least = errors.fold(f64::INFINITY, f64::min);
     assert!(least < 0.0, "20 trials beat the start: {found}");
+}
+
+/// Reads the operations of a study's journal that are written whole.
+fn read_journal(bench: &Bench) -> Vec<Value> {
+    let text = fs::read_to_string(bench.path("study.log")).unwrap_or_default();
+    let lines = text
+        .lines()
+        .map_while(|line| serde_json::from_str(line).ok());
+    lines.collect()
+}
+
+/// Lists the workers that began a trial, each once.
+fn list_workers(journal: &[Value]) -> Vec<&str> {
+    // Optuna's number of the operation.
+    let began = journal.iter().filter(|entry| entry["op_code"] == 4);
+    let mut workers: Vec<&str> = began
+        .map(|entry| entry["worker_id"].as_str().unwrap())
+        .collect();
+    workers.sort_unstable();
+    workers.dedup();
+    workers
+}
+
+/// Counts the trials that ended.
+fn count_ended(journal: &[Value]) -> usize {
+    // Optuna's numbers of the operation, and of the states COMPLETE and PRUNED.
+    let has_ended =
+        |entry: &&Value| entry["op_code"] == 6 && (entry["state"] == 1 || entry["state"] == 2);
+    journal.iter().filter(has_ended).count()
+}
+
+#[test]
+fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
+    let bench = Bench::new();
+    let words = ["--journal", "study.log", "--trials", "12"];
+    let start = || {
+        let mut command = optuna(&bench, &words);
+        command
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap()
+    };
+    let [mut killed, other] = [(); 2].map(|()| start());
+    let end = Instant::now() + Duration::from_secs(120);
+    loop {
+        let journal = read_journal(&bench);
+        if list_workers(&journal).len() == 2 && count_ended(&journal) >= 2 {
+            break;
+        }
+        assert!(
+            Instant::now() < end,
+            "two workers began no trials: {journal:?}"
+        );
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    let before = count_ended(&read_journal(&bench));
+    assert!(before < 12, "the study ended before a worker was killed");
+
+    let output = other.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let best: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert!(!best.as_array().unwrap().is_empty());
+    let journal = read_journal(&bench);
+    assert_eq!(list_workers(&journal).len(), 2);
+    // Both may have been at their last trial.
+    assert!(
+        (12..=13).contains(&count_ended(&journal)),
+        "{}",
+        count_ended(&journal)
+    );
 }

@@ -50,6 +50,8 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
         intervals: true,
         no_cache: false,
         common: None,
+        part: suite::Part::default(),
+        truths: None,
         monitor: Monitor::SILENT,
     };
     let finished = measure_scenes(&plan, Some(&gpu), Vec::new()).unwrap();

@@ -105,6 +105,8 @@ impl Bench {
             intervals: true,
             no_cache: false,
             common: None,
+            part: suite::Part::default(),
+            truths: None,
             monitor: Monitor::SILENT,
         };
         measure_scenes(&plan, Some(&self.gpu), Vec::new())

@@ -74,6 +74,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         intervals: false,
         no_cache: false,
         common: None,
+        part: suite::Part::default(),
+        truths: None,
         monitor: Monitor {
             ended: note_end,
             ..Monitor::SILENT

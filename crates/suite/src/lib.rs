@@ -52,6 +52,7 @@ pub use filter::runner::{Runner, open_adapter, open_gpu};
 pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;
 pub use folder::claim::{Claim, Sharing, claim};
+pub use folder::placed_file::MOST_TAKEN_BYTES;
 pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
 pub use import::{ImportPlan, Imported, Motions, Up, import};
@@ -78,6 +79,8 @@ pub use judge::{
 pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,
 };
+pub use measure::job_costs::{JobCost, SceneJobs, estimate_jobs, estimate_report};
+pub use measure::part::Part;
 pub use measure::plan::RunPlan;
 pub use measure::references::scene_viewing;
 pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
@@ -98,6 +101,7 @@ pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
 pub use run::layers::write_layers;
+pub use run::merge::{MergedRun, holds_run, merge_runs};
 pub use run::overall::Overall;
 pub use run::sequence::{Frames, MOST_FRAMES, Sequence, SequenceFrame};
 pub use run::{FORMAT, Run};

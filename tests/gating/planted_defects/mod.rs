@@ -116,6 +116,8 @@ impl Bench {
             intervals: true,
             no_cache: false,
             common: None,
+            part: suite::Part::default(),
+            truths: None,
             monitor: Monitor::SILENT,
         };
         measure_scenes(&plan, self.gpu.as_ref(), Vec::new()).unwrap()

@@ -42,8 +42,8 @@ pub const GROUPS: [Group; 7] = [
         commands: &["import", "export", "ingest", "audit"],
     },
     Group {
-        heading: "Do one step alone",
-        commands: &["render", "merge", "blur"],
+        heading: "Share the work, or do one step of it",
+        commands: &["plan", "merge", "render", "blur"],
     },
     Group {
         heading: "Set up",

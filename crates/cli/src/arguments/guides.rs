@@ -48,9 +48,10 @@ fn find_commands(page: &str) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// Splits a line as a shell does, with quotes and comments.
+/// Splits a line as a shell does, with quotes, comments, and a file that the output goes to.
 fn split_words(line: &str) -> Vec<String> {
     let command = line.split(" #").next().unwrap_or_default();
+    let command = command.split(" > ").next().unwrap_or_default();
     let parts = command.split(['"', '\'']).enumerate();
     let words = parts.flat_map(|(index, part)| match index % 2 {
         0 => part.split_whitespace().map(str::to_owned).collect(),

@@ -1,10 +1,13 @@
 //! Arguments of commands that measure scenes: `run`, `check` and `calibrate`.
 
+use std::path::PathBuf;
+
+use clap::Args;
+
 use super::input_forms::InputFormArgs;
 use super::parse::{parse_jitter_frames, parse_size, parse_whole};
 use super::programs::ProgramArgs;
 use super::scenes::SceneArgs;
-use clap::Args;
 
 /// Choice of scenes, filters and inputs to measure.
 #[derive(Clone, Debug, Args)]
@@ -49,8 +52,11 @@ pub struct MeasureArgs {
     /// Frames to run a noisy filter on, to tell its noise from its other errors; 0 for none.
     #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = parse_jitter_frames)]
     pub jitter_frames: u32,
+    /// Folder with frames, truths and ladders that lie as in --out. Those of the same inputs are taken from there, and not rendered.
+    #[arg(help_heading = "Scenes and files", long, value_name = "FOLDER")]
+    pub truths: Option<PathBuf>,
     /// Remove the truths and cases in --out, and make all anew.
-    #[arg(help_heading = "Scenes and files", long)]
+    #[arg(help_heading = "Scenes and files", long, conflicts_with = "truths")]
     pub no_cache: bool,
     #[command(flatten)]
     pub programs: ProgramArgs,

@@ -15,6 +15,7 @@ mod compare_presets;
 mod completions;
 mod evaluate;
 mod export;
+mod given;
 mod groups;
 #[cfg(test)]
 mod guides;
@@ -27,11 +28,13 @@ mod measure;
 mod merge;
 mod output;
 mod parse;
+mod plan;
 mod programs;
 mod refusal;
 mod render;
 mod report;
 mod run;
+mod run_options;
 mod scenes;
 mod scenes_root;
 mod score;
@@ -53,6 +56,7 @@ pub use compare_presets::ComparePresetsArgs;
 pub use completions::CompletionsArgs;
 pub use evaluate::EvaluateArgs;
 pub use export::ExportArgs;
+pub use given::{given_options, words_behind};
 pub use groups::{command_line, visible_command_line};
 pub use import::ImportArgs;
 pub use ingest::IngestArgs;
@@ -62,10 +66,12 @@ pub use measure::MeasureArgs;
 pub use merge::MergeArgs;
 pub use output::{Color, OutputArgs};
 pub use parse::Replicates;
+pub use plan::PlanArgs;
 pub use refusal::refusal_text;
 pub use render::RenderArgs;
 pub use report::ReportArgs;
 pub use run::RunArgs;
+pub use run_options::RunOptions;
 pub use scenes::SceneArgs;
 pub use score::ScoreArgs;
 pub use sensitivity::SensitivityArgs;
@@ -108,7 +114,9 @@ pub enum Command {
     Calibrate(CalibrateArgs),
     /// Render frames and truths only, or some replicates of them.
     Render(RenderArgs),
-    /// Join replicates that several machines rendered.
+    /// Split a run into jobs for several machines. Renders nothing; prints a table, or JSON.
+    Plan(PlanArgs),
+    /// Join what several machines made: replicates of truths, or runs of some of the cases.
     Merge(MergeArgs),
     /// Run a filter on a frame file.
     Blur(BlurArgs),

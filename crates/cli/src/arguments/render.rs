@@ -36,6 +36,9 @@ pub struct RenderArgs {
     /// this. Exit code 4 if --most-replicates do not suffice.
     #[arg(help_heading = "Truths", long, value_name = "TARGET", value_parser = parse_noise)]
     pub noise: Option<f64>,
+    /// Render the ladder of sub-frames of each truth too, which `run` measures with.
+    #[arg(help_heading = "Truths", long)]
+    pub ladders: bool,
     /// Upper limit on replicates for --noise.
     #[arg(
         help_heading = "Truths",

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use suite::Frames;
+use suite::Part;
 
 use super::adapter::AdapterArgs;
 use super::measure::MeasureArgs;
-use super::parse::{parse_frames, parse_per_second};
+use super::parse::parse_named;
+use super::run_options::RunOptions;
 
 /// `shuttertruth run`
 #[derive(Debug, Args)]
@@ -16,12 +17,11 @@ pub struct RunArgs {
     pub measure: MeasureArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
-    /// Consecutive frames to render and blur of every scene. Later frames lie in numbered folders below the scene's own.
-    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = parse_frames)]
-    pub frames: u32,
-    /// Frames per second at which a sequence is shown. It changes no picture, and no score but JOD: times are in frames.
-    #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = parse_per_second)]
-    pub fps: f64,
+    #[command(flatten)]
+    pub options: RunOptions,
+    /// Measure a part of a run that `merge` joins with others. Writes run.json and pictures, but no report.
+    #[arg(help_heading = "Filters", long, value_name = "PART", value_parser = parse_named(Part::PARTS, Part::name, Part::help), conflicts_with_all = ["html", "table"])]
+    pub part: Option<Part>,
     /// HTML page to write [default: report.html in --out].
     #[arg(help_heading = "Output", long, value_name = "FILE")]
     pub html: Option<PathBuf>,

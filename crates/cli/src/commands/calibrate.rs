@@ -7,8 +7,8 @@ use suite::{
 use tracer::{Progress, Watch};
 
 use super::expected::print_expected_time;
-use super::plan::{check_replicates_for_intervals, claim_out, make_plan};
 use super::run_files::write_run;
+use super::run_plan::{check_replicates_for_intervals, claim_out, make_plan};
 use crate::arguments::CalibrateArgs;
 use crate::output::print::print;
 

@@ -8,8 +8,8 @@ use suite::{
 use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
-use super::plan::load_scenes;
 use super::render_settings::make_render_settings;
+use super::run_plan::load_scenes;
 use crate::arguments::{CandidateArgs, SceneArgs};
 use crate::output::count::count_text;
 use crate::output::progress::make_monitor;

@@ -15,10 +15,10 @@ use super::ending::Ending;
 use super::margins::read_margins;
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
-use super::plan::{
+use super::run_files::write_judged_run;
+use super::run_plan::{
     check_replicates_for_intervals, make_plan, read_case_bounds, scene_folder_below,
 };
-use super::run_files::write_judged_run;
 use crate::arguments::CheckArgs;
 use crate::output::annotations::{annotations, summary};
 use crate::output::junit::junit;
@@ -108,6 +108,12 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
     if !compared {
         let scenes = bounds.iter().map(|(name, bounds)| (name.as_str(), bounds));
         require_bounds(root, scenes, &plan.filters)?;
+    }
+    if let Some(truths) = &plan.truths {
+        refuse_tracked(
+            truths,
+            "choose a folder outside of the repository for --truths",
+        )?;
     }
     if !plan.no_cache {
         let way_out = "choose a folder outside of the repository for --out, or have all made anew with --no-cache";

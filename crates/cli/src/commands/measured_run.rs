@@ -7,7 +7,7 @@ use suite::{
 };
 
 use super::expected::print_expected;
-use super::plan::claim_out;
+use super::run_plan::claim_out;
 use crate::output::count::count_text;
 use crate::output::print::print_note;
 use crate::output::verbosity::is_quiet;

@@ -1,12 +1,22 @@
 //! The command `merge`.
 
-use suite::{Error, merge, printable_path};
+use suite::{Error, holds_run, merge, merge_runs, printable_path, refuse_failures};
 
+use super::run_files::write_run;
 use crate::arguments::MergeArgs;
+use crate::output::count::count_text;
 use crate::output::print::print;
+use crate::tables::failures::failures_text;
 
-/// Joins parts and prints the truths that they made.
+/// Joins runs where every part is one, and replicates otherwise; prints the run, or the truths, that they made.
 pub fn execute(args: &MergeArgs) -> Result<(), Error> {
+    match args.parts.iter().all(|part| holds_run(part)) {
+        true => join_runs(args),
+        false => join_replicates(args),
+    }
+}
+
+fn join_replicates(args: &MergeArgs) -> Result<(), Error> {
     for merged in merge(&args.parts, &args.out)? {
         print(&format!(
             "{} ({} replicates)\n",
@@ -15,4 +25,23 @@ pub fn execute(args: &MergeArgs) -> Result<(), Error> {
         ))?;
     }
     Ok(())
+}
+
+fn join_runs(args: &MergeArgs) -> Result<(), Error> {
+    let command = match args.command.as_slice() {
+        [] => std::env::args().collect(),
+        words => words.to_vec(),
+    };
+    let merged = merge_runs(&args.parts, command, &args.out)?;
+    write_run(&merged.run, &args.out)?;
+    let run = &merged.run;
+    let mut text = failures_text(&run.failures);
+    text += &format!(
+        "{} ({} of {})\n",
+        printable_path(&args.out.join("run.json")),
+        count_text(run.cases.len() + run.failures.len(), "case", "cases"),
+        count_text(args.parts.len(), "part", "parts")
+    );
+    print(&text)?;
+    refuse_failures(&run.failures)
 }

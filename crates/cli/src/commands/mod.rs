@@ -31,6 +31,7 @@ mod report;
 mod result;
 mod run;
 mod run_files;
+mod run_plan;
 mod score;
 mod sensitivity;
 mod serve;
@@ -63,6 +64,7 @@ pub fn execute(cli: Cli) -> Result<Ending, Error> {
         Some(Command::Render(args)) => {
             work_on_threads(args.scenes.threads, || render::execute(&args))
         }
+        Some(Command::Plan(args)) => plan::execute(&args),
         Some(Command::Merge(args)) => merge::execute(&args),
         Some(Command::Blur(args)) => blur::execute(&args),
         Some(Command::Score(args)) => score::execute(&args),

@@ -2,7 +2,7 @@
 
 use frame::Truth;
 use suite::{
-    Error, MOST_REPLICATES, Sharing, claim, deciding_floor, estimate_render_seconds,
+    Error, LadderFiles, MOST_REPLICATES, Sharing, claim, deciding_floor, estimate_render_seconds,
     printable_path, render_frame, render_part, render_shared, render_truth, render_truth_until,
     scene_folder,
 };
@@ -36,6 +36,12 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     for scene in frames {
         match &args.replicates {
             Replicates::All(count) => noisy.extend(render_whole(args, &scene, *count)?),
+            Replicates::Part(_) if args.ladders => {
+                return Err(Error::Usage(
+                    "--ladders needs whole truths: give --replicates a number, not a part A..B"
+                        .to_owned(),
+                ));
+            }
             Replicates::Part(indices) if args.noise.is_none() => {
                 let settings = scene_settings(args, &scene, RenderSettings::default().replicates)?;
                 let (out, monitor) = (&args.scenes.out, make_monitor());
@@ -116,6 +122,10 @@ fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<Stri
                 truth
             }
         };
+        if args.ladders {
+            let settings = settings.with_replicates(truth.provenance.replicates);
+            LadderFiles::new(scene, &settings, &truth, out).ensure(monitor)?;
+        }
         report += &floors_line(&truth);
     }
     print(&report)?;

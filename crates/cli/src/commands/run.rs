@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use suite::{Error, Frames, Level, Run, judge, open_gpu, printable_path, refuse_failures};
+use suite::{Error, Level, Part, Run, judge, open_gpu, printable_path, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
-use super::plan::{make_plan, read_case_bounds};
-use super::run_files::write_judged_run;
+use super::run_files::{write_judged_run, write_run};
+use super::run_plan::{apply_options, make_plan, read_case_bounds};
 use crate::arguments::RunArgs;
 use crate::output::print::print;
 use crate::output::progress::clock_text;
@@ -23,11 +23,8 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let began = Instant::now();
     refuse_folder("--html", args.html.as_ref())?;
     let (mut plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
-    plan.frames = Frames {
-        count: args.frames,
-        per_second: args.fps,
-    };
-    plan.check()?;
+    apply_options(&mut plan, &args.options)?;
+    plan.part = args.part.unwrap_or_default();
     let size = (plan.render.width, plan.render.height);
     for bounds in bounds.values_mut() {
         *bounds = std::mem::take(bounds).at(size);
@@ -38,6 +35,16 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         whole,
         claim: _claim,
     } = measure(&mut plan, gpu.as_ref())?;
+    if plan.part != Part::Whole {
+        let json = write_run(&whole, &plan.out)?;
+        print(&match args.json {
+            true => format!("{json}\n"),
+            false => {
+                failures_text(&run.failures) + &closing_text(&run, &[], &plan.out, began.elapsed())
+            }
+        })?;
+        return refuse_failures(&run.failures);
+    }
     // Cases of an earlier run keep their targets.
     let root = &args.measure.scenes.scenes_dir;
     for case in &whole.cases {

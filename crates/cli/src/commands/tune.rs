@@ -15,9 +15,9 @@ use super::candidate::{
     candidate_render_settings, load_candidate_scenes, open_candidate_gpu, print_expected_scoring,
     select_candidate,
 };
-use super::plan::load_scenes;
 use super::render_settings::make_render_settings;
 use super::result::CommandResult;
+use super::run_plan::load_scenes;
 use crate::arguments::TuneArgs;
 use crate::output::print::print_error;
 use crate::output::progress::make_monitor;

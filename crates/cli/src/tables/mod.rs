@@ -9,6 +9,7 @@ pub mod columns;
 pub mod comparison;
 pub mod failures;
 pub mod input_forms;
+pub mod jobs;
 pub mod layout;
 pub mod listing;
 pub mod ranking;

@@ -16,16 +16,16 @@ use crate::render::settings::frame_settings;
 /// Time in seconds from which a first slice is measured; shorter work is over before that pays.
 const WORTH_A_SLICE: f64 = 3.0;
 /// Time of a ladder, relative to its truth's samples: the mean of five scenes. It is about the pixels near motion alone.
-const LADDER: f64 = 0.4;
+pub(super) const LADDER: f64 = 0.4;
 /// Time to run a filter and measure its picture, whatever its size, in seconds. This number and the next ones were measured with
 /// llvmpipe on two cores of a server.
 const SECONDS_PER_CASE: f64 = 0.035;
 /// Time per pixel to run a filter and measure its picture, in seconds.
 const SECONDS_PER_CASE_PIXEL: f64 = 6e-6;
 /// Time per pixel and case to write the report, in seconds.
-const SECONDS_PER_REPORT_PIXEL: f64 = 0.45e-6;
+pub(super) const SECONDS_PER_REPORT_PIXEL: f64 = 0.45e-6;
 /// Time of a case with intervals, relative to one without.
-const INTERVALS: f64 = 2.0;
+pub(super) const INTERVALS: f64 = 2.0;
 /// Bytes on disk per pixel: of a frame, of a truth with its ladder, of each replicate, and of a case with its part of the report.
 const FRAME_BYTES: u64 = 25;
 const TRUTH_BYTES: u64 = 170;
@@ -174,7 +174,7 @@ pub fn estimate_case_seconds(render: &RenderSettings) -> f64 {
     usual_case_seconds(count_pixels(render))
 }
 
-fn usual_case_seconds(pixels: f64) -> f64 {
+pub(super) fn usual_case_seconds(pixels: f64) -> f64 {
     SECONDS_PER_CASE + pixels * SECONDS_PER_CASE_PIXEL
 }
 
@@ -185,25 +185,25 @@ fn measure_case_speed(scene: &SceneContext) -> Option<f64> {
     Some(seconds / (cases as f64 * usual))
 }
 
-fn count_pixels(render: &RenderSettings) -> f64 {
+pub(super) fn count_pixels(render: &RenderSettings) -> f64 {
     f64::from(render.width) * f64::from(render.height)
 }
 
-fn count_samples(render: &RenderSettings) -> f64 {
+pub(super) fn count_samples(render: &RenderSettings) -> f64 {
     count_pixels(render) * f64::from(render.samples_per_pixel)
 }
 
-fn frame_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
+pub(super) fn frame_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
     costs.scene
         + count_pixels(render) * f64::from(frame_settings(render).samples_per_pixel) * costs.frame
 }
 
-fn truth_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
+pub(super) fn truth_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
     costs.scene + count_pixels(render) * costs.support + count_samples(render) * costs.truth
 }
 
 /// Counts truths by their cost: two that overlap share the samples of half their time.
-fn shared_truths(truths: usize) -> f64 {
+pub(super) fn shared_truths(truths: usize) -> f64 {
     match truths {
         0 | 1 => truths as f64,
         _ => truths as f64 - 0.5,

@@ -6,6 +6,7 @@ use std::time::Instant;
 use frame::Alignment;
 use tracer::{Progress, RenderSettings, Scene, TruthTracer, trace_frame};
 
+use super::part::Part;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
@@ -94,6 +95,8 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
         intervals: false,
         no_cache: false,
         common: None,
+        part: Part::default(),
+        truths: None,
         monitor: scene.plan.monitor.without_progress(),
     };
     let filters = plan.scaled_filters();

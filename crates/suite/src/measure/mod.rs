@@ -7,6 +7,8 @@ pub mod estimate;
 mod first_slice;
 mod frames;
 mod history;
+pub mod job_costs;
+pub mod part;
 pub mod pictures;
 pub mod plan;
 pub mod planned_case;

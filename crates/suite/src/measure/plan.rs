@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use frame::Alignment;
 use tracer::{RenderSettings, Scene};
 
+use super::part::Part;
 use super::run_scene::RunScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
@@ -38,6 +39,11 @@ pub struct RunPlan {
     /// Shutter alignment that every case is compared with; none for that of
     /// [`Run::common_alignment`](crate::Run::common_alignment).
     pub common: Option<Alignment>,
+    /// Cases that are measured; alignments and truths are those of the whole.
+    pub part: Part,
+    /// Folder with frames, truths and ladders of earlier renders, by the names of `out`; those of the same inputs are taken from
+    /// there.
+    pub truths: Option<PathBuf>,
     /// Listener to the progress, which may end the work.
     pub monitor: Monitor,
 }
@@ -123,7 +129,7 @@ impl RunPlan {
     }
 
     /// Lists the alignments that filters declare and that of all cases, each once.
-    pub(crate) fn alignments(&self) -> Vec<Alignment> {
+    pub fn alignments(&self) -> Vec<Alignment> {
         let takes_part = |alignment: &Alignment| {
             Some(*alignment) == self.common
                 || (self.filters.iter()).any(|choice| choice.filter.alignment == *alignment)
@@ -133,7 +139,7 @@ impl RunPlan {
 
     /// Chooses the alignment that all cases are compared with: the plan's own, or one that filters declare, so that no truth is
     /// rendered for it alone.
-    pub(crate) fn common_alignment(&self) -> Alignment {
+    pub fn common_alignment(&self) -> Alignment {
         if let Some(common) = self.common {
             return common;
         }

@@ -77,7 +77,9 @@ impl<'a> PlannedCase<'a> {
                 source: PictureSource::Filter(choice, *input),
             })
         });
-        references.chain(own).chain(filters).collect()
+        let all = references.chain(own).chain(filters);
+        all.filter(|case| plan.part.holds(case.is_reference()))
+            .collect()
     }
 
     /// Tells whether the picture is a reference, and not made by a filter.

@@ -17,6 +17,7 @@ use crate::cache::record::{
 use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
 use crate::render::frames::render_frame;
+use crate::render::kept::{find_kept, take_renders};
 use crate::render::shared::render_shared;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
@@ -93,6 +94,7 @@ impl SceneContext<'_> {
         for (record, key) in self.render_records() {
             remove_altered_files(&record, &key);
         }
+        self.take_renders()?;
         let folder = self.folder();
         let frame = self.render_first(advance)?;
         let mut files = vec![write_frame(&folder, &frame)?];
@@ -108,6 +110,20 @@ impl SceneContext<'_> {
             write_record(&record, key, &files, &())?;
         }
         Ok(frame)
+    }
+
+    /// Takes what the plan's folder of truths holds.
+    fn take_renders(&self) -> Result<(), Error> {
+        let RunPlan {
+            render,
+            out,
+            truths,
+            ..
+        } = self.plan;
+        if let (Some(truths), RunScene::Traced(scene)) = (truths, self.scene) {
+            take_renders(scene, render, &self.plan.alignments(), truths, out)?;
+        }
+        Ok(())
     }
 
     /// Renders the frame, and what its truths have in common; copies the frame that an engine drew.
@@ -182,10 +198,19 @@ impl SceneContext<'_> {
         let records = self.render_records();
         let is_missing =
             |(record, key): &(PathBuf, String)| read_record_alone::<()>(record, key).is_none();
-        match records.split_first() {
-            None => (true, vec![true; self.plan.alignments().len()]),
+        let alignments = self.plan.alignments();
+        let (mut frame, mut truths) = match records.split_first() {
+            None => (true, vec![true; alignments.len()]),
             Some((frame, truths)) => (is_missing(frame), truths.iter().map(is_missing).collect()),
+        };
+        if let (Some(folder), RunScene::Traced(scene)) = (&self.plan.truths, self.scene) {
+            let (has_frame, has) = find_kept(scene, &self.plan.render, &alignments, folder);
+            frame &= !has_frame;
+            for (missing, has) in truths.iter_mut().zip(has) {
+                *missing &= !has;
+            }
         }
+        (frame, truths)
     }
 
     pub(super) fn case_key(&self, planned: &PlannedCase) -> Option<String> {

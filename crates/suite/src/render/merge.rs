@@ -64,7 +64,8 @@ fn gather(parts: &[PathBuf]) -> Result<Files, Error> {
         let own = rendered_below(part)?;
         if own.is_empty() {
             return Err(Error::Usage(format!(
-                "{} holds no replicates; allowed: folders into which `shuttertruth render` wrote a part A..B of the replicates",
+                "{} holds no replicates; allowed: folders into which `shuttertruth render` wrote a part A..B of the replicates, or \
+                 finished runs alone",
                 part.display()
             )));
         }

@@ -1,6 +1,7 @@
 //! Frames, truths and ladders of scenes, rendered once and kept as files.
 
 pub mod frames;
+pub mod kept;
 pub mod ladders;
 pub mod memory;
 pub mod merge;

@@ -9,6 +9,7 @@ use frame::Alignment;
 
 use super::Run;
 use super::case::Case;
+use super::case_key::{CaseKey, key};
 use super::failure::Failure;
 use super::sequence::{Frames, Sequence};
 use crate::measure::plan::RunPlan;
@@ -175,25 +176,13 @@ fn read_earlier_run(path: &Path) -> Result<Option<Run>, Error> {
     })
 }
 
-/// Identity of a case in a folder of runs, whatever values `--set` gave to its parameters: a run with other values replaces it.
-type Key = (String, String, String, bool);
-
-fn key(case: &Case) -> Key {
-    (
-        case.scene.clone(),
-        case.preset_name(),
-        case.alignment.clone(),
-        case.is_reference,
-    )
-}
-
 /// Names the filters of the plan on each of its scenes.
 fn planned_names(plan: &RunPlan) -> HashSet<(String, String)> {
     let keys = planned_keys(plan).into_iter().filter(|key| !key.3);
     keys.map(|(scene, name, ..)| (scene, name)).collect()
 }
 
-fn planned_keys(plan: &RunPlan) -> HashSet<Key> {
+fn planned_keys(plan: &RunPlan) -> HashSet<CaseKey> {
     let of_scene = |scene: RunScene| {
         let planned = PlannedCase::all(plan, &plan.filters, scene);
         let keys = planned.iter().map(|case| {
@@ -235,10 +224,12 @@ fn find_difference(
     let adapters = ("the adapter", name(run.adapter.as_ref()), name(adapter));
     let [earlier, now] = [run.frames, plan.frames].map(|frames: Frames| frames.count.to_string());
     let frames = ("number of frames", earlier, now);
+    let now = (plan.common).map_or(run.common_alignment.clone(), |own| own.name().to_owned());
+    let common = ("the common shutter", run.common_alignment.clone(), now);
     // A run of programs alone has no adapter, and can stand beside any.
     let both = run.adapter.is_some() && adapter.is_some();
     (std::iter::once(program).chain(settings))
-        .chain([frames])
+        .chain([frames, common])
         .chain(both.then_some(adapters))
         .find(|(_, earlier, now)| earlier != now)
 }

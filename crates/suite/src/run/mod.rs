@@ -1,11 +1,13 @@
 //! A finished run: its data, and the files that hold it.
 
 pub mod case;
+pub mod case_key;
 pub mod earlier;
 pub mod error_maps;
 pub mod failure;
 pub mod file;
 pub mod layers;
+pub mod merge;
 pub mod overall;
 pub mod sequence;
 

@@ -82,6 +82,15 @@ fn a_check_refuses_a_folder_tracked_by_git() {
     let parts = [RECORD, "is tracked by git", "measure it now"];
     assert_refused(&finished, 2, &parts);
 
+    git(&bench, &["rm", "-q", "--cached", RECORD]);
+    fs::create_dir(bench.path("kept")).unwrap();
+    fs::write(bench.path("kept/frame.exr"), "a change brings it").unwrap();
+    git(&bench, &["add", "-f", "kept/frame.exr"]);
+    let with_truths = [&IDENTITY[..], &["--truths", "kept"]].concat();
+    let parts = ["kept/frame.exr", "is tracked by git", "--truths"];
+    assert_refused(&bench.check(&with_truths), 2, &parts);
+
+    git(&bench, &["add", "-f", RECORD]);
     let words = [&quick_command("check", "64")[..], &IDENTITY].concat();
     let mut without_git = bench.command(&words);
     without_git.env("PATH", "/nowhere").env_remove("CI");

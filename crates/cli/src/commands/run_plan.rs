@@ -11,7 +11,7 @@ use suite::{
 use tracer::{Location, RenderSettings, Scene, Seal};
 
 use super::render_settings::make_render_settings;
-use crate::arguments::{MeasureArgs, SceneArgs};
+use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
 use crate::output::count::count_text;
 use crate::output::print::{print_note, print_scene_notes};
 use crate::output::progress::make_monitor;
@@ -51,10 +51,29 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         intervals: false,
         no_cache: args.no_cache,
         common: None,
+        part: suite::Part::default(),
+        truths: args.truths.clone(),
         monitor: make_monitor(),
     };
+    if let Some(truths) = plan.truths.as_ref().filter(|truths| !truths.is_dir()) {
+        return Err(Error::Usage(format!(
+            "--truths {}: there is no such folder; allowed: one into which `shuttertruth render --ladders` or `run` wrote",
+            truths.display()
+        )));
+    }
     plan.check()?;
     Ok((plan, bounds))
+}
+
+/// Applies frames, intervals and the common shutter to a plan.
+pub fn apply_options(plan: &mut RunPlan, options: &RunOptions) -> Result<(), Error> {
+    if options.intervals {
+        check_replicates_for_intervals(plan.render.replicates)?;
+    }
+    plan.frames = options.frames();
+    plan.intervals = options.intervals;
+    plan.common = options.common;
+    plan.check()
 }
 
 /// Leaves out filters that no scene of an engine can be measured with, and says so. Where scenes are rendered too, those filters run

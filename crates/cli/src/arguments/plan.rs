@@ -1,0 +1,35 @@
+//! Arguments of `plan`.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
+use metrics::Metric;
+
+use super::adapter::AdapterArgs;
+use super::measure::MeasureArgs;
+use super::parse::parse_runs;
+use super::run_options::RunOptions;
+
+/// `shuttertruth plan`
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    #[command(flatten)]
+    pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+    #[command(flatten)]
+    pub options: RunOptions,
+    /// Plan `calibrate --runs K`, instead of `run`.
+    #[arg(help_heading = "Jobs", long, value_name = "K", value_parser = parse_runs, conflicts_with_all = ["frames", "fps", "intervals", "common", "adapter"])]
+    pub runs: Option<u32>,
+    /// Metrics of the calibration, separated by commas [default: those that have bounds].
+    #[arg(help_heading = "Jobs", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::from_str, requires = "runs")]
+    pub metrics: Vec<Metric>,
+    /// Folder for the truths and the parts of all jobs [default: parts in --out].
+    #[arg(help_heading = "Jobs", long, value_name = "DIR")]
+    pub parts: Option<PathBuf>,
+    /// Print one line of JSON per job: job, arguments, inputs, outputs, cpu_seconds, and memory in bytes.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}

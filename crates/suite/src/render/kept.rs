@@ -1,0 +1,99 @@
+//! Frames, truths and ladders that lie in another folder, and are taken from there instead of rendered.
+
+use std::path::{Path, PathBuf};
+
+use frame::{Alignment, read_attribute, rung_file};
+use tracer::{RenderSettings, Scene};
+
+use super::ladders::{LADDER, ladder_folder, ladder_hash};
+use super::replicates::ReplicateFiles;
+use super::settings::frame_settings;
+use crate::Error;
+use crate::folder::placed_file::place_file;
+use crate::folder::scene_folder::{refuse_scene, scene_folder};
+
+/// A file of a render, by its path below an output folder, and the content hash that its header must have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct RenderFile {
+    /// `railing/truth_trailing.exr`.
+    pub below: PathBuf,
+    /// Hash of its inputs.
+    pub hash: String,
+}
+
+/// Lists the frame of a scene, and its truths with their replicates and ladders.
+pub(crate) fn list_render_files(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignments: &[Alignment],
+) -> Vec<RenderFile> {
+    let folder = scene_folder(Path::new(""), scene);
+    let mut files = vec![RenderFile {
+        below: folder.join("frame.exr"),
+        hash: tracer::frame_hash(scene, &frame_settings(settings)),
+    }];
+    for &alignment in alignments {
+        let replicates = ReplicateFiles::new(folder.clone(), scene, settings, alignment);
+        files.push(RenderFile {
+            below: replicates.truth_path(),
+            hash: tracer::truth_hash(scene, settings, alignment),
+        });
+        files.extend((0..settings.replicates).map(|index| RenderFile {
+            below: replicates.path(index),
+            hash: replicates.hash.clone(),
+        }));
+        let hash = ladder_hash(scene, settings, alignment);
+        files.extend(LADDER.iter().map(|rung| RenderFile {
+            below: (folder.join(ladder_folder(alignment))).join(rung_file(*rung)),
+            hash: hash.clone(),
+        }));
+    }
+    files
+}
+
+/// Tells whether the folder `truths` has the frame of a scene, and each of its truths with the last rung of its ladder.
+pub(crate) fn find_kept(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignments: &[Alignment],
+    truths: &Path,
+) -> (bool, Vec<bool>) {
+    let has = |file: &RenderFile| file.is_in(truths);
+    let of_truth = |alignment: &Alignment| {
+        let files = list_render_files(scene, settings, &[*alignment]);
+        // The frame, the truth, its replicates, and the rungs.
+        has(&files[1]) && files.last().is_some_and(has)
+    };
+    let frame = has(&list_render_files(scene, settings, &[])[0]);
+    (frame, alignments.iter().map(of_truth).collect())
+}
+
+impl RenderFile {
+    /// Tells whether a folder holds it, by the header of the file.
+    fn is_in(&self, folder: &Path) -> bool {
+        read_attribute(&folder.join(&self.below), "content_hash").as_ref() == Some(&self.hash)
+    }
+}
+
+/// Takes frame, truths, replicates and ladders of the same inputs from the folder `truths` into `out`, unless they are there.
+/// What neither holds is left to be rendered. Returns the number of files that were taken.
+///
+/// # Errors
+/// Fails if a file cannot be taken.
+pub(crate) fn take_renders(
+    scene: &Scene,
+    settings: &RenderSettings,
+    alignments: &[Alignment],
+    truths: &Path,
+    out: &Path,
+) -> Result<usize, Error> {
+    refuse_scene(&scene_folder(out, scene))?;
+    let mut taken = 0;
+    for file in list_render_files(scene, settings, alignments) {
+        if !file.is_in(out) && file.is_in(truths) {
+            place_file(&truths.join(&file.below), &out.join(&file.below))?;
+            taken += 1;
+        }
+    }
+    Ok(taken)
+}

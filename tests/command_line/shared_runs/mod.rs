@@ -1,0 +1,54 @@
+//! Runs that several processes share: the plan, its jobs, and the merge of what they made.
+
+mod refusals;
+mod same_bytes;
+
+use serde_json::Value;
+
+use crate::bench::{Bench, split};
+
+/// Filters of both shutters, one of them with two presets.
+const FILTERS: &str = "--filter velocity_gather,kino:default,identity";
+
+/// Options that measure in next to no time.
+const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
+
+/// Plans a command; returns one job per line.
+fn plan(bench: &Bench, words: &[&str]) -> Vec<Value> {
+    let text = bench.execute(&[&["plan"], words, &["--json"]].concat());
+    let lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
+    lines.collect()
+}
+
+/// Lists texts of a job.
+fn list(job: &Value, key: &str) -> Vec<String> {
+    let texts = job[key].as_array().unwrap().iter();
+    texts
+        .map(|text| text.as_str().unwrap().to_owned())
+        .collect()
+}
+
+/// Runs a job, whose inputs must be there; it must leave all its outputs. Returns what it prints.
+#[track_caller]
+fn execute(bench: &Bench, job: &Value) -> String {
+    for input in list(job, "inputs") {
+        assert!(bench.path(&input).is_file(), "{}: no {input}", job["job"]);
+    }
+    let words = list(job, "arguments");
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let printed = bench.execute(&words);
+    for output in list(job, "outputs") {
+        assert!(bench.path(&output).is_file(), "{}: no {output}", job["job"]);
+    }
+    printed
+}
+
+/// Measures two scenes in one folder each, with one filter and the references.
+fn two_parts() -> Bench {
+    let bench = Bench::two_scenes();
+    for scene in ["plate", "slow"] {
+        let out = ["--filter", "identity", "--scenes", scene, "--out", scene];
+        bench.execute(&[&["run"], &split(QUICK)[..], &out].concat());
+    }
+    bench
+}

@@ -1,0 +1,195 @@
+//! Runs that `merge` must not join.
+
+use std::fs;
+
+use super::{QUICK, two_parts};
+use crate::bench::{Bench, assert_refused, split};
+
+#[track_caller]
+fn refused(bench: &Bench, parts: &[&str], found: &[&str]) {
+    let output = bench.shuttertruth(&[&["merge"], parts, &["--out", "whole"]].concat());
+    assert_refused(&output, 2, found);
+    assert!(
+        !bench.path("whole").exists(),
+        "{parts:?} left something behind"
+    );
+}
+
+/// Changes the text of a run.json.
+fn change(bench: &Bench, part: &str, from: &str, to: &str) {
+    let path = bench.path(part).join("run.json");
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains(from), "{text}");
+    fs::write(path, text.replacen(from, to, 1)).unwrap();
+}
+
+/// Measures once more, into the folder `other`.
+fn measure_other(bench: &Bench, more: &[&str]) {
+    let words = ["run", "--out", "other"];
+    bench.execute(&[&words[..], &split(QUICK), more].concat());
+}
+
+#[test]
+fn runs_of_other_settings_are_refused() {
+    let bench = two_parts();
+    for (more, found) in [
+        ("--seed 2", "has the seed 1, other/run.json has 2"),
+        (
+            "--velocity previous_frame",
+            "has the velocity instantaneous",
+        ),
+        ("--frames 2", "has the number of frames 1 at 60 per second"),
+    ] {
+        measure_other(
+            &bench,
+            &split(&format!(
+                "--filter identity --scenes slow --no-cache {more}"
+            )),
+        );
+        refused(&bench, &["plate", "other"], &["plate/run.json", found]);
+    }
+    measure_other(
+        &bench,
+        &split("--filter kino:default --scenes slow --no-cache"),
+    );
+    let found = ["common shutter trailing", "has centred", "--common"];
+    refused(&bench, &["plate", "other"], &found);
+}
+
+#[test]
+fn a_run_on_another_adapter_is_refused() {
+    let bench = two_parts();
+    change(&bench, "slow", "\"driver\": \"", "\"driver\": \"other ");
+    let found = [
+        "plate/run.json was measured on",
+        "with the driver other",
+        "--adapter",
+    ];
+    refused(&bench, &["plate", "slow"], &found);
+}
+
+#[test]
+fn cases_against_other_truths_are_refused() {
+    let bench = two_parts();
+    let words = "--filter jump_flood:paper --scenes plate --exposure 0.25";
+    measure_other(&bench, &split(words));
+    refused(
+        &bench,
+        &["plate", "other"],
+        &["hold plate / identity with other numbers"],
+    );
+    let filters = [&split(words)[..], &["--part", "filters", "--no-cache"]].concat();
+    measure_other(&bench, &filters);
+    refused(
+        &bench,
+        &["plate", "other"],
+        &["measured plate against different truths"],
+    );
+}
+
+#[test]
+fn one_case_with_two_scores_is_refused() {
+    let bench = two_parts();
+    fs::create_dir(bench.path("copy")).unwrap();
+    fs::copy(bench.path("plate/run.json"), bench.path("copy/run.json")).unwrap();
+    change(&bench, "copy", "\"value\": 0.", "\"value\": 1.");
+    refused(
+        &bench,
+        &["plate", "copy"],
+        &[
+            "plate/run.json and copy/run.json hold plate / ",
+            "with other numbers",
+        ],
+    );
+}
+
+#[test]
+fn one_picture_with_two_contents_is_refused() {
+    let bench = two_parts();
+    let words = "--filter jump_flood:paper --scenes plate --part filters";
+    measure_other(&bench, &split(words));
+    fs::write(bench.path("other/plate/frame.png"), "another frame").unwrap();
+    refused(
+        &bench,
+        &["plate", "other"],
+        &["plate/plate/frame.png and other/plate/frame.png differ"],
+    );
+}
+
+#[test]
+fn missing_cases_are_named() {
+    let bench = two_parts();
+    measure_other(&bench, &split("--filter jump_flood:paper --scenes plate"));
+    refused(
+        &bench,
+        &["plate", "slow", "other"],
+        &["no part holds slow / jump_flood:paper (trailing shutter)"],
+    );
+    let part = "--filter identity --scenes plate --part filters --no-cache";
+    measure_other(&bench, &split(part));
+    refused(
+        &bench,
+        &["other"],
+        &["references of the trailing shutter", "--part references"],
+    );
+}
+
+#[test]
+fn truths_are_not_looked_for_in_vain() {
+    let bench = Bench::new();
+    let run = |more: &[&str]| {
+        let words = [&["run", "--filter", "identity"], &split(QUICK)[..], more].concat();
+        bench.shuttertruth(&words)
+    };
+    let found = [
+        "--truths nowhere: there is no such folder",
+        "render --ladders",
+    ];
+    assert_refused(&run(&["--truths", "nowhere"]), 2, &found);
+    let output = run(&["--truths", "scenes", "--no-cache"]);
+    assert_refused(&output, 2, &["--truths", "--no-cache"]);
+    assert!(!bench.path("out").exists());
+}
+
+#[test]
+fn what_holds_no_run_is_refused() {
+    let bench = two_parts();
+    fs::create_dir(bench.path("empty")).unwrap();
+    refused(
+        &bench,
+        &["plate", "empty"],
+        &["empty holds no replicates", "or finished runs alone"],
+    );
+    fs::write(bench.path("empty/run.json"), "{").unwrap();
+    refused(
+        &bench,
+        &["plate", "empty"],
+        &["empty/run.json", "no run of this program"],
+    );
+    refused(&bench, &["plate", "nowhere"], &["nowhere"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn nothing_behind_a_link_is_taken() {
+    let bench = two_parts();
+    fs::write(bench.path("secret"), "mine").unwrap();
+    for (link, target) in [
+        ("slow/slow/frame.png", "secret"),
+        ("slow/slow/ladder_trailing", "plate"),
+    ] {
+        let path = bench.path(link);
+        match path.is_dir() {
+            true => fs::remove_dir_all(&path).unwrap(),
+            false => fs::remove_file(&path).unwrap(),
+        }
+        std::os::unix::fs::symlink(bench.path(target), path).unwrap();
+    }
+    bench.execute(&["merge", "plate", "slow", "--out", "whole"]);
+    for link in ["frame.png", "ladder_trailing"] {
+        assert!(
+            !bench.path("whole/slow").join(link).exists(),
+            "{link} was followed"
+        );
+    }
+}
