@@ -40,12 +40,12 @@ How near each filter comes to the truth, by FLIP where anything moves; lower is 
 page from the files beside it. Nothing is entered by hand. To enter a filter, add its folder to `shaders/`, run the commands of a part with
 `--filter` and its name, and put each run.json into its file:
 
-    cargo run -p cli --example results -- out/results/run.json
+    cargo run -p cli --example results -- out/results_320x180/run.json
 
 - Compare filters of one shutter only.
 - Filters with one rank (=) are too close to tell apart: the 95 % CI of the mean difference over scenes holds 0.
 - *Sealed* are the same scenes with speeds, directions, places, times and colours that follow from a number, as in `fan@seal1`. A preset
-  that was fitted to the catalogue falls there. Their scores lie elsewhere, because the speeds do: compare the ranks.
+  that was fitted to the catalogue falls there. Scores differ from the catalogue's because speeds do: compare the ranks.
 - [What each filter is](../shaders/README.md), [what it costs](../docs/results.md#cost), and [what the scores mean](../crates/metrics/README.md).
 ";
 
@@ -81,9 +81,9 @@ fn push_size(page: &mut String, results: &Results, sealed: Option<&Results>) -> 
 fn command(results: &Results, scenes: &[&str]) -> String {
     let [width, height] = results.size;
     let filters = list_once(results.scores.iter().map(|own| own.filter.as_str()));
-    let (seal, folder) = match results.seal {
-        Some(seed) => (format!(" --seal {seed}"), format!("out/results_seal{seed}")),
-        None => (String::new(), "out/results".to_owned()),
+    let (seal, of_seal) = match results.seal {
+        Some(seed) => (format!(" --seal {seed}"), format!("_seal{seed}")),
+        None => (String::new(), String::new()),
     };
     let shipped = list_scenes(Location::of_bundle(&catalogue::SCENES)).unwrap_or_default();
     let is_all = shipped
@@ -94,7 +94,7 @@ fn command(results: &Results, scenes: &[&str]) -> String {
         false => format!(" --scenes {}", scenes.join(",")),
     };
     format!(
-        "shuttertruth run{scenes}{seal} --size {width}x{height} --samples-per-pixel {} --jitter-frames 0 --filter {} --out {folder}",
+        "shuttertruth run{scenes}{seal} --size {width}x{height} --samples-per-pixel {} --jitter-frames 0 --filter {} --out out/results_{width}x{height}{of_seal}",
         results.samples_per_pixel,
         filters.join(",")
     )
