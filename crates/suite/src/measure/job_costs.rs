@@ -15,7 +15,7 @@ const CASE_CORES: f64 = 2.0;
 const START_SECONDS: f64 = 0.3;
 const START_CASES: f64 = 2.0;
 
-/// Expected cost of a job, on any number of cores; off by a factor of two or three.
+/// Expected cost of a job, on any number of cores: a truth may take three times as long, references take a fifth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JobCost {
     /// Time on one core, in seconds.
