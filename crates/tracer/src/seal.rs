@@ -345,6 +345,47 @@ mod tests {
     }
 
     #[test]
+    fn the_camera_turns_about_itself_and_zooms() {
+        let seal = Seal {
+            roll: 0.05,
+            pan: [0.04, -0.03],
+            zoom: 1.1,
+            ..NOTHING
+        };
+        for name in SCENES {
+            let scene = load_test_scene(name);
+            let sealed = seal.apply(scene.clone());
+            let [before, after] = [&scene, &sealed].map(|scene| scene.camera.motion.at(0.3));
+            assert_eq!(before.translation, after.translation, "{name}");
+            let fovs = scene.camera.vertical_fov.iter().map(|(_, fov)| *fov);
+            let widest = fovs.fold(0.0, f64::max);
+            // Where the new line of sight lies to the old camera: to the right, and below.
+            let sight = before
+                .inverse()
+                .transform_vector3(after.transform_vector3(DVec3::NEG_Z));
+            let [right, up] = seal.pan.map(|part| part * widest);
+            assert!(
+                (sight.x - right.sin() * up.cos()).abs() < 1e-9,
+                "{name}: {sight}"
+            );
+            assert!((sight.y - up.sin()).abs() < 1e-9, "{name}: {sight}");
+            let side = before
+                .inverse()
+                .transform_vector3(after.transform_vector3(DVec3::X));
+            assert!(
+                (side.y - seal.roll.sin() * up.cos()).abs() < 1e-3,
+                "{name}: {side}"
+            );
+            for ((_, before), (_, after)) in
+                (scene.camera.vertical_fov.iter()).zip(&sealed.camera.vertical_fov)
+            {
+                let ratio = (after / 2.0).tan() / (before / 2.0).tan();
+                assert!((ratio - 1.1).abs() < 1e-9, "{name}: {ratio}");
+            }
+        }
+    }
+
+    #[test]
     fn colors_are_swapped() {
         let scene = load_test_scene("neon");
         let seal = Seal {
