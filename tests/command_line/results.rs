@@ -110,6 +110,8 @@ fn results_of_two_runs_are_those_of_one() {
     };
     let mut part = without("plate", "velocity_gather:coarse");
     assert_eq!(part.scores.len(), 5);
+    // Its own score takes the place of an older one.
+    part.scores[0].floor = 9.0;
     part.update(whole.clone()).unwrap();
     assert_eq!(part, whole);
     let other = Results {
