@@ -85,6 +85,15 @@ fn cases_against_other_truths_are_refused() {
         &["plate", "other"],
         &["measured plate against different truths"],
     );
+    // The same exposure, and another truth: that of another tracer.
+    let words = "--filter jump_flood:paper --scenes plate --part filters --no-cache";
+    measure_other(&bench, &split(words));
+    change(&bench, "other", "\"truth_hash\": \"", "\"truth_hash\": \"0");
+    refused(
+        &bench,
+        &["plate", "other"],
+        &["measured plate against different truths"],
+    );
 }
 
 #[test]
