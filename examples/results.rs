@@ -1,7 +1,6 @@
 //! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes `results/README.md` from all
 //! files there: `cargo run -p cli --example results -- out/run.json`. Without a run it writes the page alone.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -42,19 +41,7 @@ fn keep(paths: &[PathBuf]) -> Result<(), Error> {
 
 /// Writes the page from every file of results.
 fn write_page() -> Result<(), Error> {
-    let entries = fs::read_dir(FOLDER)
-        .map_err(|error| Error::Usage(format!("{FOLDER}: {error}; run this in the repository")))?;
-    let mut files: Vec<PathBuf> = (entries.filter_map(Result::ok))
-        .map(|entry| entry.path())
-        .filter(|path| {
-            path.extension()
-                .is_some_and(|extension| extension == "json")
-        })
-        .collect();
-    files.sort();
-    let results: Vec<Results> = (files.iter())
-        .map(|file| Results::read(file))
-        .collect::<Result<_, _>>()?;
+    let results = Results::read_all(Path::new(FOLDER))?;
     let path = Path::new(FOLDER).join("README.md");
     frame::write_atomically(&path, results_page(&results)?.as_bytes())?;
     println!("{}", path.display());

@@ -14,39 +14,14 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../results")
 }
 
-/// Reads the shipped results with their texts, in the order of their names.
-fn shipped() -> Vec<(String, Results)> {
-    let mut files: Vec<PathBuf> = (fs::read_dir(folder()).unwrap())
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| {
-            path.extension()
-                .is_some_and(|extension| extension == "json")
-        })
-        .collect();
-    files.sort();
-    (files.iter())
-        .map(|path| {
-            let results = Results::read(path).unwrap();
-            assert_eq!(
-                path.file_name().unwrap().to_str().unwrap(),
-                results.file_name()
-            );
-            (fs::read_to_string(path).unwrap(), results)
-        })
-        .collect()
-}
-
 #[test]
 fn the_page_of_results_is_made_from_the_files_beside_it() {
-    let shipped = shipped();
-    for (text, results) in &shipped {
-        assert!(
-            *text == results.text(),
-            "{} was edited",
-            results.file_name()
-        );
+    let results = Results::read_all(&folder()).unwrap();
+    for own in &results {
+        let name = own.file_name();
+        let text = fs::read_to_string(folder().join(&name)).unwrap();
+        assert!(text == own.text(), "{name} was edited");
     }
-    let results: Vec<Results> = shipped.into_iter().map(|(_, results)| results).collect();
     assert!(results.iter().any(|own| own.seal.is_some()));
     let page = fs::read_to_string(folder().join("README.md")).unwrap();
     assert!(

@@ -39,15 +39,8 @@ fn a_mirrored_scene_is_seen_left_for_right() {
     for listing in list_scenes(scenes()).unwrap() {
         let scene = load_scene(&listing.folder, None).unwrap();
         let seal = Seal {
-            seed: 0,
             mirrored: true,
-            reversed: false,
-            speed: 1.0,
-            delay: 0.0,
-            roll: 0.0,
-            pan: [0.0; 2],
-            zoom: 1.0,
-            colors: [0, 1, 2],
+            ..Seal::NOTHING
         };
         let [before, after] = [&scene, &seal.apply(scene.clone())].map(render);
         let mut same = 0;

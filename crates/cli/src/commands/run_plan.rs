@@ -209,9 +209,7 @@ fn read_scene_bounds(
     name: &str,
     size: Option<(u32, u32)>,
 ) -> Result<SceneBounds, Error> {
-    // A later frame's name goes on: `fan@seal7/0003`.
-    let variant = (name.split_once('@')).and_then(|(_, variant)| variant.split('/').next());
-    match variant.and_then(Seal::seed_in) {
+    match Seal::split_name(name).1 {
         Some(_) => read_bounds_beside_scenes(root, size),
         None => read_bounds(root, folder, size),
     }

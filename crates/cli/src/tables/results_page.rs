@@ -85,7 +85,8 @@ fn command(results: &Results, scenes: &[&str]) -> String {
         Some(seed) => (format!(" --seal {seed}"), format!("_seal{seed}")),
         None => (String::new(), String::new()),
     };
-    let shipped = list_scenes(Location::of_bundle(&catalogue::SCENES)).unwrap_or_default();
+    let shipped = list_scenes(Location::of_bundle(&catalogue::SCENES))
+        .expect("the program's own scenes can be listed");
     let is_all = shipped
         .iter()
         .all(|listing| scenes.contains(&listing.name.as_str()));

@@ -73,7 +73,10 @@ impl Results {
             adapter: adapter_of(first),
             size: [first.render.width, first.render.height],
             samples_per_pixel: first.render.samples_per_pixel,
-            seal: first.cases.first().and_then(|case| parts_of(&case.scene).1),
+            seal: first
+                .cases
+                .first()
+                .and_then(|case| Seal::split_name(&case.scene).1),
             scores: Vec::new(),
         };
         let mut known = BTreeSet::new();
@@ -110,7 +113,7 @@ impl Results {
             ]
         };
         let render = &run.render;
-        let seal = parts_of(&case.scene).1;
+        let seal = Seal::split_name(&case.scene).1;
         let size = [render.width, render.height];
         let own = texts(size, render.samples_per_pixel, &adapter_of(run), seal);
         let first = texts(self.size, self.samples_per_pixel, &self.adapter, self.seal);
@@ -164,6 +167,23 @@ impl Results {
                 "has format {other}; allowed: {RESULTS_FORMAT}"
             ))),
         }
+    }
+
+    /// Reads every file of results in a folder, in the order of their names.
+    pub fn read_all(folder: &Path) -> Result<Vec<Self>, Error> {
+        let refuse = |error: std::io::Error| Error::Usage(format!("{}: {error}", folder.display()));
+        let mut files = Vec::new();
+        for entry in std::fs::read_dir(folder).map_err(refuse)? {
+            let path = entry.map_err(refuse)?.path();
+            if path
+                .extension()
+                .is_some_and(|extension| extension == "json")
+            {
+                files.push(path);
+            }
+        }
+        files.sort();
+        files.iter().map(|path| Self::read(path)).collect()
     }
 
     /// Formats a file of results: a line per case, so that a change of one is a change of one line.
@@ -230,7 +250,7 @@ impl ResultScores {
         let scores = (Headline::OF_MEANS.into_iter())
             .filter_map(|headline| Some((headline.name(), rounded(headline.estimate(case)?))));
         Self {
-            scene: parts_of(&case.scene).0.to_owned(),
+            scene: Seal::split_name(&case.scene).0.to_owned(),
             family: case.family,
             filter: case.filter.clone(),
             name: case.name(),
@@ -263,17 +283,6 @@ fn json<T: Serialize>(value: &T) -> String {
 
 fn adapter_of(run: &Run) -> Option<String> {
     run.adapter.as_ref().map(|adapter| adapter.name.clone())
-}
-
-/// Takes the name of a scene apart into its own and the number of its seal.
-fn parts_of(scene: &str) -> (&str, Option<u64>) {
-    match scene.rsplit_once('@') {
-        Some((name, variant)) => match Seal::seed_in(variant) {
-            Some(seed) => (name, Some(seed)),
-            None => (scene, None),
-        },
-        None => (scene, None),
-    }
 }
 
 /// Rounds to [`DIGITS`] significant digits.

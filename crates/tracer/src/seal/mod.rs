@@ -1,11 +1,16 @@
 //! Sealed variants: scenes changed by a seed, which no tuning has met.
 
+mod chance;
+mod mirror;
+mod times;
+
 use std::ops::RangeInclusive;
 
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DQuat, Vec3};
 
-use crate::motion::keys::{Key, Motion, Turn};
-use crate::scene::{Background, Material, Mesh, Scene};
+use self::chance::Chance;
+use self::mirror::mirror;
+use crate::scene::{Background, Material, Scene};
 
 /// The word before the seed in the name of a variant: `fan@seal7`.
 const WORD: &str = "seal";
@@ -47,6 +52,30 @@ pub struct Seal {
 }
 
 impl Seal {
+    /// Changes nothing.
+    pub const NOTHING: Self = Self {
+        seed: 0,
+        mirrored: false,
+        reversed: false,
+        speed: 1.0,
+        delay: 0.0,
+        roll: 0.0,
+        pan: [0.0; 2],
+        zoom: 1.0,
+        colors: [0, 1, 2],
+    };
+
+    /// Takes the name of a scene apart into that of the scene that was sealed and the seed: `fan@seal7` into `fan` and 7. Without a
+    /// seed the name stays as it is.
+    pub fn split_name(scene: &str) -> (&str, Option<u64>) {
+        let seed = scene.split_once('@').and_then(|(name, variant)| {
+            // A later frame's name goes on: `fan@seal7/0003`.
+            let seed = Self::seed_in(variant.split('/').next()?)?;
+            Some((name, Some(seed)))
+        });
+        seed.unwrap_or((scene, None))
+    }
+
     /// Reads the seed from the name of a variant, `seal7`; none for another name.
     pub fn seed_in(variant: &str) -> Option<u64> {
         let seed = variant.strip_prefix(WORD)?.parse::<u64>().ok()?;
@@ -90,33 +119,6 @@ impl Seal {
         match self.mirrored {
             true => mirror(scene),
             false => scene,
-        }
-    }
-
-    /// Changes what happens when: what happened at `t` happens at `delay + t / speed`, or at `delay - t / speed`.
-    fn change_times(&self, scene: &mut Scene) {
-        let sign = if self.reversed { -1.0 } else { 1.0 };
-        let change = |time: &mut f64| *time = self.delay + sign * *time / self.speed;
-        let objects = scene.objects.iter_mut().map(|object| &mut object.motion);
-        for motion in objects.chain([&mut scene.camera.motion]) {
-            for key in &mut motion.keys {
-                change(&mut key.time);
-            }
-            if self.reversed {
-                reverse(motion);
-            }
-        }
-        for (time, _) in &mut scene.camera.vertical_fov {
-            change(time);
-        }
-        for mesh in &mut scene.meshes {
-            for shape in &mut mesh.shapes {
-                change(&mut shape.time);
-            }
-        }
-        if self.reversed {
-            scene.camera.vertical_fov.reverse();
-            scene.meshes.iter_mut().for_each(reverse_shapes);
         }
     }
 
@@ -176,105 +178,15 @@ impl Seal {
     }
 }
 
-/// Reverses the order of keys whose times have changed their signs.
-fn reverse(motion: &mut Motion) {
-    let turns: Vec<Turn> = motion.keys.iter().map(|key| key.turn).collect();
-    motion.keys.reverse();
-    // A turn belongs to the key that it begins at, which was the one that it ended at.
-    let back = turns.iter().rev().skip(1).map(|turn| Turn {
-        angle: -turn.angle,
-        ..*turn
-    });
-    let turns = back.chain([Turn::NONE]);
-    for (key, turn) in motion.keys.iter_mut().zip(turns) {
-        key.turn = turn;
-    }
-}
-
-/// Reverses the order of key shapes whose times have changed their signs.
-fn reverse_shapes(mesh: &mut Mesh) {
-    mesh.shapes.reverse();
-    if let Some(first) = mesh.shapes.first() {
-        mesh.positions.clone_from(&first.positions);
-        mesh.normals.clone_from(&first.normals);
-    }
-}
-
-/// Mirrors a scene at the plane x = 0, camera and lights included: its picture is that of the scene, left for right.
-fn mirror(mut scene: Scene) -> Scene {
-    for mesh in &mut scene.meshes {
-        let shapes = (mesh.shapes.iter_mut())
-            .flat_map(|shape| shape.positions.iter_mut().chain(&mut shape.normals));
-        for vector in (mesh.positions.iter_mut().chain(&mut mesh.normals)).chain(shapes) {
-            vector.x = -vector.x;
-        }
-        for triangle in &mut mesh.triangles {
-            triangle.swap(1, 2);
-        }
-    }
-    let objects = scene.objects.iter_mut().map(|object| &mut object.motion);
-    for motion in objects.chain([&mut scene.camera.motion]) {
-        motion.keys.iter_mut().for_each(mirror_key);
-    }
-    if let Background::Map(map) = &mut scene.background {
-        for row in map.texels.chunks_exact_mut(map.width as usize) {
-            row.reverse();
-        }
-        map.rotation = -map.rotation;
-    }
-    if let Some(sun) = &mut scene.sun {
-        sun.direction.x = -sun.direction.x;
-    }
-    scene
-}
-
-fn mirror_key(key: &mut Key) {
-    let mirror_axis = |axis: DVec3| DVec3::new(axis.x, -axis.y, -axis.z);
-    key.translation.x = -key.translation.x;
-    let axis = mirror_axis(key.orientation.xyz());
-    key.orientation = DQuat::from_xyzw(axis.x, axis.y, axis.z, key.orientation.w);
-    key.turn.axis = mirror_axis(key.turn.axis);
-}
-
-/// Numbers that a seed and a name give, the same everywhere.
-struct Chance(blake3::OutputReader);
-
-impl Chance {
-    fn new(seed: u64, name: &str) -> Self {
-        let text = format!("sealed variant {seed} of {name}");
-        Self(blake3::Hasher::new().update(text.as_bytes()).finalize_xof())
-    }
-
-    /// The next number, uniform in a range.
-    fn between(&mut self, range: RangeInclusive<f64>) -> f64 {
-        let mut bytes = [0; 8];
-        self.0.fill(&mut bytes);
-        let unit = (u64::from_le_bytes(bytes) >> 11) as f64 / (1u64 << 53) as f64;
-        range.start() + unit * (range.end() - range.start())
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use glam::DAffine3;
+    use glam::{DAffine3, DVec3};
 
     use crate::load::list_scenes;
     use crate::test_scene::load_test_scene;
 
     use super::*;
 
-    /// A seal that changes nothing.
-    const NOTHING: Seal = Seal {
-        seed: 0,
-        mirrored: false,
-        reversed: false,
-        speed: 1.0,
-        delay: 0.0,
-        roll: 0.0,
-        pan: [0.0; 2],
-        zoom: 1.0,
-        colors: [0, 1, 2],
-    };
     const SCENES: [&str; 6] = ["fan", "walker", "dolly", "flag", "reversal", "cockpit"];
 
     /// Compares what a sealed scene shows with what its scene shows at another time.
@@ -303,7 +215,7 @@ mod tests {
         let seal = Seal {
             speed: 1.25,
             delay: 0.1,
-            ..NOTHING
+            ..Seal::NOTHING
         };
         assert_moves(&seal, |time| 1.25 * (time - 0.1), |pose| pose);
         let reversed = Seal {
@@ -318,7 +230,7 @@ mod tests {
         let scene = load_test_scene("flag");
         let reversed = Seal {
             reversed: true,
-            ..NOTHING
+            ..Seal::NOTHING
         };
         let sealed = reversed.apply(scene.clone());
         let mut meshes = 0;
@@ -338,7 +250,7 @@ mod tests {
     fn a_mirrored_world_moves_as_in_a_mirror() {
         let seal = Seal {
             mirrored: true,
-            ..NOTHING
+            ..Seal::NOTHING
         };
         let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
         assert_moves(&seal, |time| time, |pose| mirror * pose * mirror);
@@ -350,7 +262,7 @@ mod tests {
             roll: 0.05,
             pan: [0.04, -0.03],
             zoom: 1.1,
-            ..NOTHING
+            ..Seal::NOTHING
         };
         for name in SCENES {
             let scene = load_test_scene(name);
@@ -390,7 +302,7 @@ mod tests {
         let scene = load_test_scene("neon");
         let seal = Seal {
             colors: [1, 2, 0],
-            ..NOTHING
+            ..Seal::NOTHING
         };
         let sealed = seal.apply(scene.clone());
         for (before, after) in scene.materials.iter().zip(&sealed.materials) {
@@ -432,6 +344,10 @@ mod tests {
         assert_eq!(Seal::seed_in("seal7"), Some(7));
         for other in ["seal", "seal07", "seal-1", "sealed7", "unlit"] {
             assert_eq!(Seal::seed_in(other), None, "{other}");
+        }
+        assert_eq!(Seal::split_name("fan@seal7/0003"), ("fan", Some(7)));
+        for other in ["fan", "fan@20deg", "fan@20deg/0003"] {
+            assert_eq!(Seal::split_name(other), (other, None));
         }
     }
 }
