@@ -12,7 +12,7 @@ mod overview;
 
 use std::path::PathBuf;
 
-use report::{LARGEST_PAGE, report};
+use report::{LARGEST_PAGE, write_report};
 
 use bench::{Bench, assert_done};
 use browser::{Browser, address_of};
@@ -26,8 +26,7 @@ fn make_page(bench: &Bench) -> PathBuf {
 fn make_page_within(bench: &Bench, largest: usize) -> PathBuf {
     let html = bench.path("page/a report.html");
     let (run, findings) = (bench.read_run(), bench.read_findings());
-    let page = report(&run, &findings, &bench.path("out"), &html, largest).unwrap();
-    page.write().unwrap();
+    write_report(&run, &findings, &bench.path("out"), &html, largest).unwrap();
     html
 }
 

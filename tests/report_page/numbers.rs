@@ -115,24 +115,45 @@ fn the_read_out_shows_the_values_of_the_openexr_files_in_three_digits() {
 }
 
 #[test]
-fn numbers_beside_the_page_are_found() {
+fn numbers_and_tables_beside_the_page_are_found() {
     let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
+    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
+    let whole = make_page(&bench);
+    let mut browser = Browser::new(1280, 900);
+    let article = "[...document.querySelectorAll('article.open > :not(.viewer_place)')].map((own) => own.textContent).join()";
+    open_case(&mut browser, &whole, "plate/velocity_gather:fine");
+    let words = browser.text(article);
+    assert!(words.contains("flip_moving"), "{words}");
+
     let page = make_page_within(&bench, 0);
-    let beside = bench.path("page/a report_files/scene_0.js");
-    assert!(beside.is_file());
+    let [numbers, tables] =
+        ["scene_0.js", "tables_0.js"].map(|name| bench.path("page/a report_files").join(name));
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/velocity_gather:fine");
+    assert_eq!(browser.text(article), words);
     let [left, top, width, _] = browser.place(".stack");
     browser.point(left + 20.5 * width / 64.0, top + 15.5 * width / 64.0);
     let shown = read_out(&mut browser, 20, 15);
     let files = files_of(&bench, &case_of(&bench, "velocity_gather:fine"));
     assert_near(&shown, &files, 20, 15);
+    browser.press("k");
+    browser.until(
+        "document.querySelector('article.open h2').textContent === 'plate / identity:default'",
+    );
     assert_eq!(browser.complaints(), [""; 0]);
-    assert_eq!(browser.requests(), [address_of(&page), address_of(&beside)]);
+    let due = [&page, &tables, &numbers].map(|path| address_of(path));
+    assert_eq!(browser.requests(), due);
 
-    fs::remove_file(&beside).unwrap();
+    fs::write(&tables, "shuttertruth.arrived(\"tables_0\", {});\n").unwrap();
     browser.open(&page, "");
     browser.open(&page, "#plate/velocity_gather:fine");
+    browser.until(&format!(
+        "{article}.includes('tables_0.js is of another run')"
+    ));
+    fs::remove_file(&tables).unwrap();
+    fs::remove_file(&numbers).unwrap();
+    browser.open(&page, "");
+    browser.open(&page, "#plate/velocity_gather:fine");
+    browser.until(&format!("{article}.includes('tables_0.js is missing')"));
     browser.until("document.querySelector('.hint').textContent.includes('scene_0.js is missing')");
 }

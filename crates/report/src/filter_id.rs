@@ -2,11 +2,11 @@
 
 use metrics::Measured;
 
-use suite::Headline;
-use suite::{Case, Overall, Run};
+use crate::case_table::CaseTable;
+use suite::{Case, Headline, Overall};
 
 /// A filter preset with one form of its input, or a reference with one shutter.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct FilterId {
     /// `jump_flood:paper`.
     pub name: String,
@@ -52,19 +52,6 @@ impl FilterId {
         (self.is_reference, &self.name, &self.alignment)
             == (overall.is_reference, &overall.filter, &overall.alignment)
     }
-
-    /// Lists its cases, one per scene.
-    pub fn cases<'a>(&'a self, run: &'a Run) -> impl Iterator<Item = (usize, &'a Case)> {
-        let all = run.cases.iter().enumerate();
-        all.filter(|(_, case)| FilterId::of(case) == *self)
-    }
-
-    /// Finds the number of its case of one scene.
-    pub fn case_on(&self, run: &Run, scene: &str) -> Option<usize> {
-        let mut own = self.cases(run);
-        own.find(|(_, case)| case.scene == scene)
-            .map(|(index, _)| index)
-    }
 }
 
 /// Writes the address of a case: `railing/bevy:high`.
@@ -81,25 +68,15 @@ fn escape(name: &str) -> String {
     escaped.collect()
 }
 
-/// Lists the filters of a run, in the order they ran.
-pub fn list_filters(run: &Run) -> Vec<FilterId> {
-    drop_repetitions(run.cases.iter().map(FilterId::of))
-}
-
-/// Lists the scenes of a run, in the order they ran.
-pub fn list_scenes(run: &Run) -> Vec<&str> {
-    drop_repetitions(run.cases.iter().map(|case| case.scene.as_str()))
-}
-
 /// Lists the shutter alignments of some filters.
 pub fn list_alignments(filters: &[FilterId]) -> Vec<&str> {
     drop_repetitions(filters.iter().map(|filter| filter.alignment.as_str()))
 }
 
 /// Averages a score's noise floor over a filter's scenes; none where the score applies to none.
-pub fn mean_floor(run: &Run, filter: &FilterId, headline: Headline) -> Option<f64> {
-    let floors = filter
-        .cases(run)
+pub fn mean_floor(table: &CaseTable, filter: &FilterId, headline: Headline) -> Option<f64> {
+    let floors = table
+        .cases_of(filter)
         .filter_map(|(_, case)| match headline.measured(case) {
             Measured::Score(score) => Some(score.floor),
             Measured::NotApplicable { .. } => None,

@@ -3,10 +3,11 @@
 use filters::{Filter, Source};
 use maud::{Markup, html};
 
-use crate::filter_id::{FilterId, case_anchor, list_scenes};
+use crate::case_table::CaseTable;
+use crate::filter_id::{FilterId, case_anchor};
 use crate::numbers::value_text;
 use crate::overview::costs::{cost_of, cost_text};
-use suite::{Bench, Case, Headline, Run};
+use suite::{Bench, Case, Headline};
 
 /// Scores beside the error in the table of scenes.
 const SCORES: [(Headline, &str); 6] = [
@@ -20,12 +21,12 @@ const SCORES: [(Headline, &str); 6] = [
 
 /// Writes the section of a filter; `thumbnails` are addresses of the scenes' truths.
 pub fn filter_section(
-    run: &Run,
+    table: &CaseTable,
     filter: &FilterId,
     thumbnails: &[String],
     bench: Option<&Bench>,
 ) -> Markup {
-    let cases: Vec<&Case> = filter.cases(run).map(|(_, case)| case).collect();
+    let cases: Vec<&Case> = table.cases_of(filter).map(|(_, case)| case).collect();
     let Some(first) = cases.first() else {
         return html! {};
     };
@@ -47,11 +48,11 @@ pub fn filter_section(
                 dl.facts {
                     @if let Some(own) = &own { (about(own, first)) }
                     div { dt { "shutter" } dd { (filter.alignment) } }
-                    @if bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(run, bench, filter))) " ms" } } }
+                    @if bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(table, bench, filter))) " ms" } } }
                     @if let Some(change) = first.input.change() { div { dt { "input" } dd { (change) } } }
                     @if let Some(command) = &first.command { div { dt { "command" } dd { code { (command.join(" ")) } } } }
                 }
-                (weakest(run, &cases, thumbnails))
+                (weakest(table, &cases, thumbnails))
                 (parameters(own.as_ref(), first))
             }
         }
@@ -79,8 +80,8 @@ fn source_rows(source: &Source) -> Markup {
 }
 
 /// Lists the scenes, largest error first, each with a link to its case.
-fn weakest(run: &Run, cases: &[&Case], thumbnails: &[String]) -> Markup {
-    let scenes = list_scenes(run);
+fn weakest(table: &CaseTable, cases: &[&Case], thumbnails: &[String]) -> Markup {
+    let scenes = &table.scenes;
     let error = |case: &Case| Headline::FLIP.estimate(case).unwrap_or(f64::NEG_INFINITY);
     let mut sorted = cases.to_vec();
     sorted.sort_by(|a, b| error(b).total_cmp(&error(a)));

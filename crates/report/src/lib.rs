@@ -1,6 +1,8 @@
 //! Pages of a run, a comparison and a tuning, each of which opens from disk and fetches nothing.
 
 mod case;
+mod case_strip;
+mod case_table;
 mod charts;
 mod comparison;
 mod document;
@@ -16,89 +18,123 @@ mod run_page;
 mod sequence;
 mod tuning;
 
-use std::path::Path;
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
 
+use frame::write_atomically;
+use maud::PreEscaped;
 use suite::Finding;
 use suite::{Case, Error, Run};
 
-use case::case_section;
 use case::case_view::{CaseInput, CaseView};
-use filter_id::{list_filters, list_scenes};
+use case::{CaseTables, case_section};
+use case_table::CaseTable;
 use filter_page::filter_section;
-use overview::costs::read_bench;
 use overview::overview;
-use pixels::report_files::SceneNumbers;
+use pixels::report_files::{Place, SceneTexts};
 use pixels::scene_files::SceneFiles;
-use run_page::run_page;
+use run_page::{PageContent, run_page};
 
+pub use case_strip::write_case_strip;
 pub use comparison::{ChangeCells, compare_page};
 pub use finding_text::{finding_line, finding_score, finding_status, way_out};
 pub use gallery::write_gallery;
-pub use pixels::report_files::{LARGEST_PAGE, Report};
+pub use overview::costs::read_bench;
+pub use pixels::report_files::LARGEST_PAGE;
 pub use sequence::{SEQUENCES_PAGE, sequences_page};
 pub use tuning::{TuneFolder, tuning_page};
 
-/// Makes the page of a run whose files lie below `folder`, that of its run.json, to be written to `html`.
+/// Writes the page of a run whose files lie below `folder`, that of its run.json, to `html`; returns its path, then those of the files
+/// beside it.
 ///
 /// A bench.json that lies there too says what the filters cost. `findings` are those about the run; without any the page shows no
-/// bounds. If the page would have more than `largest` bytes, [`LARGEST_PAGE`] for instance, its numbers lie beside it. Reads files
-/// and writes none; the same run makes the same bytes.
-pub fn report(
+/// bounds. If the page would have more than `largest` bytes, [`LARGEST_PAGE`] for instance, its numbers lie beside it, and if those
+/// of its tables alone are more, its tables too. The same run makes the same bytes. The page comes last: one that is there is whole.
+///
+/// # Errors
+/// A file of the run is missing or broken, or a file of the report cannot be written.
+pub fn write_report(
     run: &Run,
     findings: &[Finding],
     folder: &Path,
     html: &Path,
     largest: usize,
-) -> Result<Report, Error> {
+) -> Result<Vec<PathBuf>, Error> {
     refuse_empty(run)?;
     let bench = read_bench(folder)?;
-    let mut texts = Vec::new();
+    let table = CaseTable::new(run);
+    let findings = group_findings(findings);
+    let has_tables = run.cases.len() <= largest / CASE_BYTES;
+    let mut numbers = SceneTexts::new("scene", html, if has_tables { largest } else { 0 });
+    let mut tables = SceneTexts::new("tables", html, 0);
+    let mut sections = vec![PreEscaped(String::new()); run.cases.len()];
     let mut views = Vec::new();
     let mut thumbnails = Vec::new();
-    for (scene, name) in list_scenes(run).into_iter().enumerate() {
-        let own = || {
-            let all = run.cases.iter().enumerate();
-            all.filter(|(_, case)| case.scene == name)
-        };
-        let cases: Vec<&Case> = own().map(|(_, case)| case).collect();
+    for (scene, name) in table.scenes.iter().enumerate() {
+        let cases: Vec<&Case> = table.cases_on(name).map(|(_, case)| case).collect();
         let mut files = SceneFiles::read(run, &cases, folder)?;
-        for (index, case) in own() {
-            let about = |finding: &&Finding| !case.is_reference && finding.is_of(case);
+        let mut own_tables = Vec::new();
+        for (index, case) in table.cases_on(name) {
             let input = CaseInput {
                 run,
                 index,
-                findings: findings.iter().filter(about).cloned().collect(),
+                findings: findings_about(case, &findings),
                 scene,
             };
-            views.push(CaseView::read(input, folder, &mut files)?);
+            let view = CaseView::read(input, folder, &mut files)?;
+            let text = CaseTables::new(&view, &table);
+            sections[index] = case_section(&view, has_tables.then_some(&text));
+            if !has_tables {
+                own_tables.push(text.texts(case));
+            }
+            views.push(view);
         }
-        texts.push(files.planes.json());
+        if !has_tables {
+            let own: BTreeMap<String, [String; 2]> = own_tables.into_iter().collect();
+            tables.add(serde_json::to_string(&own).expect("texts are plain data"))?;
+        }
+        numbers.add(files.planes.json())?;
         thumbnails.push(files.thumbnail()?);
     }
     views.sort_by_key(|view| view.index);
-    let filters = list_filters(run).into_iter();
-    let filters = filters.filter(|filter| !filter.is_reference);
-    let sections: Vec<_> = (views.iter().map(case_section))
-        .chain(filters.map(|filter| filter_section(run, &filter, &thumbnails, bench.as_ref())))
-        .collect();
-    let first = overview(run, &views, &thumbnails, bench.as_ref());
-    let text = sections
-        .iter()
-        .map(|section| section.0.len())
-        .sum::<usize>()
-        + first.0.len();
-    let numbers = SceneNumbers::new(texts, text, html, largest);
-    Ok(Report {
-        html: html.to_owned(),
-        page: run_page(
-            run,
-            &first,
-            &sections,
-            &numbers,
-            html.parent() == Some(folder),
-        ),
-        siblings: numbers.siblings(html),
-    })
+    let filters = table.filters.iter().filter(|filter| !filter.is_reference);
+    sections
+        .extend(filters.map(|filter| filter_section(&table, filter, &thumbnails, bench.as_ref())));
+    let first = overview(&table, &views, &thumbnails, bench.as_ref());
+    let text: usize = sections.iter().map(|section| section.0.len()).sum();
+    let numbers = numbers.place(text + first.0.len())?;
+    let content = PageContent {
+        overview: &first,
+        sections: &sections,
+        numbers: &numbers,
+        has_tables,
+        links_sequences: html.parent() == Some(folder),
+    };
+    write_atomically(html, run_page(run, &content, html).as_bytes())?;
+    let beside = [numbers, tables.place(0)?]
+        .into_iter()
+        .flat_map(Place::paths);
+    Ok(std::iter::once(html.to_owned()).chain(beside).collect())
+}
+
+/// Bytes of the tables of a case, about.
+const CASE_BYTES: usize = 25_000;
+
+/// Groups findings by scene.
+fn group_findings(findings: &[Finding]) -> HashMap<&str, Vec<&Finding>> {
+    let mut groups: HashMap<&str, Vec<&Finding>> = HashMap::new();
+    for finding in findings {
+        groups.entry(&finding.scene).or_default().push(finding);
+    }
+    groups
+}
+
+/// Lists the findings about a case; there are none about a reference.
+fn findings_about(case: &Case, findings: &HashMap<&str, Vec<&Finding>>) -> Vec<Finding> {
+    let own = findings.get(case.scene.as_str()).into_iter().flatten();
+    own.filter(|finding| !case.is_reference && finding.is_of(case))
+        .map(|finding| (*finding).clone())
+        .collect()
 }
 
 /// Refuses what no run of this program holds.

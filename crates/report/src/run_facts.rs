@@ -2,16 +2,16 @@
 
 use maud::{Markup, html};
 
-use crate::filter_id::list_scenes;
+use crate::case_table::CaseTable;
 use suite::{Case, Run};
 
 /// Lists command, program, adapter, settings, and per scene the hashes of its truths.
-pub fn provenance(run: &Run) -> Markup {
+pub fn provenance(table: &CaseTable) -> Markup {
     html! {
         section.provenance {
             h2 { "Provenance" }
             dl {
-                @for (term, text) in facts(run) {
+                @for (term, text) in facts(table.run) {
                     div { dt { (term) } dd { (text) } }
                 }
             }
@@ -28,7 +28,7 @@ pub fn provenance(run: &Run) -> Markup {
                             th.text scope="col" { "hash of the truth" }
                         }
                     }
-                    tbody { @for truth in truths(run) { (truth) } }
+                    tbody { @for truth in truths(table) { (truth) } }
                 }
             }
         }
@@ -92,8 +92,20 @@ pub fn provenance_line(run: &Run) -> String {
         run.render.height,
         run.render.samples_per_pixel,
         run.render.seed,
-        command(run)
+        short_command(run)
     )
+}
+
+/// Most letters of a command line that every case repeats; a merge may name thousands of parts.
+const LONGEST_COMMAND: usize = 500;
+
+/// Cuts a command line that is too long to be repeated.
+fn short_command(run: &Run) -> String {
+    let whole = command(run);
+    match whole.char_indices().nth(LONGEST_COMMAND) {
+        None => whole,
+        Some((end, _)) => format!("{} ... (run.json has all of it)", &whole[..end]),
+    }
 }
 
 /// Writes the words of the command line, the program's by its name alone.
@@ -109,11 +121,11 @@ pub fn truth_text(case: &Case) -> String {
 }
 
 /// Writes a row per scene and shutter.
-fn truths(run: &Run) -> Vec<Markup> {
+fn truths(table: &CaseTable) -> Vec<Markup> {
     let mut rows = Vec::new();
-    for scene in list_scenes(run) {
+    for scene in &table.scenes {
         let mut alignments: Vec<&str> = Vec::new();
-        for case in run.cases.iter().filter(|case| case.scene == scene) {
+        for (_, case) in table.cases_on(scene) {
             if alignments.contains(&case.alignment.as_str()) {
                 continue;
             }

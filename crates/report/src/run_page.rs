@@ -1,11 +1,13 @@
 //! Page of a run: overview, cases, viewer and their numbers.
 
+use std::path::Path;
+
 use maud::{Markup, PreEscaped, html};
 
 use crate::case::legend::colors;
 use crate::case::viewer::viewer;
 use crate::document::{Document, Siblings};
-use crate::pixels::report_files::SceneNumbers;
+use crate::pixels::report_files::{Place, folder_name};
 use crate::sequence::SEQUENCES_PAGE;
 use suite::Run;
 
@@ -21,14 +23,22 @@ const SCRIPTS: [&str; 8] = [
     include_str!("assets/address.js"),
 ];
 
-/// Writes the whole page. `links_sequences` is true where the page lies beside that of the sequences.
-pub fn run_page(
-    run: &Run,
-    overview: &Markup,
-    cases: &[Markup],
-    numbers: &SceneNumbers,
-    links_sequences: bool,
-) -> String {
+/// What the page of a run holds.
+pub struct PageContent<'a> {
+    /// All scenes and filters at a glance.
+    pub overview: &'a Markup,
+    /// Sections of cases, then of filters.
+    pub sections: &'a [Markup],
+    /// Numbers of the pictures.
+    pub numbers: &'a Place,
+    /// True where the sections of cases hold their tables.
+    pub has_tables: bool,
+    /// True where the page lies beside that of the sequences.
+    pub links_sequences: bool,
+}
+
+/// Writes the whole page, which lies at `html`.
+pub fn run_page(run: &Run, content: &PageContent, html: &Path) -> String {
     let document = Document {
         title: "Shuttertruth report",
         heading: html! { a href="#overview" { "Shuttertruth" } },
@@ -39,28 +49,28 @@ pub fn run_page(
         body: html! {
             main {
                 noscript {
-                    p { "The numbers need no script; pictures, sorting and keys do." }
+                    p { (script_note(content.has_tables)) }
                 }
                 (failures(run))
                 @if !run.sequences.is_empty() {
                     p.note {
                         "Below are the first frames of sequences of " (run.frames.count) " frames. "
                         "They play on the page "
-                        @if links_sequences { a href=(SEQUENCES_PAGE) { (SEQUENCES_PAGE) } } @else { (SEQUENCES_PAGE) }
+                        @if content.links_sequences { a href=(SEQUENCES_PAGE) { (SEQUENCES_PAGE) } } @else { (SEQUENCES_PAGE) }
                         " beside run.json."
                     }
                 }
-                (overview)
-                @for case in cases { (case) }
+                (content.overview)
+                @for section in content.sections { (section) }
             }
             (viewer(run))
-            (scene_numbers(numbers))
+            (scene_numbers(content.numbers, html))
             script #colors type="application/json" { (PreEscaped(colors())) }
         },
         scripts: &SCRIPTS,
-        siblings: match numbers.folder {
-            Some(_) => Siblings::Numbers,
-            None => Siblings::None,
+        siblings: match content.numbers {
+            Place::Beside(_) => Siblings::Numbers,
+            Place::Page(_) => Siblings::None,
         },
     };
     document.render()
@@ -82,12 +92,26 @@ fn failures(run: &Run) -> Markup {
     }
 }
 
-/// Embeds the numbers: base64 holds no character that HTML escapes.
-fn scene_numbers(numbers: &SceneNumbers) -> Markup {
+/// Says what needs scripts.
+fn script_note(has_tables: bool) -> &'static str {
+    match has_tables {
+        true => "The numbers need no script; pictures, sorting and keys do.",
+        false => {
+            "The tables of cases need scripts: there are too many for one page. Those of the overview need none."
+        }
+    }
+}
+
+/// Embeds the numbers, or names their folder: base64 holds no character that HTML escapes.
+fn scene_numbers(numbers: &Place, page: &Path) -> Markup {
+    let folder = match numbers {
+        Place::Page(_) => None,
+        Place::Beside(_) => Some(folder_name(page)),
+    };
     html! {
-        div #numbers hidden data-folder=[numbers.folder.as_ref()] {
-            @if numbers.folder.is_none() {
-                @for (scene, text) in numbers.texts.iter().enumerate() {
+        div #numbers hidden data-folder=[folder] {
+            @if let Place::Page(texts) = numbers {
+                @for (scene, text) in texts.iter().enumerate() {
                     script type="application/json" data-scene=(scene) { (PreEscaped(text)) }
                 }
             }

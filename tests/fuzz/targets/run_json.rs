@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use cli::{annotations, check_text, compare_table, junit, run_table, summary};
-use report::{LARGEST_PAGE, compare_page, report};
+use report::{LARGEST_PAGE, compare_page, write_report};
 use suite::{
     Acceptance, Baseline, Finding, Judgement, Margin, Run, RunBounds, Side, accept_scores,
     add_evidence, check, compare_runs, compare_with_baseline, judge, read_bounds, write_layers,
@@ -125,7 +125,7 @@ fn bounds(run: &Run, place: &Place) -> RunBounds {
 
 fn write_page(run: &Run, findings: &[Finding], folder: &Path) {
     let page = folder.join("page.html");
-    drop(report(run, findings, folder, &page, LARGEST_PAGE));
+    drop(write_report(run, findings, folder, &page, LARGEST_PAGE));
 }
 
 fn show(

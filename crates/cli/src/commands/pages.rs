@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use report::{LARGEST_PAGE, SEQUENCES_PAGE, report, sequences_page};
+use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
 use suite::{Error, Finding, Run, printable_path};
 
 /// A file that a command wrote.
@@ -53,20 +53,13 @@ pub fn write_run_page(
     folder: &Path,
     html: &Path,
 ) -> Result<Vec<WrittenFile>, Error> {
-    let page = report(run, findings, folder, html, LARGEST_PAGE)?;
-    page.write()?;
-    let siblings = page.siblings.into_iter().map(|(path, _)| path);
-    let sequences = match sequences_page(run) {
-        None => None,
-        Some(page) => {
-            let path = folder.join(SEQUENCES_PAGE);
-            frame::write_atomically(&path, page.as_bytes())?;
-            Some(path)
-        }
-    };
-    (std::iter::once(page.html).chain(sequences).chain(siblings))
-        .map(WrittenFile::new)
-        .collect()
+    let mut files = write_report(run, findings, folder, html, LARGEST_PAGE)?;
+    if let Some(page) = sequences_page(run) {
+        let path = folder.join(SEQUENCES_PAGE);
+        frame::write_atomically(&path, page.as_bytes())?;
+        files.insert(1, path);
+    }
+    files.into_iter().map(WrittenFile::new).collect()
 }
 
 /// Writes a page.

@@ -6,7 +6,7 @@ use suite::{Error, Finding, Judgement, Run};
 
 /// Writes `run.json` and returns its text.
 pub fn write_run(run: &Run, out: &Path) -> Result<String, Error> {
-    let json = serde_json::to_string_pretty(run).expect("a run is plain data");
+    let json = run.text();
     frame::write_atomically(&out.join("run.json"), json.as_bytes())?;
     Ok(json)
 }

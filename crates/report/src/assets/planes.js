@@ -1,5 +1,5 @@
 "use strict";
-// The numbers behind the pictures: planes of floats, unpacked when a picture first needs them.
+// The numbers behind the pictures: planes of floats, unpacked when a picture first needs them. And the files beside a large page.
 {
   const store = document.getElementById("numbers");
   const { folder } = store.dataset;
@@ -8,19 +8,20 @@
   let open = { scene: null };
 
   // Called by the files beside the page, each of which holds one scene.
-  const arrived = (scene, texts) => waiting.get(scene)(texts);
+  const arrived = (name, content) => waiting.get(name)(content);
 
-  const load = (scene) =>
+  // Loads a file beside the page: `scene_3`, with numbers, or `tables_3`.
+  const load = (name) =>
     new Promise((resolve, reject) => {
-      waiting.set(scene, resolve);
+      waiting.set(name, resolve);
       const script = document.createElement("script");
-      script.src = `${encodeURIComponent(folder)}/scene_${scene}.js`;
-      script.onerror = () => reject(new Error(`${folder}/scene_${scene}.js is missing: it belongs beside this page`));
+      script.src = `${encodeURIComponent(folder)}/${name}.js`;
+      script.onerror = () => reject(new Error(`${folder}/${name}.js is missing: it belongs beside this page`));
       document.head.append(script);
     });
 
   const textsOf = (scene) => {
-    if (folder) return load(scene);
+    if (folder) return load(`scene_${scene}`);
     return Promise.resolve(JSON.parse(store.querySelector(`[data-scene="${scene}"]`).textContent));
   };
 
@@ -76,5 +77,5 @@
   // The numbers of some planes of the open scene.
   const planes = (numbers) => Promise.all(numbers.map((number) => plane(open, number)));
 
-  window.shuttertruth = { arrived, openScene, planes };
+  window.shuttertruth = { arrived, load, openScene, planes };
 }

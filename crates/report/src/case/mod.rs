@@ -11,7 +11,8 @@ pub mod viewer;
 
 use maud::{Markup, html};
 
-use crate::filter_id::{FilterId, case_anchor, list_scenes};
+use crate::case_table::CaseTable;
+use crate::filter_id::{FilterId, case_anchor};
 use crate::numbers::{counted, value_text};
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::{provenance_line, truth_text};
@@ -20,11 +21,58 @@ use case_view::CaseView;
 use profile::Profile;
 use profile_chart::profile_chart;
 use scores::score_rows;
-use suite::{Case, Drawn, Headline, Level, Outcome, Run};
+use suite::{Case, Drawn, Headline, Level, Outcome};
+
+/// Tables of a case: what stands above its pictures, and below them.
+pub struct CaseTables {
+    head: Markup,
+    rest: Markup,
+}
+
+impl CaseTables {
+    /// Writes the tables.
+    pub fn new(view: &CaseView, table: &CaseTable) -> Self {
+        let case = view.case;
+        let filter = FilterId::of(case);
+        let head = html! {
+            div.case_head {
+                h2 tabindex="-1" {
+                    (case.scene) " / "
+                    @if filter.is_reference { (filter.title()) }
+                    @else { a href=(format!("#{}", filter.section_anchor())) { (filter.title()) } }
+                }
+                (neighbours(view, table))
+            }
+            (score_line(view, table))
+        };
+        let rest = html! {
+            p { (case.exposes) }
+            div.columns {
+                div {
+                    section {
+                        h3 { "Along the motion, through the worst place" }
+                        (profile_chart(&view.profile))
+                    }
+                    (bounds(view))
+                }
+                (facts(view))
+            }
+            (score_rows(view))
+            p.note { (provenance_line(view.run)) }
+        };
+        Self { head, rest }
+    }
+
+    /// Returns both texts for a file beside the page, by the address of the case.
+    pub fn texts(self, case: &Case) -> (String, [String; 2]) {
+        let Self { head, rest } = self;
+        (case_anchor(case), [head, rest].map(Markup::into_string))
+    }
+}
 
 /// Writes a case; it is seen while it is open, and the script brings the viewer. Where scripts run, its tables are text until then:
-/// a browser takes seconds for those of all cases.
-pub fn case_section(view: &CaseView) -> Markup {
+/// a browser takes seconds for those of all cases. Without `tables` the script loads them from a file beside the page.
+pub fn case_section(view: &CaseView, tables: Option<&CaseTables>) -> Markup {
     let case = view.case;
     let filter = FilterId::of(case);
     let title = format!("{} / {}", case.scene, filter.title());
@@ -33,42 +81,28 @@ pub fn case_section(view: &CaseView) -> Markup {
         article.case id=(case_anchor(case)) data-title=(title) data-name=(filter.anchor())
             data-filter=(filter.title()) data-reference[filter.is_reference]
             data-score=(format!("FLIP {}", Headline::FLIP.text(case))) {
-            noscript {
-                div.case_head {
-                    h2 tabindex="-1" {
-                        (case.scene) " / "
-                        @if filter.is_reference { (filter.title()) }
-                        @else { a href=(format!("#{}", filter.section_anchor())) { (filter.title()) } }
-                    }
-                    (neighbours(view))
-                }
-                (score_line(view))
-            }
+            (part(tables.map(|own| &own.head)))
             div.viewer_place data-truth=[case.drawn.as_ref().map(truth_words)] data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
                 data-names=(serde_json::json!(view.names)) data-line=(line(&view.profile)) data-worst=(format!("{x},{y}")) {}
-            noscript {
-                p { (case.exposes) }
-                div.columns {
-                    div {
-                        section {
-                            h3 { "Along the motion, through the worst place" }
-                            (profile_chart(&view.profile))
-                        }
-                        (bounds(view))
-                    }
-                    (facts(view))
-                }
-                (score_rows(view))
-                p.note { (provenance_line(view.run)) }
-            }
+            (part(tables.map(|own| &own.rest)))
+        }
+    }
+}
+
+/// Writes tables, or their place.
+fn part(tables: Option<&Markup>) -> Markup {
+    html! {
+        @match tables {
+            Some(tables) => noscript { (tables) },
+            None => div.part {},
         }
     }
 }
 
 /// Writes the scores that a reader looks for first, and the rank among the filters of one shutter.
-fn score_line(view: &CaseView) -> Markup {
+fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
     let case = view.case;
-    let (rank, of) = rank_on_scene(view.run, case);
+    let (rank, of) = rank_on_scene(table, case);
     let count = |level, is_counted: fn(Outcome) -> bool| {
         let own = view.findings.iter().filter(|own| own.level == level);
         own.filter(|own| is_counted(own.outcome)).count()
@@ -111,11 +145,10 @@ fn interval(case: &Case, headline: Headline) -> String {
 }
 
 /// Counts the filters of the scene with the same shutter: those that are better by FLIP, and all.
-fn rank_on_scene(run: &Run, case: &Case) -> (Option<usize>, usize) {
+fn rank_on_scene(table: &CaseTable, case: &Case) -> (Option<usize>, usize) {
     let flip = |case: &Case| Headline::FLIP.estimate(case);
-    let rivals = (run.cases.iter()).filter(|own| {
-        !own.is_reference && own.scene == case.scene && own.alignment == case.alignment
-    });
+    let rivals = (table.cases_on(&case.scene).map(|(_, own)| own))
+        .filter(|own| !own.is_reference && own.alignment == case.alignment);
     let errors: Vec<f64> = rivals.filter_map(flip).collect();
     let rank = flip(case).map(|own| 1 + errors.iter().filter(|error| **error < own).count());
     (rank, errors.len())
@@ -151,19 +184,16 @@ fn line(profile: &Profile) -> String {
 }
 
 /// The ways to the overview, to other filters of the scene, and to the same filter in other scenes.
-fn neighbours(view: &CaseView) -> Markup {
+fn neighbours(view: &CaseView, table: &CaseTable) -> Markup {
     let (run, index) = (view.run, view.index);
     let scene = |index: usize| run.cases[index].scene.as_str();
-    let scenes = list_scenes(run);
-    let place = (scenes.iter()).position(|own| *own == scene(index));
-    let place = place.expect("a case's scene is one of the run's");
     let filter = FilterId::of(view.case);
-    let in_scene = |at: Option<usize>| filter.case_on(run, scenes.get(at?)?);
+    let in_scene = |at: Option<usize>| table.case_on(&filter, table.scenes.get(at?)?);
     let of_scene =
         |at: Option<usize>| at.filter(|at| *at < run.cases.len() && scene(*at) == scene(index));
     let ways = [
-        ("h", "← scene", in_scene(place.checked_sub(1))),
-        ("l", "scene →", in_scene(Some(place + 1))),
+        ("h", "← scene", in_scene(view.scene.checked_sub(1))),
+        ("l", "scene →", in_scene(Some(view.scene + 1))),
         ("k", "↑ filter", of_scene(index.checked_sub(1))),
         ("j", "↓ filter", of_scene(Some(index + 1))),
     ];

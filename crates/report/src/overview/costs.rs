@@ -6,11 +6,12 @@ use filters::{Clock, Value};
 use maud::{Markup, html};
 
 use super::pareto::{Point, pareto_chart};
-use crate::filter_id::{FilterId, list_filters, mean};
+use crate::case_table::CaseTable;
+use crate::filter_id::{FilterId, mean};
 use suite::Headline;
 use suite::read_text;
 use suite::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
-use suite::{Bench, Error, Run, SIDES};
+use suite::{Bench, Error, SIDES};
 
 /// Name of the file that `shuttertruth bench` writes.
 const BENCH_FILE: &str = "bench.json";
@@ -84,10 +85,14 @@ const LONGEST: f64 = 86_400.0;
 
 /// Finds the cost of a filter; none for references, and for filters that were not timed with these very parameters. A bench of
 /// another width has its own values in pixels.
-pub fn cost_of<'a>(run: &Run, bench: Option<&'a Bench>, filter: &FilterId) -> Option<&'a CaseCost> {
-    let (_, case) = filter.cases(run).next()?;
+pub fn cost_of<'a>(
+    table: &CaseTable,
+    bench: Option<&'a Bench>,
+    filter: &FilterId,
+) -> Option<&'a CaseCost> {
+    let (_, case) = table.cases_of(filter).next()?;
     let mut costs = bench?.cases.iter();
-    let ratio = f64::from(bench?.width) / f64::from(run.render.width);
+    let ratio = f64::from(bench?.width) / f64::from(table.run.render.width);
     costs.find(|cost| {
         let scaled = case.reference_width.is_some();
         (&cost.filter, &cost.preset, cost.reference_width)
@@ -119,7 +124,7 @@ pub fn cost_text(cost: Option<&CaseCost>) -> String {
 }
 
 /// Shows quality against time, passes, and cost against reach.
-pub fn costs(run: &Run, bench: Option<&Bench>) -> Markup {
+pub fn costs(table: &CaseTable, bench: Option<&Bench>) -> Markup {
     html! {
         section.costs {
             h2 { "Costs" }
@@ -130,8 +135,8 @@ pub fn costs(run: &Run, bench: Option<&Bench>) -> Markup {
                 },
                 Some(bench) => {
                     p.note { (provenance(bench)) }
-                    (pareto_chart(&points(run, bench), &references(run)))
-                    (passes(run, bench))
+                    (pareto_chart(&points(table, bench), &references(table)))
+                    (passes(table, bench))
                     (reaches(bench))
                 }
             }
@@ -160,43 +165,43 @@ fn provenance(bench: &Bench) -> String {
 
 /// Measures FLIP and time of every filter that was timed. Filters of all shutters stand in one picture, so FLIP is against one
 /// shutter for all.
-fn points(run: &Run, bench: &Bench) -> Vec<Point> {
-    let timed = list_filters(run).into_iter().filter_map(|filter| {
-        let cost = cost_of(run, Some(bench), &filter)?;
+fn points(table: &CaseTable, bench: &Bench) -> Vec<Point> {
+    let timed = table.filters.iter().filter_map(|filter| {
+        let cost = cost_of(table, Some(bench), filter)?;
         Some(Point {
             title: filter.title(),
             milliseconds: 1e3 * cost.seconds.median,
             quartiles: [cost.seconds.lower_quartile, cost.seconds.upper_quartile]
                 .map(|seconds| 1e3 * seconds),
-            error: mean_error(run, &filter)?,
+            error: mean_error(table, filter)?,
         })
     });
     timed.collect()
 }
 
 /// Measures the references' errors, which no time belongs to.
-fn references(run: &Run) -> Vec<(String, f64)> {
-    let all = list_filters(run).into_iter();
+fn references(table: &CaseTable) -> Vec<(String, f64)> {
+    let all = table.filters.iter();
     all.filter(|filter| filter.is_reference)
-        .filter_map(|own| Some((own.title(), mean_error(run, &own)?)))
+        .filter_map(|own| Some((own.title(), mean_error(table, own)?)))
         .collect()
 }
 
 /// Averages over the scenes that have an error.
-fn mean_error(run: &Run, filter: &FilterId) -> Option<f64> {
-    let cases = filter.cases(run);
+fn mean_error(table: &CaseTable, filter: &FilterId) -> Option<f64> {
+    let cases = table.cases_of(filter);
     mean(cases.filter_map(|(_, case)| Headline::CommonFlip.estimate(case)))
 }
 
 /// Lists the run's filters that were timed.
-fn find_timed<'a>(run: &Run, bench: &'a Bench) -> Vec<(String, &'a CaseCost)> {
-    let timed = list_filters(run).into_iter();
+fn find_timed<'a>(table: &CaseTable, bench: &'a Bench) -> Vec<(String, &'a CaseCost)> {
+    let timed = table.filters.iter();
     timed
-        .filter_map(|filter| Some((filter.title(), cost_of(run, Some(bench), &filter)?)))
+        .filter_map(|filter| Some((filter.title(), cost_of(table, Some(bench), filter)?)))
         .collect()
 }
 
-fn passes(run: &Run, bench: &Bench) -> Markup {
+fn passes(table: &CaseTable, bench: &Bench) -> Markup {
     html! {
         div.scroll tabindex="0" role="region" aria-label="Time of every pass" {
             table.passes {
@@ -210,7 +215,7 @@ fn passes(run: &Run, bench: &Bench) -> Markup {
                         th scope="col" { "bytes per pixel" }
                     }
                 }
-                @for (title, cost) in find_timed(run, bench) {
+                @for (title, cost) in find_timed(table, bench) {
                     tbody {
                         tr.group {
                             th scope="row" { (title) }

@@ -10,18 +10,19 @@ use maud::{Markup, html};
 
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
-use crate::filter_id::{FilterId, case_anchor, list_filters, list_scenes};
+use crate::case_table::CaseTable;
+use crate::filter_id::{FilterId, case_anchor};
 use crate::numbers::counted;
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
 use costs::costs;
 use headlines::{TABLE_SCORES, TableScore};
 use score_table::score_table;
-use suite::{Bench, Finding, Headline, Level, Outcome, RankedFilter, Run, rank_for_summary};
+use suite::{Bench, Finding, Headline, Level, Outcome, RankedFilter, rank_for_summary};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
 pub fn overview(
-    run: &Run,
+    table: &CaseTable,
     views: &[CaseView],
     thumbnails: &[String],
     bench: Option<&Bench>,
@@ -29,9 +30,9 @@ pub fn overview(
     html! {
         section #overview {
             (outcome(views))
-            (winners(run))
-            (counts(run, views))
-            (engines(run))
+            (winners(table))
+            (counts(table, views))
+            (engines(table))
             (broken_bounds(views))
             div.toolbar #tables {
                 fieldset.choice {
@@ -49,15 +50,15 @@ pub fn overview(
                 }
                 label.check { input type="checkbox" name="references"; " References" }
             }
-            @for score in &TABLE_SCORES { (panel(run, views, thumbnails, score, bench)) }
+            @for score in &TABLE_SCORES { (panel(table, views, thumbnails, score, bench)) }
             p.nothing hidden { "No filter of this name." }
             (key(is_checked(views)))
             div.peek hidden aria-hidden="true" {
                 p {}
                 @for title in ["truth", "output", "FLIP"] { figure { canvas width="48" height="48" {} figcaption { (title) } } }
             }
-            (costs(run, bench))
-            (provenance(run))
+            (costs(table, bench))
+            (provenance(table))
         }
     }
 }
@@ -99,14 +100,13 @@ fn outcome(views: &[CaseView]) -> Markup {
 }
 
 /// Counts scenes, filters and missed targets.
-fn counts(run: &Run, views: &[CaseView]) -> Markup {
-    let filters = list_filters(run);
-    let filters = filters.iter().filter(|own| !own.is_reference).count();
+fn counts(table: &CaseTable, views: &[CaseView]) -> Markup {
+    let filters = table.filters.iter().filter(|own| !own.is_reference).count();
     let targets = findings_of(views, Level::Report).count();
     let missed = findings_of(views, Level::Report).filter(|own| own.outcome == Outcome::Broken);
     html! {
         p.note {
-            (counted(list_scenes(run).len(), "scene")) ", " (counted(filters, "filter preset")) ". "
+            (counted(table.scenes.len(), "scene")) ", " (counted(filters, "filter preset")) ". "
             "Click a score to see the pictures."
             @if targets > 0 { " " (missed.count()) " of " (counted(targets, "target")) " missed; targets fail nothing." }
         }
@@ -114,15 +114,14 @@ fn counts(run: &Run, views: &[CaseView]) -> Markup {
 }
 
 /// Says which scenes an engine drew, and whose truth is whose.
-fn engines(run: &Run) -> Markup {
-    let first = |scene: &&str| run.cases.iter().find(|case| case.scene == **scene);
-    let scenes = list_scenes(run);
-    let cases = scenes.iter().filter_map(first);
+fn engines(table: &CaseTable) -> Markup {
+    let first = |scene: &&str| table.cases_on(scene).next();
+    let cases = table.scenes.iter().filter_map(first);
     html! {
-        @for (case, drawn) in cases.filter_map(|case| Some((case, case.drawn.as_ref()?))) {
+        @for (case, drawn) in cases.filter_map(|(_, case)| Some((case, case.drawn.as_ref()?))) {
             p.note {
                 strong { (case.scene) } ": frame and truth are not ours. The truth is the " (drawn.truth_text()) "."
-                @if let Some(traced) = find_traced(run, case) {
+                @if let Some(traced) = find_traced(table.run, case) {
                     " Ours is that of " strong { (traced.scene) } ", path traced; the pictures of both stand side by side."
                 }
             }
@@ -131,16 +130,16 @@ fn engines(run: &Run) -> Markup {
 }
 
 /// Names the best filter of every shutter, and the scene that it is weakest on.
-fn winners(run: &Run) -> Markup {
+fn winners(table: &CaseTable) -> Markup {
     html! {
         ul.winners {
-            @for group in &rank_for_summary(&run.cases) { (winner(run, group)) }
+            @for group in &rank_for_summary(&table.run.cases) { (winner(table, group)) }
         }
     }
 }
 
 /// Names the filters that share the first rank, and the last filter of the ranking.
-fn winner(run: &Run, group: &[RankedFilter]) -> Markup {
+fn winner(table: &CaseTable, group: &[RankedFilter]) -> Markup {
     let best = &group[0];
     let ties: Vec<&RankedFilter> = group[1..]
         .iter()
@@ -148,13 +147,13 @@ fn winner(run: &Run, group: &[RankedFilter]) -> Markup {
         .collect();
     let number = |value: f64| Headline::FLIP.number(value);
     let (scene, error) = &best.worst;
-    let weakest = id_of(best).case_on(run, scene);
+    let weakest = table.case_on(&id_of(best), scene);
     html! {
         li {
             "Best with a " (best.alignment) " shutter: " strong { (link(best)) } ", FLIP " strong { (number(best.flip)) }
             @if let Some([low, high]) = best.interval { " (95 % CI " (number(low)) " to " (number(high)) ")" }
             @if let Some(index) = weakest {
-                "; weakest on " a href=(format!("#{}", case_anchor(&run.cases[index]))) { (scene) } " (" (number(*error)) ")"
+                "; weakest on " a href=(format!("#{}", case_anchor(&table.run.cases[index]))) { (scene) } " (" (number(*error)) ")"
             }
             @for (index, own) in ties.iter().enumerate() {
                 (if index == 0 { "; too close to tell apart: " } else { ", " }) (link(own)) " (" (number(own.flip)) ")"
@@ -181,7 +180,7 @@ fn link(ranked: &RankedFilter) -> Markup {
 }
 
 fn panel(
-    run: &Run,
+    table: &CaseTable,
     views: &[CaseView],
     thumbnails: &[String],
     score: &TableScore,
@@ -190,14 +189,14 @@ fn panel(
     // One copy of the pictures is enough: the script moves them to the table that is seen.
     let first = score.headline == TABLE_SCORES[0].headline;
     let none = vec![String::new(); thumbnails.len()];
-    let table = html! {
+    let content = html! {
         p.meaning { strong { (score.title) } ": " (score.meaning()) "; " (score.better()) "." }
-        (score_table(run, views, if first { thumbnails } else { &none }, score, bench))
+        (score_table(table, views, if first { thumbnails } else { &none }, score, bench))
     };
     html! {
         div.panel data-metric=(score.headline.name()) {
             // Where scripts run, the other tables are text until somebody looks at them, so that the page opens sooner.
-            @if first { (table) } @else { noscript { (table) } }
+            @if first { (content) } @else { noscript { (content) } }
         }
     }
 }

@@ -7,9 +7,10 @@ use super::cell::{Colors, cell};
 use super::costs::{cost_of, cost_text};
 use super::headlines::TableScore;
 use crate::case::case_view::CaseView;
+use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
-use crate::filter_id::{FilterId, list_alignments, list_filters, list_scenes, mean, mean_floor};
-use suite::{Bench, Headline, Level, Outcome, Overall, Run};
+use crate::filter_id::{FilterId, list_alignments, mean, mean_floor};
+use suite::{Bench, Headline, Level, Outcome, Overall};
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
 const WHISKERS: f64 = 1.5;
@@ -28,14 +29,16 @@ struct Row<'a> {
 }
 
 /// Groups the filters of a run by shutter, unless the score compares across shutters; the best mean comes first.
-fn rank_rows(run: &Run, headline: Headline) -> Vec<Vec<Row<'_>>> {
+fn rank_rows<'a>(table: &CaseTable<'a>, headline: Headline) -> Vec<Vec<Row<'a>>> {
     // Shutters come in the order of their filters, as in every ranking, and references behind the filters.
-    let mut filters = list_filters(run);
+    let mut filters = table.filters.clone();
     filters.sort_by_key(|filter| filter.is_reference);
+    let means: Vec<&Overall> = (table.run.overall.iter())
+        .filter(|own| own.metric == headline.name())
+        .collect();
     let row = |filter: &FilterId| {
-        let mut means = run.overall.iter();
-        let overall = means.find(|own| own.metric == headline.name() && filter.is_of(own));
-        let scores = filter.cases(run);
+        let overall = means.iter().find(|own| filter.is_of(own)).copied();
+        let scores = table.cases_of(filter);
         let only = mean(scores.filter_map(|(_, case)| headline.estimate(case)));
         Row {
             overall,
@@ -67,15 +70,15 @@ fn rank_rows(run: &Run, headline: Headline) -> Vec<Vec<Row<'_>>> {
 
 /// Writes the table; a table without means, that of a single scene, has no column for them.
 pub fn score_table(
-    run: &Run,
+    table: &CaseTable,
     views: &[CaseView],
     thumbnails: &[String],
     score: &TableScore,
     bench: Option<&Bench>,
 ) -> Markup {
     let headline = score.headline;
-    let scenes = list_scenes(run);
-    let groups = rank_rows(run, headline);
+    let scenes = &table.scenes;
+    let groups = rank_rows(table, headline);
     let rows = || groups.iter().flatten();
     let own = views.iter().filter(|view| !view.case.is_reference);
     let colors = Colors::over(
@@ -124,16 +127,16 @@ pub fn score_table(
                     }
                     tbody {
                         @for row in group {
-                            tr.reference[row.filter.is_reference] data-failing[is_failing(run, views, &row.filter)] {
+                            tr.reference[row.filter.is_reference] data-failing[is_failing(table, views, &row.filter)] {
                                 th scope="row" { (name(headline, &row.filter)) }
-                                @if has_means { (mean_cells(run, headline, &strip, row)) }
-                                @for scene in &scenes {
-                                    @match row.filter.case_on(run, scene) {
+                                @if has_means { (mean_cells(table, headline, &strip, row)) }
+                                @for scene in scenes {
+                                    @match table.case_on(&row.filter, scene) {
                                         Some(index) => (cell(headline, &colors, &views[index])),
                                         None => td { "-" },
                                     }
                                 }
-                                @if bench.is_some() { (cost(run, bench, &row.filter)) }
+                                @if bench.is_some() { (cost(table, bench, &row.filter)) }
                             }
                         }
                     }
@@ -157,9 +160,9 @@ fn caption(headline: Headline, has_means: bool, scenes: usize) -> &'static str {
 }
 
 /// Tells whether any required bound on a filter's scores is broken.
-fn is_failing(run: &Run, views: &[CaseView], filter: &FilterId) -> bool {
-    let mut findings = filter
-        .cases(run)
+fn is_failing(table: &CaseTable, views: &[CaseView], filter: &FilterId) -> bool {
+    let mut findings = table
+        .cases_of(filter)
         .flat_map(|(index, _)| &views[index].findings);
     findings.any(|own| own.level == Level::Required && own.outcome == Outcome::Broken)
 }
@@ -180,14 +183,14 @@ fn breakable(name: &str) -> Markup {
     }
 }
 
-fn mean_cells(run: &Run, headline: Headline, strip: &Strip, row: &Row) -> Markup {
+fn mean_cells(table: &CaseTable, headline: Headline, strip: &Strip, row: &Row) -> Markup {
     let Some(own) = row.overall else {
         return html! { td { "-" } td {} td {} };
     };
     let class = if own.is_reference { "open" } else { "" };
     // Only where less is better does a floor lie between perfect and the score.
     let floor = match headline.ideal() {
-        Ideal::Lowest => mean_floor(run, &row.filter, headline),
+        Ideal::Lowest => mean_floor(table, &row.filter, headline),
         Ideal::Highest | Ideal::Target(_) => None,
     };
     let [low, high] = own.interval.map(|end| headline.number(end));
@@ -227,7 +230,7 @@ fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Stri
 }
 
 /// Writes the cost of a filter, which sorts as the scores do.
-fn cost(run: &Run, bench: Option<&Bench>, filter: &FilterId) -> Markup {
-    let cost = cost_of(run, bench, filter);
+fn cost(table: &CaseTable, bench: Option<&Bench>, filter: &FilterId) -> Markup {
+    let cost = cost_of(table, bench, filter);
     html! { td.cost data-value=[cost.map(|own| own.seconds.median)] { (cost_text(cost)) } }
 }

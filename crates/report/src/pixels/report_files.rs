@@ -1,71 +1,106 @@
-//! Files of a report: a page, and where that would be too large, its numbers beside it.
+//! Files of a report: a page, and where that would be too large, parts of it beside it.
 
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, write_atomically};
 
 /// Largest page, in bytes, that holds its own numbers: it opens within seconds, and mails still carry it. The numbers of a
-/// larger report lie beside the page, and a browser opens one scene at a time.
+/// larger report lie beside the page, and a browser opens one scene at a time; so do the tables of its cases, if they alone are
+/// larger.
 pub const LARGEST_PAGE: usize = 25_000_000;
 
 /// Upper limit on the bytes of styles, scripts and the frame of the page.
 const REST: usize = 100_000;
 
-/// A finished report.
-pub struct Report {
-    /// The page's own file.
-    pub html: PathBuf,
-    /// Its text.
-    pub page: String,
-    /// Files that lie beside it in one folder named like the page, by path.
-    pub siblings: Vec<(PathBuf, String)>,
+/// Texts of all scenes, one after the other: in the page, or in files in a folder named like the page. Texts wait for their place
+/// until they are too large for the page; from then on, each is written as it comes.
+pub struct SceneTexts {
+    /// Words before the number of a scene in the name of its file: `scene`.
+    name: &'static str,
+    html: PathBuf,
+    largest: usize,
+    bytes: usize,
+    texts: Vec<String>,
+    written: Vec<PathBuf>,
 }
 
-impl Report {
-    /// Counts the bytes of all files.
-    pub fn bytes(&self) -> usize {
-        let beside = self.siblings.iter().map(|(_, text)| text.len());
-        self.page.len() + beside.sum::<usize>()
-    }
+/// Where the texts of all scenes are.
+pub enum Place {
+    /// In the page, one per scene.
+    Page(Vec<String>),
+    /// In files beside it.
+    Beside(Vec<PathBuf>),
+}
 
-    /// Writes all files, the page last.
-    pub fn write(&self) -> Result<(), FileError> {
-        for (path, text) in &self.siblings {
-            write_atomically(path, text.as_bytes())?;
+impl Place {
+    /// Lists the files beside the page.
+    pub fn paths(self) -> Vec<PathBuf> {
+        match self {
+            Self::Page(_) => Vec::new(),
+            Self::Beside(paths) => paths,
         }
-        write_atomically(&self.html, self.page.as_bytes())
     }
 }
 
-/// Numbers of all scenes.
-pub struct SceneNumbers {
-    /// JSON, one text per scene.
-    pub texts: Vec<String>,
-    /// Folder beside the page; none where the page holds all.
-    pub folder: Option<String>,
+impl SceneTexts {
+    /// Collects texts for the page at `html`, which has at most `largest` bytes.
+    pub fn new(name: &'static str, html: &Path, largest: usize) -> Self {
+        Self {
+            name,
+            html: html.to_owned(),
+            largest,
+            bytes: REST,
+            texts: Vec::new(),
+            written: Vec::new(),
+        }
+    }
+
+    /// Adds the text of the next scene.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn add(&mut self, text: String) -> Result<(), FileError> {
+        self.bytes += text.len();
+        self.texts.push(text);
+        self.write_what_is_too_large()
+    }
+
+    /// Finds the place of all texts; `rest` is the number of bytes that the page holds beside them.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn place(mut self, rest: usize) -> Result<Place, FileError> {
+        self.bytes += rest;
+        self.write_what_is_too_large()?;
+        Ok(match self.bytes > self.largest {
+            true => Place::Beside(self.written),
+            false => Place::Page(self.texts),
+        })
+    }
+
+    fn write_what_is_too_large(&mut self) -> Result<(), FileError> {
+        if self.bytes <= self.largest {
+            return Ok(());
+        }
+        for text in self.texts.drain(..) {
+            let name = format!("{}_{}", self.name, self.written.len());
+            let path = (self.html)
+                .with_file_name(folder_name(&self.html))
+                .join(format!("{name}.js"));
+            let script = format!("shuttertruth.arrived(\"{name}\", {text});\n");
+            write_atomically(&path, script.as_bytes())?;
+            self.written.push(path);
+        }
+        Ok(())
+    }
 }
 
-impl SceneNumbers {
-    /// Puts the numbers into the page at `html` if it stays below `largest` bytes; `text` is what else it holds.
-    pub fn new(texts: Vec<String>, text: usize, html: &Path, largest: usize) -> Self {
-        let bytes = texts.iter().map(String::len).sum::<usize>() + text + REST;
-        let stem = html.file_stem().unwrap_or_default();
-        let folder = (bytes > largest).then(|| format!("{}_files", stem.to_string_lossy()));
-        Self { texts, folder }
-    }
-
-    /// Lists the files beside the page at `html`.
-    pub fn siblings(&self, html: &Path) -> Vec<(PathBuf, String)> {
-        let Some(folder) = &self.folder else {
-            return Vec::new();
-        };
-        let files = self.texts.iter().enumerate().map(|(scene, text)| {
-            let name = format!("scene_{scene}.js");
-            let path = html.with_file_name(folder).join(name);
-            (path, format!("shuttertruth.arrived({scene}, {text});\n"))
-        });
-        files.collect()
-    }
+/// Returns the name of the folder beside the page at `html`.
+pub fn folder_name(html: &Path) -> String {
+    format!(
+        "{}_files",
+        html.file_stem().unwrap_or_default().to_string_lossy()
+    )
 }
 
 #[cfg(test)]
@@ -73,16 +108,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_that_are_too_large_leave_the_page() {
-        let html = Path::new("out/a page.html");
-        let texts = || vec!["[]".repeat(400_000), "[]".repeat(100_000)];
-        let inside = SceneNumbers::new(texts(), 100_000, html, 1_100_000 + REST);
-        assert_eq!(inside.siblings(html), []);
-        let beside = SceneNumbers::new(texts(), 100_001, html, 1_100_000 + REST);
-        let paths: Vec<PathBuf> = (beside.siblings(html).into_iter())
-            .map(|(path, _)| path)
-            .collect();
-        let due = ["out/a page_files/scene_0.js", "out/a page_files/scene_1.js"];
-        assert_eq!(paths, due.map(PathBuf::from));
+    fn texts_that_are_too_large_leave_the_page() {
+        let folder = tempfile::tempdir().unwrap();
+        let html = folder.path().join("a page.html");
+        let place = |largest: usize, rest: usize| {
+            let mut texts = SceneTexts::new("scene", &html, REST + largest);
+            texts.add("[]".repeat(40)).unwrap();
+            texts.add("[]".repeat(10)).unwrap();
+            texts.place(rest).unwrap()
+        };
+        assert!(matches!(place(110, 10), Place::Page(texts) if texts[1] == "[]".repeat(10)));
+        for (largest, rest) in [(110, 11), (90, 0), (10, 0)] {
+            let Place::Beside(paths) = place(largest, rest) else {
+                panic!("{largest} bytes are too few");
+            };
+            let names = ["scene_0.js", "scene_1.js"];
+            assert_eq!(
+                paths,
+                names.map(|name| folder.path().join("a page_files").join(name))
+            );
+            let text = std::fs::read_to_string(&paths[1]).unwrap();
+            assert_eq!(
+                text,
+                format!("shuttertruth.arrived(\"scene_1\", {});\n", "[]".repeat(10))
+            );
+        }
     }
 }

@@ -1,4 +1,5 @@
-//! JSON that others wrote.
+//! JSON files: how they are written, and read whoever wrote them.
 
 pub mod file;
+pub mod lines;
 pub mod strings;

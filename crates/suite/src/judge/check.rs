@@ -1,10 +1,13 @@
 //! Check of a finished run: its findings and the decision that follows.
 
+use std::collections::HashSet;
+
 use serde::Serialize;
 
 use crate::judge::baseline::BaselineComparison;
 use crate::judge::decision::Decision;
 use crate::judge::{Finding, Outcome};
+use crate::run::case::Case;
 use crate::run::failure::refuse_failures;
 use crate::{Error, Failure, Run};
 
@@ -34,13 +37,12 @@ pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<BaselineCompari
     let applies = |finding: &Finding| finding.outcome != Outcome::NotApplicable;
     let bounds = findings.iter().map(Finding::decision);
     let baseline = comparisons.iter().map(BaselineComparison::decision);
-    let unchecked = match comparisons.is_empty() {
-        true => (run.cases.iter()).any(|case| {
-            !case.is_reference
-                && !(findings.iter()).any(|finding| applies(finding) && finding.is_of(case))
-        }),
-        false => false,
-    };
+    let judged: HashSet<(&str, &str)> = (findings.iter().filter(|finding| applies(finding)))
+        .map(|finding| (finding.scene.as_str(), finding.filter.as_str()))
+        .collect();
+    let is_judged = |case: &Case| judged.contains(&(case.scene.as_str(), case.name().as_str()));
+    let unchecked = comparisons.is_empty()
+        && (run.cases.iter()).any(|case| !case.is_reference && !is_judged(case));
     let unchecked = unchecked.then_some(Decision::Misconfigured);
     let failed = run.failures.iter().map(|_| Decision::Broken);
     Check {

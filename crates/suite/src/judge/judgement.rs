@@ -8,7 +8,8 @@ use metrics::Metric;
 use serde::{Deserialize, Serialize};
 
 use super::Finding;
-use crate::json::file::{MOST_JSON_BYTES, read_text};
+use crate::json::file::{MOST_RUN_BYTES, read_text_within};
+use crate::json::lines::to_lines;
 use crate::run::file::is_below;
 use crate::{Error, PROGRAM, Run};
 
@@ -43,10 +44,10 @@ impl Judgement {
 
     /// Writes `judgement.json` into the folder of the run.
     pub fn write(&self, folder: &Path) -> Result<(), Error> {
-        let json = serde_json::to_string_pretty(self).expect("a judgement is plain data");
+        let json = to_lines(self) + "\n";
         Ok(write_atomically(
             &folder.join(JUDGEMENT_FILE),
-            (json + "\n").as_bytes(),
+            json.as_bytes(),
         )?)
     }
 
@@ -57,7 +58,7 @@ impl Judgement {
         if !path.exists() {
             return Ok(None);
         }
-        let text = read_text(&path)?;
+        let text = read_text_within(&path, MOST_RUN_BYTES)?;
         let refuse = |reason: String| {
             Err(Error::Usage(format!(
                 "{}: {reason}; judge the run again: shuttertruth check {}",
@@ -103,6 +104,6 @@ fn check_finding(finding: &Finding, run: &Run) -> Result<(), String> {
 
 fn hash_of_run(folder: &Path) -> Result<String, Error> {
     let path = folder.join("run.json");
-    let bytes = read_bounded(&path, MOST_JSON_BYTES)?;
+    let bytes = read_bounded(&path, MOST_RUN_BYTES)?;
     Ok(blake3::hash(&bytes).to_hex().to_string())
 }

@@ -1,4 +1,4 @@
-//! Reader of run.json, which checks it, whoever wrote it, before anything of it is used.
+//! The file run.json: its text, and its reader, which checks it, whoever wrote it, before anything of it is used.
 
 use std::collections::HashSet;
 use std::path::{Component, Path};
@@ -10,7 +10,8 @@ use super::case::Case;
 use super::sequence::{MOST_FRAMES, Sequence};
 use super::{FORMAT, Run};
 use crate::Error;
-use crate::json::file::read_text;
+use crate::json::file::{MOST_RUN_BYTES, read_text_within};
+use crate::json::lines::to_lines;
 use crate::json::strings::check_strings;
 use crate::render::settings::{MOST_REPLICATES, SIDES};
 
@@ -18,6 +19,11 @@ use crate::render::settings::{MOST_REPLICATES, SIDES};
 pub const MOST_CASES: usize = 50_000;
 
 impl Run {
+    /// Writes the text of its `run.json`, with a line per case.
+    pub fn text(&self) -> String {
+        to_lines(self)
+    }
+
     /// Reads a `run.json` of this program.
     pub fn read(path: &Path) -> Result<Self, Error> {
         if !path.exists() {
@@ -26,7 +32,7 @@ impl Run {
                 path.display()
             )));
         }
-        parse(&read_text(path)?).map_err(|reason| {
+        parse(&read_text_within(path, MOST_RUN_BYTES)?).map_err(|reason| {
             Error::Usage(format!(
                 "{}: {reason}; `shuttertruth run` or `check` writes one",
                 path.display()

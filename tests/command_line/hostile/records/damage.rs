@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use cli::{compare_table, run_table};
-use report::{LARGEST_PAGE, compare_page, report};
+use report::{LARGEST_PAGE, compare_page, write_report};
 use serde_json::{Value, json};
 use suite::{Acceptance, Baseline, Error, Run, Side, accept_scores, compare_runs};
 
@@ -58,7 +58,7 @@ fn read_everywhere(changed: &Path, whole: &Side) -> Result<(), Error> {
     };
     let _: Result<Baseline, Error> = accept_scores(&side.run, None, &how);
     let page = folder.join("page.html");
-    report(&side.run, &[], folder, &page, LARGEST_PAGE).map(drop)
+    write_report(&side.run, &[], folder, &page, LARGEST_PAGE).map(drop)
 }
 
 #[test]
