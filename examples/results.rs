@@ -1,17 +1,19 @@
-//! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes `results/README.md` from all
-//! files there: `cargo run -p cli --example results -- out/run.json`. Without a run it writes the page alone.
+//! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes its pages from all files
+//! there: `cargo run -p cli --example results -- out/run.json`. A bench.json beside a run.json says what filters cost. Without a run
+//! it writes the pages alone.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use cli::results_page;
+use cli::{main_results, picture_name, results_filter_pages, results_page};
+use report::{read_bench, write_case_strip};
 use suite::{Error, Results, Run};
 
 const FOLDER: &str = "results";
 
 fn main() -> ExitCode {
     let runs: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    match keep(&runs).and_then(|()| write_page()) {
+    match keep(&runs).and_then(|()| write_pages(&runs)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -29,6 +31,11 @@ fn keep(paths: &[PathBuf]) -> Result<(), Error> {
         .map(|path| Run::read(path))
         .collect::<Result<_, _>>()?;
     let mut results = Results::from_runs(&runs)?;
+    for path in paths {
+        if let Some(bench) = read_bench(folder_of(path))? {
+            results.add_costs(&bench)?;
+        }
+    }
     let path = Path::new(FOLDER).join(results.file_name());
     if path.exists() {
         let newer = std::mem::replace(&mut results, Results::read(&path)?);
@@ -39,11 +46,43 @@ fn keep(paths: &[PathBuf]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Writes the page from every file of results.
-fn write_page() -> Result<(), Error> {
+/// Writes all pages from every file of results, and pictures of the runs' cases that they show.
+fn write_pages(runs: &[PathBuf]) -> Result<(), Error> {
     let results = Results::read_all(Path::new(FOLDER))?;
-    let path = Path::new(FOLDER).join("README.md");
-    frame::write_atomically(&path, results_page(&results)?.as_bytes())?;
-    println!("{}", path.display());
+    let mut pages = results_filter_pages(&results);
+    pages.insert("README.md".to_owned(), results_page(&results)?);
+    for (name, text) in pages {
+        let path = Path::new(FOLDER).join(name);
+        frame::write_atomically(&path, text.as_bytes())?;
+        println!("{}", path.display());
+    }
+    for path in runs {
+        write_pictures(&results, &Run::read(path)?, folder_of(path))?;
+    }
     Ok(())
+}
+
+/// Writes the worst picture of each filter, where the run made it.
+fn write_pictures(all: &[Results], run: &Run, folder: &Path) -> Result<(), Error> {
+    let Some(results) = main_results(all) else {
+        return Ok(());
+    };
+    if [run.render.width, run.render.height] != results.size {
+        return Ok(());
+    }
+    for case in run.cases.iter().filter(|case| !case.is_reference) {
+        let worst = results.worst_of(&case.filter);
+        let is_worst =
+            |own: &suite::ResultScores| own.name == case.name() && own.scene == case.scene;
+        if let Some(worst) = worst.filter(|own| is_worst(own)) {
+            let path = Path::new(FOLDER).join("pictures").join(picture_name(worst));
+            write_case_strip(case, folder, &path)?;
+            println!("{}", path.display());
+        }
+    }
+    Ok(())
+}
+
+fn folder_of(run: &Path) -> &Path {
+    run.parent().unwrap_or(Path::new(""))
 }

@@ -1,9 +1,10 @@
 //! Kept results: files of scores, and the page that is made from them.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use cli::results_page;
+use cli::{main_results, picture_name, results_filter_pages, results_page};
 use suite::{Headline, Results, Run};
 use tests::filter_folder::copy_changed_filter;
 use tracer::Seal;
@@ -28,6 +29,70 @@ fn the_page_of_results_is_made_from_the_files_beside_it() {
         page == results_page(&results).unwrap(),
         "results/README.md is not what its files say; write it: cargo run -p cli --example results"
     );
+}
+
+#[test]
+fn the_page_of_every_filter_is_made_from_the_results_and_shows_its_worst_picture() {
+    let results = Results::read_all(&folder()).unwrap();
+    let pages = results_filter_pages(&results);
+    for (name, text) in &pages {
+        let page = fs::read_to_string(folder().join(name)).unwrap();
+        assert!(
+            page == *text,
+            "results/{name} is not what the files say; write it: cargo run -p cli --example results"
+        );
+    }
+    let main = main_results(&results).unwrap();
+    let filters: BTreeSet<&str> = main.scores.iter().map(|own| own.filter.as_str()).collect();
+    let worst = filters.iter().map(|filter| main.worst_of(filter).unwrap());
+    let due: BTreeSet<String> = worst.map(picture_name).collect();
+    let names = |folder: &Path| -> BTreeSet<String> {
+        let files = fs::read_dir(folder).unwrap();
+        files
+            .map(|file| file.unwrap().file_name().into_string().unwrap())
+            .collect()
+    };
+    assert_eq!(names(&folder().join("pictures")), due);
+    let due = pages.into_keys().chain(["README.md".to_owned()]);
+    let found = names(&folder())
+        .into_iter()
+        .filter(|name| name.ends_with(".md"));
+    assert_eq!(found.collect::<BTreeSet<_>>(), due.collect());
+}
+
+#[test]
+fn costs_of_a_bench_stand_beside_the_scores_of_their_presets() {
+    let bench = Bench::new();
+    let run = run(&bench, &[]);
+    let mut results = Results::from_runs(&[run]).unwrap();
+    let words = ["bench", "--size", "64x32"];
+    let out = bench.path("out");
+    let out = out.to_str().unwrap();
+    assert_done(
+        &bench.shuttertruth(
+            &[
+                &words[..],
+                &["--filters", "velocity_gather:fine", "--out", out],
+            ]
+            .concat(),
+        ),
+    );
+    let costs = report::read_bench(&bench.path("out")).unwrap().unwrap();
+    results.add_costs(&costs).unwrap();
+    let names: Vec<&str> = results.costs.keys().map(String::as_str).collect();
+    assert_eq!(names, ["velocity_gather:fine"]);
+    let page = results_page(&[results.clone()]).unwrap();
+    let row = page
+        .lines()
+        .find(|line| line.contains("`velocity_gather:fine`"));
+    let ratio = format!("| {:.2} ", results.costs["velocity_gather:fine"].median);
+    assert!(row.unwrap().contains(&ratio), "{page}");
+    let read: Results = serde_json::from_str(&results.text()).unwrap();
+    assert_eq!(read, results);
+
+    results.size = [320, 180];
+    let error = results.add_costs(&costs).unwrap_err().to_string();
+    assert!(error.contains("the bench timed 64x32 on"), "{error}");
 }
 
 fn run(bench: &Bench, more: &[&str]) -> Run {

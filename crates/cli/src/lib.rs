@@ -29,7 +29,8 @@ pub use tables::cases::{run_table, score_table};
 pub use tables::check::check_text;
 pub use tables::comparison::compare_table;
 pub use tables::ranking::ranking_text;
-pub use tables::results_page::results_page;
+pub use tables::results_filter_page::{picture_name, results_filter_pages};
+pub use tables::results_page::{main_results, results_page};
 pub use tables::tuning::paired_table;
 
 /// Runs the command of the command line and returns its exit code.

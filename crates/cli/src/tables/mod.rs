@@ -13,6 +13,7 @@ pub mod jobs;
 pub mod layout;
 pub mod listing;
 pub mod ranking;
+pub mod results_filter_page;
 pub mod results_page;
 pub mod scene_means;
 pub mod sensitivity;

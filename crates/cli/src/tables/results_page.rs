@@ -1,9 +1,11 @@
 //! The page of kept results, in Markdown.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use suite::{
-    Error, FEWEST_SCENES, Headline, RankedFilter, Results, SizeComparison, compare_with_last,
+    Error, FEWEST_SCENES, Headline, RankedFilter, ResultCost, Results, SizeComparison,
+    compare_with_last,
 };
 use tracer::{Family, Location, list_scenes};
 
@@ -21,16 +23,35 @@ const FAMILIES: [Family; 7] = [
 
 /// Makes the page of files of results: one part per size, the one with most scenes first, with its sealed variants beside it.
 pub fn results_page(all: &[Results]) -> Result<String, Error> {
-    let mut catalogues: Vec<&Results> = all.iter().filter(|own| own.seal.is_none()).collect();
-    catalogues.sort_by_key(|own| (std::cmp::Reverse(own.scenes().len()), own.size));
     let mut page = HEAD.to_owned();
-    for catalogue in catalogues {
-        let sealed = (all.iter()).find(|own| {
-            own.seal.is_some() && own.size == catalogue.size && own.adapter == catalogue.adapter
-        });
-        push_size(&mut page, catalogue, sealed)?;
+    let pages = main_results(all).map_or_else(Vec::new, list_filters);
+    for catalogue in sort_catalogues(all) {
+        push_size(&mut page, catalogue, sealed_of(all, catalogue), &pages)?;
     }
     Ok(page)
+}
+
+/// Finds the results that pages of filters are about: those with most scenes, in the scenes themselves.
+pub fn main_results(all: &[Results]) -> Option<&Results> {
+    sort_catalogues(all).into_iter().next()
+}
+
+fn sort_catalogues(all: &[Results]) -> Vec<&Results> {
+    let mut catalogues: Vec<&Results> = all.iter().filter(|own| own.seal.is_none()).collect();
+    catalogues.sort_by_key(|own| (std::cmp::Reverse(own.scenes().len()), own.size));
+    catalogues
+}
+
+/// Lists the filters of results.
+pub(super) fn list_filters(results: &Results) -> Vec<&str> {
+    list_once(results.scores.iter().map(|own| own.filter.as_str()))
+}
+
+/// Finds the sealed variants of results.
+pub(super) fn sealed_of<'a>(all: &'a [Results], catalogue: &Results) -> Option<&'a Results> {
+    (all.iter()).find(|own| {
+        own.seal.is_some() && own.size == catalogue.size && own.adapter == catalogue.adapter
+    })
 }
 
 const HEAD: &str = "\
@@ -46,10 +67,18 @@ page from the files beside it. Nothing is entered by hand. To enter a filter, ad
 - Filters with one rank (=) are too close to tell apart: the 95 % CI of the mean difference over scenes holds 0.
 - *Sealed* are the same scenes with speeds, directions, places, times and colours that follow from a number, as in `fan@seal1`. A preset
   that was fitted to the catalogue falls there. Scores differ from the catalogue's because speeds do: compare the ranks.
-- [What each filter is](../shaders/README.md), [what it costs](../docs/results.md#cost), and [what the scores mean](../crates/metrics/README.md).
+- *Time* is that of `shuttertruth bench` at this size, divided by that of `jump_flood:paper` in the same round; a bench.json beside a
+  run.json comes along. Ratios on a software adapter say little about ratios on a graphics card.
+- A filter's name leads to its page: what it is, where its code comes from, and its worst picture.
+- [What the scores mean](../crates/metrics/README.md).
 ";
 
-fn push_size(page: &mut String, results: &Results, sealed: Option<&Results>) -> Result<(), Error> {
+fn push_size(
+    page: &mut String,
+    results: &Results,
+    sealed: Option<&Results>,
+    pages: &[&str],
+) -> Result<(), Error> {
     let [width, height] = results.size;
     let scenes = results.scenes();
     let _ = write!(
@@ -68,7 +97,12 @@ fn push_size(page: &mut String, results: &Results, sealed: Option<&Results>) -> 
         let others =
             (sealed_groups.iter().flatten()).find(|other| other[0].alignment == *alignment);
         let _ = write!(page, "\n### {width}x{height}, {alignment} shutter\n\n");
-        push_ranking(page, &group, others.map(Vec::as_slice));
+        let beside = Beside {
+            sealed: others.map(Vec::as_slice),
+            costs: &results.costs,
+            pages,
+        };
+        push_ranking(page, &group, &beside);
         if let Some(sealed) = sealed {
             push_agreement(page, results, sealed, alignment)?;
         }
@@ -80,7 +114,7 @@ fn push_size(page: &mut String, results: &Results, sealed: Option<&Results>) -> 
 /// The command that makes the run.
 fn command(results: &Results, scenes: &[&str]) -> String {
     let [width, height] = results.size;
-    let filters = list_once(results.scores.iter().map(|own| own.filter.as_str()));
+    let filters = list_filters(results);
     let (seal, of_seal) = match results.seal {
         Some(seed) => (format!(" --seal {seed}"), format!("_seal{seed}")),
         None => (String::new(), String::new()),
@@ -101,40 +135,73 @@ fn command(results: &Results, scenes: &[&str]) -> String {
     )
 }
 
-fn push_ranking(page: &mut String, group: &[RankedFilter], sealed: Option<&[RankedFilter]>) {
-    let more = ["", " sealed: rank | FLIP (95 % CI) |"][usize::from(sealed.is_some())];
-    let rule = ["", "---|---|"][usize::from(sealed.is_some())];
-    let of = ["", " of the catalogue"][usize::from(sealed.is_some())];
-    let _ = writeln!(
+/// What stands beside the ranks of filters.
+struct Beside<'a> {
+    /// The same shutter's ranks in the sealed variants.
+    sealed: Option<&'a [RankedFilter]>,
+    /// Costs by preset.
+    costs: &'a BTreeMap<String, ResultCost>,
+    /// Filters that have a page.
+    pages: &'a [&'a str],
+}
+
+fn push_ranking(page: &mut String, group: &[RankedFilter], beside: &Beside) {
+    let mut titles = vec!["rank", "filter", "FLIP (95 % CI)"];
+    if beside.sealed.is_some() {
+        titles.extend(["sealed: rank", "FLIP (95 % CI)"]);
+    }
+    if !beside.costs.is_empty() {
+        titles.push("time");
+    }
+    titles.push(match beside.sealed {
+        Some(_) => "worst scene of the catalogue",
+        None => "worst scene",
+    });
+    let _ = write!(
         page,
-        "| rank | filter | FLIP (95 % CI) |{more} worst scene{of} |"
+        "| {} |\n|{}\n",
+        titles.join(" | "),
+        "---|".repeat(titles.len())
     );
-    let _ = writeln!(page, "|---|---|---|{rule}---|");
     for ranked in group {
-        let _ = write!(
-            page,
-            "| {} | `{}` | {} |",
-            rank(ranked),
-            ranked.name,
-            mean(ranked)
-        );
-        if let Some(sealed) = sealed {
-            match sealed.iter().find(|other| other.name == ranked.name) {
-                Some(other) => write!(page, " {} | {} |", rank(other), mean(other)),
-                None => write!(page, " | |"),
-            }
-            .expect("text grows");
-        }
-        let (scene, worst) = &ranked.worst;
-        let _ = writeln!(page, " {scene} {} |", Headline::FLIP.number(*worst));
+        let _ = writeln!(page, "| {} |", ranking_row(ranked, beside).join(" | "));
     }
 }
 
-fn rank(ranked: &RankedFilter) -> String {
+fn ranking_row(ranked: &RankedFilter, beside: &Beside) -> Vec<String> {
+    let name = format!("`{}`", ranked.name);
+    let name = match beside.pages.contains(&ranked.filter.as_str()) {
+        true => format!("[{name}]({}.md)", ranked.filter),
+        false => name,
+    };
+    let mut cells = vec![rank(ranked), name, mean(ranked)];
+    if let Some(sealed) = beside.sealed {
+        let other = sealed.iter().find(|other| other.name == ranked.name);
+        cells.extend([rank, mean].map(|text| other.map_or("-".to_owned(), text)));
+    }
+    if !beside.costs.is_empty() {
+        let cost = beside.costs.get(&ranked.name);
+        cells.push(cost.map_or("-".to_owned(), cost_text));
+    }
+    let (scene, worst) = &ranked.worst;
+    cells.push(format!("{scene} {}", Headline::FLIP.number(*worst)));
+    cells
+}
+
+/// `0.47 (0.40 to 0.53)`: median and quartiles.
+pub(super) fn cost_text(cost: &ResultCost) -> String {
+    let ResultCost { median, low, high } = cost;
+    match low == high {
+        true => format!("{median:.2}"),
+        false => format!("{median:.2} ({low:.2} to {high:.2})"),
+    }
+}
+
+pub(super) fn rank(ranked: &RankedFilter) -> String {
     format!("{}{}", ranked.rank, if ranked.is_tied { "=" } else { "" })
 }
 
-fn mean(ranked: &RankedFilter) -> String {
+pub(super) fn mean(ranked: &RankedFilter) -> String {
     let number = |value| Headline::FLIP.number(value);
     match ranked.interval {
         Some([low, high]) => {

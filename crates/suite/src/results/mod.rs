@@ -1,11 +1,14 @@
 //! Results: the scores of runs in short, to be kept beside the code and compared.
 
+mod cost;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use tracer::{Family, Seal};
 
+pub use self::cost::ResultCost;
 use crate::json::file::read_text;
 use crate::run::failure::refuse_failures;
 use crate::stats::ranking::{FlipScore, RankedFilter, rank_by_flip};
@@ -33,6 +36,9 @@ pub struct Results {
     pub samples_per_pixel: u32,
     /// Number of the sealed variants that the scenes were taken in; none for the scenes themselves.
     pub seal: Option<u64>,
+    /// Costs of filter presets by name; empty where none was timed.
+    #[serde(default)]
+    pub costs: BTreeMap<String, ResultCost>,
     /// One per scene and filter preset.
     pub scores: Vec<ResultScores>,
 }
@@ -77,6 +83,7 @@ impl Results {
                 .cases
                 .first()
                 .and_then(|case| Seal::split_name(&case.scene).1),
+            costs: BTreeMap::new(),
             scores: Vec::new(),
         };
         let mut known = BTreeSet::new();
@@ -143,6 +150,7 @@ impl Results {
         }
         self.program = newer.program;
         self.adapter = newer.adapter;
+        self.costs.extend(newer.costs);
         for score in newer.scores {
             let is_same = |own: &ResultScores| own.scene == score.scene && own.name == score.name;
             if let Some(own) = self.scores.iter_mut().find(|own| is_same(own)) {
@@ -196,11 +204,16 @@ impl Results {
             size,
             samples_per_pixel,
             seal,
+            costs,
             scores: _,
         } = self;
+        let costs = match costs.is_empty() {
+            true => String::new(),
+            false => format!("\"costs\": {},\n", json(costs)),
+        };
         format!(
             "{{\n\"format\": {format},\n\"program\": {},\n\"adapter\": {},\n\"size\": {},\n\"samples_per_pixel\": {samples_per_pixel},\n\
-             \"seal\": {},\n\"scores\": [\n{}\n]\n}}\n",
+             \"seal\": {},\n{costs}\"scores\": [\n{}\n]\n}}\n",
             json(program),
             json(adapter),
             json(size),
@@ -233,6 +246,14 @@ impl Results {
             }
         }
         scenes
+    }
+
+    /// Finds the worst score by FLIP of the best preset of a filter; none where no FLIP is known.
+    pub fn worst_of(&self, filter: &str) -> Option<&ResultScores> {
+        let mut ranked = self.ranking(None).into_iter().flatten();
+        let best = ranked.find(|own| own.filter == filter)?;
+        let mut scores = self.scores.iter();
+        scores.find(|own| own.name == best.name && own.scene == best.worst.0)
     }
 
     /// Ranks the filter presets of each shutter by FLIP, over the scenes of one family or over all.
