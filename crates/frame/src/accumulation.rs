@@ -39,6 +39,12 @@ impl Ladder {
     /// Writes the ladder as OpenEXR: layers `n<N>.A` and `n<N>.B` per rung. Takes the ladder, since a copy of the largest thing that
     /// measuring holds would double its memory.
     pub fn write(self, path: &Path) -> Result<(), FileError> {
+        // Away from motion all rungs hold the truth's mean.
+        write_small_exr(path, self.into_exr())
+    }
+
+    /// Makes the content of the file that [`Ladder::write`] writes.
+    pub fn into_exr(self) -> ExrFile {
         let first = &self.rungs.first().expect("a ladder has rungs").halves[0].color;
         let mut file = ExrFile::new(first.width, first.height);
         let subframes: Vec<String> = (self.rungs.iter())
@@ -56,8 +62,7 @@ impl Ladder {
         file.set("objects", self.objects.join(" "));
         file.set("subframes", subframes.join(" "));
         self.provenance.set(&mut file);
-        // Away from motion all rungs hold the truth's mean.
-        write_small_exr(path, file)
+        file
     }
 
     /// Writes every rung to a file of its own, `n<N>.exr` in a folder.

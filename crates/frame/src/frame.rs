@@ -76,6 +76,11 @@ impl Frame {
     /// Writes the frame as OpenEXR: `R G B`, `Z`, `velocity.X/Y`, `object.id`, `coverage.<object>`,
     /// `samples`.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        write_exr(path, &self.to_exr())
+    }
+
+    /// Makes the content of the file that [`Frame::write`] writes.
+    pub fn to_exr(&self) -> ExrFile {
         let (width, height) = self.size();
         let mut file = ExrFile::new(width, height);
         file.push_color("", &self.color);
@@ -107,7 +112,7 @@ impl Frame {
             "pixels per frame interval, +x right, +y down; Z planar metres; scene-linear Rec.709",
         );
         self.provenance.set(&mut file);
-        write_exr(path, &file)
+        file
     }
 
     /// Reads a frame that [`Frame::write`] wrote, bit for bit.

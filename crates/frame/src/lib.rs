@@ -38,6 +38,7 @@ mod replicate;
 mod reprojection;
 mod shutter;
 mod support;
+mod tile;
 mod truth;
 
 pub use accumulation::{Accumulation, Ladder, rung_file};
@@ -64,4 +65,5 @@ pub use shutter::{
     ShutterProfile,
 };
 pub use support::Support;
+pub use tile::Tile;
 pub use truth::{Truth, TruthError, motion_margin, regions, truth_hash};

@@ -2,7 +2,7 @@
 
 use crate::exr::{ExrFile, in_layer};
 use crate::raster::{mean_plane, mean_vectors};
-use crate::{FileError, Image, Plane};
+use crate::{FileError, Image, Plane, Tile};
 
 /// Colour, and the coverage of every object. All rasters have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +14,14 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// Copies the pixels of a tile.
+    pub fn part(&self, tile: Tile) -> Self {
+        Self {
+            color: self.color.part(tile),
+            coverage: self.coverage.iter().map(|plane| plane.part(tile)).collect(),
+        }
+    }
+
     pub(crate) fn push(&self, file: &mut ExrFile, layer: &str, objects: &[String]) {
         file.push_color(layer, &self.color);
         for (object, plane) in objects.iter().zip(&self.coverage) {

@@ -1,5 +1,7 @@
 //! Rasters: two-dimensional arrays of pixels.
 
+use crate::Tile;
+
 /// Row-major pixels from the top left: pixel (x, y) is `pixels[y * width + x]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster<T> {
@@ -44,6 +46,25 @@ impl<T: Clone> Raster<T> {
         Raster {
             width,
             height,
+            pixels,
+        }
+    }
+
+    /// Copies the pixels of a tile. Panics if it leaves the raster.
+    pub fn part(&self, tile: Tile) -> Raster<T> {
+        let [x, y, width, height] =
+            [tile.x, tile.y, tile.width, tile.height].map(|number| number as usize);
+        assert!(
+            x + width <= self.width as usize,
+            "{tile:?} leaves the raster"
+        );
+        let mut pixels = Vec::with_capacity(width * height);
+        for row in y..y + height {
+            pixels.extend_from_slice(&self.pixels[row * self.width as usize + x..][..width]);
+        }
+        Raster {
+            width: tile.width,
+            height: tile.height,
             pixels,
         }
     }

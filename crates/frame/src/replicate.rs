@@ -38,6 +38,11 @@ pub struct Replicate {
 impl Replicate {
     /// Writes the replicate as OpenEXR: `R G B`, `coverage.<object>`, `samples`, and the channels of [`AtInstant`] and [`Support`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        write_small_exr(path, self.to_exr())
+    }
+
+    /// Makes the content of the file that [`Replicate::write`] writes.
+    pub fn to_exr(&self) -> ExrFile {
         let color = &self.picture.color;
         let mut file = ExrFile::new(color.width, color.height);
         self.picture.push(&mut file, "", &self.objects);
@@ -55,7 +60,7 @@ impl Replicate {
             .collect();
         file.set("moving", moving.join(" "));
         self.provenance.set(&mut file);
-        write_small_exr(path, file)
+        file
     }
 
     /// Names a property that replicates of one truth share and these two do not; `None` if there is none.

@@ -1,7 +1,7 @@
 //! Support: pixels where an open shutter sees things, whatever noise a truth has.
 
 use crate::exr::ExrFile;
-use crate::{FileError, Plane, Raster};
+use crate::{FileError, Plane, Raster, Tile};
 
 /// Visibility in each pixel while the shutter was open, as probe rays found it.
 ///
@@ -24,6 +24,15 @@ impl Support {
         others.fold(self.seen[id].clone(), |own, (_, other)| {
             own.zip(other, |own, other| *own && !*other)
         })
+    }
+
+    /// Copies the pixels of a tile.
+    pub fn part(&self, tile: Tile) -> Self {
+        Self {
+            seen: self.seen.iter().map(|mask| mask.part(tile)).collect(),
+            moving: self.moving.part(tile),
+            unknowable: self.unknowable.part(tile),
+        }
     }
 
     /// Adds `support.seen.<object>`, `support.moving` and `support.unknowable`, 1 where the mask holds and 0 elsewhere.

@@ -181,6 +181,11 @@ impl Truth {
     /// as layers `A` and `B`, `stderr.R/G/B`, `motion`, `samples`, and the channels of [`Support`]. The attributes `noise_floor_<region>` hold
     /// [`Truth::noise_floors`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        write_small_exr(path, self.to_exr())
+    }
+
+    /// Makes the content of the file that [`Truth::write`] writes.
+    pub fn to_exr(&self) -> ExrFile {
         let (width, height) = self.size();
         let mut file = ExrFile::new(width, height);
         self.mean().push(&mut file, "", &self.objects);
@@ -205,7 +210,7 @@ impl Truth {
             "coverage is the fraction of shutter x pixel area; scene-linear Rec.709",
         );
         self.provenance.set(&mut file);
-        write_small_exr(path, file)
+        file
     }
 
     /// Reads a truth that [`Truth::write`] wrote, bit for bit.

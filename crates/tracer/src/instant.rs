@@ -1,6 +1,6 @@
 //! The frame of the instant, as an engine would hand it to its motion blur.
 
-use frame::{ColorSampling, FAR_DEPTH, Frame, Plane, Raster, Vectors, VelocityKind};
+use frame::{ColorSampling, FAR_DEPTH, Frame, Plane, Raster, Tile, Vectors, VelocityKind};
 use rayon::prelude::*;
 
 use crate::content_hash::{grid_hash, provenance};
@@ -31,6 +31,7 @@ pub struct PointLayers {
 }
 
 /// The values that a rasteriser writes at one pixel's centre.
+#[derive(Clone)]
 struct PointSample {
     velocity: [f32; 2],
     depth: f32,
@@ -59,8 +60,35 @@ pub fn trace_frame_on(
     grid: &PixelGrid,
     watch: Watch,
 ) -> Result<Frame, TraceError> {
+    trace_part(scene, settings, grid, None, watch)
+}
+
+/// Renders a tile of the frame of [`trace_frame`], in the pixels of its rasters, with the guard band. The rasters have the tile's
+/// size, and hold what those of the frame hold there.
+///
+/// # Errors
+/// The settings do not fit the scene, a pixel is not finite, or the watcher cancelled.
+pub fn trace_frame_tile(
+    scene: &Scene,
+    settings: &RenderSettings,
+    tile: Tile,
+    watch: Watch,
+) -> Result<Frame, TraceError> {
+    let own = PixelGrid::of_picture(settings.width, settings.height);
+    trace_part(scene, settings, &own, Some(tile), watch)
+}
+
+/// Renders a tile of the instant on a grid of pixels; all of it where no tile is named.
+fn trace_part(
+    scene: &Scene,
+    settings: &RenderSettings,
+    grid: &PixelGrid,
+    tile: Option<Tile>,
+    watch: Watch,
+) -> Result<Frame, TraceError> {
     settings.check_frame(scene)?;
     let canvas = check_canvas(settings, grid)?;
+    let tile = tile.unwrap_or(canvas.whole());
     let stage = Stage::try_new(scene, 0.0, 0.0)?;
     let stage = &stage;
     let make_film = |samples, replicates, stream| Film {
@@ -78,7 +106,7 @@ pub fn trace_frame_on(
         seed: settings.seed,
         stream,
     };
-    let pixels = canvas.pixels();
+    let pixels = tile.pixels(canvas.columns());
     let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
     let pilot = make_film(&uniform, 0..PILOT_REPLICATES, Stream::FramePilot);
     let nothing_moves = vec![false; scene.objects.len() + 1];
@@ -86,8 +114,8 @@ pub fn trace_frame_on(
     let film = make_film(&samples, 0..1, Stream::Frame);
     let meter = Meter::new(watch, film.work(&pixels));
     let pixel_means = film.render(&pixels, &meter, |estimates| PixelMean::of(&estimates[0]))?;
-    let picture = assemble_picture(canvas, &pixel_means);
-    let points = sample_points(stage, canvas, settings, &PointMotion::RIGHT);
+    let picture = assemble_picture(tile, &pixel_means);
+    let points = sample_points(stage, canvas, settings, &PointMotion::RIGHT).part(tile);
     let velocity = points.map(|point| point.velocity);
     check_picture(scene, &picture)?;
     check_layer(scene, "velocity", &velocity)?;
@@ -111,7 +139,7 @@ pub fn trace_frame_on(
         velocity,
         depth: points.map(|point| point.depth),
         object_id: points.map(|point| point.object_id),
-        samples: Some(samples.to_plane(canvas)),
+        samples: Some(samples.to_plane(canvas).part(tile)),
     })
 }
 

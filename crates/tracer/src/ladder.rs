@@ -1,6 +1,6 @@
 //! Ladders: accumulations of a few sub-frames, for comparison with the truth of the same shutter.
 
-use frame::{Accumulation, Alignment, Ladder, Picture, Plane, Raster, Shutter, Truth};
+use frame::{Accumulation, Alignment, Ladder, Picture, Plane, Raster, Shutter, Tile, Truth};
 
 use crate::content_hash::{ladder_hash, provenance};
 use crate::error::TraceError;
@@ -82,10 +82,25 @@ impl<'a> LadderTracer<'a> {
 
     /// Renders the rung of a number of sub-frames, as a ladder of it alone. The other rungs change nothing of it.
     pub fn trace(&self, subframes: u32, watch: Watch) -> Result<Ladder, TraceError> {
-        let samples_per_pixel = REPLICATES * self.samples_per_replicate;
-        let work = self.pixels.len() as u64 * u64::from(samples_per_pixel);
-        let shutter_sampler = ShutterSampler::new(self.shutter, &self.scene.shutter_profile);
+        let whole = Tile::whole(self.mean.color.width, self.mean.color.height);
+        self.trace_tile(subframes, whole, watch)
+    }
+
+    /// Renders a tile of that rung. The rasters have the tile's size, and hold what those of [`LadderTracer::trace`] hold there.
+    pub fn trace_tile(
+        &self,
+        subframes: u32,
+        tile: Tile,
+        watch: Watch,
+    ) -> Result<Ladder, TraceError> {
         let (width, height) = (self.mean.color.width, self.mean.color.height);
+        // Each pixel that is rendered, and its place in the tile.
+        let (pixels, places): (Vec<u32>, Vec<usize>) = (self.pixels.iter())
+            .filter_map(|&pixel| Some((pixel, tile.index_of(pixel, width)?)))
+            .unzip();
+        let samples_per_pixel = REPLICATES * self.samples_per_replicate;
+        let work = pixels.len() as u64 * u64::from(samples_per_pixel);
+        let shutter_sampler = ShutterSampler::new(self.shutter, &self.scene.shutter_profile);
         let film = Film {
             integrator: Integrator::new(&self.stage, 0.0),
             canvas: Canvas::bare(width, height),
@@ -98,13 +113,13 @@ impl<'a> LadderTracer<'a> {
             seed: self.seed,
             stream: Stream::Accumulation(subframes),
         };
-        let rendered = film.render(&self.pixels, &Meter::new(watch, work), |estimates| {
+        let rendered = film.render(&pixels, &Meter::new(watch, work), |estimates| {
             [0, 1].map(|half| PixelMean::of(&estimates[half]))
         })?;
         let halves = [0, 1].map(|half| {
-            let mut picture = self.mean.clone();
-            for (&pixel, halves) in self.pixels.iter().zip(&rendered) {
-                set_pixel(&mut picture, pixel as usize, &halves[half]);
+            let mut picture = self.mean.part(tile);
+            for (&place, halves) in places.iter().zip(&rendered) {
+                set_pixel(&mut picture, place, &halves[half]);
             }
             picture
         });

@@ -32,7 +32,9 @@ pub use error::TraceError;
 pub use film::sampler::MOST_SAMPLES;
 pub use geometry::hit::Hit;
 pub use geometry::ray::Ray;
-pub use instant::{PointLayers, trace_frame, trace_frame_on, trace_motion, trace_motion_on};
+pub use instant::{
+    PointLayers, trace_frame, trace_frame_on, trace_frame_tile, trace_motion, trace_motion_on,
+};
 pub use ladder::{LadderTracer, trace_ladder};
 pub use load::{
     MOST_COINCIDENT, SceneError, SceneListing, list_scene, list_scenes, load_scene,

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use frame::{Alignment, AtInstant, Raster, Replicate, Support, Truth, motion_margin};
+use frame::{Alignment, AtInstant, Raster, Replicate, Support, Tile, Truth, motion_margin};
 
 use crate::aligned_shutter::{AlignedShutter, list_family};
 use crate::content_hash::{provenance, replicate_hash};
@@ -110,7 +110,18 @@ impl<'a> TruthTracer<'a> {
     /// Renders one replicate of every truth, in the order of the alignments. The index seeds its random numbers and changes
     /// nothing else; it may exceed the number of replicates in the settings.
     pub fn trace(&self, index: u32, watch: Watch) -> Result<Vec<Replicate>, TraceError> {
-        let pixels = self.canvas().pixels();
+        self.trace_tile(index, self.canvas().whole(), watch)
+    }
+
+    /// Renders a tile of one replicate of every truth. The rasters have the tile's size, and hold what those of
+    /// [`TruthTracer::trace`] hold there. Takes the time of the tile's samples, and that of the whole picture's pilot and support.
+    pub fn trace_tile(
+        &self,
+        index: u32,
+        tile: Tile,
+        watch: Watch,
+    ) -> Result<Vec<Replicate>, TraceError> {
+        let pixels = tile.pixels(self.settings.width);
         let samples = self.samples(watch)?;
         let times: Vec<Times> = self.shutters.iter().map(AlignedShutter::times).collect();
         let film = self.film(&times, samples, index..index + 1, Stream::Truth);
@@ -125,7 +136,7 @@ impl<'a> TruthTracer<'a> {
             .map(|(number, (shutter, support))| {
                 let pixels = rendered.iter().map(|means| means[number].clone());
                 let (means, instant_means): (Vec<PixelMean>, Vec<InstantMeans>) = pixels.unzip();
-                self.replicate(index, shutter, support, &means, instant_means)
+                self.replicate((index, tile), shutter, support, &means, instant_means)
             })
             .collect()
     }
@@ -157,10 +168,10 @@ impl<'a> TruthTracer<'a> {
         }
     }
 
-    /// Assembles a replicate from its pixels in row-major order.
+    /// Assembles a tile of a replicate from its pixels in row-major order.
     fn replicate(
         &self,
-        index: u32,
+        (index, tile): (u32, Tile),
         shutter: &AlignedShutter,
         support: &Support,
         means: &[PixelMean],
@@ -169,8 +180,8 @@ impl<'a> TruthTracer<'a> {
         let scene = self.stage.scene;
         let canvas = self.canvas();
         let settings = &self.settings;
-        let picture = assemble_picture(canvas, means);
-        let at_instant = assemble_at_instant(canvas, instant_means);
+        let picture = assemble_picture(tile, means);
+        let at_instant = assemble_at_instant(tile, instant_means);
         check_picture(scene, &picture)?;
         check_at_instant(scene, &at_instant)?;
         let samples = self.samples.get().expect("the replicate was traced by it");
@@ -190,8 +201,8 @@ impl<'a> TruthTracer<'a> {
             moving: shutter.moving.clone(),
             picture,
             at_instant,
-            samples: samples.to_plane(canvas),
-            support: support.clone(),
+            samples: samples.to_plane(canvas).part(tile),
+            support: support.part(tile),
         })
     }
 
@@ -231,10 +242,10 @@ impl<'a> TruthTracer<'a> {
 }
 
 /// Assembles the layers of the instant from their pixels in row-major order.
-fn assemble_at_instant(canvas: Canvas, pixels: Vec<InstantMeans>) -> AtInstant {
+fn assemble_at_instant(tile: Tile, pixels: Vec<InstantMeans>) -> AtInstant {
     let pixels: Raster<InstantMeans> = Raster {
-        width: canvas.width,
-        height: canvas.height,
+        width: tile.width,
+        height: tile.height,
         pixels,
     };
     AtInstant {

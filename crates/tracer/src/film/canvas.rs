@@ -1,5 +1,7 @@
 //! The pixels of a picture and of the guard band around it.
 
+use frame::Tile;
+
 use crate::pixel_grid::PixelGrid;
 
 /// The size of a picture and of its guard band, which only frames have. Positions count from the picture's top left corner:
@@ -46,6 +48,11 @@ impl Canvas {
     /// Rows with the band.
     pub fn rows(&self) -> u32 {
         self.height + 2 * self.guard_band
+    }
+
+    /// The tile of all pixels, with the band.
+    pub fn whole(&self) -> Tile {
+        Tile::whole(self.columns(), self.rows())
     }
 
     /// Indices of all pixels, row by row.

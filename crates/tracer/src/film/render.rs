@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use frame::{Image, Picture, Plane};
+use frame::{Image, Picture, Plane, Tile};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -262,9 +262,9 @@ impl PixelMean {
     }
 }
 
-/// Assembles a picture from its pixels in row-major order.
-pub(crate) fn assemble_picture(canvas: Canvas, pixels: &[PixelMean]) -> Picture {
-    let [width, height] = [canvas.columns(), canvas.rows()];
+/// Assembles a picture, or a tile of one, from its pixels in row-major order.
+pub(crate) fn assemble_picture(tile: Tile, pixels: &[PixelMean]) -> Picture {
+    let Tile { width, height, .. } = tile;
     let objects = pixels.first().map_or(0, |pixel| pixel.coverage.len());
     Picture {
         color: Image {

@@ -1,0 +1,67 @@
+//! Tiles: rectangles of pixels of a picture.
+
+/// A rectangle of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tile {
+    /// Column of its left pixels.
+    pub x: u32,
+    /// Row of its top pixels.
+    pub y: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Tile {
+    /// Makes the tile of a whole picture.
+    pub fn whole(width: u32, height: u32) -> Self {
+        Self {
+            x: 0,
+            y: 0,
+            width,
+            height,
+        }
+    }
+
+    /// Lists the row-major indices of its pixels in a picture with this many columns, row by row.
+    pub fn pixels(&self, columns: u32) -> Vec<u32> {
+        let rows = self.y..self.y + self.height;
+        rows.flat_map(|row| (self.x..self.x + self.width).map(move |x| row * columns + x))
+            .collect()
+    }
+
+    /// Returns the index in the tile of a pixel of such a picture; none outside of the tile.
+    pub fn index_of(&self, pixel: u32, columns: u32) -> Option<usize> {
+        let [x, y] = [
+            (pixel % columns).checked_sub(self.x)?,
+            (pixel / columns).checked_sub(self.y)?,
+        ];
+        let is_inside = x < self.width && y < self.height;
+        is_inside.then_some((y * self.width + x) as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tile_lists_its_pixels_and_finds_each() {
+        let tile = Tile {
+            x: 2,
+            y: 1,
+            width: 2,
+            height: 3,
+        };
+        let pixels = tile.pixels(5);
+        assert_eq!(pixels, [7, 8, 12, 13, 17, 18]);
+        let found: Vec<u32> = (0..25)
+            .filter(|pixel| tile.index_of(*pixel, 5).is_some())
+            .collect();
+        assert_eq!(found, pixels);
+        for (index, pixel) in pixels.into_iter().enumerate() {
+            assert_eq!(tile.index_of(pixel, 5), Some(index));
+        }
+    }
+}
