@@ -47,9 +47,9 @@ pub use camera::{Camera, CameraPose};
 pub use display::{Display, FlipExposures, MOST_STOPS, display_srgb, scene_linear};
 pub use exr::{
     Channel, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS,
-    Samples, read_attribute, read_exr, write_exr, write_half_exr,
+    Samples, read_attribute, read_exr, read_exr_header, write_exr, write_half_exr,
 };
-pub use file::{FileError, read_bounded, remove_leftovers, write_atomically};
+pub use file::{FileError, read_bounded, remove_leftovers, write_atomically, write_streamed};
 pub use frame::{FAR_DEPTH, Frame};
 pub use frame_options::{ColorSampling, FrameOptions, VelocityKind};
 pub use hidden::is_hidden;

@@ -17,6 +17,7 @@ mod judge;
 mod measure;
 mod monitor;
 mod named;
+mod pack;
 mod printable;
 mod render;
 mod results;
@@ -24,6 +25,7 @@ mod run;
 mod score;
 mod stats;
 mod tune;
+mod verify;
 
 pub use audit::{
     CaptureAudit, Cause, Defect, DepthAudit, ObjectAudit, audit_capture, write_audit_picture,
@@ -86,6 +88,12 @@ pub use measure::references::scene_viewing;
 pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
 pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use monitor::{Monitor, Step};
+pub use pack::arrival::{Arrival, take_pack};
+pub use pack::manifest::{
+    LARGEST_PACK_RATIO, MOST_MANIFEST_BYTES, Manifest, PACK_FORMAT, PackedFile,
+};
+pub use pack::reading::Pack;
+pub use pack::writing::write_pack;
 pub use printable::{printable, printable_lines, printable_path, printable_table};
 pub use render::frames::render_frame;
 pub use render::ladders::{LADDER, LadderFiles};
@@ -121,6 +129,11 @@ pub use tune::{
     interleave_families, log_ratio, pareto_front, render_scenes, round_bleed, signed_rank_p_value,
     sobol_indices, tune, tuned_preset_toml,
 };
+
+pub use verify::chance::TILE_SIDE;
+pub use verify::kept_scene::{Verified, verify_scene};
+pub use verify::listing::{KeptScene, list_kept_scenes};
+pub use verify::work::Verification;
 
 /// Program name and version, as files and runs record it.
 pub const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));

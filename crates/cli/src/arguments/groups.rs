@@ -43,7 +43,7 @@ pub const GROUPS: [Group; 7] = [
     },
     Group {
         heading: "Share the work, or do one step of it",
-        commands: &["plan", "merge", "render", "blur"],
+        commands: &["plan", "merge", "render", "pack", "verify", "blur"],
     },
     Group {
         heading: "Set up",

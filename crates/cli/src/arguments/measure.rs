@@ -52,8 +52,9 @@ pub struct MeasureArgs {
     /// Frames to run a noisy filter on, to tell its noise from its other errors; 0 for none.
     #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = parse_jitter_frames)]
     pub jitter_frames: u32,
-    /// Folder with frames, truths and ladders that lie as in --out. Those of the same inputs are taken from there, and not rendered.
-    #[arg(help_heading = "Scenes and files", long, value_name = "FOLDER")]
+    /// Pack, or folder with frames, truths and ladders that lie as in --out. Those of the same inputs are taken from there, and not
+    /// rendered.
+    #[arg(help_heading = "Scenes and files", long, value_name = "FILE|DIR")]
     pub truths: Option<PathBuf>,
     /// Remove the truths and cases in --out, and make all anew.
     #[arg(help_heading = "Scenes and files", long, conflicts_with = "truths")]

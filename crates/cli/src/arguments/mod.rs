@@ -27,6 +27,7 @@ mod man;
 mod measure;
 mod merge;
 mod output;
+mod pack;
 mod parse;
 mod plan;
 mod programs;
@@ -41,6 +42,7 @@ mod score;
 mod sensitivity;
 mod serve;
 mod tune;
+mod verify;
 
 use clap::{Parser, Subcommand};
 
@@ -65,6 +67,7 @@ pub use man::ManArgs;
 pub use measure::MeasureArgs;
 pub use merge::MergeArgs;
 pub use output::{Color, OutputArgs};
+pub use pack::PackArgs;
 pub use parse::Replicates;
 pub use plan::PlanArgs;
 pub use refusal::refusal_text;
@@ -77,6 +80,7 @@ pub use score::ScoreArgs;
 pub use sensitivity::SensitivityArgs;
 pub use serve::ServeArgs;
 pub use tune::TuneArgs;
+pub use verify::VerifyArgs;
 
 /// Version, commit and target of the program.
 const VERSION: &str = env!("SHUTTERTRUTH_VERSION");
@@ -118,6 +122,10 @@ pub enum Command {
     Plan(PlanArgs),
     /// Join what several machines made: replicates of truths, or runs of some of the cases.
     Merge(MergeArgs),
+    /// Put the kept truths of a finished run into one archive, from which other machines run.
+    Pack(PackArgs),
+    /// Trace random tiles of kept truths again, and compare them with the files byte for byte.
+    Verify(VerifyArgs),
     /// Run a filter on a frame file.
     Blur(BlurArgs),
     /// Measure a finished picture from any source.

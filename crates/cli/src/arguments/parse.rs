@@ -88,6 +88,14 @@ pub fn parse_rounds(text: &str) -> Result<u32, String> {
     }
 }
 
+/// Parses a number of tiles.
+pub fn parse_tiles(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(count @ 1..=10_000) => Ok(count),
+        _ => Err("allowed: 1 to 10000".to_owned()),
+    }
+}
+
 /// Parses a number of runs, enough for a spread.
 pub fn parse_runs(text: &str) -> Result<u32, String> {
     match text.parse() {

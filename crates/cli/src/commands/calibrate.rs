@@ -7,6 +7,7 @@ use suite::{
 use tracer::{Progress, Watch};
 
 use super::expected::print_expected_time;
+use super::kept_truths::take_packed_truths;
 use super::run_files::write_run;
 use super::run_plan::{check_replicates_for_intervals, claim_out, make_plan};
 use crate::arguments::CalibrateArgs;
@@ -71,6 +72,7 @@ fn run_all(args: &CalibrateArgs, plan: &mut RunPlan, watch: Watch) -> Result<Vec
     let adapters = chosen_adapters(args);
     let total = adapters.len() as u64 * u64::from(args.runs);
     let first = plan.render.seed;
+    let truths = plan.truths.clone();
     let mut runs: Vec<Run> = Vec::new();
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, adapter, plan.monitor)?;
@@ -84,6 +86,8 @@ fn run_all(args: &CalibrateArgs, plan: &mut RunPlan, watch: Watch) -> Result<Vec
             // The truths serve every adapter.
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
             let _claim = claim_out(plan)?;
+            plan.truths.clone_from(&truths);
+            take_packed_truths(plan)?;
             let finished = measure_scenes(plan, gpu.as_ref(), std::env::args().collect())?;
             write_run(&finished, &plan.out)?;
             refuse_failures(&finished.failures)?;

@@ -112,7 +112,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
     if let Some(truths) = &plan.truths {
         refuse_tracked(
             truths,
-            "choose a folder outside of the repository for --truths",
+            "choose a folder or a pack outside of the repository for --truths",
         )?;
     }
     if !plan.no_cache {

@@ -7,6 +7,7 @@ use suite::{
 };
 
 use super::expected::print_expected;
+use super::kept_truths::take_packed_truths;
 use super::run_plan::claim_out;
 use crate::output::count::count_text;
 use crate::output::print::print_note;
@@ -27,6 +28,7 @@ pub struct MeasuredRun {
 pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Error> {
     choose_folder(plan)?;
     let claim = claim_out(plan)?;
+    take_packed_truths(plan)?;
     let earlier = find_earlier(plan, gpu)?;
     let estimate = match is_quiet() {
         true => estimate_run_roughly(plan, gpu),

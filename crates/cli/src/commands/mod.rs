@@ -18,11 +18,13 @@ mod expected;
 mod export;
 mod import;
 mod ingest;
+mod kept_truths;
 mod list;
 mod man;
 mod margins;
 mod measured_run;
 mod merge;
+mod pack;
 mod pages;
 mod plan;
 mod render;
@@ -38,6 +40,7 @@ mod serve;
 mod threads;
 mod try_filters;
 mod tune;
+mod verify;
 
 use suite::Error;
 
@@ -66,6 +69,10 @@ pub fn execute(cli: Cli) -> Result<Ending, Error> {
         }
         Some(Command::Plan(args)) => plan::execute(&args),
         Some(Command::Merge(args)) => merge::execute(&args),
+        Some(Command::Pack(args)) => pack::execute(&args),
+        Some(Command::Verify(args)) => {
+            return work_on_threads(args.threads, || verify::execute(&args));
+        }
         Some(Command::Blur(args)) => blur::execute(&args),
         Some(Command::Score(args)) => score::execute(&args),
         Some(Command::Report(args)) => report::execute(&args),

@@ -10,6 +10,7 @@ use suite::{
 };
 use tracer::{Location, RenderSettings, Scene, Seal};
 
+use super::kept_truths::check_truths;
 use super::render_settings::make_render_settings;
 use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
 use crate::output::count::count_text;
@@ -55,11 +56,8 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         truths: args.truths.clone(),
         monitor: make_monitor(),
     };
-    if let Some(truths) = plan.truths.as_ref().filter(|truths| !truths.is_dir()) {
-        return Err(Error::Usage(format!(
-            "--truths {}: there is no such folder; allowed: one into which `shuttertruth render --ladders` or `run` wrote",
-            truths.display()
-        )));
+    if let Some(truths) = &plan.truths {
+        check_truths(truths)?;
     }
     plan.check()?;
     Ok((plan, bounds))

@@ -22,6 +22,34 @@ pub fn match_names(option: &str, text: &str, known: &[String]) -> Result<Vec<Str
     Ok(matched.cloned().collect())
 }
 
+/// Chooses the known names that are named or matched by a pattern, in the order of `known`; all where nothing is named.
+///
+/// # Errors
+/// A name is unknown, or a pattern is malformed or matches nothing.
+pub fn choose_names(
+    option: &str,
+    texts: &[String],
+    known: &[String],
+) -> Result<Vec<String>, Error> {
+    refuse_empty_names(option, texts)?;
+    let mut chosen = Vec::new();
+    for text in texts {
+        let matched = match is_pattern(text) {
+            true => match_names(option, text, known)?,
+            false => (known.iter().filter(|name| *name == text).cloned()).collect(),
+        };
+        if matched.is_empty() {
+            return Err(Error::Usage(format!(
+                "{option}: no \"{text}\" there; {}",
+                suggest_names(text, known)
+            )));
+        }
+        chosen.extend(matched);
+    }
+    let is_chosen = |name: &&String| texts.is_empty() || chosen.contains(name);
+    Ok(known.iter().filter(is_chosen).cloned().collect())
+}
+
 /// Refuses a list with an empty name, which a comma too many makes.
 pub fn refuse_empty_names(option: &str, names: &[String]) -> Result<(), Error> {
     match names.iter().any(String::is_empty) {

@@ -66,16 +66,25 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     Ok(file)
 }
 
-/// Reads one text attribute of an OpenEXR file without its pixels; none where the file or the attribute is missing or broken.
-pub fn read_attribute(path: &Path, name: &str) -> Option<String> {
+/// Reads size and text attributes of an OpenEXR file without its pixels, as a file without channels; none where the file is missing
+/// or broken.
+pub fn read_exr_header(path: &Path) -> Option<ExrFile> {
     let (handle, _) = open_regular(path, u64::MAX).ok()?;
     let chunks = exr::block::read(BufReader::new(handle), false).ok()?;
     let header = chunks.headers().first()?;
-    (header.own_attributes.other.iter())
-        .chain(&header.shared_attributes.other)
-        .find(|(found, _)| from_exr(found) == name)
-        .and_then(|(_, value)| match value {
-            AttributeValue::Text(text) => Some(from_exr(text)),
-            _ => None,
-        })
+    let size = header.layer_size;
+    let mut file = ExrFile::new(size.width() as u32, size.height() as u32);
+    file.path = path.to_owned();
+    let attributes = (header.own_attributes.other.iter()).chain(&header.shared_attributes.other);
+    for (name, value) in attributes {
+        if let AttributeValue::Text(text) = value {
+            file.attributes.insert(from_exr(name), from_exr(text));
+        }
+    }
+    Some(file)
+}
+
+/// Reads one text attribute of an OpenEXR file without its pixels; none where the file or the attribute is missing or broken.
+pub fn read_attribute(path: &Path, name: &str) -> Option<String> {
+    read_exr_header(path)?.attributes.remove(name)
 }

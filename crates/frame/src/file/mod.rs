@@ -7,4 +7,4 @@ mod writing;
 pub use error::FileError;
 pub(crate) use reading::open_regular;
 pub use reading::read_bounded;
-pub use writing::{remove_leftovers, write_atomically};
+pub use writing::{remove_leftovers, write_atomically, write_streamed};

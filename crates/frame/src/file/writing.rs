@@ -21,6 +21,20 @@ const SUFFIX: &str = ".tmp";
 /// Fails if the file cannot be written, or if a folder, a FIFO, a socket, a device or a link to one lies there: renaming would
 /// replace it, even `/dev/null`.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    write_streamed(path, |file| {
+        (file.write_all(bytes)).map_err(|error| FileError::io(path, "write", error))
+    })
+}
+
+/// Writes a file as [`write_atomically`] does, piece by piece: `write` writes what the path is to hold. Where it fails, the path keeps
+/// what it held.
+///
+/// # Errors
+/// Fails as [`write_atomically`] does, and where `write` fails.
+pub fn write_streamed<E: From<FileError>>(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+) -> Result<(), E> {
     let fail = |error| FileError::io(path, "write", error);
     refuse_to_replace(path)?;
     let folder = match path.parent() {
@@ -29,7 +43,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     };
     std::fs::create_dir_all(folder).map_err(fail)?;
     let mut temporary = BufWriter::new(create_temporary(folder).map_err(fail)?);
-    temporary.write_all(bytes).map_err(fail)?;
+    write(&mut temporary)?;
     let temporary = temporary
         .into_inner()
         .map_err(|error| fail(error.into_error()))?;

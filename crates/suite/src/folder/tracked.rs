@@ -15,7 +15,7 @@ const ELSEWHERE: [&str; 4] = [
     "GIT_CEILING_DIRECTORIES",
 ];
 
-/// Refuses a folder that holds files which git tracks: what a change brings along is no evidence for it. The error ends with
+/// Refuses a file that git tracks, and a folder that holds such files: what a change brings along is no evidence for it. The error ends with
 /// `way_out`, which tells the user what to do instead.
 ///
 /// A folder that does not exist, or lies in no work tree, holds none, and no git is needed to know that. Where git cannot
@@ -24,18 +24,25 @@ pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
     if !out.exists() || !is_in_work_tree(out)? {
         return Ok(());
     }
-    let folder = out.display();
+    let name = out.display();
+    // Git runs in a folder, and lists all of it or one file.
+    let (folder, file) = match (out.is_dir(), out.parent()) {
+        (false, Some(parent)) if !parent.as_os_str().is_empty() => (parent, out.file_name()),
+        (false, _) => (Path::new("."), out.file_name()),
+        (true, _) => (out, None),
+    };
     let cannot_tell = |reason: String| {
         Error::Usage(format!(
-            "{folder}: cannot tell whether files came with the checkout: {reason}; {way_out}"
+            "{name}: cannot tell whether files came with the checkout: {reason}; {way_out}"
         ))
     };
     let mut git = Command::new("git");
     // A checkout may hold what looks like a repository, whose settings name programs.
-    git.args(["-c", "safe.bareRepository=explicit"])
+    git.args(["--literal-pathspecs", "-c", "safe.bareRepository=explicit"])
         .args(["-c", "core.fsmonitor=false"])
-        .args(["ls-files", "-z", "--cached"])
-        .current_dir(out)
+        .args(["ls-files", "-z", "--cached", "--"])
+        .args(file)
+        .current_dir(folder)
         .stdin(Stdio::null());
     for name in ELSEWHERE {
         git.env_remove(name);
@@ -50,7 +57,7 @@ pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
         None => Ok(()),
         Some(name) => Err(Error::Usage(format!(
             "{} is tracked by git: it came with the checkout, and a check does not count what a change brings along; {way_out}",
-            out.join(&*String::from_utf8_lossy(name)).display()
+            folder.join(&*String::from_utf8_lossy(name)).display()
         ))),
     }
 }

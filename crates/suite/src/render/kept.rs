@@ -69,8 +69,14 @@ pub(crate) fn find_kept(
 }
 
 impl RenderFile {
+    /// Returns its path below a folder with `/` between its parts, as a pack names it.
+    pub fn name(&self) -> String {
+        let parts = self.below.iter().map(|part| part.to_string_lossy());
+        parts.collect::<Vec<_>>().join("/")
+    }
+
     /// Tells whether a folder holds it, by the header of the file.
-    fn is_in(&self, folder: &Path) -> bool {
+    pub fn is_in(&self, folder: &Path) -> bool {
         read_attribute(&folder.join(&self.below), "content_hash").as_ref() == Some(&self.hash)
     }
 }

@@ -80,7 +80,7 @@ impl ReplicateFiles {
     }
 
     /// Names the file of a replicate.
-    pub(super) fn path(&self, index: u32) -> PathBuf {
+    pub(crate) fn path(&self, index: u32) -> PathBuf {
         replicates_folder(&self.folder, self.alignment).join(format!("replicate_{index:03}.exr"))
     }
 }

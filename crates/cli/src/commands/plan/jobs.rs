@@ -162,7 +162,7 @@ impl Planner<'_> {
             });
             for (part, filters, cost) in std::iter::once(references).chain(filters) {
                 let mut job = self.case_job(scene, part, filters, cost)?;
-                job.inputs = inputs.clone();
+                job.inputs.splice(0..0, inputs.clone());
                 job.inputs
                     .extend(filters.iter().flat_map(|filter| filter.files.clone()));
                 parts.extend(job.outputs.clone());
@@ -258,6 +258,9 @@ impl Planner<'_> {
         if scene.is_rendered {
             let truths = path_word(&self.truths)?;
             job.arguments.extend(words(["--truths", &truths]));
+            if self.truths.is_file() {
+                job.inputs.push(truths);
+            }
         }
         job.outputs = vec![path_word(&folder.join("run.json"))?];
         Ok(job)

@@ -1,0 +1,78 @@
+//! Truths that `--truths` names: a folder, or a pack.
+
+use std::collections::hash_map::RandomState;
+use std::hash::{BuildHasher, Hasher};
+use std::path::Path;
+
+use suite::{Arrival, Error, Pack, RunPlan, Verification, printable_path, take_pack};
+
+use crate::output::count::count_text;
+use crate::output::print::print_note;
+
+/// Files that a note names before it counts the others.
+const MOST_NAMED: usize = 4;
+
+/// Refuses what is neither a folder nor a pack, before anything is rendered.
+pub fn check_truths(truths: &Path) -> Result<(), Error> {
+    match truths.is_file() {
+        true => Pack::open(truths).map(drop),
+        false if truths.is_dir() => Ok(()),
+        false => Err(Error::Usage(format!(
+            "--truths {}: there is no such folder or file; allowed: a folder into which `shuttertruth render --ladders` or `run` \
+             wrote, or a pack",
+            truths.display()
+        ))),
+    }
+}
+
+/// Takes what the plan needs from a pack into the claimed folder of the plan, and says so. A folder is left for the run to take from.
+pub fn take_packed_truths(plan: &mut RunPlan) -> Result<(), Error> {
+    let Some(path) = plan.truths.as_ref().filter(|truths| truths.is_file()) else {
+        return Ok(());
+    };
+    let pack = Pack::open(path)?;
+    let verification = Verification {
+        seed: choose_seed(),
+        tiles: 1,
+    };
+    let arrival = take_pack(plan, &pack, &verification)?;
+    print_note(&arrival_text(&pack, &arrival, &verification));
+    // All that it had lies there now.
+    plan.truths = Some(plan.out.clone());
+    Ok(())
+}
+
+/// Chooses a seed that nobody knows before.
+pub fn choose_seed() -> u64 {
+    // Small enough to be typed.
+    RandomState::new().build_hasher().finish() % 1_000_000_000
+}
+
+/// `truths.tar.zst: took 33 files, and traced 3 tiles again, which are equal (seed 7); nothing is rendered`
+fn arrival_text(pack: &Pack, arrival: &Arrival, verification: &Verification) -> String {
+    let mut text = printable_path(&pack.path);
+    match arrival.taken {
+        0 => text += ": took no file",
+        taken => {
+            text += &format!(
+                ": took {}, and traced {} again, which are equal (seed {})",
+                count_text(taken, "file", "files"),
+                count_text(arrival.verified.tiles.len(), "tile", "tiles"),
+                verification.seed
+            );
+        }
+    }
+    match arrival.missing.as_slice() {
+        [] => text += "; nothing is rendered",
+        missing => {
+            let named = &missing[..missing.len().min(MOST_NAMED)];
+            text += &format!("; renders what it lacks: {}", named.join(", "));
+            if missing.len() > named.len() {
+                text += &format!(" and {} more", missing.len() - named.len());
+            }
+            text +=
+                ". A pack serves runs of its scenes, its settings and this version of the tracer";
+        }
+    }
+    text
+}

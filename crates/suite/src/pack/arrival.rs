@@ -1,0 +1,166 @@
+//! Files of a pack that a run takes into its folder.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use frame::{Alignment, FileError};
+use tracer::Scene;
+
+use super::reading::Pack;
+use crate::Error;
+use crate::folder::placed_file::place_file;
+use crate::folder::scene_folder::{refuse_scene, scene_folder};
+use crate::measure::plan::RunPlan;
+use crate::render::kept::{RenderFile, find_kept, list_render_files};
+use crate::verify::kept_scene::{Verified, verify_scene};
+use crate::verify::listing::KeptScene;
+use crate::verify::work::Verification;
+
+/// Folder in that of a run where files of a pack lie until they are verified.
+const ARRIVALS: &str = ".shuttertruth.arrivals";
+
+/// What a run took of a pack.
+#[derive(Clone, Debug, Default)]
+pub struct Arrival {
+    /// Number of files that were taken.
+    pub taken: usize,
+    /// What was verified of them.
+    pub verified: Verified,
+    /// What is still to be rendered: `frame of fan`, `trailing truth of fan`.
+    pub missing: Vec<String>,
+}
+
+/// Checks all of a pack, and takes from it into the plan's folder what the plan needs and the folder lacks, after random tiles were
+/// traced again. Truths of other scenes, settings or tracers stay in the pack.
+///
+/// # Errors
+/// The pack is not what its manifest says, a tile is not equal, or a file cannot be written. Nothing is taken then.
+pub fn take_pack(
+    plan: &RunPlan,
+    pack: &Pack,
+    verification: &Verification,
+) -> Result<Arrival, Error> {
+    pack.check()?;
+    let alignments = plan.alignments();
+    let wanted = list_wanted(plan, pack, &alignments)?;
+    let mut arrival = Arrival::default();
+    if !wanted.is_empty() {
+        let arrivals = plan.out.join(ARRIVALS);
+        // A killed process may have left some.
+        remove_folder(&arrivals)?;
+        let taken = take_verified(plan, pack, &wanted, verification);
+        remove_folder(&arrivals)?;
+        (arrival.taken, arrival.verified) = taken?;
+    }
+    arrival.missing = (list_scenes(plan).iter())
+        .flat_map(|scene| list_missing(plan, scene, &alignments))
+        .collect();
+    Ok(arrival)
+}
+
+/// Unpacks files into the folder of arrivals, verifies them, and places those that the plan's folder lacks; counts these.
+fn take_verified(
+    plan: &RunPlan,
+    pack: &Pack,
+    wanted: &[(Scene, Vec<RenderFile>)],
+    verification: &Verification,
+) -> Result<(usize, Verified), Error> {
+    let arrivals = plan.out.join(ARRIVALS);
+    let files: BTreeMap<String, &RenderFile> = (wanted.iter())
+        .flat_map(|(_, files)| files)
+        .map(|file| (file.name(), file))
+        .collect();
+    pack.unpack(&arrivals, |file| files.contains_key(&file.path))?;
+    let mut verified = Verified::default();
+    for (scene, own) in wanted {
+        verified.add(verify_arrivals(plan, pack, scene, own, verification)?);
+    }
+    if !verified.differences.is_empty() {
+        return Err(Error::Usage(verified.differences.join("\n")));
+    }
+    let mut taken = 0;
+    for file in files.values().filter(|file| !file.is_in(&plan.out)) {
+        place_file(&arrivals.join(&file.below), &plan.out.join(&file.below))?;
+        taken += 1;
+    }
+    Ok((taken, verified))
+}
+
+/// Lists those scenes of the plan whose files the pack has and the plan's folder lacks, with these files.
+fn list_wanted(
+    plan: &RunPlan,
+    pack: &Pack,
+    alignments: &[Alignment],
+) -> Result<Vec<(Scene, Vec<RenderFile>)>, Error> {
+    let packed: BTreeMap<&str, &str> = (pack.manifest.files.iter())
+        .map(|file| (file.path.as_str(), file.content_hash.as_str()))
+        .collect();
+    let mut wanted = Vec::new();
+    for scene in list_scenes(plan) {
+        refuse_scene(&scene_folder(&plan.out, &scene))?;
+        let mut files = list_render_files(&scene, &plan.render, alignments);
+        files.retain(|file| packed.get(file.name().as_str()) == Some(&file.hash.as_str()));
+        if files.iter().any(|file| !file.is_in(&plan.out)) {
+            wanted.push((scene, files));
+        }
+    }
+    Ok(wanted)
+}
+
+/// Verifies the files of a scene before they are taken.
+fn verify_arrivals(
+    plan: &RunPlan,
+    pack: &Pack,
+    scene: &Scene,
+    files: &[RenderFile],
+    verification: &Verification,
+) -> Result<Verified, Error> {
+    let arrivals = plan.out.join(ARRIVALS);
+    // Whoever wrote the manifest may have named another hash than the file has.
+    if let Some(file) = files.iter().find(|file| !file.is_in(&arrivals)) {
+        return Err(Error::Usage(format!(
+            "{}: the header of {} has another content_hash than manifest.json says; the pack was altered: make or fetch it again",
+            pack.path.display(),
+            file.name()
+        )));
+    }
+    let folder = scene_folder(&arrivals, scene);
+    let has = |alignment: &Alignment| folder.join(format!("truth_{alignment}.exr")).exists();
+    let kept = KeptScene {
+        scene: scene.name.clone(),
+        frame: scene.frame,
+        alignments: plan.alignments().into_iter().filter(has).collect(),
+        shown: scene_folder(&pack.path, scene),
+        folder,
+    };
+    verify_scene(scene, &kept, verification, plan.monitor)
+}
+
+/// Lists the scenes of a plan, and behind each its later frames.
+fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
+    let frames = |scene: &Scene| -> Vec<Scene> {
+        let count = plan.frames.count;
+        (0..count).map(|frame| scene.at_frame(frame)).collect()
+    };
+    plan.scenes.iter().flat_map(frames).collect()
+}
+
+/// Lists what the plan's folder lacks of a scene's frame and truths.
+fn list_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> BTreeSet<String> {
+    let (has_frame, has_truths) = find_kept(scene, &plan.render, alignments, &plan.out);
+    let name = &scene.name;
+    let frame = (!has_frame).then(|| format!("frame of {name}"));
+    let truths = (alignments.iter().zip(has_truths)).filter(|(_, is_there)| !is_there);
+    let truths = truths.map(|(alignment, _)| format!("{alignment} truth of {name}"));
+    frame.into_iter().chain(truths).collect()
+}
+
+/// Removes the folder of arrivals; a link in its place is removed, and not followed.
+fn remove_folder(folder: &Path) -> Result<(), Error> {
+    let removed = match std::fs::symlink_metadata(folder) {
+        Err(_) => Ok(()),
+        Ok(found) if found.is_dir() => std::fs::remove_dir_all(folder),
+        Ok(_) => std::fs::remove_file(folder),
+    };
+    Ok(removed.map_err(|source| FileError::io(folder, "remove", source))?)
+}

@@ -1,0 +1,167 @@
+//! The files of a run's folder that a pack holds: all that a run renders and reads, and none that filters made.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use frame::{Alignment, ExrFile, read_exr_header, rung_file, truth_hash};
+
+use super::manifest::PackedFile;
+use crate::Error;
+use crate::render::ladders::{LADDER, ladder_folder};
+use crate::render::replicates::replicates_folder;
+use crate::run::Run;
+
+/// The truths of one scene, or of a later frame of it.
+struct KeptScene {
+    /// Folder of its files below that of the run: `fan` or `fan/0003`.
+    folder: PathBuf,
+    /// Alignments of its truths, each with the `truth_hash` of the cases that were measured against it; none where no case was.
+    truths: BTreeMap<Alignment, Option<String>>,
+}
+
+/// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. Sizes and hashes of bytes are not
+/// known yet.
+///
+/// # Errors
+/// A file is missing, or is another one than the run was measured with.
+pub(super) fn list_contents(
+    run: &Run,
+    folder: &Path,
+    scenes: &[String],
+) -> Result<Vec<PackedFile>, Error> {
+    let mut files = Vec::new();
+    for scene in list_scenes(run, scenes)? {
+        add_scene(run, folder, &scene, &mut files)?;
+    }
+    files.sort_by(|one, other| one.path.cmp(&other.path));
+    Ok(files)
+}
+
+/// Lists the chosen scenes and their later frames; leaves out those that engines drew, which have their truths elsewhere.
+fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
+    let mut truths: BTreeMap<&str, BTreeMap<Alignment, Option<String>>> = BTreeMap::new();
+    for case in run.cases.iter().filter(|case| case.drawn.is_none()) {
+        let alignment = Alignment::from_str(&case.alignment).map_err(Error::Usage)?;
+        let own = truths.entry(&case.scene).or_default();
+        let hash = Some(case.truth_hash.clone());
+        match own.insert(alignment, hash.clone()) {
+            Some(other) if other != hash => {
+                return Err(Error::Usage(format!(
+                    "{}: cases were measured against different {alignment} truths, of which only the last is kept; run it again",
+                    case.scene
+                )));
+            }
+            _ => {}
+        }
+    }
+    let common = Alignment::from_str(&run.common_alignment).map_err(Error::Usage)?;
+    let mut scenes = Vec::new();
+    for name in chosen {
+        let Some(own) = truths.get(name.as_str()) else {
+            continue;
+        };
+        let alignments: BTreeSet<Alignment> = own.keys().copied().chain([common]).collect();
+        for frame in 0..run.frames.count {
+            let hash = |alignment| own.get(&alignment).cloned().flatten();
+            scenes.push(KeptScene {
+                folder: match frame {
+                    0 => PathBuf::from(name),
+                    later => Path::new(name).join(format!("{later:04}")),
+                },
+                // Cases of later frames are not in run.json.
+                truths: (alignments.iter())
+                    .map(|&alignment| (alignment, hash(alignment).filter(|_| frame == 0)))
+                    .collect(),
+            });
+        }
+    }
+    match scenes.is_empty() {
+        false => Ok(scenes),
+        true => Err(Error::Usage(
+            "an engine drew all of these scenes: nothing was rendered that a pack could hold; pack a run of scenes of ours"
+                .to_owned(),
+        )),
+    }
+}
+
+/// Adds the files of one scene.
+fn add_scene(
+    run: &Run,
+    root: &Path,
+    scene: &KeptScene,
+    files: &mut Vec<PackedFile>,
+) -> Result<(), Error> {
+    let found = |below: &Path| read_kept(root, below);
+    files.push(found(&scene.folder.join("frame.exr"))?);
+    for (alignment, hash) in &scene.truths {
+        let truth = found(&scene.folder.join(format!("truth_{alignment}.exr")))?;
+        if let Some(hash) = hash.as_ref().filter(|hash| **hash != truth.content_hash) {
+            return Err(other_file(root, &truth, hash));
+        }
+        let count = run.render.replicates;
+        for index in 0..count {
+            let below = replicates_folder(&scene.folder, *alignment);
+            let replicate = found(&below.join(format!("replicate_{index:03}.exr")))?;
+            if truth_hash(&replicate.content_hash, count) != truth.content_hash {
+                return Err(other_file(root, &replicate, &truth.content_hash));
+            }
+            files.push(replicate);
+        }
+        files.push(truth);
+        let mut ladder: Option<String> = None;
+        for rung in LADDER {
+            let below = scene.folder.join(ladder_folder(*alignment));
+            let rung = found(&below.join(rung_file(rung)))?;
+            let hash = ladder.get_or_insert_with(|| rung.content_hash.clone());
+            if *hash != rung.content_hash {
+                return Err(other_file(root, &rung, hash));
+            }
+            files.push(rung);
+        }
+    }
+    Ok(())
+}
+
+/// Reads the header of a kept file.
+fn read_kept(root: &Path, below: &Path) -> Result<PackedFile, Error> {
+    let path = root.join(below);
+    if !path.symlink_metadata().is_ok_and(|found| found.is_file()) {
+        return Err(Error::Usage(format!(
+            "{}: there is no such file, or it is no regular one; the run is unfinished, or its files were moved; run it again into \
+             this folder, or render what is missing with `shuttertruth render --ladders`",
+            path.display()
+        )));
+    }
+    let file = read_exr_header(&path).and_then(|file| describe(&file, below));
+    file.ok_or_else(|| {
+        Error::Usage(format!(
+            "{}: not a complete file of this program; delete it and run again into this folder",
+            path.display()
+        ))
+    })
+}
+
+/// Describes a file by its header; none where that lacks what the files of this program have.
+fn describe(file: &ExrFile, below: &Path) -> Option<PackedFile> {
+    let parts: Option<Vec<&str>> = below.iter().map(|part| part.to_str()).collect();
+    Some(PackedFile {
+        path: parts?.join("/"),
+        bytes: 0,
+        blake3: String::new(),
+        content_hash: file.get("content_hash").ok()?,
+        scene: file.get("scene").ok()?,
+        width: file.width,
+        height: file.height,
+        samples_per_pixel: file.get("samples_per_pixel").ok()?,
+    })
+}
+
+fn other_file(root: &Path, file: &PackedFile, expected: &str) -> Error {
+    Error::Usage(format!(
+        "{}: its header has the hash {}, and the run was measured with {expected}; something was rendered into this folder since: run \
+         it again",
+        root.join(&file.path).display(),
+        file.content_hash
+    ))
+}

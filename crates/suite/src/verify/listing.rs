@@ -1,0 +1,90 @@
+//! The kept truths of a folder.
+
+use std::path::{Path, PathBuf};
+
+use frame::{Alignment, FileError, read_attribute};
+
+use crate::Error;
+
+/// The kept truths of one scene, or of a later frame of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct KeptScene {
+    /// Name of the scene, with its variant.
+    pub scene: String,
+    /// Frame of the scene's own clock.
+    pub frame: u32,
+    /// Folder of its files.
+    pub folder: PathBuf,
+    /// Name of this folder in messages: that in a pack, for files that were unpacked somewhere.
+    pub shown: PathBuf,
+    /// Alignments of its truths.
+    pub alignments: Vec<Alignment>,
+}
+
+/// Lists the kept truths below a folder, which has the layout of a run's: `fan/truth_trailing.exr`, `fan/0001/truth_trailing.exr`.
+/// Looks nowhere else, and follows no links. Messages name files below `shown`.
+///
+/// # Errors
+/// The folder cannot be read, or holds no truth.
+pub fn list_kept_scenes(root: &Path, shown: &Path) -> Result<Vec<KeptScene>, Error> {
+    let mut kept = Vec::new();
+    for (scene, folder) in list_folders(root)? {
+        let shown = shown.join(&scene);
+        let own = KeptScene::find(&scene, 0, (&folder, &shown));
+        let mut later: Vec<KeptScene> = list_folders(&folder)?
+            .into_iter()
+            .filter(|(name, _)| name.len() >= 4)
+            .filter_map(|(name, folder)| {
+                let folders = (&*folder, &*shown.join(&name));
+                KeptScene::find(&scene, name.parse().ok()?, folders)
+            })
+            .collect();
+        later.sort_by_key(|kept| kept.frame);
+        kept.extend(own.into_iter().chain(later));
+    }
+    match kept.is_empty() {
+        false => Ok(kept),
+        true => Err(Error::Usage(format!(
+            "{}: holds no truth; allowed: a pack, or a folder into which `shuttertruth run`, `check` or `render` wrote",
+            shown.display()
+        ))),
+    }
+}
+
+impl KeptScene {
+    /// Tells whether engines drew all of its truths, which nothing here can trace again.
+    pub fn is_drawn(&self) -> bool {
+        self.alignments.iter().all(|alignment| {
+            let truth = self.folder.join(format!("truth_{alignment}.exr"));
+            read_attribute(&truth, "engine").is_some()
+        })
+    }
+
+    fn find(scene: &str, frame: u32, (folder, shown): (&Path, &Path)) -> Option<Self> {
+        let has = |alignment: &Alignment| folder.join(format!("truth_{alignment}.exr")).is_file();
+        let alignments: Vec<Alignment> = Alignment::ALL.into_iter().filter(has).collect();
+        (!alignments.is_empty()).then(|| Self {
+            scene: scene.to_owned(),
+            frame,
+            folder: folder.to_owned(),
+            shown: shown.to_owned(),
+            alignments,
+        })
+    }
+}
+
+/// Lists the folders in a folder with their names, in the order of these.
+fn list_folders(folder: &Path) -> Result<Vec<(String, PathBuf)>, Error> {
+    let fail = |source| FileError::io(folder, "read", source);
+    let mut folders = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(fail)? {
+        let entry = entry.map_err(fail)?;
+        if entry.file_type().map_err(fail)?.is_dir()
+            && let Ok(name) = entry.file_name().into_string()
+        {
+            folders.push((name, entry.path()));
+        }
+    }
+    folders.sort();
+    Ok(folders)
+}

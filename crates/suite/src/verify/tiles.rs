@@ -1,0 +1,86 @@
+//! Tiles of kept files, chosen at random and traced again.
+
+use std::path::{Path, PathBuf};
+
+use frame::{Frame, Tile, Truth, rung_file};
+use tracer::{LadderTracer, RenderSettings, TruthTracer, trace_frame_tile};
+
+use super::work::Work;
+use crate::Error;
+use crate::render::ladders::{LADDER, ladder_folder};
+use crate::render::replicates::ReplicateFiles;
+
+/// Traces tiles of a frame again.
+pub(super) fn trace_frame_tiles(
+    work: &Work,
+    path: &Path,
+    settings: &RenderSettings,
+    frame: &Frame,
+) -> Result<Vec<(PathBuf, Tile)>, Error> {
+    let (width, height) = frame.size();
+    let mut chance = work.chance("frame");
+    let mut tiles = Vec::new();
+    for _ in 0..work.verification.tiles {
+        let tile = chance.tile(width, height);
+        let label = format!("verifying {}, frame", work.scene.name);
+        let made = work.monitor.watch(&label, |watch| {
+            trace_frame_tile(work.scene, settings, tile, watch)
+        })?;
+        work.compare(path, tile, &made.to_exr())?;
+        tiles.push((work.shown(path), tile));
+    }
+    Ok(tiles)
+}
+
+/// Traces tiles of random replicates of a truth again.
+pub(super) fn trace_replicate_tiles(
+    work: &Work,
+    settings: &RenderSettings,
+    files: &ReplicateFiles,
+) -> Result<Vec<(PathBuf, Tile)>, Error> {
+    let tracer = TruthTracer::new(work.scene, settings, &[files.alignment])?;
+    let mut chance = work.chance(&format!("truth_{}", files.alignment));
+    let mut tiles = Vec::new();
+    for _ in 0..work.verification.tiles {
+        let index = chance.below(settings.replicates);
+        let tile = chance.tile(settings.width, settings.height);
+        let label = format!(
+            "verifying {}, {} replicate {index}",
+            work.scene.name, files.alignment
+        );
+        let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(index, tile, watch))?;
+        let path = files.path(index);
+        work.compare(&path, tile, &made[0].to_exr())?;
+        tiles.push((work.shown(&path), tile));
+    }
+    Ok(tiles)
+}
+
+/// Traces tiles of random rungs of a truth's ladder again; none where no ladder is kept.
+pub(super) fn trace_rung_tiles(
+    work: &Work,
+    settings: &RenderSettings,
+    truth: &Truth,
+) -> Result<Vec<(PathBuf, Tile)>, Error> {
+    let name = ladder_folder(truth.alignment);
+    let folder = work.kept.folder.join(&name);
+    if !folder.exists() {
+        return Ok(Vec::new());
+    }
+    let tracer = LadderTracer::new(work.scene, settings, truth, &LADDER)?;
+    let mut chance = work.chance(&name);
+    let mut tiles = Vec::new();
+    for _ in 0..work.verification.tiles {
+        let rung = LADDER[chance.below(LADDER.len() as u32) as usize];
+        let tile = chance.tile(settings.width, settings.height);
+        let label = format!(
+            "verifying {}, {rung} sub-frames, {}",
+            work.scene.name, truth.alignment
+        );
+        let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(rung, tile, watch))?;
+        let path = folder.join(rung_file(rung));
+        work.compare(&path, tile, &made.into_exr())?;
+        tiles.push((work.shown(&path), tile));
+    }
+    Ok(tiles)
+}

@@ -1,0 +1,79 @@
+//! The verification of one scene's files: what is chosen, and how it is compared.
+
+use std::path::{Path, PathBuf};
+
+use frame::{ExrFile, Tile, read_exr};
+use tracer::Scene;
+
+use super::chance::Chance;
+use super::difference::find_difference;
+use super::listing::KeptScene;
+use crate::{Error, Monitor};
+
+/// What is traced again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Verification {
+    /// Seed of the choice of replicates, rungs and tiles.
+    pub seed: u64,
+    /// Tiles of every truth, of its frame and of its ladder.
+    pub tiles: u32,
+}
+
+/// The verification of one scene's files.
+pub(super) struct Work<'a> {
+    pub scene: &'a Scene,
+    pub kept: &'a KeptScene,
+    pub verification: &'a Verification,
+    pub monitor: Monitor,
+}
+
+impl Work<'_> {
+    /// Refuses a file of other inputs than this program would render.
+    pub fn expect_hash(&self, path: &Path, found: &str, own: &str) -> Result<(), Error> {
+        match found == own {
+            true => Ok(()),
+            false => Err(Error::Broken(format!(
+                "{}: was made of another scene, of other settings, or by another tracer: its content_hash is {found}, and this program's \
+                 is {own}; no run uses it: render it again",
+                self.shown(path).display()
+            ))),
+        }
+    }
+
+    /// Refuses a file that does not hold in a tile what was made for it.
+    pub fn compare(&self, path: &Path, tile: Tile, made: &ExrFile) -> Result<(), Error> {
+        match find_difference(&read_exr(path)?, tile, made) {
+            None => Ok(()),
+            Some(difference) => Err(Error::Broken(format!(
+                "{}: {difference}, tracing the tile of {}x{} pixels at ({}, {}) again; {}",
+                self.shown(path).display(),
+                tile.width,
+                tile.height,
+                tile.x,
+                tile.y,
+                self.way_out()
+            ))),
+        }
+    }
+
+    /// Says why a file may be different, and what to do.
+    pub fn way_out(&self) -> String {
+        format!(
+            "it was altered, or this processor computes otherwise than the one that rendered it; use none of these files, and render \
+             {} again; the choice of tiles had the seed {}",
+            self.scene.name, self.verification.seed
+        )
+    }
+
+    /// Names a file of the scene as messages do.
+    pub fn shown(&self, path: &Path) -> PathBuf {
+        let below = path.strip_prefix(&self.kept.folder).unwrap_or(path);
+        self.kept.shown.join(below)
+    }
+
+    /// Makes the random choices of a file of this scene.
+    pub fn chance(&self, name: &str) -> Chance {
+        let name = format!("{} {name}", self.scene.name);
+        Chance::new(self.verification.seed, &name)
+    }
+}
