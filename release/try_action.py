@@ -8,6 +8,7 @@ functions of this file; every `run` is executed as it stands.
 
 import argparse
 import glob
+import json
 import os
 import pathlib
 import re
@@ -190,6 +191,18 @@ def main():
     expect("it passes", outputs["verdict"] == "PASS")
     expect("the truth was not rendered again", next(job.inside("/runner/temp").rglob("truth_*.exr")).stat().st_mtime_ns == truth)
     expect("run.json is the same", job.inside(outputs["run"]).read_bytes() == scores)
+
+    print("== the same on a fresh machine, from a pack", flush=True)
+    program = job.inside(outputs["program"])
+    pack = args.root.parent / "truths.tar.zst"
+    kept = next(job.inside("/runner/temp/shuttertruth/out").rglob("run.json")).parent
+    subprocess.run([program, "pack", kept, "--out", pack], check=True)
+    shutil.copy(pack, args.root / "workspace/truths.tar.zst")
+    job = Job(args.root, store, {**given, "cache": "false", "truths": "truths.tar.zst"})
+    outputs = job.run()
+    expect("it passes", outputs["verdict"] == "PASS")
+    expect("nothing is rendered", "; nothing is rendered" in job.log)
+    expect("the cases are the same", json.loads(job.inside(outputs["run"]).read_text())["cases"] == json.loads(scores)["cases"])
 
     print("== a filter that breaks its bounds", flush=True)
     job = Job(args.root, store, {**given, "filter": "velocity_gather", "scenes-dir": "scenes"})

@@ -95,6 +95,16 @@ impl Bench {
         );
     }
 
+    /// Bounds the same score of another scene.
+    pub fn copy_bound(&self, scene: &str) {
+        let scenes = self.path("scenes");
+        fs::copy(
+            scenes.join("plate/bounds.toml"),
+            scenes.join(scene).join("bounds.toml"),
+        )
+        .unwrap();
+    }
+
     /// Writes the filter `name`, with one file of kernels, to a folder of that name.
     pub fn write_filter(&self, name: &str, manifest: &str, kernels: &str) {
         filter_folder::write_filter(&self.path(name), name, manifest, kernels);

@@ -29,6 +29,7 @@ mod kept;
 mod kept_cases;
 mod links;
 mod own_filter;
+mod packs;
 mod python;
 mod reference_width;
 mod refusals;

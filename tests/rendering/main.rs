@@ -18,5 +18,6 @@ mod pixel_grid;
 mod regions;
 mod shutter;
 mod small_truths;
+mod tiles;
 mod truth;
 mod velocity;

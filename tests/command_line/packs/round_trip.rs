@@ -1,0 +1,202 @@
+//! Packs that a run takes its truths from.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+use frame::{read_exr, write_exr};
+use tests::text::assert_contains;
+
+use super::{QUICK, entries, packed, run};
+use crate::bench::{Bench, assert_done, files_below, split, stderr, stdout};
+
+/// Names of the files that a run renders.
+fn is_rendered(name: &str) -> bool {
+    let is_of = |folder: &str| name.contains(folder) && name.ends_with(".exr");
+    name.ends_with("frame.exr") || is_of("truth_") || is_of("ladder_")
+}
+
+/// Reads all rendered files of a folder, by their names.
+fn rendered(bench: &Bench, out: &str) -> BTreeMap<String, Vec<u8>> {
+    let root = bench.path(out);
+    let name = |path: &PathBuf| path.strip_prefix(&root).unwrap().display().to_string();
+    files_below(&root)
+        .into_iter()
+        .filter(|path| is_rendered(&name(path)))
+        .map(|path| (name(&path), fs::read(&path).unwrap()))
+        .collect()
+}
+
+/// Writes into every rendered file that it was traced by instructions that no machine has. Nothing depends on them, and what is rendered
+/// anew names others.
+fn mark(bench: &Bench, out: &str) {
+    for name in rendered(bench, out).into_keys() {
+        let path = bench.path(out).join(name);
+        let mut file = read_exr(&path).unwrap();
+        file.set("traversal", "marked");
+        write_exr(&path, &file).unwrap();
+    }
+}
+
+/// Reads run.json without the command line, which names other folders.
+fn scores(bench: &Bench, out: &str) -> String {
+    let mut run: serde_json::Value = bench.read_json(&format!("{out}/run.json"));
+    run["command"].take();
+    run.to_string()
+}
+
+/// Filters of both shutters.
+const FILTERS: &str = "identity,kino:default";
+
+#[test]
+fn a_check_from_a_pack_renders_nothing_and_has_the_same_scores() {
+    let bench = Bench::two_scenes();
+    bench.write_bound(1.0);
+    bench.copy_bound("slow");
+    let check = |more: &[&str]| {
+        let words = [&["check", "--filter", FILTERS], &split(QUICK)[..], more].concat();
+        let output = bench.outside_ci(&words);
+        assert_done(&output);
+        output
+    };
+    check(&[]);
+    mark(&bench, "out");
+    bench.execute(&["pack", "out", "--out", "kept/truths.tar.zst"]);
+    fs::create_dir(bench.path("elsewhere")).unwrap();
+    fs::rename(bench.path("kept"), bench.path("elsewhere/kept")).unwrap();
+    let pack = "elsewhere/kept/truths.tar.zst";
+    let output = check(&["--truths", pack, "--out", "fresh"]);
+    assert_contains(
+        &stderr(&output),
+        &[pack, "traced 10 tiles again", "; nothing is rendered"],
+    );
+    // Each scene has a frame, and two truths of eight replicates with ladders of seven rungs.
+    let kept = rendered(&bench, "out");
+    assert_eq!(kept.len(), 2 * (1 + 2 * (1 + 8 + 7)));
+    assert!(
+        kept == rendered(&bench, "fresh"),
+        "a file was rendered again, or is another one"
+    );
+    assert_eq!(scores(&bench, "fresh"), scores(&bench, "out"));
+    assert!(!bench.path("fresh/.shuttertruth.arrivals").exists());
+    // A second check finds all of it in its folder.
+    let output = check(&["--truths", pack, "--out", "fresh"]);
+    let parts = ["took no file; nothing is rendered"];
+    assert_contains(&stderr(&output), &parts);
+}
+
+#[test]
+fn one_run_gives_one_archive_with_the_manifest_first() {
+    let bench = packed();
+    let first = fs::read(bench.path("truths.tar.zst")).unwrap();
+    // Another folder, with files of another time.
+    for file in files_below(&bench.path("out")) {
+        let below = file.strip_prefix(bench.path("out")).unwrap();
+        let to = bench.path("copy").join(below);
+        fs::create_dir_all(to.parent().unwrap()).unwrap();
+        fs::write(to, fs::read(&file).unwrap()).unwrap();
+    }
+    let printed = bench.execute(&["pack", "copy", "--out", "again.tar.zst"]);
+    assert_contains(&printed, &["written: again.tar.zst", "1 truth in 17 files"]);
+    assert!(fs::read(bench.path("again.tar.zst")).unwrap() == first);
+
+    let entries = entries(&bench.path("truths.tar.zst"));
+    let manifest: suite::Manifest = serde_json::from_slice(&entries[0].bytes).unwrap();
+    assert_eq!(entries[0].name, "manifest.json");
+    assert_eq!(manifest.format, suite::PACK_FORMAT);
+    let names: Vec<&String> = entries[1..].iter().map(|entry| &entry.name).collect();
+    let listed: Vec<&String> = manifest.files.iter().map(|file| &file.path).collect();
+    assert_eq!(names, listed);
+    let truth_hash = &bench.read_run().cases[0].truth_hash;
+    for (file, entry) in manifest.files.iter().zip(&entries[1..]) {
+        assert_eq!(file.bytes, entry.bytes.len() as u64);
+        assert_eq!(file.blake3, blake3::hash(&entry.bytes).to_hex().to_string());
+        assert_eq!(
+            (file.scene.as_str(), file.width, file.height),
+            ("plate", 64, 32)
+        );
+    }
+    let truth = (manifest.files.iter()).find(|file| file.path == "plate/truth_trailing.exr");
+    assert_eq!(&truth.unwrap().content_hash, truth_hash);
+    assert_eq!(truth.unwrap().samples_per_pixel, 16);
+}
+
+#[test]
+fn a_pack_of_chosen_scenes_leaves_the_others_to_be_rendered() {
+    let bench = Bench::two_scenes();
+    run(&bench, "identity", &[]);
+    bench.execute(&["pack", "--scenes", "sl*"]);
+    let words = "run --filter identity --truths truths.tar.zst --out fresh";
+    let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
+    assert_done(&output);
+    let parts = [
+        "took 17 files, and traced 3 tiles again",
+        "renders what it lacks: frame of plate, trailing truth of plate.",
+    ];
+    assert_contains(&stderr(&output), &parts);
+    assert_eq!(scores(&bench, "fresh"), scores(&bench, "out"));
+}
+
+#[test]
+fn truths_of_other_settings_stay_in_the_pack() {
+    let bench = packed();
+    let words = "run --filter identity --seed 2 --out";
+    let run = |more: &[&str]| {
+        let output = bench.shuttertruth(&[&split(words), more, &split(QUICK)].concat());
+        assert_done(&output);
+        stderr(&output)
+    };
+    let said = run(&["other", "--truths", "truths.tar.zst"]);
+    let parts = ["took no file; renders what it lacks: frame of plate, trailing truth of plate"];
+    assert_contains(&said, &parts);
+    run(&["alone"]);
+    assert_eq!(scores(&bench, "other"), scores(&bench, "alone"));
+}
+
+#[test]
+fn later_frames_of_sequences_are_packed_too() {
+    let bench = Bench::new();
+    let sequence = "--filter identity --frames 2";
+    run(&bench, "identity", &["--frames", "2"]);
+    mark(&bench, "out");
+    bench.execute(&["pack"]);
+    let words = [&["run"], &split(sequence)[..], &split(QUICK)].concat();
+    let more = ["--truths", "truths.tar.zst", "--out", "fresh"];
+    let output = bench.shuttertruth(&[&words[..], &more].concat());
+    assert_done(&output);
+    assert_contains(&stderr(&output), &["; nothing is rendered"]);
+    assert!(rendered(&bench, "fresh") == rendered(&bench, "out"));
+    assert_eq!(scores(&bench, "fresh"), scores(&bench, "out"));
+    let printed = bench.execute(&["verify", "truths.tar.zst"]);
+    assert_contains(
+        &printed,
+        &["6 tiles of 16x16", "2 truths equal to the mean"],
+    );
+}
+
+#[test]
+fn plans_and_calibrations_take_packs() {
+    let bench = packed();
+    let words = [&["plan", "--filter", "identity"], &split(QUICK)[..]].concat();
+    let plan = bench.execute(&[&words[..], &["--truths", "truths.tar.zst", "--json"]].concat());
+    assert!(!plan.contains("truths/plate"), "they are in the pack");
+    for line in plan.lines() {
+        let job: serde_json::Value = serde_json::from_str(line).unwrap();
+        let measures = job["arguments"][0] == "run";
+        let inputs = job["inputs"].to_string();
+        assert_eq!(inputs.contains("truths.tar.zst"), measures, "{line}");
+    }
+    let words =
+        "calibrate --filter identity --size 64x32 --samples-per-pixel 16 --runs 2 --out seeds";
+    let more = ["--truths", "truths.tar.zst"];
+    let output = bench.shuttertruth(&[&split(words)[..], &more].concat());
+    assert_done(&output);
+    // The first of the two seeds is that of the pack.
+    let parts = [
+        "took 17 files",
+        "; nothing is rendered",
+        "took no file; renders",
+    ];
+    assert_contains(&stderr(&output), &parts);
+    assert!(stdout(&output).contains("seeds/plate.bounds.toml"));
+}
