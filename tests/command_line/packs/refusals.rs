@@ -135,7 +135,7 @@ fn an_archive_that_differs_from_its_manifest_is_refused() {
         &[name, "bytes of", "and its manifest.json says"],
     );
     parts.refuse_entries(
-        |entries| drop(entries[5].bytes.pop()),
+        |entries| entries[5].bytes.truncate(300),
         &[name, "bytes of", "and its manifest.json says"],
     );
     let missing = format!("holds {next} where its manifest.json names {name}");
@@ -221,7 +221,7 @@ fn an_archive_that_was_cut_off_or_goes_on_is_refused() {
     parts.refuse_bytes(|bytes| bytes.truncate(bytes.len() / 2), &cut);
     parts.refuse_bytes(|bytes| bytes.truncate(bytes.len() - 1), &cut);
     parts.refuse_bytes(|bytes| bytes.extend(b"more"), &cut);
-    parts.refuse_bytes(Vec::clear, &["does not begin with manifest.json"]);
+    parts.refuse_bytes(Vec::clear, &cut);
     parts.refuse_bytes(|bytes| bytes.fill(b'x'), &cut);
     let whole = zstd::decode_all(&fs::read(parts.bench.path("truths.tar.zst")).unwrap()[..]);
     let mut whole = whole.unwrap();
