@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 35] = [
+const NOT_RUN: [(&str, &str); 36] = [
     (
         "python3 examples/optuna_tune.py --journal study.log --trials 100 --filter jump_flood --scenes fan --out tuning",
         "takes minutes; a test runs the script with two workers",
@@ -141,6 +141,10 @@ const NOT_RUN: [(&str, &str); 35] = [
     ),
     ("pip install numpy OpenEXR", "installs packages"),
     ("name: motion blur", "a workflow, which GitHub runs"),
+    (
+        "      - uses: actions/checkout@v4",
+        "steps of a workflow, which GitHub runs",
+    ),
     (
         "shuttertruth report --gallery",
         "names an option, and is not complete",
