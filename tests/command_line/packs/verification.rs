@@ -234,3 +234,27 @@ fn what_holds_no_truth_is_refused() {
         stderr(&output)
     );
 }
+
+#[test]
+fn truths_of_engines_are_counted_and_no_success() {
+    let bench = Bench::two_scenes();
+    run(&bench, "identity", &[]);
+    let draw = |scene: &str| {
+        for file in ["frame.exr", "truth_trailing.exr"] {
+            let path = bench.path("out").join(scene).join(file);
+            let mut file = frame::read_exr(&path).unwrap();
+            file.set("engine", "another");
+            frame::write_exr(&path, &file).unwrap();
+        }
+    };
+    draw("slow");
+    let printed = bench.execute(&["verify"]);
+    let parts = [
+        "out: 3 tiles",
+        "not verified: 1 truth of an engine, which only that engine can draw again",
+    ];
+    tests::text::assert_contains(&printed, &parts);
+    draw("plate");
+    let parts = ["engines drew all of these truths", "nothing was verified"];
+    assert_refused(&bench.shuttertruth(&["verify"]), 2, &parts);
+}

@@ -34,6 +34,13 @@ pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
     for name in &chosen {
         verified.add(verify_named(args, name, &kept, &verification)?);
     }
+    if verified.tiles.is_empty() && verified.differences.is_empty() {
+        return Err(Error::Usage(format!(
+            "{}: engines drew all of these truths, and only they can draw them again: nothing was verified; name truths that \
+             `shuttertruth run`, `check` or `render` made",
+            args.truths.display()
+        )));
+    }
     let result = match verified.differences.as_slice() {
         [] => Ok(()),
         differences => Err(Error::Broken(differences.join("\n"))),
