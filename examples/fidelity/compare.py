@@ -138,11 +138,11 @@ def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
-def render(arguments):
+def render(arguments, scenes=SCENES):
     shuttertruth(arguments, [
-        "render", "--quiet", "--scenes", ",".join(SCENES), "--scenes-dir", arguments.scenes_dir, "--size", arguments.size,
+        "render", "--quiet", "--scenes", ",".join(scenes), "--scenes-dir", arguments.scenes_dir, "--size", arguments.size,
         "--samples-per-pixel", "8", "--replicates", "2", "--out", str(arguments.out)])
-    return [Frame(arguments.out / scene / "frame.exr") for scene in SCENES]
+    return [Frame(arguments.out / scene / "frame.exr") for scene in scenes]
 
 
 def blur(arguments, name, scene):

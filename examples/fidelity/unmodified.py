@@ -3,9 +3,10 @@
     sh examples/engine_shaders/fetch.sh
     python3 examples/fidelity/unmodified.py --program shuttertruth --scenes-dir scenes --out out/unmodified
 
-Each filter of ../engine_shaders runs twice: with textures of the formats that its engine has, and with 32-bit inputs and output. It
-prints one row per pair as Markdown, and then how near KinoMotion's shaders come to their transcription once it takes the 10 bits that
-the driver stored. Last, it compares the shader that three.js writes out with a transcription.
+Shaders from npm packages have to be written out before, as the first lines of the `write_wgsl.mjs` there say; or leave them out with
+--only, which names folders. Each filter of ../engine_shaders runs twice: with textures of the formats that its engine has, and with
+32-bit inputs and output. Where the camera alone blurs, it moves in the scenes. The script prints one row per pair as Markdown, and
+then how near KinoMotion's shaders come to their transcription once it takes the 10 bits that the driver stored. Last, it compares the shader that three.js writes out with a transcription.
 """
 
 import re
@@ -32,33 +33,41 @@ PAIRS = [
     ("godot_jump_flood", "jump_flood:july_2024", []),
     ("godot_guertin", "guertin:paper", []),
     ("godot_guertin", "mcguire:paper", []),
+    ("three", "three:default", []),
+    ("babylon", "babylon:default", []),
+    ("babylon_screen", "babylon_screen:default", []),
 ]
+# In these the camera moves, and something is near.
+CAMERA_SCENES = ["dolly", "roll", "cockpit"]
 FORMATS = re.compile(r'^(color|velocity|output)_format = .*\n', re.M)
 
 
 def main():
     arguments = parse(__doc__)
-    frames = render(arguments)
+    frames = {scene: frame for scene, frame in zip(SCENES, render(arguments))}
+    frames |= zip(CAMERA_SCENES, render(arguments, CAMERA_SCENES))
     rows = []
     for folder, preset, values in PAIRS:
         if arguments.only and folder not in arguments.only:
             continue
+        scenes = CAMERA_SCENES if folder == "babylon_screen" else SCENES
         own = lambda name: [value for value in values if value.split(".")[0] == name]
         filters = {"its formats": HERE.parent / "engine_shaders" / folder}
         filters["32 bits"] = widened(filters["its formats"], arguments.out / "wide" / folder)
         theirs = {
-            kind: [blur_with(arguments, str(path.resolve()), scene, own(name_of(path))) for scene in SCENES]
+            kind: [blur_with(arguments, str(path.resolve()), scene, own(name_of(path))) for scene in scenes]
             for kind, path in filters.items()
         }
-        ours = [blur_with(arguments, preset, scene, own(preset.split(":")[0])) for scene in SCENES]
-        moved = Difference(zip(ours, [frame.color for frame in frames]))
+        ours = [blur_with(arguments, preset, scene, own(preset.split(":")[0])) for scene in scenes]
+        moved = Difference(zip(ours, [frames[scene].color for scene in scenes]))
         differences = [Difference(zip(ours, theirs[kind])) for kind in filters]
         cells = [cell for found in differences for cell in (f"{found.largest:.0e}", f"{found.mean:.1e}", str(found.large))]
         with_values = "".join(f" {value.split('.')[1]}" for value in values)
         rows.append([f"`{folder}`", f"`{preset}`{with_values}", *cells, f"{moved.mean:.4f}"])
     head = ["shader", "preset", "largest", "mean", "> 0.02", "largest, 32 bits", "mean", "> 0.02", "mean of the blur"]
     print(table(head, rows))
-    print(f"\n{', '.join(SCENES)} at {arguments.size}: {frames[0].depth.size * len(SCENES)} pixels.")
+    frames = [frames[scene] for scene in SCENES]
+    print(f"\n{', '.join(SCENES)} at {arguments.size}: {frames[0].depth.size * len(SCENES)} pixels; babylon_screen on {', '.join(CAMERA_SCENES)}.")
     if not arguments.only or "kino" in arguments.only:
         found = explained_kino(arguments, frames)
         print(f"\nkino and its transcription on what the driver packed: largest {found.largest:.0e}, {found.small} pixels above 0.001.")

@@ -2,12 +2,14 @@
 //!
 //! All taps lie on one surface there, so that a filter is only the places and weights of its taps.
 
+mod babylon;
 mod gathers;
 mod jimenez;
 mod kino;
 mod tiles;
 
-pub use gathers::jump_flood_trail;
+pub use babylon::babylon_trail;
+pub use gathers::{jump_flood_trail, three_trail};
 
 use crate::ramp::Ramp;
 
@@ -65,6 +67,10 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
         // The packed flood paints the same pixels.
         "jump_flood" | "jump_flood_packed" => gathers::jump_flood(preset, steady, noise),
         "bevy" => gathers::bevy(preset, steady, noise),
+        "babylon" => babylon::by_object(steady),
+        "babylon_screen" => babylon::by_camera(steady),
+        "three" => gathers::three(preset, steady),
+        "realism_effects" => gathers::realism_effects(preset, steady, noise),
         "jimenez" => jimenez::place_taps(preset, steady, noise),
         "kino" => kino::place_taps(steady, noise),
         "mcguire" => tiles::mcguire(preset, steady, noise),

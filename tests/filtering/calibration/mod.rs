@@ -8,9 +8,9 @@ mod silhouette;
 
 use frame::Alignment;
 use outcome::{ANGLES, OUTCOMES, Outcome, SHOTS};
-use panel::{HALF_PANEL, TRUTHS};
+use panel::{HALF_BAND, HALF_PANEL, TRUTHS};
 use promised::{promised_smear, stated_lengths};
-use tests::kernels::{along_motion, expected_ramp, place_taps};
+use tests::kernels::{Tap, along_motion, expected_ramp, place_taps};
 use tests::ramp::Ramp;
 
 /// Cuts out the part of a profile on one side of the panel's middle, with positions counted from the panel's edge
@@ -60,25 +60,30 @@ fn the_truth_s_smear_is_as_long_as_the_exposure() {
 fn fits(outcome: &Outcome) -> bool {
     let steady = outcome.shot().steady();
     let noise = [0.0, 0.25, 0.5, 0.75, 0.999_999];
-    let taps = noise
+    let taps: Vec<Tap> = noise
         .into_iter()
-        .flat_map(|noise| place_taps(&outcome.filter, &outcome.preset, &steady, noise));
-    let reach = taps
-        .map(|tap| along_motion(&steady, tap.offset).abs())
-        .fold(0.0, f64::max);
+        .flat_map(|noise| place_taps(&outcome.filter, &outcome.preset, &steady, noise))
+        .collect();
+    let farthest = |part: &dyn Fn([f64; 2]) -> f64| {
+        let parts = taps.iter().map(|tap| part(tap.offset).abs());
+        parts.fold(0.0, f64::max)
+    };
+    let reach = farthest(&|offset| along_motion(&steady, offset));
+    // A trail that is turned leaves the panel beside the band, too.
+    let aside = farthest(&|[x, y]| along_motion(&steady, [-y, x]));
     let pushes = outcome.filter == "jimenez" && outcome.preset.starts_with("wicked");
     let room = if pushes {
         0.5 * outcome.shot().to_border()
     } else {
         f64::INFINITY
     };
-    reach < (HALF_PANEL - 3.0).min(room)
+    reach < (HALF_PANEL - 3.0).min(room) && aside + HALF_BAND < HALF_PANEL - 3.0
 }
 
 /// Returns the ramp that a preset's taps make of an edge painted on the panel. The camera stands still.
 fn expect_ramp(outcome: &Outcome) -> Ramp {
     match outcome.filter.as_str() {
-        "camera_gather" => Ramp {
+        "camera_gather" | "babylon_screen" => Ramp {
             length: 0.0,
             middle: 0.0,
         },
@@ -115,6 +120,8 @@ fn an_edge_on_the_panel_smears_as_far_as_each_filter_s_taps_predict() {
             // smear by up to half a pixel. The largest measured error is 1.1.
             "msaa" => 1.2,
             // Noise in a band of 33 pixels, mostly with two taps.
+            // Of two pixels that are equally near, all rows may take the same one: half a pixel for the middle.
+            _ if outcome.filter == "babylon" => 0.7,
             _ => 0.2 + 0.01 * outcome.shot().speed,
         };
         if off.iter().any(|off| off.abs() > tolerance) {
@@ -124,8 +131,8 @@ fn an_edge_on_the_panel_smears_as_far_as_each_filter_s_taps_predict() {
         compared += 1;
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    // All except long smears of two presets.
-    assert!(compared + 30 > OUTCOMES.len(), "only {compared} compared");
+    // All except long smears of seven presets.
+    assert!(compared + 40 > OUTCOMES.len(), "only {compared} compared");
 }
 
 #[test]
@@ -147,6 +154,10 @@ fn smears_are_as_long_as_each_filter_s_text_says() {
                     wrong.push(format!("{}: {found:?} instead of none", outcome.describe()));
                 }
                 return "none".to_owned();
+            }
+            // three.js turns the trail, here across the motion.
+            if promise < 1e-9 {
+                return "across".to_owned();
             }
             let part = (100.0 * found.length / promise).round() / 100.0;
             let stated = stated_lengths(&outcome.filter, &outcome.preset);

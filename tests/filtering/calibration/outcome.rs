@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use filters::{Blur, Input};
 use frame::Plane;
 use tests::open_gpu;
-use tests::presets::every_preset;
+use tests::presets::{every_preset, gain};
 
 use super::panel::{EXPOSURE, HEIGHT, Shot, WIDTH};
 
@@ -17,9 +17,9 @@ pub struct Outcome {
     pub preset: String,
     /// Index into [`SHOTS`].
     pub shot: usize,
-    /// Blur of [`Shot::painted`].
+    /// Blur of [`Shot::painted`], without the gain of the preset.
     pub painted: Plane,
-    /// Blur of [`Shot::matte`].
+    /// Blur of [`Shot::matte`], without the gain of the preset.
     pub matte: Plane,
 }
 
@@ -49,13 +49,14 @@ pub static OUTCOMES: LazyLock<Vec<Outcome>> = LazyLock::new(|| {
                 exposure: EXPOSURE,
                 frame_index: 0,
             };
+            let gain = gain(&filter, &settings);
             let blurred = blur.run(&input).unwrap().remove(0);
             outcomes.push(Outcome {
                 filter: filter.name.clone(),
                 preset: settings.preset.clone(),
                 shot: index,
-                painted: blurred.map(|[painted, ..]| *painted),
-                matte: blurred.map(|[_, matte, _]| *matte),
+                painted: blurred.map(|[painted, ..]| painted / gain),
+                matte: blurred.map(|[_, matte, _]| matte / gain),
             });
         }
     }

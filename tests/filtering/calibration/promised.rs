@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use tests::kernels::{Steady, along_motion, jump_flood_trail};
+use tests::kernels::{Steady, along_motion, babylon_trail, jump_flood_trail, three_trail};
 
 use super::panel::HEIGHT;
 
@@ -13,7 +13,10 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
     let trail = x.hypot(y);
     match (filter, preset) {
         // The camera of this scene stands still.
-        ("identity" | "camera_gather", _) => 0.0,
+        ("identity" | "camera_gather" | "babylon_screen", _) => 0.0,
+        ("three", _) => along_motion(steady, three_trail(preset, steady)).abs(),
+        ("babylon", _) => along_motion(steady, babylon_trail(steady)),
+        ("realism_effects", "default") => 0.6 * trail,
         ("jump_flood" | "jump_flood_packed", preset) => {
             along_motion(steady, jump_flood_trail(preset, steady))
         }
@@ -56,6 +59,10 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "g3d") => 1.02..=1.09,
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
+        ("three", _) => 1.03..=1.05,
+        ("babylon", _) => 0.79..=0.96,
+        // Noise adds its own length, on either axis by itself: least on diagonals.
+        ("realism_effects", _) => 1.29..=1.51,
         ("bevy", "msaa") => 0.955..=1.025,
         ("kino", _) => 0.72..=0.78,
         ("jimenez", "hdrp" | "hdrp_mirrored") => 1.00..=1.03,

@@ -1,5 +1,6 @@
 //! Claims read in the sources of game engines' blurs, each shown to be true or false.
 
+mod babylon;
 mod bevy;
 mod hdrp;
 mod hdrp_tiles;
@@ -7,4 +8,6 @@ mod jimenez;
 mod kajiya;
 mod kino;
 mod o3de;
+mod realism_effects;
+mod three;
 mod wicked;

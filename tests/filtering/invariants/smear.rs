@@ -71,16 +71,22 @@ fn an_edge_in_steady_motion_smears_to_the_right_side_and_length() {
                 "{} at {speed} x {exposure}",
                 preset_name(&filter, &settings)
             );
+            // Babylon.js reads whole pixels, and rounding decides between two that are equally near.
+            let tolerance = if filter.name.starts_with("babylon") {
+                1.0
+            } else {
+                0.5
+            };
             // Half a pixel: the edge is between texels, and 8 noisy taps in 31 rows place it to a tenth of a step.
             assert!(
-                (found.length - expected.length).abs() < 0.5,
+                (found.length - expected.length).abs() < tolerance,
                 "{said}: {} pixels long, expected {}",
                 found.length,
                 expected.length
             );
             let middle = expected.middle * f64::from(speed.signum());
             assert!(
-                (found.middle - middle).abs() < 0.5,
+                (found.middle - middle).abs() < tolerance,
                 "{said}: in the middle of {}, expected {middle}",
                 found.middle
             );

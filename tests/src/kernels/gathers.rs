@@ -1,6 +1,6 @@
 //! Filters that average along a pixel's own motion, or along motion from a nearby pixel.
 
-use super::{Steady, Tap, length, nearest, on_trail, own, scaled};
+use super::{Steady, Tap, bilinear, length, nearest, on_trail, own, scaled};
 
 /// Places the taps at i/N of the trail: Ctrl-Alt-Test 2011, and the blur by the camera's motion.
 pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {
@@ -69,4 +69,41 @@ pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
             .collect(),
         _ => on_trail(steady.trail(), parts),
     }
+}
+
+/// Places the taps of three.js: the pixel itself, and sixteen from one fifteenth after the trail's end to one beyond its
+/// other end.
+pub fn three(preset: &str, steady: &Steady) -> Vec<Tap> {
+    let parts = (1..=16).map(|i| f64::from(i) / 15.0 - 0.5);
+    let mut taps = on_trail(three_trail(preset, steady), parts);
+    taps.push(own(1.0));
+    taps
+}
+
+/// Returns the trail of three.js: as shipped, motion in device coordinates, which is added to texture coordinates.
+pub fn three_trail(preset: &str, steady: &Steady) -> [f64; 2] {
+    let [x, y] = steady.trail();
+    match preset {
+        "default" => [2.0 * x, -2.0 * y],
+        "corrected" => [x, y],
+        _ => panic!("say here what {preset} takes for motion"),
+    }
+}
+
+/// Places the taps of realism-effects: the pixel itself, and a trail of seventeen that noise moves ahead on each axis.
+pub fn realism_effects(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    let strength = match preset {
+        "default" => 0.6,
+        "scaled" => 1.0,
+        _ => panic!("say here how long the trail of {preset} is"),
+    };
+    let trail = scaled(steady.trail(), strength);
+    // Together they fill the square, as two noises do that know nothing of each other.
+    let noises = [noise, (617.0 * noise).fract()];
+    let taps = (0..=16).flat_map(|i| {
+        let part = f64::from(i) / 16.0 - 0.5;
+        let offset = [0, 1].map(|axis| (part + noises[axis]) * trail[axis]);
+        bilinear(offset, 1.0)
+    });
+    taps.chain([own(1.0)]).collect()
 }

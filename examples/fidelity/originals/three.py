@@ -1,0 +1,38 @@
+"""The motion blur of three.js, in numpy, from examples/jsm/tsl/display/MotionBlur.js at 8540d9f.
+
+Velocity is what the engine's VelocityNode writes: normalised device coordinates, +y up, now minus before. The effect adds it to
+texture coordinates, which have +y down on WebGPU. The factor on it is 1, as in the engine's example, times the exposure.
+"""
+
+import numpy as np
+
+F = np.float32
+
+SAMPLES = 16
+
+
+def linear(image, uv):
+    height, width = image.shape[:2]
+    at = uv * np.array([width, height], F) - F(0.5)
+    base = np.floor(at)
+    fx, fy = (at - base)[..., 0:1], (at - base)[..., 1:2]
+    x, y = base[..., 0].astype(int), base[..., 1].astype(int)
+    read = lambda dx, dy: image[np.clip(y + dy, 0, height - 1), np.clip(x + dx, 0, width - 1)]
+    top = read(0, 0) * (1 - fx) + read(1, 0) * fx
+    bottom = read(0, 1) * (1 - fx) + read(1, 1) * fx
+    return top * (1 - fy) + bottom * fy
+
+
+def default(color, velocity, depth, exposure, frame_index, parameters):
+    height, width = depth.shape
+    columns, rows = np.meshgrid(np.arange(width, dtype=F), np.arange(height, dtype=F))
+    uvs = np.stack([(columns + F(0.5)) / F(width), (rows + F(0.5)) / F(height)], -1)
+    ndc = velocity * np.array([2 / width, -2 / height], F) * F(exposure)
+    result = linear(color, uvs)
+    for i in range(1, SAMPLES + 1):
+        offset = ndc * F(F(i) / F(SAMPLES - 1) - F(0.5))
+        result = result + linear(color, uvs + offset)
+    return result / F(SAMPLES)
+
+
+ORIGINALS = {"three:default": default}

@@ -1,0 +1,63 @@
+//! Both modes of Babylon.js's motion blur.
+
+use super::{Steady, Tap, direction, length, nearest, own, scaled};
+
+/// Most taps.
+const SAMPLES: f64 = 32.0;
+
+/// Places the taps of the object based mode: the pixel itself, and one per pixel of distance after the first.
+pub fn by_object(steady: &Steady) -> Vec<Tap> {
+    let (step, count) = steps(steady);
+    let first = 0.5 - 0.5 * count;
+    let distances = (1..count as u32).map(|i| first + f64::from(i));
+    with_nearest(distances.map(|distance| scaled(step, distance)))
+}
+
+/// Returns the trail of the object based mode: as many whole pixels as the motion has, up to 32.
+pub fn babylon_trail(steady: &Steady) -> [f64; 2] {
+    let (step, count) = steps(steady);
+    scaled(step, count)
+}
+
+/// Places the taps of the screen based mode, if the camera alone makes the motion: along all of it, from behind.
+pub fn by_camera(steady: &Steady) -> Vec<Tap> {
+    let trail = steady.trail();
+    let count = length(trail).clamp(1.0, SAMPLES).floor();
+    let parts = (1..count as u32).map(|i| 0.5 - f64::from(i) / (count - 1.0));
+    with_nearest(parts.map(|part| scaled(trail, part)))
+}
+
+/// Returns a vector of one pixel, and how many taps there are. Its direction is that of the motion in parts of width and
+/// height.
+fn steps(steady: &Steady) -> ([f64; 2], f64) {
+    let [width, height] = steady.size();
+    let [x, y] = steady.velocity;
+    let stored = [x / width, y / height].map(packed);
+    let motion = scaled(stored, steady.exposure);
+    let pixels = length([motion[0] * width, motion[1] * height]);
+    (direction(motion), pixels.clamp(1.0, SAMPLES).floor())
+}
+
+/// Returns what 8 bits leave of a part of width or height: its cube root is stored.
+fn packed(part: f64) -> f64 {
+    let bits = ((0.5 * part.cbrt() + 0.5) * 255.0).round() / 255.0;
+    (2.0 * bits - 1.0).powi(3)
+}
+
+/// Reads the pixel itself and the nearest ones to these offsets. Between two that are equally near, the last bit of a
+/// float decides: each counts half.
+fn with_nearest(offsets: impl Iterator<Item = [f64; 2]>) -> Vec<Tap> {
+    let taps = offsets.flat_map(|[x, y]| {
+        let [columns, rows] = [nearest_two(x), nearest_two(y)];
+        columns.map(|x| rows.map(|y| [x, y])).concat()
+    });
+    let taps = taps.map(|offset| Tap {
+        offset,
+        weight: 0.25,
+    });
+    [own(1.0)].into_iter().chain(taps).collect()
+}
+
+fn nearest_two(offset: f64) -> [f64; 2] {
+    [nearest(offset - 1e-3), nearest(offset + 1e-3)]
+}
