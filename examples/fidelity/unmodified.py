@@ -6,7 +6,8 @@
 Shaders from npm packages have to be written out before, as the first lines of the `write_wgsl.mjs` there say; or leave them out with
 --only, which names folders. Each filter of ../engine_shaders runs twice: with textures of the formats that its engine has, and with
 32-bit inputs and output. Where the camera alone blurs, it moves in the scenes. The script prints one row per pair as Markdown, and
-then how near KinoMotion's shaders come to their transcription once it takes the 10 bits that the driver stored. Last, it compares the shader that three.js writes out with a transcription.
+then how near KinoMotion's shaders come to their transcription once it takes the 10 bits that the driver stored. Last, it
+compares the shader that three.js writes out with a transcription.
 """
 
 import re
