@@ -18,6 +18,7 @@ mod failures;
 mod fidelity;
 mod gallery;
 #[cfg(unix)]
+mod growth;
 mod guides;
 mod hostile;
 mod import;

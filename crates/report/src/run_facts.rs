@@ -92,7 +92,7 @@ pub fn provenance_line(run: &Run) -> String {
         run.render.height,
         run.render.samples_per_pixel,
         run.render.seed,
-        short_command(run)
+        shorten(command(run))
     )
 }
 
@@ -100,11 +100,10 @@ pub fn provenance_line(run: &Run) -> String {
 const LONGEST_COMMAND: usize = 500;
 
 /// Cuts a command line that is too long to be repeated.
-fn short_command(run: &Run) -> String {
-    let whole = command(run);
-    match whole.char_indices().nth(LONGEST_COMMAND) {
-        None => whole,
-        Some((end, _)) => format!("{} ... (run.json has all of it)", &whole[..end]),
+fn shorten(command: String) -> String {
+    match command.char_indices().nth(LONGEST_COMMAND) {
+        None => command,
+        Some((end, _)) => format!("{} ... (run.json has all of it)", &command[..end]),
     }
 }
 
@@ -143,4 +142,20 @@ fn truths(table: &CaseTable) -> Vec<Markup> {
         }
     }
     rows
+}
+
+#[test]
+fn a_command_line_of_thousands_of_parts_is_cut() {
+    assert_eq!(
+        shorten("shuttertruth merge a b".to_owned()),
+        "shuttertruth merge a b"
+    );
+    let long = shorten("ü".repeat(LONGEST_COMMAND + 1));
+    assert_eq!(
+        long,
+        format!(
+            "{} ... (run.json has all of it)",
+            "ü".repeat(LONGEST_COMMAND)
+        )
+    );
 }
