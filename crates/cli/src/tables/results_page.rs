@@ -274,7 +274,7 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
         .collect();
     let _ = write!(
         page,
-        "\nMean FLIP per family, with its number of scenes, and the rank where there are {FEWEST_SCENES} or more; fewer order nothing:\n\n| filter |{names}\n|---|{}\n",
+        "\nMean FLIP per family, with its number of scenes; where there are {FEWEST_SCENES} or more, with its 95 % CI and the rank. Fewer order nothing:\n\n| filter |{names}\n|---|{}\n",
         "---|".repeat(families.len())
     );
     for ranked in group {
@@ -282,11 +282,11 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
         for (_, family) in &families {
             let _ = match family.iter().find(|own| own.name == ranked.name) {
                 Some(own) => {
-                    let place = match own.scenes >= FEWEST_SCENES {
-                        true => format!(", {}", rank(own)),
-                        false => String::new(),
+                    let text = match own.scenes >= FEWEST_SCENES {
+                        true => format!("{}, {}", mean(own), rank(own)),
+                        false => Headline::FLIP.number(own.flip),
                     };
-                    write!(page, " {}{place} |", Headline::FLIP.number(own.flip))
+                    write!(page, " {text} |")
                 }
                 None => write!(page, " |"),
             };
