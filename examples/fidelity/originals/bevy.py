@@ -5,6 +5,7 @@ reads whole texels (textureLoad at the truncated position), without it a linear 
 """
 
 import numpy as np
+from sampling import linear
 
 F = np.float32
 
@@ -15,17 +16,6 @@ NEAR = F(0.1)
 def texel(image, x, y):
     height, width = image.shape[:2]
     return image[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1)]
-
-
-def linear(image, uv):
-    height, width = image.shape[:2]
-    at = uv * np.array([width, height], F) - F(0.5)
-    base = np.floor(at)
-    fx, fy = (at - base)[..., 0:1], (at - base)[..., 1:2]
-    x, y = base[..., 0].astype(int), base[..., 1].astype(int)
-    top = texel(image, x, y) * (1 - fx) + texel(image, x + 1, y) * fx
-    bottom = texel(image, x, y + 1) * (1 - fx) + texel(image, x + 1, y + 1) * fx
-    return top * (1 - fy) + bottom * fy
 
 
 def whole(image, uv):

@@ -6,6 +6,7 @@ fewer tiles and stretches them. The clock stands at 0. `default_as_listed` has w
 """
 
 import numpy as np
+from sampling import linear
 
 F = np.float32
 
@@ -26,18 +27,6 @@ def point(image, uv):
     height, width = image.shape[:2]
     at = np.floor(uv * np.array([width, height], F)).astype(int)
     return image[np.clip(at[..., 1], 0, height - 1), np.clip(at[..., 0], 0, width - 1)]
-
-
-def linear(image, uv):
-    height, width = image.shape[:2]
-    at = uv * np.array([width, height], F) - F(0.5)
-    base = np.floor(at)
-    fx, fy = (at - base)[..., 0:1], (at - base)[..., 1:2]
-    x, y = base[..., 0].astype(int), base[..., 1].astype(int)
-    read = lambda dx, dy: image[np.clip(y + dy, 0, height - 1), np.clip(x + dx, 0, width - 1)]
-    top = read(0, 0) * (1 - fx) + read(1, 0) * fx
-    bottom = read(0, 1) * (1 - fx) + read(1, 1) * fx
-    return top * (1 - fy) + bottom * fy
 
 
 def grid(width, height):

@@ -5,22 +5,11 @@ texture coordinates, which have +y down on WebGPU. The factor on it is 1, as in 
 """
 
 import numpy as np
+from sampling import linear
 
 F = np.float32
 
 SAMPLES = 16
-
-
-def linear(image, uv):
-    height, width = image.shape[:2]
-    at = uv * np.array([width, height], F) - F(0.5)
-    base = np.floor(at)
-    fx, fy = (at - base)[..., 0:1], (at - base)[..., 1:2]
-    x, y = base[..., 0].astype(int), base[..., 1].astype(int)
-    read = lambda dx, dy: image[np.clip(y + dy, 0, height - 1), np.clip(x + dx, 0, width - 1)]
-    top = read(0, 0) * (1 - fx) + read(1, 0) * fx
-    bottom = read(0, 1) * (1 - fx) + read(1, 1) * fx
-    return top * (1 - fy) + bottom * fy
 
 
 def default(color, velocity, depth, exposure, frame_index, parameters):
