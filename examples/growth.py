@@ -20,7 +20,7 @@ import sys
 import time
 from pathlib import Path
 
-# Pictures and records that make a part; the rest is the truth's, and no command here reads it but the report.
+# Of the changes of the scores.
 SEED = 1
 
 

@@ -38,10 +38,21 @@ fn a_wide_picture_turns_diagonals_upright() {
 
 #[test]
 fn eight_bits_of_velocity_change_the_length_by_their_step() {
-    // 24 of 160 pixels: the cube root is 67.75 of 127.5 steps, and the nearest ones are 23.5 and 24.6 pixels.
-    let picture = moving_edge(160, 16, [24.0, 0.0]);
-    let output = |storage: &str| picture.blur("babylon", "default", &[("storage", storage)]);
-    assert!(output("packed") != output("exact"));
+    // 31.1 of 160 pixels: the cube root is 201.4 of 255 steps. The nearest one holds 30.65 pixels, a whole one and a tap less.
+    let picture = moving_edge(160, 16, [31.1, 0.0]);
+    let length = |storage: &str| {
+        let changes = [
+            ("storage", storage),
+            ("fetch", "filtered"),
+            ("samples", "64"),
+        ];
+        ramp_length(&picture.blur("babylon", "default", &changes))
+    };
+    // The spread of the pixel itself and 30 taps from -14 to 15, or 29 from -13.5 to 14.5, which lie between two pixels each.
+    for (storage, expected) in [("exact", 29.497), ("packed", 28.548)] {
+        let found = length(storage);
+        assert!((found - expected).abs() < 0.01, "{storage}: {found}");
+    }
 }
 
 #[test]

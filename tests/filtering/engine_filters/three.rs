@@ -22,7 +22,7 @@ fn a_blur_amount_of_a_half_is_the_exposure() {
     assert!((length("corrected", "1") - 24.0).abs() < 1.2);
 }
 
-/// Makes a picture with one bright column and one bright row, in motion to the right and up.
+/// Blurs a bright dot that moves up to the right; returns the light at a distance from it, in pixels to the right and down.
 fn blurred_dot(preset: &str) -> impl Fn(i32, i32) -> f32 {
     let picture = Picture::new(65, 65, |x, y| Surface {
         gray: if x == 32 && y == 32 { 1.0 } else { 0.0 },
