@@ -2,12 +2,13 @@
 //! there: `cargo run -p cli --example results -- out/run.json`. A bench.json beside a run.json says what filters cost. Without a run
 //! it writes the pages alone.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use cli::{main_results, picture_name, results_filter_pages, results_page};
 use report::{read_bench, write_case_strip};
-use suite::{Error, Results, Run};
+use suite::{Case, Error, Results, Run};
 
 const FOLDER: &str = "results";
 
@@ -70,11 +71,15 @@ fn write_pictures(all: &[Results], run: &Run, folder: &Path) -> Result<(), Error
     if [run.render.width, run.render.height] != results.size {
         return Ok(());
     }
-    for case in run.cases.iter().filter(|case| !case.is_reference) {
-        let worst = results.worst_of(&case.filter);
-        let is_worst =
-            |own: &suite::ResultScores| own.name == case.name() && own.scene == case.scene;
-        if let Some(worst) = worst.filter(|own| is_worst(own)) {
+    let filters: BTreeSet<&str> = (results.scores.iter())
+        .map(|own| own.filter.as_str())
+        .collect();
+    for worst in filters
+        .into_iter()
+        .filter_map(|filter| results.worst_of(filter))
+    {
+        let is_worst = |own: &&Case| own.name() == worst.name && own.scene == worst.scene;
+        if let Some(case) = run.cases.iter().find(is_worst) {
             let path = Path::new(FOLDER).join("pictures").join(picture_name(worst));
             write_case_strip(case, folder, &path)?;
             println!("{}", path.display());

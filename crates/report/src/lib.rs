@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use frame::write_atomically;
-use maud::PreEscaped;
+use maud::{Markup, PreEscaped};
 use suite::Finding;
 use suite::{Case, Error, Run};
 
@@ -64,57 +64,95 @@ pub fn write_report(
     let bench = read_bench(folder)?;
     let table = CaseTable::new(run);
     let findings = group_findings(findings);
-    let has_tables = run.cases.len() <= largest / CASE_BYTES;
-    let mut numbers = SceneTexts::new("scene", html, if has_tables { largest } else { 0 });
-    let mut tables = SceneTexts::new("tables", html, 0);
-    let mut sections = vec![PreEscaped(String::new()); run.cases.len()];
-    let mut views = Vec::new();
-    let mut thumbnails = Vec::new();
-    for (scene, name) in table.scenes.iter().enumerate() {
-        let cases: Vec<&Case> = table.cases_on(name).map(|(_, case)| case).collect();
-        let mut files = SceneFiles::read(run, &cases, folder)?;
-        let mut own_tables = Vec::new();
-        for (index, case) in table.cases_on(name) {
-            let input = CaseInput {
-                run,
-                index,
-                findings: findings_about(case, &findings),
-                scene,
-            };
-            let view = CaseView::read(input, folder, &mut files)?;
-            let text = CaseTables::new(&view, &table);
-            sections[index] = case_section(&view, has_tables.then_some(&text));
-            if !has_tables {
-                own_tables.push(text.texts(case));
-            }
-            views.push(view);
-        }
-        if !has_tables {
-            let own: BTreeMap<String, [String; 2]> = own_tables.into_iter().collect();
-            tables.add(serde_json::to_string(&own).expect("texts are plain data"))?;
-        }
-        numbers.add(files.planes.json())?;
-        thumbnails.push(files.thumbnail()?);
+    let mut parts = Parts::new(run, html, largest);
+    for scene in 0..table.scenes.len() {
+        parts.add_scene(scene, &table, &findings, folder)?;
     }
-    views.sort_by_key(|view| view.index);
+    parts.views.sort_by_key(|view| view.index);
     let filters = table.filters.iter().filter(|filter| !filter.is_reference);
-    sections
-        .extend(filters.map(|filter| filter_section(&table, filter, &thumbnails, bench.as_ref())));
-    let first = overview(&table, &views, &thumbnails, bench.as_ref());
-    let text: usize = sections.iter().map(|section| section.0.len()).sum();
-    let numbers = numbers.place(text + first.0.len())?;
+    let sections =
+        filters.map(|filter| filter_section(&table, filter, &parts.thumbnails, bench.as_ref()));
+    parts.sections.extend(sections);
+    let first = overview(&table, &parts.views, &parts.thumbnails, bench.as_ref());
+    let text: usize = parts.sections.iter().map(|section| section.0.len()).sum();
+    let numbers = parts.numbers.place(text + first.0.len())?;
     let content = PageContent {
         overview: &first,
-        sections: &sections,
+        sections: &parts.sections,
         numbers: &numbers,
-        has_tables,
+        has_tables: parts.has_tables,
         links_sequences: html.parent() == Some(folder),
     };
     write_atomically(html, run_page(run, &content, html).as_bytes())?;
-    let beside = [numbers, tables.place(0)?]
+    let beside = [numbers, parts.tables.place(0)?]
         .into_iter()
         .flat_map(Place::paths);
     Ok(std::iter::once(html.to_owned()).chain(beside).collect())
+}
+
+/// Parts of a page, which grow scene by scene.
+struct Parts<'a> {
+    /// True where the sections of cases hold their tables, and the page need not load them.
+    has_tables: bool,
+    /// Numbers of the pictures.
+    numbers: SceneTexts,
+    /// Tables that the sections do not hold.
+    tables: SceneTexts,
+    /// Sections of the cases, in the order of the run.
+    sections: Vec<Markup>,
+    views: Vec<CaseView<'a>>,
+    /// One per scene.
+    thumbnails: Vec<String>,
+}
+
+impl<'a> Parts<'a> {
+    fn new(run: &Run, html: &Path, largest: usize) -> Self {
+        let has_tables = run.cases.len() <= largest / CASE_BYTES;
+        Self {
+            has_tables,
+            numbers: SceneTexts::new("scene", html, if has_tables { largest } else { 0 }),
+            tables: SceneTexts::new("tables", html, 0),
+            sections: vec![PreEscaped(String::new()); run.cases.len()],
+            views: Vec::new(),
+            thumbnails: Vec::new(),
+        }
+    }
+
+    /// Reads the files of the scene of this number, and adds what the page shows of it.
+    fn add_scene(
+        &mut self,
+        scene: usize,
+        table: &CaseTable<'a>,
+        findings: &HashMap<&str, Vec<&Finding>>,
+        folder: &Path,
+    ) -> Result<(), Error> {
+        let own = || table.cases_on(table.scenes[scene]);
+        let cases: Vec<&Case> = own().map(|(_, case)| case).collect();
+        let mut files = SceneFiles::read(table.run, &cases, folder)?;
+        let mut texts: BTreeMap<String, [String; 2]> = BTreeMap::new();
+        for (index, case) in own() {
+            let input = CaseInput {
+                run: table.run,
+                index,
+                findings: findings_about(case, findings),
+                scene,
+            };
+            let view = CaseView::read(input, folder, &mut files)?;
+            let tables = CaseTables::new(&view, table);
+            self.sections[index] = case_section(&view, self.has_tables.then_some(&tables));
+            if !self.has_tables {
+                texts.extend([tables.texts(case)]);
+            }
+            self.views.push(view);
+        }
+        if !self.has_tables {
+            let text = serde_json::to_string(&texts).expect("texts are plain data");
+            self.tables.add(text)?;
+        }
+        self.numbers.add(files.planes.json())?;
+        self.thumbnails.push(files.thumbnail()?);
+        Ok(())
+    }
 }
 
 /// Bytes of the tables of a case, about.

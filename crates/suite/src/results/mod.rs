@@ -10,6 +10,7 @@ use tracer::{Family, Seal};
 
 pub use self::cost::ResultCost;
 use crate::json::file::read_text;
+use crate::json::lines::to_lines;
 use crate::run::failure::refuse_failures;
 use crate::stats::ranking::{FlipScore, RankedFilter, rank_by_flip};
 use crate::{Case, Error, Headline, InputFormat, Run};
@@ -37,7 +38,7 @@ pub struct Results {
     /// Number of the sealed variants that the scenes were taken in; none for the scenes themselves.
     pub seal: Option<u64>,
     /// Costs of filter presets by name; empty where none was timed.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub costs: BTreeMap<String, ResultCost>,
     /// One per scene and filter preset.
     pub scores: Vec<ResultScores>,
@@ -196,30 +197,7 @@ impl Results {
 
     /// Formats a file of results: a line per case, so that a change of one is a change of one line.
     pub fn text(&self) -> String {
-        let lines: Vec<String> = self.scores.iter().map(json).collect();
-        let Self {
-            format,
-            program,
-            adapter,
-            size,
-            samples_per_pixel,
-            seal,
-            costs,
-            scores: _,
-        } = self;
-        let costs = match costs.is_empty() {
-            true => String::new(),
-            false => format!("\"costs\": {},\n", json(costs)),
-        };
-        format!(
-            "{{\n\"format\": {format},\n\"program\": {},\n\"adapter\": {},\n\"size\": {},\n\"samples_per_pixel\": {samples_per_pixel},\n\
-             \"seal\": {},\n{costs}\"scores\": [\n{}\n]\n}}\n",
-            json(program),
-            json(adapter),
-            json(size),
-            json(seal),
-            lines.join(",\n")
-        )
+        to_lines(self) + "\n"
     }
 
     /// Names the file: `320x180_llvmpipe.json`, or `320x180_llvmpipe_seal1.json`.
@@ -296,10 +274,6 @@ impl ResultScores {
             floor: self.floor,
         })
     }
-}
-
-fn json<T: Serialize>(value: &T) -> String {
-    serde_json::to_string(value).expect("results are plain data")
 }
 
 fn adapter_of(run: &Run) -> Option<String> {
