@@ -3,6 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::time::SystemTime;
+
+use metrics::{Measured, Metric};
 use tests::filter_folder::{copy_shipped_filter, write_program};
 
 use crate::bench::{Bench, assert_done, files_below, quick_command, stdout};
@@ -126,27 +128,66 @@ fn a_changed_bound_measures_nothing_again() {
     assert_eq!(read_measured_times(&bench), before);
 }
 
+/// Lists the names of the files of ladders.
+fn list_rungs(bench: &Bench) -> Vec<String> {
+    let names = read_times(bench).into_keys();
+    names.filter(|name| name.starts_with("ladder_")).collect()
+}
+
 #[test]
-fn a_run_reuses_the_cases_of_a_check() {
+fn a_run_takes_the_truth_of_a_check_and_adds_the_ladder() {
     let bench = set_up();
     bench.write("bounds.toml", NONE_KEEPS_IT);
     bench.check(&FILTERS);
-    let before = read_measured_times(&bench);
+    let checked = bench.read_run();
+    assert!(list_rungs(&bench).is_empty(), "{:?}", list_rungs(&bench));
+    assert!(checked.cases.iter().all(|case| case.filter != "accumulate"));
+    let without = |case: &suite::Case| {
+        matches!(
+            case.scores.get(Metric::SUBFRAMES),
+            Measured::NotApplicable { .. }
+        )
+    };
+    assert!(checked.cases.iter().all(without));
+
+    let truth = "truth_trailing.exr";
+    let before = read_times(&bench)[truth];
     let words = [&quick_command("run", "64")[..], &FILTERS].concat();
     bench.execute(&words);
-    assert_eq!(read_measured_times(&bench), before);
-    // The output does not depend on which command measured.
-    let kept = fs::read_to_string(bench.path("out/run.json")).unwrap();
-    assert!(
-        bench
-            .read_run()
-            .cases
-            .iter()
-            .all(|case| case.intervals.is_empty())
+    assert_eq!(
+        read_times(&bench)[truth],
+        before,
+        "the truth was rendered again"
     );
+    assert_eq!(list_rungs(&bench).len(), 7);
+    // The output does not depend on what a check left.
+    let kept = fs::read_to_string(bench.path("out/run.json")).unwrap();
+    assert!(!bench.read_run().cases.iter().any(without));
     fs::remove_dir_all(bench.path("out")).unwrap();
     bench.execute(&words);
     assert!(fs::read_to_string(bench.path("out/run.json")).unwrap() == kept);
+}
+
+#[test]
+fn a_check_takes_the_cases_of_a_run_with_intervals() {
+    let bench = set_up();
+    bench.write("bounds.toml", NONE_KEEPS_IT);
+    bench.execute(&[&quick_command("run", "64")[..], &FILTERS, &["--intervals"]].concat());
+    let before = read_measured_times(&bench);
+    bench.check(&FILTERS);
+    assert_eq!(read_measured_times(&bench), before);
+}
+
+#[test]
+fn a_check_renders_the_ladder_that_a_limit_asks_for() {
+    let bench = set_up();
+    // The frame as it is has the error of about one sub-frame.
+    let limit =
+        "[filter.\"identity:default\"]\nn_eq = { limit = 100.0, why = \"none keeps it\" }\n";
+    bench.write("bounds.toml", &format!("{NONE_KEEPS_IT}{limit}"));
+    let checked = bench.check(&FILTERS);
+    assert!(stdout(&checked).contains("n_eq"), "{}", stdout(&checked));
+    assert_eq!(list_rungs(&bench).len(), 7);
 }
 
 #[test]

@@ -48,6 +48,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
         },
         out,
         intervals: true,
+        ladders: true,
         no_cache: false,
         common: None,
         part: suite::Part::default(),

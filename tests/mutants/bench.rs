@@ -103,6 +103,8 @@ impl Bench {
             },
             out: self.truths(seed),
             intervals: true,
+            // No limit is on equivalent sub-frames.
+            ladders: false,
             no_cache: false,
             common: None,
             part: suite::Part::default(),

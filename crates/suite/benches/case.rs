@@ -72,6 +72,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         },
         out: out.path().to_owned(),
         intervals: false,
+        ladders: true,
         no_cache: false,
         common: None,
         part: suite::Part::default(),

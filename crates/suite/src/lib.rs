@@ -66,9 +66,9 @@ pub use judge::baseline::{
     compare_with_baseline,
 };
 pub use judge::bounds::{
-    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds, check_names,
-    read_bounds, read_bounds_beside_scenes, read_bounds_file, require_bounds, size_for_bounds,
-    sized_bounds_file,
+    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds,
+    bound_subframes, check_names, is_of_subframes, read_bounds, read_bounds_beside_scenes,
+    read_bounds_file, require_bounds, size_for_bounds, sized_bounds_file,
 };
 pub use judge::calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use judge::check::{CHECK_FORMAT, Check, check};

@@ -114,6 +114,8 @@ impl Bench {
             // Each seed has truths of its own.
             out: self.folder.path().join(format!("seed_{seed}")),
             intervals: true,
+            // No limit is on equivalent sub-frames.
+            ladders: false,
             no_cache: false,
             common: None,
             part: suite::Part::default(),

@@ -1,8 +1,9 @@
 //! The command `calibrate`.
 
+use metrics::Metric;
 use suite::{
-    BOUNDS_FILE, Error, Run, RunPlan, calibrate, check_names, estimate_run, measure_scenes,
-    open_gpu, printable_path, refuse_failures,
+    BOUNDS_FILE, Error, Run, RunPlan, bound_subframes, calibrate, check_names, estimate_run,
+    measure_scenes, open_gpu, printable_path, refuse_failures,
 };
 use tracer::{Progress, Watch};
 
@@ -28,6 +29,10 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     plan.intervals = true;
     // No limit is on a filter's noise apart from its error.
     plan.jitter_frames = 0;
+    plan.ladders = match args.metrics.as_slice() {
+        [] => bound_subframes(bounds.values(), &plan.filters),
+        metrics => (metrics.iter()).any(|metric| matches!(metric, Metric::Equivalent(_))),
+    };
     check_names(
         &args.measure.scenes.scenes_dir,
         bounds.values(),

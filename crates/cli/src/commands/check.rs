@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 
 use frame::FileError;
 use suite::{
-    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence, check,
-    check_names, compare_with_baseline, judge, open_gpu, refuse_tracked, require_bounds,
-    size_for_bounds,
+    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence,
+    bound_subframes, check, check_names, compare_with_baseline, is_of_subframes, judge, open_gpu,
+    refuse_tracked, require_bounds, size_for_bounds,
 };
 use tracer::Location;
 
 use super::ending::Ending;
-use super::margins::read_margins;
+use super::margins::{Margins, read_margins};
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
 use super::run_files::write_judged_run;
@@ -42,7 +42,7 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
         folder,
     } = match &args.run {
         Some(path) => judge_finished(args, path, baseline.is_some())?,
-        None => run_and_judge(args, baseline.is_some())?,
+        None => run_and_judge(args, baseline.is_some(), &margins)?,
     };
     let comparisons = match (&baseline, &args.baseline) {
         (Some(baseline), Some(path)) => compare_with_baseline(&run, baseline, &margins, path)?,
@@ -91,8 +91,9 @@ struct Judged {
     folder: PathBuf,
 }
 
-/// Measures every case, as `run` does, judges it and looks for evidence.
-fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
+/// Measures every case, as `run` does, judges it and looks for evidence. Ladders take a third of the time, and are left out where
+/// nothing is judged by them.
+fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     if let Some((width, height)) =
         size_for_bounds(bounds.values(), &plan.filters, args.measure.size)?
@@ -101,6 +102,8 @@ fn run_and_judge(args: &CheckArgs, compared: bool) -> Result<Judged, Error> {
         plan.check()?;
     }
     plan.intervals = true;
+    plan.ladders = bound_subframes(bounds.values(), &plan.filters)
+        || margins.keys().any(|name| is_of_subframes(name));
     check_replicates_for_intervals(plan.render.replicates)?;
     let root = &args.measure.scenes.scenes_dir;
     check_names(root, bounds.values(), &plan.filters)?;

@@ -5,8 +5,11 @@ use std::collections::BTreeMap;
 use suite::{BOUNDS_FILE, Error, Margin, read_bounds_file};
 use tracer::Location;
 
+/// Margins by the names of metrics.
+pub type Margins = BTreeMap<String, Margin>;
+
 /// Reads the margins by which scores may differ before it matters; none where the folder has no bounds.
-pub fn read_margins(root: &Location) -> Result<BTreeMap<String, Margin>, Error> {
+pub fn read_margins(root: &Location) -> Result<Margins, Error> {
     let file = root.join(BOUNDS_FILE);
     match file.exists() {
         true => Ok(read_bounds_file(&file)?.margins),

@@ -50,6 +50,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         render: make_render_settings(&args.scenes, size, args.replicates)?,
         out,
         intervals: false,
+        ladders: true,
         no_cache: args.no_cache,
         common: None,
         part: suite::Part::default(),

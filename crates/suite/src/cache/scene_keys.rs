@@ -62,9 +62,10 @@ impl SceneKeys {
         hash_inputs(&(&self.scene, &self.truths[&alignment]))
     }
 
-    /// Returns the hash for a case with such inputs of its own, measured against these two truths.
-    pub fn case(&self, own: &str, alignment: Alignment, common: Alignment) -> String {
-        let truths = [alignment, common].map(|alignment| &self.truths[&alignment]);
-        hash_inputs(&(&self.scene, &self.frame, truths, own))
+    /// Returns the hash for a case with such inputs of its own, measured against its own truth and the common one, with their ladders
+    /// or without.
+    pub fn case(&self, own: &str, alignments: [Alignment; 2], has_ladder: bool) -> String {
+        let truths = alignments.map(|alignment| &self.truths[&alignment]);
+        hash_inputs(&(&self.scene, &self.frame, truths, has_ladder, own))
     }
 }

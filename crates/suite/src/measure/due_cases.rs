@@ -152,17 +152,20 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Renders those rungs of the ladder of a truth that are missing; an engine's are copied with its truth.
+    /// Renders those rungs of the ladder of a truth that are missing, if the plan asks for ladders; an engine's are copied with its
+    /// truth.
     pub(super) fn ensure_ladder(&self, truth: &Truth) -> Result<(), Error> {
         match self.scene {
-            RunScene::Traced(scene) => self.ladder(scene, truth).ensure(self.plan.monitor),
-            RunScene::Drawn(_) => Ok(()),
+            RunScene::Traced(scene) if self.plan.ladders => {
+                self.ladder(scene, truth).ensure(self.plan.monitor)
+            }
+            _ => Ok(()),
         }
     }
 
     /// Reads the rungs of the ladder of a truth, one after another.
     fn read_rungs(&self, truth: &Truth) -> impl Iterator<Item = Result<Ladder, Error>> {
-        let rungs = self.scene.rungs();
+        let rungs = self.scene.rungs(self.plan.ladders);
         rungs.iter().map(|rung| self.read_rung(truth, *rung))
     }
 

@@ -228,7 +228,7 @@ fn step_seconds(
     for missing in truths {
         let replicate = share * of_costs(*missing, truth_seconds) / f64::from(render.replicates);
         steps.extend((0..render.replicates).map(|_| replicate));
-        steps.push(of_costs(*missing, |render, costs| {
+        steps.push(of_costs(*missing && plan.ladders, |render, costs| {
             costs.scene + LADDER * count_samples(render) * costs.truth
         }));
     }

@@ -93,6 +93,7 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
         render: small_settings(&scene.plan.render),
         out: folder.path().to_owned(),
         intervals: false,
+        ladders: scene.plan.ladders,
         no_cache: false,
         common: None,
         part: Part::default(),

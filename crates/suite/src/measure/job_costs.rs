@@ -58,7 +58,10 @@ pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let truths = plan.alignments().len();
     let threads = rayon::current_num_threads() as f64;
     let usual = RenderCosts::usual();
-    let ladder = LADDER * count_samples(render) * usual.truth + usual.scene;
+    let ladder = match plan.ladders {
+        true => LADDER * count_samples(render) * usual.truth + usual.scene,
+        false => 0.0,
+    };
     let renders = frame_seconds(render, &usual)
         + shared_truths(truths) * truth_seconds(render, &usual)
         + truths as f64 * ladder;

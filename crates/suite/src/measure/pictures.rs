@@ -9,7 +9,7 @@ use frame::{
 use metrics::Measurement;
 
 use crate::colors::{magma, velocity_wheel};
-use crate::render::ladders::ladder_folder;
+use crate::render::ladders::{LADDER, ladder_folder};
 use crate::run::error_maps::KEPT_MAPS;
 
 /// Writes a frame's PNGs beside its EXR file; returns the names of all.
@@ -21,11 +21,10 @@ pub fn write_frame(folder: &Path, frame: &Frame) -> Result<Vec<String>, FileErro
         .into())
 }
 
-/// Writes a truth's PNG beside its EXR file and those of its ladder; returns the names of all.
+/// Writes a truth's PNG beside its EXR file and those of its ladder, if it has one; returns the names of all.
 pub fn write_truth(
     folder: &Path,
     truth: &Truth,
-    rungs: &[u32],
     display: Display,
 ) -> Result<Vec<String>, FileError> {
     let alignment = truth.alignment;
@@ -33,11 +32,8 @@ pub fn write_truth(
     write_display_png(&folder.join(&picture), &truth.mean().color, display)?;
     let mut files = vec![picture, format!("truth_{alignment}.exr")];
     let ladder = ladder_folder(alignment);
-    files.extend(
-        rungs
-            .iter()
-            .map(|rung| format!("{ladder}/{}", rung_file(*rung))),
-    );
+    let rungs = LADDER.map(|rung| format!("{ladder}/{}", rung_file(rung)));
+    files.extend(rungs.into_iter().filter(|rung| folder.join(rung).exists()));
     Ok(files)
 }
 

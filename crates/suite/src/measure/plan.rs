@@ -34,6 +34,9 @@ pub struct RunPlan {
     pub out: PathBuf,
     /// True if the scores of filters get intervals, by which bounds are judged. Takes a few more measurements of every picture.
     pub intervals: bool,
+    /// True if the ladder of every truth is rendered: for equivalent sub-frames, and for the accumulations among the references. It
+    /// takes about as long as half of its truth. What an engine drew has its ladder without that.
+    pub ladders: bool,
     /// True if frames, truths and cases that lie in `out` are removed and made anew.
     pub no_cache: bool,
     /// Shutter alignment that every case is compared with; none for that of

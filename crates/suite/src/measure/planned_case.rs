@@ -45,7 +45,7 @@ impl<'a> PlannedCase<'a> {
     pub fn all(plan: &'a RunPlan, filters: &'a [FilterChoice], scene: RunScene<'a>) -> Vec<Self> {
         debug_assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
         let alignments = scene.alignments(plan.alignments());
-        let accumulations = scene.accumulations(&SUBFRAMES);
+        let accumulations = scene.accumulations(&SUBFRAMES, plan.ladders);
         let references = alignments.iter().flat_map(|alignment| {
             [PictureSource::Identity, PictureSource::ScatterOracle]
                 .into_iter()

@@ -85,17 +85,18 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Lists the numbers of sub-frames of its ladder.
-    pub fn rungs(self) -> &'a [u32] {
+    /// Lists the numbers of sub-frames of its ladder, as far as a plan asks for ladders that are rendered.
+    pub fn rungs(self, ladders: bool) -> &'a [u32] {
         match self {
-            Self::Traced(_) => &LADDER,
+            Self::Traced(_) if ladders => &LADDER,
+            Self::Traced(_) => &[],
             Self::Drawn(scene) => &scene.ladder,
         }
     }
 
-    /// Lists the accumulations that its truth can be compared with, among those of a plan.
-    pub fn accumulations(self, planned: &[u32]) -> Vec<u32> {
-        let rungs = self.rungs();
+    /// Lists the accumulations that its truth can be compared with, among those of a plan that asks for rendered ladders or not.
+    pub fn accumulations(self, planned: &[u32], ladders: bool) -> Vec<u32> {
+        let rungs = self.rungs(ladders);
         let there = planned.iter().filter(|count| rungs.contains(count));
         there.copied().collect()
     }

@@ -17,7 +17,7 @@ use crate::cache::record::{
 use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
 use crate::render::frames::render_frame;
-use crate::render::kept::{find_kept, take_renders};
+use crate::render::kept::{find_kept, list_render_files, take_renders};
 use crate::render::shared::render_shared;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
@@ -103,8 +103,7 @@ impl SceneContext<'_> {
             advance(1 + done * self.truth_steps());
             let truth = self.read_truth(alignment)?;
             self.ensure_ladder(&truth)?;
-            let rungs = self.scene.rungs();
-            files.push(write_truth(&folder, &truth, rungs, frame.display)?);
+            files.push(write_truth(&folder, &truth, frame.display)?);
         }
         for ((record, key), files) in self.render_records().into_iter().zip(files) {
             write_record(&record, key, &files, &())?;
@@ -121,7 +120,9 @@ impl SceneContext<'_> {
             ..
         } = self.plan;
         if let (Some(truths), RunScene::Traced(scene)) = (truths, self.scene) {
-            take_renders(scene, render, &self.plan.alignments(), truths, out)?;
+            let alignments = self.plan.alignments();
+            let files = list_render_files(scene, render, &alignments, self.plan.ladders);
+            take_renders(&files, scene, truths, out)?;
         }
         Ok(())
     }
@@ -166,10 +167,12 @@ impl SceneContext<'_> {
         u64::from(self.plan.render.replicates) + 1
     }
 
-    /// Reads a case that was measured before, without its intervals where the plan asks for none. One that lacks intervals is no
-    /// case for a plan that asks for them.
+    /// Reads a case that was measured before, without its intervals where the plan asks for none. One that lacks intervals, or was
+    /// measured without a ladder, is no case for a plan that asks for them.
     fn read_case(&self, planned: &PlannedCase) -> Option<Case> {
-        let mut case: Case = read_record(&self.case_record(planned), &self.case_key(planned)?)?;
+        let record = self.case_record(planned);
+        let keys = self.keys_to_read(planned);
+        let mut case: Case = keys.iter().find_map(|key| read_record(&record, key))?;
         if !self.plan.intervals {
             case.intervals.clear();
         }
@@ -186,11 +189,12 @@ impl SceneContext<'_> {
 
     /// Tells whether a case was measured before, without looking at its pictures.
     pub fn has_record(&self, planned: &PlannedCase) -> bool {
-        let Some(key) = self.case_key(planned) else {
-            return false;
-        };
-        let case = read_record_alone::<Case>(&self.case_record(planned), &key);
-        case.is_some_and(|case| self.is_whole(&case))
+        let record = self.case_record(planned);
+        let keys = self.keys_to_read(planned);
+        let mut found = keys
+            .iter()
+            .filter_map(|key| read_record_alone(&record, key));
+        found.any(|case: Case| self.is_whole(&case))
     }
 
     /// Tells whether the frame is missing, and each truth, without looking at their pictures.
@@ -204,7 +208,7 @@ impl SceneContext<'_> {
             Some((frame, truths)) => (is_missing(frame), truths.iter().map(is_missing).collect()),
         };
         if let (Some(folder), RunScene::Traced(scene)) = (&self.plan.truths, self.scene) {
-            let (has_frame, has) = find_kept(scene, &self.plan.render, &alignments, folder);
+            let (has_frame, has) = find_kept(scene, self.plan, &alignments, folder);
             frame &= !has_frame;
             for (missing, has) in truths.iter_mut().zip(has) {
                 *missing &= !has;
@@ -213,11 +217,26 @@ impl SceneContext<'_> {
         (frame, truths)
     }
 
+    /// Returns the key that a case is recorded by.
     pub(super) fn case_key(&self, planned: &PlannedCase) -> Option<String> {
+        self.key_with(planned, self.plan.ladders)
+    }
+
+    /// Lists the keys of cases that the plan may take: where it asks for no ladder, it takes those that have one as well.
+    fn keys_to_read(&self, planned: &PlannedCase) -> Vec<String> {
+        let ladders: &[bool] = match self.plan.ladders {
+            true => &[true],
+            false => &[true, false],
+        };
+        let keys = ladders.iter().map(|ladder| self.key_with(planned, *ladder));
+        keys.flatten().collect()
+    }
+
+    fn key_with(&self, planned: &PlannedCase, has_ladder: bool) -> Option<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
         let own = planned.inputs(self.plan, adapter)?;
-        let keys = self.keys.as_ref()?;
-        Some(keys.case(&own, planned.alignment, self.plan.common_alignment()))
+        let alignments = [planned.alignment, self.plan.common_alignment()];
+        Some((self.keys.as_ref()?).case(&own, alignments, has_ladder))
     }
 
     pub(super) fn case_record(&self, planned: &PlannedCase) -> PathBuf {

@@ -98,7 +98,7 @@ fn list_wanted(
     let mut wanted = Vec::new();
     for scene in list_scenes(plan) {
         refuse_scene(&scene_folder(&plan.out, &scene))?;
-        let mut files = list_render_files(&scene, &plan.render, alignments);
+        let mut files = list_render_files(&scene, &plan.render, alignments, plan.ladders);
         files.retain(|file| packed.get(file.name().as_str()) == Some(&file.hash.as_str()));
         if files.iter().any(|file| !file.is_in(&plan.out)) {
             wanted.push((scene, files));
@@ -147,7 +147,7 @@ fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
 
 /// Lists what the plan's folder lacks of a scene's frame and truths.
 fn list_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> BTreeSet<String> {
-    let (has_frame, has_truths) = find_kept(scene, &plan.render, alignments, &plan.out);
+    let (has_frame, has_truths) = find_kept(scene, plan, alignments, &plan.out);
     let name = &scene.name;
     let frame = (!has_frame).then(|| format!("frame of {name}"));
     let truths = (alignments.iter().zip(has_truths)).filter(|(_, is_there)| !is_there);

@@ -11,6 +11,7 @@ use crate::Error;
 use crate::render::ladders::{LADDER, ladder_folder};
 use crate::render::replicates::replicates_folder;
 use crate::run::Run;
+use crate::run::case::ACCUMULATE;
 
 /// The truths of one scene, or of a later frame of it.
 struct KeptScene {
@@ -18,9 +19,11 @@ struct KeptScene {
     folder: PathBuf,
     /// Alignments of its truths, each with the `truth_hash` of the cases that were measured against it; none where no case was.
     truths: BTreeMap<Alignment, Option<String>>,
+    /// Alignments that the run has accumulations of: those whose ladder was rendered.
+    ladders: BTreeSet<Alignment>,
 }
 
-/// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. Sizes and hashes of bytes are not
+/// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. A check has no ladders. Sizes and hashes of bytes are not
 /// known yet.
 ///
 /// # Errors
@@ -62,6 +65,9 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
             continue;
         };
         let alignments: BTreeSet<Alignment> = own.keys().copied().chain([common]).collect();
+        let ladders: BTreeSet<Alignment> = (alignments.iter().copied())
+            .filter(|alignment| has_accumulation(run, name, *alignment))
+            .collect();
         for frame in 0..run.frames.count {
             let hash = |alignment| own.get(&alignment).cloned().flatten();
             scenes.push(KeptScene {
@@ -73,6 +79,7 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
                 truths: (alignments.iter())
                     .map(|&alignment| (alignment, hash(alignment).filter(|_| frame == 0)))
                     .collect(),
+                ladders: ladders.clone(),
             });
         }
     }
@@ -83,6 +90,16 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
                 .to_owned(),
         )),
     }
+}
+
+/// Tells whether a run compares with accumulations in a scene, for one alignment.
+fn has_accumulation(run: &Run, scene: &str, alignment: Alignment) -> bool {
+    (run.cases.iter()).any(|case| {
+        case.is_reference
+            && case.filter == ACCUMULATE
+            && case.scene == scene
+            && case.alignment == alignment.name()
+    })
 }
 
 /// Adds the files of one scene.
@@ -110,7 +127,10 @@ fn add_scene(
         }
         files.push(truth);
         let mut ladder: Option<String> = None;
-        for rung in LADDER {
+        let rungs = LADDER
+            .into_iter()
+            .filter(|_| scene.ladders.contains(alignment));
+        for rung in rungs {
             let below = scene.folder.join(ladder_folder(*alignment));
             let rung = found(&below.join(rung_file(rung)))?;
             let hash = ladder.get_or_insert_with(|| rung.content_hash.clone());

@@ -11,6 +11,7 @@ use super::settings::frame_settings;
 use crate::Error;
 use crate::folder::placed_file::place_file;
 use crate::folder::scene_folder::{refuse_scene, scene_folder};
+use crate::measure::plan::RunPlan;
 
 /// A file of a render, by its path below an output folder, and the content hash that its header must have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,11 +22,12 @@ pub(crate) struct RenderFile {
     pub hash: String,
 }
 
-/// Lists the frame of a scene, and its truths with their replicates and ladders.
+/// Lists the frame of a scene, and its truths with their replicates, and with their ladders if they are asked for.
 pub(crate) fn list_render_files(
     scene: &Scene,
     settings: &RenderSettings,
     alignments: &[Alignment],
+    ladders: bool,
 ) -> Vec<RenderFile> {
     let folder = scene_folder(Path::new(""), scene);
     let mut files = vec![RenderFile {
@@ -42,29 +44,34 @@ pub(crate) fn list_render_files(
             below: replicates.path(index),
             hash: replicates.hash.clone(),
         }));
-        let hash = ladder_hash(scene, settings, alignment);
-        files.extend(LADDER.iter().map(|rung| RenderFile {
-            below: (folder.join(ladder_folder(alignment))).join(rung_file(*rung)),
-            hash: hash.clone(),
-        }));
+        if ladders {
+            let hash = ladder_hash(scene, settings, alignment);
+            files.extend(LADDER.iter().map(|rung| RenderFile {
+                below: (folder.join(ladder_folder(alignment))).join(rung_file(*rung)),
+                hash: hash.clone(),
+            }));
+        }
     }
     files
 }
 
-/// Tells whether the folder `truths` has the frame of a scene, and each of its truths with the last rung of its ladder.
+/// Tells whether the folder `truths` has the frame of a scene, and each of its truths with its last replicate, or the last rung of its
+/// ladder if the plan asks for ladders.
 pub(crate) fn find_kept(
     scene: &Scene,
-    settings: &RenderSettings,
+    RunPlan {
+        render, ladders, ..
+    }: &RunPlan,
     alignments: &[Alignment],
     truths: &Path,
 ) -> (bool, Vec<bool>) {
     let has = |file: &RenderFile| file.is_in(truths);
     let of_truth = |alignment: &Alignment| {
-        let files = list_render_files(scene, settings, &[*alignment]);
+        let files = list_render_files(scene, render, &[*alignment], *ladders);
         // The frame, the truth, its replicates, and the rungs.
         has(&files[1]) && files.last().is_some_and(has)
     };
-    let frame = has(&list_render_files(scene, settings, &[])[0]);
+    let frame = has(&list_render_files(scene, render, &[], *ladders)[0]);
     (frame, alignments.iter().map(of_truth).collect())
 }
 
@@ -81,21 +88,20 @@ impl RenderFile {
     }
 }
 
-/// Takes frame, truths, replicates and ladders of the same inputs from the folder `truths` into `out`, unless they are there.
-/// What neither holds is left to be rendered. Returns the number of files that were taken.
+/// Takes the files of a scene from the folder `truths` into `out`, unless they are there. What neither holds is left to be rendered.
+/// Returns the number of files that were taken.
 ///
 /// # Errors
 /// Fails if a file cannot be taken.
 pub(crate) fn take_renders(
+    files: &[RenderFile],
     scene: &Scene,
-    settings: &RenderSettings,
-    alignments: &[Alignment],
     truths: &Path,
     out: &Path,
 ) -> Result<usize, Error> {
     refuse_scene(&scene_folder(out, scene))?;
     let mut taken = 0;
-    for file in list_render_files(scene, settings, alignments) {
+    for file in files {
         if !file.is_in(out) && file.is_in(truths) {
             place_file(&truths.join(&file.below), &out.join(&file.below))?;
             taken += 1;

@@ -4,6 +4,7 @@ mod file;
 mod known;
 mod size;
 mod sized;
+mod subframes;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -15,6 +16,7 @@ pub use file::{BoundsFile, FilterBounds, Margin, read_bounds_file};
 pub use known::{check_names, require_bounds};
 pub use size::size_for_bounds;
 pub use sized::sized_bounds_file;
+pub use subframes::{bound_subframes, is_of_subframes};
 
 /// Name of the file of bounds, beside the scenes and beside one scene. [`sized_bounds_file`] names those for one picture size.
 pub const BOUNDS_FILE: &str = "bounds.toml";
