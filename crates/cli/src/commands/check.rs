@@ -91,7 +91,7 @@ struct Judged {
     folder: PathBuf,
 }
 
-/// Measures every case, as `run` does, judges it and looks for evidence. Ladders take a third of the time, and are left out where
+/// Measures every case, as `run` does, judges it and looks for evidence. Ladders take a quarter of the time, and are left out where
 /// nothing is judged by them.
 fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
