@@ -18,6 +18,7 @@ mod measure;
 mod monitor;
 mod named;
 mod pack;
+mod people;
 mod printable;
 mod render;
 mod results;
@@ -94,6 +95,23 @@ pub use pack::manifest::{
 };
 pub use pack::reading::Pack;
 pub use pack::writing::write_pack;
+pub use people::agreement::PeopleAgreement;
+pub use people::answers::{
+    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, DisplayFacts, MOST_ANSWER_BYTES, SHARP_CLIP,
+    TRUTH_CLIP,
+};
+pub use people::clips::{ClipFiles, StudyChoice, make_study};
+pub use people::design::{Clip, ShownPair, draw_session};
+pub use people::preferences::{
+    FilterStrength, PREFERENCES_FORMAT, Preferences, QuestionResult, SessionFacts, ShutterScale,
+    find_preferences,
+};
+pub use people::question::Question;
+pub use people::score_agreement::ScoreAgreement;
+pub use people::session::{MOST_SESSIONS, Session, read_sessions, refuse_other_run};
+pub use people::study::{
+    MOST_ASKED_FILTERS, MOST_ASKED_SCENES, SECONDS_PER_QUESTION, Study, StudyShutter,
+};
 pub use printable::{printable, printable_lines, printable_path, printable_table};
 pub use render::frames::render_frame;
 pub use render::ladders::{LADDER, LadderFiles};
@@ -118,6 +136,7 @@ pub use score::scores::{Scored, missing_scores, score};
 pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
+pub use stats::preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
 pub use stats::ranking::{MOST_RANKED, RankedFilter, rank_for_summary};
 pub use stats::scene_mean::{FEWEST_SCENES, SceneMean};
 pub use tune::{

@@ -64,7 +64,9 @@ pub fn fit_strengths(counts: &PairedCounts, penalty: Penalty) -> Result<Strength
         let steps: Vec<f64> = (inverse.chunks(counts.items))
             .map(|row| row.iter().zip(&slopes).map(|(a, b)| a * b).sum())
             .collect();
-        let largest = steps.iter().fold(0.0_f64, |most, step| most.max(step.abs()));
+        let largest = steps
+            .iter()
+            .fold(0.0_f64, |most, step| most.max(step.abs()));
         let part = (LARGEST_STEP / largest).min(1.0);
         for (value, step) in values.iter_mut().zip(&steps) {
             *value += part * step;
@@ -79,7 +81,11 @@ pub fn fit_strengths(counts: &PairedCounts, penalty: Penalty) -> Result<Strength
     Ok(Strengths {
         values: values.iter().map(|value| value - mean).collect(),
         errors: (0..counts.items)
-            .map(|item| (inverse[item * counts.items + item] - shift).max(0.0).sqrt())
+            .map(|item| {
+                (inverse[item * counts.items + item] - shift)
+                    .max(0.0)
+                    .sqrt()
+            })
             .collect(),
     })
 }
@@ -300,7 +306,8 @@ mod tests {
             let mut likelihood = 0.0;
             for one in 0..4 {
                 for other in (0..4).filter(|other| *other != one) {
-                    likelihood += counts.wins(one, other) * chance(values[one] - values[other]).ln();
+                    likelihood +=
+                        counts.wins(one, other) * chance(values[one] - values[other]).ln();
                 }
             }
             let mut matrix = information(&counts, values);

@@ -5,6 +5,7 @@ pub mod headline;
 pub mod intervals;
 pub mod overall;
 pub mod paired_counts;
+pub mod preference_scale;
 pub mod rank_correlation;
 pub mod ranking;
 pub mod scene_mean;

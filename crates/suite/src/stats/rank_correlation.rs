@@ -11,7 +11,10 @@ pub fn rank_correlation(one: &[f64], other: &[f64]) -> Option<f64> {
     let [one, other] = [one, other].map(ranks);
     let middle = (one.len() as f64 - 1.0) / 2.0;
     let product = |a: &[f64], b: &[f64]| -> f64 {
-        a.iter().zip(b).map(|(a, b)| (a - middle) * (b - middle)).sum()
+        a.iter()
+            .zip(b)
+            .map(|(a, b)| (a - middle) * (b - middle))
+            .sum()
     };
     let scale = (product(&one, &one) * product(&other, &other)).sqrt();
     (scale > 0.0).then(|| product(&one, &other) / scale)
