@@ -3,7 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// Style sheets; later ones override earlier ones.
-const STYLES: [&str; 8] = [
+const STYLES: [&str; 9] = [
     include_str!("assets/base.css"),
     include_str!("assets/tables.css"),
     include_str!("assets/charts.css"),
@@ -11,6 +11,7 @@ const STYLES: [&str; 8] = [
     include_str!("assets/viewer.css"),
     include_str!("assets/comparison.css"),
     include_str!("assets/sequence.css"),
+    include_str!("assets/ask.css"),
     include_str!("assets/media.css"),
 ];
 

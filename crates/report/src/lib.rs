@@ -1,5 +1,6 @@
-//! Pages of a run, a comparison and a tuning, each of which opens from disk and fetches nothing.
+//! Pages of a run, a comparison and a tuning, and one that asks people. Each opens from disk and fetches nothing.
 
+mod ask;
 mod case;
 mod case_strip;
 mod case_table;
@@ -35,6 +36,7 @@ use pixels::report_files::{Place, SceneTexts};
 use pixels::scene_files::SceneFiles;
 use run_page::{PageContent, run_page};
 
+pub use ask::{ASK_PAGE, write_ask_folder};
 pub use case_strip::write_case_strip;
 pub use comparison::{ChangeCells, compare_page};
 pub use finding_text::{finding_line, finding_score, finding_status, way_out};

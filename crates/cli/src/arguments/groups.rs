@@ -14,7 +14,7 @@ pub struct Group {
 }
 
 /// All commands.
-pub const GROUPS: [Group; 7] = [
+pub const GROUPS: [Group; 8] = [
     Group {
         heading: "Measure",
         commands: &["run", "score", "bench"],
@@ -26,6 +26,10 @@ pub const GROUPS: [Group; 7] = [
     Group {
         heading: "Look",
         commands: &["report", "compare", "list"],
+    },
+    Group {
+        heading: "Ask people",
+        commands: &["ask", "preferences"],
     },
     Group {
         heading: "Tune",

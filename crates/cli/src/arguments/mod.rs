@@ -2,6 +2,7 @@
 
 mod accept;
 mod adapter;
+mod ask;
 mod audit;
 mod bench;
 mod blur;
@@ -30,6 +31,7 @@ mod output;
 mod pack;
 mod parse;
 mod plan;
+mod preferences;
 mod programs;
 mod refusal;
 mod render;
@@ -47,6 +49,7 @@ mod verify;
 use clap::{Parser, Subcommand};
 
 pub use accept::AcceptArgs;
+pub use ask::AskArgs;
 pub use audit::AuditArgs;
 pub use bench::BenchArgs;
 pub use blur::BlurArgs;
@@ -70,6 +73,7 @@ pub use output::{Color, OutputArgs};
 pub use pack::PackArgs;
 pub use parse::Replicates;
 pub use plan::PlanArgs;
+pub use preferences::PreferencesArgs;
 pub use refusal::refusal_text;
 pub use render::RenderArgs;
 pub use report::ReportArgs;
@@ -134,6 +138,10 @@ pub enum Command {
     Report(ReportArgs),
     /// Compare two finished runs: which scores changed by more than noise, and by enough to matter.
     Compare(CompareArgs),
+    /// Make a page that asks people which pictures of a finished run look better, or more like the truth.
+    Ask(AskArgs),
+    /// Turn the answers of people into a scale of filters, and compare scores with it.
+    Preferences(PreferencesArgs),
     /// Time filters pass by pass, and against their blur length. Prints tables; writes bench.json.
     Bench(BenchArgs),
     /// Search parameters that bring a filter nearer to the truth. Writes journal.jsonl and tune.json.

@@ -1,6 +1,7 @@
 //! One file per command, and the work that commands share.
 
 mod accept;
+mod ask;
 mod audit;
 mod bench;
 mod blur;
@@ -27,6 +28,7 @@ mod merge;
 mod pack;
 mod pages;
 mod plan;
+mod preferences;
 mod render;
 mod render_settings;
 mod report;
@@ -77,6 +79,8 @@ pub fn execute(cli: Cli) -> Result<Ending, Error> {
         Some(Command::Score(args)) => score::execute(&args),
         Some(Command::Report(args)) => report::execute(&args),
         Some(Command::Compare(args)) => compare::execute(&args),
+        Some(Command::Ask(args)) => ask::execute(&args),
+        Some(Command::Preferences(args)) => preferences::execute(&args),
         Some(Command::Bench(args)) => bench::execute(&args),
         Some(Command::Tune(args)) => {
             work_on_threads(args.candidate.scenes.threads, || tune::execute(&args))

@@ -12,6 +12,7 @@ pub mod input_forms;
 pub mod jobs;
 pub mod layout;
 pub mod listing;
+pub mod preferences;
 pub mod ranking;
 pub mod results_filter_page;
 pub mod results_page;

@@ -143,7 +143,7 @@ impl Study {
 fn choose_items(run: &Run, choice: &StudyChoice) -> Result<Vec<Item>, Error> {
     let all = list_items(run);
     let choose = |option: &str, patterns: &[Pattern], name: fn(&Item) -> &String| {
-        let fits = |pattern: &Pattern| all.iter().any(|item| pattern.matches(name(item)));
+        let fits = |pattern: &Pattern| all.iter().any(|item| matches(pattern, name(item)));
         match patterns.iter().find(|pattern| !fits(pattern)) {
             None => Ok(()),
             Some(pattern) => Err(Error::Usage(format!(
@@ -155,12 +155,18 @@ fn choose_items(run: &Run, choice: &StudyChoice) -> Result<Vec<Item>, Error> {
     choose("scenes", &choice.scenes, |item| &item.scene)?;
     choose("filters", &choice.filters, |item| &item.filter)?;
     let fits = |patterns: &[Pattern], name: &str| {
-        patterns.is_empty() || patterns.iter().any(|pattern| pattern.matches(name))
+        patterns.is_empty() || patterns.iter().any(|pattern| matches(pattern, name))
     };
     let chosen = all
         .into_iter()
         .filter(|item| fits(&choice.scenes, &item.scene) && fits(&choice.filters, &item.filter));
     Ok(chosen.collect())
+}
+
+/// Tells whether a pattern fits a name, or a filter's name without its preset.
+fn matches(pattern: &Pattern, name: &str) -> bool {
+    let own = name.split(':').next().unwrap_or(name);
+    pattern.matches(name) || pattern.matches(own)
 }
 
 /// Lists the pictures of all filters; no references.

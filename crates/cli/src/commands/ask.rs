@@ -1,0 +1,82 @@
+//! The command `ask`.
+
+use report::write_ask_folder;
+use suite::{
+    Error, Question, SECONDS_PER_QUESTION, Side, Study, StudyChoice, draw_session, make_study,
+    printable_path,
+};
+
+use crate::arguments::AskArgs;
+use crate::output::print::{print, print_json};
+use crate::output::wrap::push_wrapped;
+
+/// What was written, as JSON.
+#[derive(serde::Serialize)]
+struct Written<'a> {
+    page: &'a std::path::Path,
+    pairs: usize,
+    questions: usize,
+    study: &'a Study,
+}
+
+/// Reads a finished run, and writes a page that asks people about its pictures.
+pub fn execute(args: &AskArgs) -> Result<(), Error> {
+    let side = Side::read(&args.run)?;
+    let choice = StudyChoice {
+        scenes: args.scenes.clone(),
+        filters: args.filters.clone(),
+        most_pairs: args.pairs,
+    };
+    let (study, clips) = make_study(&side.run, side.folder(), &choice)?;
+    let asked = Question::ALL.iter().copied();
+    let asked: Vec<Question> = asked.filter(|own| args.question.contains(own)).collect();
+    let page = write_ask_folder(&study, &clips, &asked, &args.out)?;
+    let session = draw_session(&study, asked[0], 0);
+    let pairs = session.iter().filter(|pair| !pair.is_check()).count();
+    if args.json {
+        let questions = session.len();
+        return print_json(&Written {
+            page: &page,
+            pairs,
+            questions,
+            study: &study,
+        });
+    }
+    let mut text = String::new();
+    push_wrapped(&mut text, 0, &describe(&study, pairs, session.len()));
+    text += &format!("written: {}\n", printable_path(&page));
+    let next = format!(
+        "Nobody has answered yet. Give the folder to people: each opens {} in a browser, answers, and sends back the file that the page saves. \
+         Then: shuttertruth preferences answers_*.json --run {}",
+        report::ASK_PAGE,
+        printable_path(&args.run)
+    );
+    push_wrapped(&mut text, 0, &next);
+    print(&text)
+}
+
+fn describe(study: &Study, pairs: usize, questions: usize) -> String {
+    let minutes = (questions as f64 * SECONDS_PER_QUESTION / 60.0).ceil();
+    let scenes = match study.scenes.len() {
+        1 => "1 scene".to_owned(),
+        count => format!("{count} scenes"),
+    };
+    let shutters = study.shutters.iter().map(|own| {
+        format!(
+            "{} filters of the {} shutter",
+            own.filters.len(),
+            own.alignment
+        )
+    });
+    let part = match study.all_pairs() {
+        all if all == pairs => "every pair once".to_owned(),
+        all => format!("{pairs} of {all} pairs, every filter equally often within its shutter"),
+    };
+    format!(
+        "{} on {scenes}. A session has {questions} questions: {part}, and {} checks. At a guess of {SECONDS_PER_QUESTION} seconds per question \
+         it takes {minutes} min. Two pictures need {} pixels of a display beside each other.",
+        shutters.collect::<Vec<_>>().join(", "),
+        questions - pairs,
+        2 * study.width
+    )
+}

@@ -1,0 +1,45 @@
+//! The command `preferences`.
+
+use glob::Pattern;
+use suite::{
+    Error, Run, Side, Study, StudyChoice, find_preferences, make_study, read_sessions,
+    refuse_other_run,
+};
+
+use crate::arguments::PreferencesArgs;
+use crate::output::print::{print, print_json};
+use crate::tables::preferences::preferences_table;
+
+/// Reads the answers of people and prints a scale of filters, beside the scores of the run.
+pub fn execute(args: &PreferencesArgs) -> Result<(), Error> {
+    let (study, sessions) = read_sessions(&args.answers)?;
+    let run = args
+        .run
+        .as_ref()
+        .map(|path| read_run(&Side::read(path)?, &study));
+    let run = run.transpose()?;
+    let found = find_preferences(&study, &sessions, run.as_ref())?;
+    match args.json {
+        true => print_json(&found),
+        false => print(&preferences_table(&found)),
+    }
+}
+
+/// Takes a run whose pictures are those of the study.
+fn read_run(side: &Side, study: &Study) -> Result<Run, Error> {
+    let exact = |name: &String| Pattern::new(&Pattern::escape(name)).expect("it is escaped");
+    let filters = study.shutters.iter().flat_map(|own| &own.filters);
+    let choice = StudyChoice {
+        scenes: study.scenes.iter().map(exact).collect(),
+        filters: filters.map(exact).collect(),
+        most_pairs: study.most_pairs,
+    };
+    let (of_run, _) = make_study(&side.run, side.folder(), &choice).map_err(|error| {
+        Error::Usage(format!(
+            "{}: is not the run that the answers are about, or has lost its pictures: {error}",
+            side.path.display()
+        ))
+    })?;
+    refuse_other_run(study, &of_run, &side.path)?;
+    Ok(side.run.clone())
+}

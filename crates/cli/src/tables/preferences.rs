@@ -1,0 +1,188 @@
+//! Tables of what people prefer.
+
+use suite::{
+    FEWEST_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
+    printable, printable_path,
+};
+
+use super::columns::{legend_text, number_table};
+use crate::output::colors;
+use crate::output::wrap::push_wrapped;
+
+/// Meaning of the columns of a scale.
+const SCALE_KEY: &str = "Scale: 1 more means that three of four would choose the filter (Bradley and Terry, with Jeffreys' prior); \
+                         the mean of the filters is 0. Over mean: chance to be chosen over a filter at 0. Chosen: choices, neither \
+                         counts half.";
+/// Meaning of the columns of scores.
+const SCORES_KEY: &str = "Rank: correlation of the score's means over scenes with the scale; 1 if people rank the filters as the score \
+                          does. Predicted: share of choices for the filter with the better score on that scene; coins give 50 %. Intervals \
+                          do not cover the choice of filters and scenes. Scores of single pictures are those of the first frame.";
+
+/// Makes the tables of all questions.
+pub fn preferences_table(found: &Preferences) -> String {
+    let mut text = String::new();
+    for (index, question) in found.questions.iter().enumerate() {
+        if index > 0 {
+            text += "\n";
+        }
+        push_question(&mut text, question);
+    }
+    text
+}
+
+fn push_question(text: &mut String, found: &QuestionResult) {
+    *text += &format!("{}\n", colors::heading(found.question.text()));
+    let answers: usize = found.sessions.iter().map(|own| own.answers).sum();
+    let mut facts = format!(
+        "{}, {answers} answers",
+        count(found.sessions.len(), "session")
+    );
+    if let Some(left) = found.left {
+        facts += &format!("; {:.0} % of the choices of a side were left", 100.0 * left);
+    }
+    push_wrapped(text, 0, &facts);
+    push_checks(text, found);
+    for scale in &found.scales {
+        push_scale(text, scale);
+    }
+    *text += &legend_text(SCALE_KEY);
+    if found.scales.iter().any(|scale| !scale.scores.is_empty()) {
+        *text += &legend_text(SCORES_KEY);
+    }
+}
+
+/// Names the sessions that failed checks.
+fn push_checks(text: &mut String, found: &QuestionResult) {
+    let sum =
+        |count: fn(&suite::SessionFacts) -> usize| found.sessions.iter().map(count).sum::<usize>();
+    let (checks, failed) = (sum(|own| own.checks), sum(|own| own.failed_checks));
+    let mut line = format!("{failed} of {} failed", count(checks, "check"));
+    let names = found
+        .sessions
+        .iter()
+        .filter(|own| own.failed_checks > 0)
+        .map(|own| {
+            let name = printable_path(&own.path);
+            format!("{name} {} of {}", own.failed_checks, own.checks)
+        });
+    let names: Vec<String> = names.collect();
+    if !names.is_empty() {
+        line += &format!(": {}; none is left out", names.join(", "));
+    }
+    push_wrapped(text, 0, &line);
+}
+
+fn push_scale(text: &mut String, scale: &ShutterScale) {
+    let mut table = number_table(&[
+        &format!("{} shutter", scale.alignment),
+        "scale",
+        "95 % CI",
+        "over mean",
+        "chosen",
+        "of",
+    ]);
+    for own in &scale.filters {
+        table.push(vec![
+            printable(&own.filter).into_owned(),
+            signed(own.scale),
+            own.interval
+                .map_or("n/a".to_owned(), |ends| range(ends.map(signed))),
+            format!("{:.0} %", 100.0 * own.chosen_over_mean),
+            format!("{}", own.chosen),
+            format!("{}", own.compared),
+        ]);
+    }
+    *text += &format!("\n{}", table.text());
+    for line in describe(scale) {
+        push_wrapped(text, 0, &line);
+    }
+    if !scale.scores.is_empty() {
+        *text += &format!("\n{}", score_table(&scale.scores));
+    }
+}
+
+/// Says what the scale rests on.
+fn describe(scale: &ShutterScale) -> Vec<String> {
+    let answers = format!(
+        "{} of {}, {} of them neither",
+        count(scale.comparisons, "comparison"),
+        count(scale.people, "session"),
+        scale.neither
+    );
+    let has_intervals = scale.filters.iter().all(|own| own.interval.is_some());
+    let intervals = match scale.resampled {
+        _ if !has_intervals => "too few answers for intervals".to_owned(),
+        Resampled::People => format!("intervals: {RESAMPLES} resamples of sessions"),
+        Resampled::Answers => format!(
+            "intervals: {RESAMPLES} resamples of the answers, since there are fewer than {FEWEST_PEOPLE} sessions; they say how these people \
+             would answer again, and nothing about others"
+        ),
+    };
+    let mut lines = vec![format!("{answers}; {intervals}")];
+    if let Some(agreement) = &scale.agreement {
+        lines.push(format!(
+            "people chose alike in {:.0} % of {}; coins give 50 %",
+            100.0 * agreement.share,
+            count(agreement.pairs, "pair of answers")
+        ));
+    }
+    if !scale.separated.is_empty() {
+        let groups: Vec<String> = scale
+            .separated
+            .iter()
+            .map(|group| group.join(", "))
+            .collect();
+        lines.push(format!(
+            "no filter of one of these groups was ever chosen against one of a group above it: the prior alone holds their distance, and more \
+             answers may widen it: {}",
+            printable(&groups.join(" | "))
+        ));
+    }
+    lines
+}
+
+fn score_table(scores: &[ScoreAgreement]) -> String {
+    let mut table = number_table(&[
+        "score",
+        "rank",
+        "95 % CI",
+        "predicted",
+        "95 % CI",
+        "choices",
+    ]);
+    let none = || "n/a".to_owned();
+    for own in scores {
+        let percent = |share: f64| format!("{:.0}", 100.0 * share);
+        table.push(vec![
+            own.score.clone(),
+            own.correlation.map_or_else(none, signed),
+            own.correlation_interval
+                .map_or_else(none, |ends| range(ends.map(signed))),
+            own.predicted
+                .map_or_else(none, |share| percent(share) + " %"),
+            own.predicted_interval
+                .map_or_else(none, |ends| range(ends.map(percent)) + " %"),
+            own.choices.to_string(),
+        ]);
+    }
+    table.text()
+}
+
+/// Writes a number with its sign; no "-0.00".
+fn signed(value: f64) -> String {
+    let rounded = (value * 100.0).round() / 100.0 + 0.0;
+    format!("{rounded:+.2}")
+}
+
+fn range([low, high]: [String; 2]) -> String {
+    format!("{low} to {high}")
+}
+
+/// Counts things: `1 session`, `2 sessions`, `3 pairs of answers`.
+fn count(count: usize, one: &str) -> String {
+    match (count, one.split_once(' ')) {
+        (1, _) => format!("1 {one}"),
+        (_, Some((first, rest))) => format!("{count} {first}s {rest}"),
+        (_, None) => format!("{count} {one}s"),
+    }
+}
