@@ -31,6 +31,7 @@ mod kept_cases;
 mod links;
 mod own_filter;
 mod packs;
+mod people;
 mod python;
 mod reference_width;
 mod refusals;

@@ -78,6 +78,12 @@ impl Browser {
         self.until("document.readyState === 'complete'");
     }
 
+    /// Lets pages save files to a folder.
+    pub fn save_to(&mut self, folder: &Path) {
+        let words = json!({"behavior": "allow", "downloadPath": folder});
+        self.call("Page.setDownloadBehavior", words);
+    }
+
     /// Evaluates an expression, and waits for promises.
     pub fn value(&mut self, expression: &str) -> Value {
         let words = json!({"expression": expression, "returnByValue": true, "awaitPromise": true});

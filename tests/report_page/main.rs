@@ -1,5 +1,6 @@
 //! Reports in a real browser: pictures, pointer and keys.
 
+mod ask;
 #[path = "../command_line/bench.rs"]
 #[expect(dead_code, reason = "the tests of the command line need more of it")]
 mod bench;

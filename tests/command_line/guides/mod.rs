@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 37] = [
+const NOT_RUN: [(&str, &str); 39] = [
     (
         "python3 examples/optuna_tune.py --journal study.log --trials 24 --filter jump_flood --scenes fan --size 320x180 --out tuning",
         "takes minutes; a test runs the script with two workers",
@@ -148,6 +148,14 @@ const NOT_RUN: [(&str, &str); 37] = [
     (
         "      - uses: actions/checkout@v4",
         "steps of a workflow, which GitHub runs",
+    ),
+    (
+        "shuttertruth preferences answers_*.json --run out/people",
+        "needs answers of people, and nobody has answered yet",
+    ),
+    (
+        "cargo test -p suite --lib preference_scale",
+        "a part of `make test`",
     ),
     (
         "shuttertruth report --gallery",

@@ -27,7 +27,7 @@ pub fn ask_page(study: &Study, questions: &[Question]) -> String {
             main #ask {
                 noscript { p { "This page needs scripts." } }
                 (start(study, questions, count))
-                (asking())
+                (asking(study))
                 (end())
             }
             script #data type="application/json" { (PreEscaped(data)) }
@@ -66,28 +66,31 @@ fn start(study: &Study, questions: &[Question], count: usize) -> Markup {
                     }
                 }
             }
-            (keys())
+            (keys(is_clip))
             p {
                 "There are no right answers, except for a few checks: sometimes both " (things) " are the same. Choose “no difference” if you see "
                 "none. Sit as you usually do before this display, and do not change the size of the window."
             }
             p.note {
                 "Your answers stay in this browser until you save them to a file. The file holds what you chose, how long it took, and the "
-                "size and scale of the window. It holds nothing about you. No answers came with this page."
+                "size and scale of the window. It holds nothing about you. No answers came with this page: nobody "
+                "knows what people see until people say so."
             }
             p { button #begin type="button" { "Begin" } }
         }
     }
 }
 
-fn keys() -> Markup {
-    let rows = [
+fn keys(is_clip: bool) -> Markup {
+    let mut rows = vec![
         ("←", "the left one"),
         ("→", "the right one"),
         ("↓", "no difference"),
         ("R", "play again from the first frame"),
         ("Esc", "stop"),
     ];
+    // A picture does not play.
+    rows.retain(|(key, _)| is_clip || *key != "R");
     html! {
         dl.facts {
             @for (key, meaning) in rows { div { dt { kbd { (key) } } dd { (meaning) } } }
@@ -96,14 +99,14 @@ fn keys() -> Markup {
 }
 
 /// The pictures are drawn on canvases, all in one step. Labels name the sides and never the filter.
-fn asking() -> Markup {
+fn asking(study: &Study) -> Markup {
     html! {
         section #asking hidden {
             h2 #words tabindex="-1" {}
             p.misfit #misfit role="alert" hidden {}
             div #stage {
                 figure #truth { canvas role="img" aria-label="Truth" {} figcaption { "truth" } }
-                div.pair {
+                div.sides {
                     figure { canvas #left role="img" aria-label="Left" {} figcaption { "left" } }
                     figure { canvas #right role="img" aria-label="Right" {} figcaption { "right" } }
                 }
@@ -114,7 +117,7 @@ fn asking() -> Markup {
                 button type="button" data-choice="right" aria-keyshortcuts="ArrowRight" { "Right →" }
             }
             div.answers {
-                button #replay type="button" aria-keyshortcuts="R" { "R Play again" }
+                button #replay type="button" aria-keyshortcuts="R" hidden[study.frames.count == 1] { "R Play again" }
                 button #stop type="button" aria-keyshortcuts="Escape" { "Esc Stop" }
                 output #progress aria-live="polite" {}
             }

@@ -49,7 +49,7 @@
     zoom = found.zoom;
     at("misfit").hidden = zoom > 0;
     at("misfit").textContent =
-      `This window is too small: the pictures need ${found.needed.join(" x ")} pixels of the display beside each other, and have ` +
+      `This window is too small: the pictures need ${found.needed.join(" x ")} pixels of the display, and have ` +
       `${found.room.join(" x ")}. Make the window larger.`;
   };
 

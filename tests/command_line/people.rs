@@ -1,0 +1,407 @@
+//! Questions to people, and the scale of their answers.
+
+use std::fs;
+
+use serde_json::{Value, json};
+use suite::{
+    Answer, AnswerFile, Chosen, Clip, DisplayFacts, Question, SHARP_CLIP, ShownPair, Study,
+    TRUTH_CLIP, draw_session,
+};
+use tests::text::assert_contains;
+
+use crate::bench::{Bench, assert_done, assert_refused, files_below};
+
+/// Filters of the trailing shutter, from the best to the worst.
+const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
+
+/// Makes a run of three filters on two scenes, and the page that asks about it; returns the study.
+fn make_study(bench: &Bench, more: &[&str]) -> Study {
+    bench.add_slow_scene();
+    assert_done(&bench.run(&[&["--filters", FILTERS][..], more].concat()));
+    let written = bench.execute(&["ask", "out", "--out", "page", "--json"]);
+    let written: Value = serde_json::from_str(&written).unwrap();
+    assert_eq!(written["page"], "page/index.html");
+    serde_json::from_value(written["study"].clone()).unwrap()
+}
+
+/// The answers of a session whose person chooses by a rule.
+fn answer(
+    study: &Study,
+    question: Question,
+    seed: u64,
+    choose: impl Fn(&ShownPair, usize) -> Chosen,
+) -> AnswerFile {
+    let shown = draw_session(study, question, seed);
+    let answers = shown.iter().enumerate().map(|(index, pair)| {
+        let shutter = &study.shutters[pair.shutter];
+        let name = |clip: Clip| match clip {
+            Clip::Filter(filter) => shutter.filters[filter].clone(),
+            Clip::Truth => TRUTH_CLIP.to_owned(),
+            Clip::Sharp => SHARP_CLIP.to_owned(),
+        };
+        Answer {
+            scene: study.scenes[pair.scene].clone(),
+            alignment: shutter.alignment.clone(),
+            left: name(pair.left),
+            right: name(pair.right),
+            choice: choose(pair, index),
+            milliseconds: 1500.0,
+            zoom: 2,
+        }
+    });
+    AnswerFile {
+        format: 1,
+        program: suite::PROGRAM.to_owned(),
+        study: study.clone(),
+        question,
+        seed,
+        display: DisplayFacts {
+            device_pixel_ratio: 1.0,
+            viewport: [1280.0, 800.0],
+        },
+        answers: answers.collect(),
+    }
+}
+
+/// An attentive person, to whom a filter of a smaller number looks better.
+fn prefer_first(pair: &ShownPair) -> Chosen {
+    let rank = |clip| match clip {
+        Clip::Truth => -1,
+        Clip::Filter(filter) => filter as i32,
+        Clip::Sharp => 100,
+    };
+    match rank(pair.left).cmp(&rank(pair.right)) {
+        std::cmp::Ordering::Less => Chosen::Left,
+        std::cmp::Ordering::Greater => Chosen::Right,
+        std::cmp::Ordering::Equal => Chosen::Neither,
+    }
+}
+
+fn opposite(choice: Chosen) -> Chosen {
+    match choice {
+        Chosen::Left => Chosen::Right,
+        Chosen::Right => Chosen::Left,
+        Chosen::Neither => Chosen::Neither,
+    }
+}
+
+/// Writes files of answers; returns the words that name them.
+fn write_answers(bench: &Bench, files: &[AnswerFile]) -> Vec<String> {
+    let write = |(index, file): (usize, &AnswerFile)| {
+        let name = format!("answers_{index}.json");
+        fs::write(bench.path(&name), serde_json::to_string(file).unwrap()).unwrap();
+        name
+    };
+    files.iter().enumerate().map(write).collect()
+}
+
+fn preferences<'a>(answers: &'a [String], more: &[&'a str]) -> Vec<&'a str> {
+    let answers = answers.iter().map(String::as_str);
+    ["preferences"]
+        .into_iter()
+        .chain(answers)
+        .chain(more.iter().copied())
+        .collect()
+}
+
+#[test]
+fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
+    let bench = Bench::new();
+    let study = make_study(&bench, &["--frames", "2", "--fps", "12"]);
+    assert_eq!((study.frames.count, study.frames.per_second), (2, 12.0));
+    assert_eq!(study.scenes, ["plate", "slow"]);
+    // Two scenes of the sharp frame, the truth and three filters, two frames each, and the page.
+    assert_eq!(files_below(&bench.path("page")).len(), 2 * 5 * 2 + 1);
+    let picture = |path: &str| fs::read(bench.path(path)).unwrap();
+    for (copy, original) in [
+        ("page/pictures/0_0.png", "out/plate/frame.png"),
+        ("page/pictures/1_1.png", "out/plate/0001/truth_trailing.png"),
+        ("page/pictures/5_1.png", "out/slow/0001/frame.png"),
+    ] {
+        assert_eq!(picture(copy), picture(original), "{copy}");
+    }
+    let text = bench.execute(&[
+        "ask",
+        "out",
+        "--out",
+        "other",
+        "--filters",
+        "jump_flood,ident*",
+        "--scenes",
+        "slow",
+    ]);
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_contains(
+        &text,
+        &[
+            "2 filters of the trailing shutter on 1 scene",
+            "every pair once, and 2 checks",
+            "128 pixels",
+            "Nobody has answered yet",
+        ],
+    );
+    let ask = |more: &[&'static str]| [&["ask", "out", "--out", "new"][..], more].concat();
+    for (words, parts) in [
+        (
+            ask(&["--filters", "identity"]),
+            &["1 filters of the trailing shutter", "2 to 64"][..],
+        ),
+        (
+            ask(&["--filters", "bevy"]),
+            &[
+                "\"bevy\" fits nothing in the run; it has",
+                "jump_flood:paper",
+            ],
+        ),
+        (
+            ask(&["--scenes", "fan"]),
+            &["\"fan\" fits nothing", "plate, slow"],
+        ),
+        (ask(&["--pairs", "2"]), &["allows 2 pairs", "3 or more"]),
+        (
+            ask(&["--question", "best"]),
+            &["--question best is not known"],
+        ),
+        (
+            vec!["ask", "out", "--out", "page"],
+            &["page: holds 2 files or folders", "a new folder"],
+        ),
+        (vec!["ask", "none"], &["no such file"]),
+    ] {
+        assert_refused(&bench.shuttertruth(&words), 2, parts);
+        assert!(!bench.path("new").exists(), "{words:?}");
+    }
+    fs::remove_file(bench.path("out/slow/0001/frame.png")).unwrap();
+    assert_refused(
+        &bench.shuttertruth(&ask(&[])),
+        2,
+        &["slow/0001/frame.png: cannot read"],
+    );
+}
+
+#[test]
+fn answers_become_a_scale_beside_the_scores_of_the_run() {
+    let bench = Bench::new();
+    let study = make_study(&bench, &[]);
+    // Six people choose the better filter, but for one answer in four; the last one does so in every check, too.
+    let people: Vec<AnswerFile> = (0..6)
+        .map(|seed| {
+            answer(&study, Question::Truth, seed, |pair, index| {
+                let choice = prefer_first(pair);
+                match (index + seed as usize) % 4 == 0 && !pair.is_check() {
+                    true => opposite(choice),
+                    false if pair.is_check() && seed == 5 => Chosen::Left,
+                    false => choice,
+                }
+            })
+        })
+        .collect();
+    let names = write_answers(&bench, &people);
+    let printed = bench.execute(&preferences(&names, &["--run", "out", "--json"]));
+    let printed: Value = serde_json::from_str(&printed).unwrap();
+    let question = &printed["questions"][0];
+    assert_eq!(question["question"], "truth");
+    assert_eq!(question["sessions"][0]["failed_checks"], 0);
+    assert_eq!(question["sessions"][5]["path"], "answers_5.json");
+    assert!(question["sessions"][5]["failed_checks"].as_u64().unwrap() >= 1);
+    let scale = &question["scales"][0];
+    assert_eq!(scale["comparisons"], 6 * 6);
+    assert_eq!(scale["resampled"], "people");
+    let filters = scale["filters"].as_array().unwrap();
+    let order: Vec<&str> = filters
+        .iter()
+        .map(|own| own["filter"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        order,
+        [
+            "jump_flood:paper",
+            "velocity_gather:fine",
+            "identity:default"
+        ]
+    );
+    let sum: f64 = filters
+        .iter()
+        .map(|own| own["scale"].as_f64().unwrap())
+        .sum();
+    assert!(sum.abs() < 1e-9, "{sum}");
+    let number = |value: &Value| value.as_f64().unwrap();
+    for own in filters {
+        let [low, high] = [0, 1].map(|end| number(&own["interval"][end]));
+        assert!(
+            low < number(&own["scale"]) && number(&own["scale"]) < high,
+            "{own}"
+        );
+    }
+    // Without a mistake the distance would be that of the prior.
+    let distance = number(&filters[0]["scale"]) - number(&filters[2]["scale"]);
+    assert!((0.3..2.0).contains(&distance), "{distance}");
+    let score = |name: &str| {
+        let mut all = scale["scores"].as_array().unwrap().iter();
+        all.find(|own| own["score"] == name).unwrap().clone()
+    };
+    // FLIP ranks the filters as these people do; `run` measures it.
+    assert_eq!(score("flip_moving")["correlation"], 1.0);
+    assert!(score("flip_moving")["predicted"].as_f64().unwrap() > 0.6);
+    assert_eq!(score("psnr_moving")["correlation"], 1.0);
+
+    let table = bench.execute(&preferences(&names, &["--run", "out"]));
+    let words = table.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "Which looks more like the truth?",
+        "6 sessions, 48 answers",
+        "answers_5.json",
+        "1000 resamples of sessions",
+        "people chose alike in",
+        "flip_moving +1.00",
+    ] {
+        assert!(words.contains(part), "\"{part}\" is missing from:\n{table}");
+    }
+    assert!(
+        table.lines().all(|line| line.chars().count() <= 80),
+        "{table}"
+    );
+
+    // One person alone, who always chooses alike: no sample of people, and only the prior holds the distances.
+    let one = answer(&study, Question::Better, 9, |pair, _| prefer_first(pair));
+    let names = write_answers(&bench, &[one]);
+    let table = bench.execute(&preferences(&names, &[]));
+    let words = table.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "1 session, 8 answers",
+        "fewer than 5 sessions",
+        "the prior alone holds",
+        "0 of 2 checks failed",
+    ] {
+        assert!(words.contains(part), "\"{part}\" is missing from:\n{table}");
+    }
+}
+
+#[test]
+fn answers_that_no_page_of_this_run_asked_for_are_refused() {
+    let bench = Bench::new();
+    let study = make_study(&bench, &[]);
+    let session = |seed| answer(&study, Question::Truth, seed, |pair, _| prefer_first(pair));
+    let refuse = |files: &[AnswerFile], parts: &[&str]| {
+        let names = write_answers(&bench, files);
+        assert_refused(&bench.shuttertruth(&preferences(&names, &[])), 2, parts);
+    };
+    let changed = |change: fn(&mut AnswerFile)| {
+        let mut file = session(3);
+        change(&mut file);
+        file
+    };
+    refuse(
+        &[session(1), session(1)],
+        &[
+            "answers_1.json: has the seed 1 of answers_0.json",
+            "counts once",
+        ],
+    );
+    refuse(
+        &[changed(|file| file.format = 2)],
+        &["answers_0.json: has format 2; allowed: 1"],
+    );
+    refuse(
+        &[changed(|file| file.seed = 4)],
+        &["answer 1 of 8 is about", "the seed 4 shows"],
+    );
+    refuse(
+        &[changed(|file| {
+            let own = &mut file.answers[4];
+            std::mem::swap(&mut own.left, &mut own.right);
+            // A check of one clip looks the same from both sides.
+            own.scene = "plate".to_owned() + if own.left == own.right { "s" } else { "" };
+        })],
+        &["answer 5 of 8 is about"],
+    );
+    refuse(
+        &[changed(|file| file.answers.push(file.answers[0].clone()))],
+        &["9 answers; allowed: 1 to 8"],
+    );
+    refuse(
+        &[changed(|file| file.answers.clear())],
+        &["0 answers; allowed: 1 to 8"],
+    );
+    refuse(
+        &[changed(|file| file.answers[0].milliseconds = -1.0)],
+        &["answer 1 of 8 took -1 milliseconds"],
+    );
+    refuse(
+        &[changed(|file| file.seed = 1 << 60)],
+        &["allowed: 0 to 9007199254740991"],
+    );
+    refuse(
+        &[
+            session(1),
+            changed(|file| file.study.pictures = "0".to_owned()),
+        ],
+        &["answers_1.json: answers about other pictures than answers_0.json: the pictures differ"],
+    );
+    refuse(
+        &[changed(|file| file.study.shutters[0].filters.truncate(1))],
+        &["its page asks about 1 filters"],
+    );
+    refuse(
+        &[changed(|file| {
+            file.study.shutters[0].telling_scenes = vec![7]
+        })],
+        &["differs from the sharp frame"],
+    );
+    // One answer is no scale.
+    refuse(
+        &[changed(|file| file.answers.truncate(1))],
+        &["no scale of the trailing shutter exists", " | "],
+    );
+
+    let refuse_text = |text: &str, parts: &[&str]| {
+        fs::write(bench.path("answers_0.json"), text).unwrap();
+        assert_refused(
+            &bench.shuttertruth(&["preferences", "answers_0.json"]),
+            2,
+            parts,
+        );
+    };
+    let text = serde_json::to_string(&session(3)).unwrap();
+    refuse_text("{}", &["is no file of answers: it has no format"]);
+    refuse_text(&text[..200], &["is no file of answers"]);
+    refuse_text(
+        &text.replacen("\"seed\"", "\"name\":\"A. Person\",\"seed\"", 1),
+        &["unknown field `name`"],
+    );
+    refuse_text(
+        &text.replacen("\"left\"", "\"neither\\n::error::\"", 1),
+        &["control characters"],
+    );
+    refuse_text(
+        &json!({"format": 1}).to_string(),
+        &["is no file of answers", "missing field"],
+    );
+
+    // Another run: another seed makes other truths, a filter that changed makes other pictures.
+    let names = write_answers(&bench, &[session(1)]);
+    let with_run = preferences(&names, &["--run", "out"]);
+    assert_done(&bench.shuttertruth(&with_run));
+    let output = bench.path("out/plate/identity_default/output.png");
+    let before = fs::read(&output).unwrap();
+    fs::copy(bench.path("out/plate/truth_trailing.png"), &output).unwrap();
+    assert_refused(
+        &bench.shuttertruth(&with_run),
+        2,
+        &["another run: the pictures differ"],
+    );
+    fs::write(&output, before).unwrap();
+    assert_done(&bench.shuttertruth(&with_run));
+    assert_done(&bench.run(&["--filters", FILTERS, "--seed", "2"]));
+    assert_refused(
+        &bench.shuttertruth(&with_run),
+        2,
+        &["another run: the truths differ"],
+    );
+    assert_done(&bench.run(&["--filters", "identity", "--no-cache"]));
+    assert_refused(
+        &bench.shuttertruth(&with_run),
+        2,
+        &["is not the run", "fits nothing"],
+    );
+}

@@ -1,0 +1,242 @@
+//! The page that asks people, from its keys to the scale of the answers.
+
+use std::fs;
+
+use serde_json::{Value, json};
+use suite::{Clip, Question, ShownPair, Study, draw_session};
+
+use crate::bench::{Bench, assert_done};
+use crate::browser::Browser;
+
+const FILTERS: [&str; 2] = [
+    "--filters",
+    "jump_flood:paper,velocity_gather:fine,identity",
+];
+
+/// A clip as the page numbers it.
+fn code(clip: Clip) -> i64 {
+    match clip {
+        Clip::Filter(filter) => filter as i64,
+        Clip::Truth => -1,
+        Clip::Sharp => -2,
+    }
+}
+
+fn plain(pair: &ShownPair) -> Value {
+    json!([pair.shutter, pair.scene, code(pair.left), code(pair.right)])
+}
+
+/// Waits until a question can be answered.
+fn wait(browser: &mut Browser, question: usize) {
+    browser.until(&format!(
+        "document.body.dataset.asked === '{question}' && document.body.dataset.ready === 'true'"
+    ));
+}
+
+/// The key of an attentive person, to whom a filter of a smaller number looks better.
+fn key(pair: &ShownPair) -> &'static str {
+    let rank = |clip| match code(clip) {
+        -2 => 100,
+        rank => rank,
+    };
+    match rank(pair.left).cmp(&rank(pair.right)) {
+        std::cmp::Ordering::Less => "ArrowLeft",
+        std::cmp::Ordering::Greater => "ArrowRight",
+        std::cmp::Ordering::Equal => "ArrowDown",
+    }
+}
+
+/// Reads the session that the browser keeps.
+fn kept(browser: &mut Browser) -> Value {
+    let text = browser.text("localStorage.getItem(localStorage.key(0))");
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn answers_by_keys_survive_a_reload_and_become_a_scale() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&[&FILTERS[..], &["--frames", "3", "--fps", "5"]].concat()));
+    let written = bench.execute(&["ask", "out", "--out", "a page", "--json"]);
+    let written: Value = serde_json::from_str(&written).unwrap();
+    let study: Study = serde_json::from_value(written["study"].clone()).unwrap();
+    let page = bench.path("a page/index.html");
+    let mut browser = Browser::new(1280, 800);
+    browser.save_to(&bench.path("saved"));
+    browser.open(&page, "");
+    let start = browser.text("document.getElementById('start').innerText");
+    assert!(
+        start.contains("There are 5 questions") && start.contains("no difference"),
+        "{start}"
+    );
+    assert!(!start.contains("jump_flood"), "{start}");
+    browser.press("Tab");
+    browser.value("document.getElementById('begin').click()");
+    wait(&mut browser, 0);
+    let session = kept(&mut browser);
+    let seed = session["seed"].as_u64().unwrap();
+    let pairs = draw_session(&study, Question::Truth, seed);
+    assert_eq!(pairs.len(), 5);
+
+    // Three clips in step: what a canvas shows is the picture of the frame, at a whole number of pixels.
+    for frame in ["1", "2", "0"] {
+        browser.until(&format!("document.body.dataset.frame === '{frame}'"));
+    }
+    let sizes = browser.value(
+        "[...document.querySelectorAll('#stage canvas')].map(own => [own.width, own.getBoundingClientRect().width / own.width])",
+    );
+    // As many as fit 800 pixels with two rows of 32, and words around them.
+    let zoom = sizes[0][1].as_u64().expect("it is a whole number");
+    assert!((6..=9).contains(&zoom), "{sizes}");
+    assert_eq!(sizes, json!([[64, zoom], [64, zoom], [64, zoom]]));
+    let shown = browser.text("document.getElementById('asking').innerText");
+    assert!(
+        shown.contains("Which looks more like the truth?") && shown.contains("question 1 of 5"),
+        "{shown}"
+    );
+    assert!(
+        !study.shutters[0]
+            .filters
+            .iter()
+            .any(|name| shown.contains(name)),
+        "{shown}"
+    );
+
+    for (index, pair) in pairs.iter().enumerate().take(2) {
+        wait(&mut browser, index);
+        browser.press("r");
+        browser.press(key(pair));
+        // Too early to be an answer.
+        browser.press("ArrowLeft");
+    }
+    wait(&mut browser, 2);
+    assert_eq!(kept(&mut browser)["answers"].as_array().unwrap().len(), 2);
+    browser.open(&page, "");
+    assert_eq!(
+        browser.text("document.getElementById('verdict').textContent"),
+        "Stopped"
+    );
+    browser.value("document.getElementById('resume').click()");
+    for (index, pair) in pairs.iter().enumerate().skip(2) {
+        wait(&mut browser, index);
+        if index == 3 {
+            browser.press("Escape");
+            assert!(
+                browser
+                    .text("document.getElementById('given').textContent")
+                    .contains("3 of 5")
+            );
+            browser.value("document.getElementById('resume').click()");
+            wait(&mut browser, index);
+        }
+        browser.press(key(pair));
+    }
+    browser.until("document.getElementById('verdict').textContent === 'Thank you'");
+    browser.value("document.getElementById('save').click()");
+    let name = format!("saved/answers_{seed}.json");
+    let start = std::time::Instant::now();
+    while !bench.path(&name).is_file() {
+        assert!(start.elapsed().as_secs() < 20, "nothing was saved");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let file: Value = serde_json::from_slice(&fs::read(bench.path(&name)).unwrap()).unwrap();
+    assert_eq!(file["display"]["viewport"], json!([1280, 800]));
+    assert_eq!(file["answers"][0]["zoom"], zoom);
+    let printed = bench.execute(&["preferences", &name, "--run", "out", "--json"]);
+    let printed: Value = serde_json::from_str(&printed).unwrap();
+    let question = &printed["questions"][0];
+    assert_eq!(question["sessions"][0]["failed_checks"], 0);
+    let filters = question["scales"][0]["filters"].as_array().unwrap();
+    let order: Vec<&str> = filters
+        .iter()
+        .map(|own| own["filter"].as_str().unwrap())
+        .collect();
+    assert_eq!(order, study.shutters[0].filters);
+    let scores = question["scales"][0]["scores"].as_array().unwrap();
+    assert!(scores.iter().any(|own| own["score"] == "jod"), "{scores:?}");
+
+    browser.value("confirm = () => true; document.getElementById('fresh').click()");
+    assert_eq!(browser.value("localStorage.length"), 0);
+    assert_eq!(
+        browser.value("document.getElementById('begin').checkVisibility()"),
+        true
+    );
+    assert_eq!(browser.complaints(), [""; 0]);
+    let folder = page.parent().unwrap().to_str().unwrap().replace(' ', "%20");
+    let requests = browser.requests();
+    assert!(requests.len() > 5);
+    for request in requests {
+        let is_own =
+            request.starts_with(&format!("file://{folder}/")) || request.starts_with("blob:");
+        assert!(is_own, "{request}");
+    }
+}
+
+#[test]
+fn the_page_draws_the_sessions_that_the_program_expects() {
+    let bench = Bench::new();
+    bench.add_slow_scene();
+    let filters = "jump_flood:paper,velocity_gather:fine,velocity_gather:coarse,identity,bevy:high,kino,three:corrected";
+    assert_done(&bench.run(&["--filters", filters]));
+    let words = [
+        "ask",
+        "out",
+        "--question",
+        "better",
+        "--pairs",
+        "13",
+        "--json",
+    ];
+    let written: Value = serde_json::from_str(&bench.execute(&words)).unwrap();
+    let study: Study = serde_json::from_value(written["study"].clone()).unwrap();
+    assert_eq!(study.shutters.len(), 2);
+    let mut browser = Browser::new(390, 700);
+    browser.open(&bench.path("out/ask/index.html"), "");
+    for most_pairs in [7, 13, 20, 1000] {
+        let study = Study {
+            most_pairs,
+            ..study.clone()
+        };
+        let text = serde_json::to_string(&study).unwrap();
+        for (question, seeds) in [
+            (Question::Truth, 0..20),
+            (Question::Better, (1 << 53) - 10..(1 << 53)),
+        ] {
+            let name = question.name();
+            let (first, last) = (seeds.start, seeds.end);
+            let found = browser.value(&format!(
+                "[...Array({}).keys()].map(at => drawSession({text}, '{name}', {first} + at).map(own => [own.shutter, own.scene, own.left, own.right]))",
+                last - first
+            ));
+            let due: Vec<Vec<Value>> = (seeds)
+                .map(|seed| {
+                    draw_session(&study, question, seed)
+                        .iter()
+                        .map(plain)
+                        .collect()
+                })
+                .collect();
+            assert_eq!(found, json!(due), "{most_pairs} {name}");
+        }
+    }
+
+    // A page with one question asks that, and shows no truth. In a window that is too small it says so, and takes no answer.
+    assert_eq!(browser.value("document.documentElement.scrollWidth"), 390);
+    browser.value("document.getElementById('begin').click()");
+    wait(&mut browser, 0);
+    assert_eq!(
+        browser.value("document.getElementById('truth').checkVisibility()"),
+        false
+    );
+    browser.resize(100, 700);
+    browser.until("document.getElementById('misfit').checkVisibility()");
+    let misfit = browser.text("document.getElementById('misfit').textContent");
+    assert!(misfit.contains("128 x 32"), "{misfit}");
+    browser.press("ArrowLeft");
+    assert_eq!(kept(&mut browser)["answers"], json!([]));
+    browser.resize(390, 700);
+    browser.until("!document.getElementById('misfit').checkVisibility()");
+    browser.press("ArrowLeft");
+    wait(&mut browser, 1);
+    assert_eq!(kept(&mut browser)["answers"][0]["choice"], "left");
+    assert_eq!(browser.complaints(), [""; 0]);
+}
