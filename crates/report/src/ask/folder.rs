@@ -9,8 +9,6 @@ use super::page::ask_page;
 
 /// Name of the page in its folder.
 pub const ASK_PAGE: &str = "index.html";
-/// Upper limit on the bytes of one picture: the largest that the program reads, uncompressed.
-const MOST_PICTURE_BYTES: u64 = 1 << 29;
 
 /// Writes the page of a study and copies of its pictures into a folder that is new or empty. Names of pictures tell no filter. Returns
 /// the path of the page, which comes last.
@@ -27,7 +25,7 @@ pub fn write_ask_folder(
     for (number, files) in clips.iter().enumerate() {
         for (frame, file) in files.iter().enumerate() {
             let picture = out.join("pictures").join(format!("{number}_{frame}.png"));
-            write_atomically(&picture, &read_bounded(file, MOST_PICTURE_BYTES)?)?;
+            write_atomically(&picture, &read_bounded(file, study.most_picture_bytes())?)?;
         }
     }
     let page = out.join(ASK_PAGE);

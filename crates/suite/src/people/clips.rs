@@ -37,8 +37,8 @@ struct ItemFrame {
     truth_hash: String,
 }
 
-/// Makes the study of a run whose pictures lie below `folder`; returns it with the files of each clip, by
-/// [`Study::clip_number`].
+/// Makes the study of a run whose pictures lie below `folder`; returns it with the files of each clip: scene by scene the
+/// sharp frames, then per shutter the truth and the filters.
 ///
 /// # Errors
 /// A pattern fits nothing, the filters of a shutter are too few or lack a scene, a picture is missing or has another size, or the truth is
@@ -126,6 +126,11 @@ impl Study {
             .iter()
             .map(|shutter| 1 + shutter.filters.len());
         1 + clips.sum::<usize>()
+    }
+
+    /// Upper limit on the bytes of one of its pictures.
+    pub fn most_picture_bytes(&self) -> u64 {
+        most_bytes(self.width, self.height)
     }
 
     /// Numbers of the truths' clips on the first scene, by shutter. The filters follow each.
@@ -230,7 +235,7 @@ fn hash_pictures(clips: &[Vec<ClipFiles>], run: &Run) -> Result<String, Error> {
 }
 
 /// Upper limit on the bytes of a PNG of this size.
-pub(crate) fn most_bytes(width: u32, height: u32) -> u64 {
+fn most_bytes(width: u32, height: u32) -> u64 {
     (1 << 16) + 16 * u64::from(width) * u64::from(height)
 }
 
