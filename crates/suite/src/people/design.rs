@@ -222,6 +222,13 @@ mod tests {
             // 3 rounds of both, one more of both, and one more of the first: the next one would be beyond the limit.
             let count = trials.iter().filter(|own| !own.is_check()).count();
             assert_eq!(count, 3 * (9 + 4) + (9 + 2) + 9);
+            // It has 2 pairs, and a limit that is 1 higher lets it in.
+            let longer = Study {
+                most_pairs: 61,
+                ..study.clone()
+            };
+            let longer = draw_session(&longer, Question::Better, seed);
+            assert_eq!(longer.iter().filter(|own| !own.is_check()).count(), 61);
             for (shutter, count) in [9, 4].into_iter().enumerate() {
                 let mut counts = PairedCounts::new(count);
                 for (_, one, other) in pairs(&trials, shutter).keys() {
@@ -247,7 +254,8 @@ mod tests {
     #[test]
     fn checks_show_the_truth_beside_the_sharp_frame_only_where_the_truth_is_asked_for() {
         let study = study(&[4], 2, 1000);
-        for seed in 0..20 {
+        let mut truths_on_the_left = 0;
+        for seed in 0..100 {
             let count = |question, is_right: fn(&ShownPair) -> bool| {
                 draw_session(&study, question, seed)
                     .iter()
@@ -274,6 +282,13 @@ mod tests {
                 ],
                 [2, 0]
             );
+            let is_left: fn(&ShownPair) -> bool = |own| own.left == Clip::Truth;
+            truths_on_the_left += count(Question::Truth, is_left);
         }
+        // 4 sigma of 100 checks.
+        assert!(
+            (30..=70).contains(&truths_on_the_left),
+            "{truths_on_the_left}"
+        );
     }
 }
