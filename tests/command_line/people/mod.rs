@@ -190,7 +190,7 @@ fn answers_become_a_scale_beside_the_scores_of_the_run() {
         .map(|seed| {
             answer(&study, Question::Truth, seed, |pair, index| {
                 let choice = prefer_first(pair);
-                match (index + seed as usize) % 4 == 0 && !pair.is_check() {
+                match (index + seed as usize).is_multiple_of(4) && !pair.is_check() {
                     true => opposite(choice),
                     false if pair.is_check() && seed == 5 => Chosen::Left,
                     false => choice,

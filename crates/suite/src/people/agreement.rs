@@ -79,7 +79,7 @@ mod tests {
             answers,
         };
         // Two choose filter 0 whatever its side, one chooses filter 1: one of three pairs of people is alike.
-        let mut people = vec![
+        let mut people = [
             session(vec![(trial(0, 1), Chosen::Left)]),
             session(vec![(trial(1, 0), Chosen::Right)]),
             session(vec![(trial(0, 1), Chosen::Right)]),

@@ -113,7 +113,7 @@ fn count_checks(pairs: usize) -> usize {
 fn draw_check(study: &Study, question: Question, index: usize, random: &mut Random) -> ShownPair {
     let shutter = random.below(study.shutters.len());
     let own = &study.shutters[shutter];
-    if question == Question::Truth && index % 2 == 0 {
+    if question == Question::Truth && index.is_multiple_of(2) {
         let scene = own.telling_scenes[random.below(own.telling_scenes.len())];
         let (left, right) = (Clip::Truth, Clip::Sharp);
         return ShownPair {

@@ -87,9 +87,9 @@ impl PairedCounts {
         let mut open = vec![start];
         reached[start] = true;
         while let Some(item) = open.pop() {
-            for other in 0..self.items {
-                if other != item && !reached[other] && leads(item, other) {
-                    reached[other] = true;
+            for (other, is_reached) in reached.iter_mut().enumerate() {
+                if !*is_reached && leads(item, other) {
+                    *is_reached = true;
                     open.push(other);
                 }
             }

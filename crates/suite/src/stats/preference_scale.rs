@@ -200,7 +200,7 @@ mod tests {
             let found = scale_preferences(&study, KNOWN.len(), 200).unwrap();
             let intervals = found.intervals.unwrap();
             held += (intervals.iter().zip(&due))
-                .filter(|([low, high], due)| (low..=high).contains(&due))
+                .filter(|([low, high], due)| (low..=high).contains(due))
                 .count();
         }
         held as f64 / (STUDIES * KNOWN.len()) as f64
