@@ -44,13 +44,14 @@ fn the_documented_example_loads() {
         .iter()
         .map(|object| object.name.as_str())
         .collect();
-    assert_eq!(names, ["car", "wheel", "dashboard", "flag"]);
-    assert_eq!(scene.meshes[scene.objects[3].mesh].shapes.len(), 3);
+    assert_eq!(names, ["car", "wheel", "window", "dashboard", "flag"]);
+    assert_eq!(scene.meshes[scene.objects[4].mesh].shapes.len(), 3);
     let parents: Vec<_> = scene.objects.iter().map(|object| object.parent).collect();
     assert_eq!(
         parents,
         [
             Parent::World,
+            Parent::Object(0),
             Parent::Object(0),
             Parent::Camera,
             Parent::World

@@ -9,6 +9,7 @@ use crate::error::TraceError;
 use crate::film::eye::Eye;
 use crate::film::render::{Film, PIXELS_PER_TASK, Times};
 use crate::film::sampler::{Sampler, Stream, pixel_seed};
+use crate::light::stops::visit_layers;
 use crate::progress::Meter;
 
 /// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray stands for may be missed.
@@ -132,21 +133,25 @@ fn probe_once(
     let row = pixel / film.canvas.columns();
     let seed = pixel_seed(SEED, Stream::Support, film.canvas.seed_number(pixel), 0);
     let [x, y, part, _] = Sampler::new(seed, index).camera();
-    let mut last: Option<(f64, usize, bool)> = None;
+    let mut probed_at = None;
+    // Objects, and whether the instant hides the point that was seen of each.
+    let mut found: Vec<(usize, bool)> = Vec::new();
     for (times, probe) in due {
         let time = times.at(part, row, film.canvas.height);
-        let (object, is_hidden) = match last {
-            Some((probed_at, object, is_hidden)) if probed_at == time => (object, is_hidden),
-            _ => {
-                let ray = eye.view_at(time).ray(left + x, top + y);
-                let hit = stage.closest(&mut eye.poses, &ray);
-                let poses = (&mut eye.poses, &mut eye.instant);
-                let point = instant.look_back(stage, poses, &ray, hit.as_ref());
-                (hit.map_or(0, |hit| hit.object + 1), !point.is_shown)
-            }
-        };
-        probe.seen[object] = true;
-        probe.unknowable |= is_hidden;
-        last = Some((time, object, is_hidden));
+        if probed_at != Some(time) {
+            let ray = eye.view_at(time).ray(left + x, top + y);
+            let then = &mut eye.instant;
+            found.clear();
+            visit_layers(stage, &mut eye.poses, &ray, |poses, layer| {
+                let hit = layer.stop.map(|stop| stop.hit);
+                let point = instant.look_back(stage, (poses, then), &ray, hit.as_ref());
+                found.push((hit.map_or(0, |hit| hit.object + 1), !point.is_shown));
+            });
+            probed_at = Some(time);
+        }
+        for (object, is_hidden) in &found {
+            probe.seen[*object] = true;
+            probe.unknowable |= is_hidden;
+        }
     }
 }
