@@ -15,8 +15,9 @@ const BAR: f64 = 0.07;
 /// Height and width of the door.
 const DOOR: [f64; 2] = [1.1, 2.6];
 
-const BARS: &str = "newmtl paint\nKd 0.82 0.84 0.8\n";
-/// Clean glass of a greenish tint, and stripes that are etched into it.
+/// Everything is unlit, so that a truth takes no light noise and little time.
+const BARS: &str = "newmtl paint\nKd 0 0 0\nKe 0.62 0.64 0.6\n";
+/// Clean glass of a greenish tint, and stripes that are etched into it or printed on it.
 const GLASS: &str = "\
 newmtl glass
 Kd 0 0 0
@@ -25,10 +26,12 @@ Ni 1.5
 d 0
 illum 4
 newmtl frost
-Kd 0.9 0.92 0.9
+Kd 0 0 0
+Ke 0.75 0.8 0.78
 d 0.6
 newmtl print
-Kd 0.75 0.16 0.1
+Kd 0 0 0
+Ke 0.7 0.12 0.06
 d 0.7
 ";
 

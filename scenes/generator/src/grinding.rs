@@ -18,16 +18,20 @@ const SPARKS: u32 = 36;
 /// Side of the textures, in texels.
 const TEXELS: u32 = 64;
 
+/// Everything is unlit, so that a truth takes no light noise and little time.
 const STONE: &str = "\
 newmtl stone
-Kd 0.45 0.42 0.4
+Kd 0 0 0
+Ke 0.2 0.18 0.17
 newmtl mark
-Kd 0.9 0.85 0.3
+Kd 0 0 0
+Ke 0.6 0.5 0.1
 newmtl hub
-Kd 0.2 0.22 0.25
+Kd 0 0 0
+Ke 0.06 0.07 0.09
 ";
 const SPARK: &str = "newmtl spark\nKd 0 0 0\nKe 5 2.6 0.8\nmap_d spark.png\n";
-const SMOKE: &str = "newmtl smoke\nKd 0.7 0.7 0.72\nd 0.7\nmap_d smoke.png\n";
+const SMOKE: &str = "newmtl smoke\nKd 0 0 0\nKe 0.5 0.5 0.53\nd 0.7\nmap_d smoke.png\n";
 
 pub(crate) fn files() -> Files {
     let mut files = model_files("stone", &stone(), STONE);

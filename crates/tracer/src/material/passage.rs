@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::Ray;
 use crate::material::fresnel;
-use crate::material::surface::{Surface, find_material, opacity};
+use crate::material::surface::{find_material, incidence, opacity};
 use crate::motion::poses::Poses;
 use crate::scene::Scene;
 
@@ -27,8 +27,7 @@ impl Passage {
         let [reflected, passed] = match translucency.glass {
             None => [Vec3::ZERO, translucency.filter],
             Some(index) => {
-                let facet = Surface::at(scene, poses.pose(hit.object), ray, hit).facet;
-                let cosine = (-facet.dot(ray.direction)).clamp(0.0, 1.0);
+                let cosine = incidence(scene, poses.pose(hit.object), ray, hit);
                 split_by_pane(f64::from(index), cosine, translucency.filter)
             }
         };

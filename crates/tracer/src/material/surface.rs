@@ -80,7 +80,7 @@ impl Surface {
     /// The surface that `ray` meets at `hit`, the object being at `pose`.
     pub fn at(scene: &Scene, pose: &Pose, ray: &Ray, hit: &Hit) -> Surface {
         let mesh = &scene.meshes[scene.objects[hit.object].mesh];
-        let scaled = mesh.at(hit.time).area_normal(hit.triangle, &pose.to_world);
+        let scaled = scaled_normal(scene, pose, hit);
         let facet = face_towards(scaled.normalize_or_zero(), -ray.direction);
         let texcoord = interpolate_texcoord(mesh, hit.triangle, hit.weights);
         let index = material_index(scene, hit.object, hit.triangle);
@@ -106,6 +106,18 @@ impl Surface {
     pub fn brdf<'a>(&self, glossy: Option<&'a GlossyMaterial>, ray: &Ray) -> Option<Brdf<'a>> {
         Brdf::new(glossy, self.color, self.facet, self.normal, -ray.direction)
     }
+}
+
+/// The normal of the facet at a hit; its length is twice the triangle's area.
+fn scaled_normal(scene: &Scene, pose: &Pose, hit: &Hit) -> DVec3 {
+    let mesh = &scene.meshes[scene.objects[hit.object].mesh];
+    mesh.at(hit.time).area_normal(hit.triangle, &pose.to_world)
+}
+
+/// The cosine between a ray and the normal of the facet that it meets, from 0 to 1.
+pub(crate) fn incidence(scene: &Scene, pose: &Pose, ray: &Ray, hit: &Hit) -> f64 {
+    let normal = scaled_normal(scene, pose, hit).normalize_or_zero();
+    normal.dot(ray.direction).abs().min(1.0)
 }
 
 /// The material of a triangle.
