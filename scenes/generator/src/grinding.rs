@@ -30,7 +30,7 @@ newmtl hub
 Kd 0 0 0
 Ke 0.06 0.07 0.09
 ";
-const SPARK: &str = "newmtl spark\nKd 0 0 0\nKe 5 2.6 0.8\nmap_d spark.png\n";
+const SPARK: &str = "newmtl spark\nKd 0 0 0\nKe 1.6 0.9 0.3\nmap_d spark.png\n";
 const SMOKE: &str = "newmtl smoke\nKd 0 0 0\nKe 0.5 0.5 0.53\nd 0.7\nmap_d smoke.png\n";
 
 pub(crate) fn files() -> Files {
@@ -85,7 +85,7 @@ fn sparks(flight: u32) -> Mesh {
         let distance = 0.4 + 3.4 * chance(0);
         let slope = 0.42 - 0.33 * f64::from(flight) + 0.3 * (chance(1) - 0.5);
         let place = DVec3::new(distance, slope * distance, 0.4 * (chance(2) - 0.5));
-        add_card(&mut mesh, "spark", place, 0.07 + 0.06 * chance(3));
+        add_card(&mut mesh, "spark", place, 0.1 + 0.07 * chance(3));
     }
     mesh
 }

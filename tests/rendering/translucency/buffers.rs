@@ -132,7 +132,8 @@ fn shading_frozen_at_the_instant_keeps_the_film_before_it() {
         );
         let truth = render_truth(&scene);
         let sum = |image: &frame::Image| image.pixels.iter().map(|pixel| pixel[0]).sum::<f32>();
-        [sum(&truth.mean().color), sum(&truth.at_instant.frozen)]
+        let halves = truth.at_instant.iter().map(|half| sum(&half.frozen));
+        [sum(&truth.mean().color), 0.5 * halves.sum::<f32>()]
     };
     let [clear, halved] = [0.99999, 0.5].map(|share| lit(Vec3::splat(share)));
     for (clear, halved) in clear.into_iter().zip(halved) {
