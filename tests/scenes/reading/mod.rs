@@ -44,7 +44,7 @@ fn the_documented_example_loads() {
         .iter()
         .map(|object| object.name.as_str())
         .collect();
-    assert_eq!(names, ["car", "wheel", "window", "dashboard", "flag"]);
+    assert_eq!(names, ["car", "wheel", "dashboard", "window", "flag"]);
     assert_eq!(scene.meshes[scene.objects[4].mesh].shapes.len(), 3);
     let parents: Vec<_> = scene.objects.iter().map(|object| object.parent).collect();
     assert_eq!(
@@ -52,8 +52,8 @@ fn the_documented_example_loads() {
         [
             Parent::World,
             Parent::Object(0),
-            Parent::Object(0),
             Parent::Camera,
+            Parent::Object(0),
             Parent::World
         ]
     );
