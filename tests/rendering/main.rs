@@ -19,5 +19,6 @@ mod regions;
 mod shutter;
 mod small_truths;
 mod tiles;
+mod translucency;
 mod truth;
 mod velocity;

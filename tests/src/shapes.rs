@@ -69,6 +69,7 @@ pub fn diffuse(albedo: f32) -> Material {
         emission_texture: None,
         opacity: 1.0,
         opacity_texture: None,
+        translucency: None,
     }
 }
 

@@ -215,6 +215,10 @@ fn list_extensions(document: &Document) -> Vec<String> {
         ),
         ("KHR_materials_ior", has(|own| own.ior.is_some())),
         ("KHR_materials_specular", has(|own| own.specular.is_some())),
+        (
+            "KHR_materials_transmission",
+            has(|own| own.transmission.is_some()),
+        ),
     ];
     (used.into_iter())
         .filter(|(_, is_used)| *is_used)

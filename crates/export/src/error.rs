@@ -18,6 +18,17 @@ pub enum ExportError {
         /// Reason.
         reason: String,
     },
+    /// A translucent material that glTF cannot say.
+    #[error(
+        "material {material}: opacity {opacity} beside glass or a filter, which glTF 2.0 has no words for; it can say: glass or a \
+         filter of opacity 0 without a texture of opacity, and a film without a filter; give the print on the glass a material of its own"
+    )]
+    Translucency {
+        /// Name of the material.
+        material: String,
+        /// Its opacity.
+        opacity: f32,
+    },
     /// A field of view that changes, which glTF cannot say.
     #[error(
         "scene {scene}: the camera's field of view changes between frames {from} and {to}, which glTF 2.0 cannot animate; \

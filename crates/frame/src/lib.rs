@@ -15,7 +15,8 @@
 //! | shutter | [`Shutter`]`{ open, close }`, frames relative to the instant. Exposure `m = close - open`, 1 being 360 degrees. Trailing is `[-m, 0]`, centred `[-m/2, m/2]`, leading `[0, m]`. The frame never moves; the truth's interval does. [`ShutterProfile`] says how it opens and closes within the interval, and when each row is exposed |
 //! | velocity | screen motion of the surface point seen at the pixel centre over one frame interval, in pixels, +x right, +y down; see [`VelocityKind`]. A background at infinity has the camera's rotational velocity |
 //! | depth | distance along the view axis in metres; the background holds [`FAR_DEPTH`] |
-//! | coverage | per object: the fraction of (shutter x pixel area) in which that object is the visible surface; sums to 1 with the background |
+//! | coverage | per object: the fraction of (shutter x pixel area) in which that object is the visible surface; sums to 1 with the background. A translucent surface counts by the share of the light that it stops or reflects |
+//! | translucent surfaces | in colour and coverage; velocity, depth and object id are those of the first opaque surface behind them, unless their material says otherwise |
 //! | noise | a truth is R independent, complete replicates; two halves A and B and the standard error travel with it |
 //! | support | the pixels where the open shutter sees an object at all: a function of scene, shutter and size, which the noise of a truth does not change; see [`Support`] |
 //! | determinism | the same inputs give the same bytes on any number of threads |

@@ -12,6 +12,7 @@ use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::Stream;
 use crate::light::integrator::Integrator;
+use crate::material::sight::Sight;
 use crate::motion::velocity::{PointMotion, TrackedPoint, camera, camera_velocity, reprojection};
 use crate::pixel_grid::{PixelGrid, scale_camera, scale_reprojection};
 use crate::progress::{Meter, Watch};
@@ -39,7 +40,7 @@ struct PointSample {
 }
 
 /// Renders the instant `t = 0`. Colour and coverage are filtered over each pixel or sampled at its centre. Velocity, depth and
-/// object id are those of the point at the centre. All rasters extend beyond the picture by the guard band of the settings.
+/// object id are those of the point at the centre; translucent surfaces let them pass, unless a material says otherwise. All rasters extend beyond the picture by the guard band of the settings.
 pub fn trace_frame(
     scene: &Scene,
     settings: &RenderSettings,
@@ -210,7 +211,7 @@ fn sample_points(
             |poses, pixel| {
                 let centre = canvas.place(pixel, [0.5; 2]);
                 let ray = view.ray(centre[0], centre[1]);
-                let hit = stage.closest(poses.at(motion.seen_at), &ray);
+                let hit = stage.closest_in_sight(poses.at(motion.seen_at), &ray, Sight::Buffers);
                 let depth = hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32);
                 let velocity = if hit.is_none() && !options.sky_velocity {
                     [0.0, 0.0]

@@ -50,7 +50,7 @@ pub use pixel_grid::PixelGrid;
 pub use progress::{Progress, Watch};
 pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
-    Object, Parent, Scene, Shape, Sun, Texture,
+    Object, Parent, Scene, Shape, Sun, Texture, Translucency,
 };
 pub use seal::Seal;
 pub use settings::RenderSettings;

@@ -186,7 +186,7 @@ pub struct Texture {
     pub texels: Vec<[f32; 4]>,
 }
 
-/// A two-sided surface that may emit, with cut-outs.
+/// A two-sided surface that may emit, with cut-outs or translucent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Name in the MTL file.
@@ -202,10 +202,35 @@ pub struct Material {
     pub emission: Vec3,
     /// Index into the scene's textures (map_Ke); multiplies `emission`. Without albedo it makes an unlit surface.
     pub emission_texture: Option<usize>,
-    /// Opacity (d). Where it is below 0.5, times its texture's, the surface has a hole.
+    /// Opacity (d). Where it is below 0.5, times its texture's, the surface has a hole, unless it is translucent.
     pub opacity: f32,
     /// Index into the scene's textures (map_d); its alpha counts if it has one, else its first component undecoded.
     pub opacity_texture: Option<usize>,
+    /// What happens to the light that opacity leaves, if opacity mixes the surface with what lies behind it; none where
+    /// opacity cuts holes.
+    pub translucency: Option<Translucency>,
+}
+
+/// The light that a translucent surface does not stop. It passes straight through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Translucency {
+    /// Part of the light that passes (Tf), each component in [0, 1]; in glass, of each passage from side to side.
+    pub filter: Vec3,
+    /// Index of refraction of a pane of glass, which reflects a part of the light on its two sides; none for a film that
+    /// reflects nothing.
+    pub glass: Option<f32>,
+    /// True if velocity, depth and object id are those of this surface; else they are those of what lies behind it, as
+    /// engines have it.
+    pub in_buffers: bool,
+}
+
+impl Translucency {
+    /// All light passes.
+    pub const CLEAR: Self = Self {
+        filter: Vec3::ONE,
+        glass: None,
+        in_buffers: false,
+    };
 }
 
 impl Material {
@@ -221,6 +246,10 @@ impl Material {
             diffuse_texture: None,
             emission,
             emission_texture,
+            translucency: self.translucency.map(|passing| Translucency {
+                glass: None,
+                ..passing
+            }),
             ..self
         }
     }
@@ -280,8 +309,8 @@ pub struct Object {
 }
 
 impl Scene {
-    /// Makes every surface send out its albedo, whatever the light: what emits keeps its radiance. There is no sun, and the
-    /// background lights nothing. An engine that knows no light at all draws the same radiance.
+    /// Makes every surface send out its albedo, whatever the light: what emits keeps its radiance, and glass reflects nothing.
+    /// There is no sun, and the background lights nothing. An engine that knows no light at all draws the same radiance.
     pub fn unlit(self) -> Self {
         let materials = self.materials.into_iter().map(Material::unlit);
         Self {

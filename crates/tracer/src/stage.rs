@@ -1,6 +1,6 @@
 //! A scene prepared for rays.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 #[cfg(target_arch = "x86_64")]
 use crate::accel::lanes::Avx2;
@@ -11,9 +11,11 @@ use crate::geometry::hit::Hit;
 use crate::geometry::ray::Ray;
 use crate::light::sky::Sky;
 use crate::material::glossy_material::GlossyMaterial;
+use crate::material::passage::Passage;
+use crate::material::sight::Sight;
 use crate::material::surface::Surface;
 use crate::motion::poses::Poses;
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
 
 /// A scene between two times, prepared for rays.
 ///
@@ -26,6 +28,7 @@ pub struct Stage<'a> {
     sky: Sky<'a>,
     poses: Poses<'a>,
     traversal: Traversal,
+    has_translucency: bool,
 }
 
 /// The instructions that traverse the trees. All find the same hits.
@@ -53,6 +56,7 @@ impl<'a> Stage<'a> {
             glossy_materials: scene.materials.iter().map(GlossyMaterial::new).collect(),
             poses,
             traversal: Traversal::best(),
+            has_translucency: (scene.materials.iter()).any(|own| own.translucency.is_some()),
         })
     }
 
@@ -63,7 +67,9 @@ impl<'a> Stage<'a> {
 
     /// Returns true if all surfaces look the same from everywhere.
     pub(crate) fn is_diffuse(&self) -> bool {
+        let is_glass = |own: &Material| own.translucency.is_some_and(|own| own.glass.is_some());
         self.glossy_materials.iter().all(Option::is_none)
+            && !self.scene.materials.iter().any(is_glass)
     }
 
     /// The glossy part of a material; none where it is diffuse.
@@ -81,19 +87,71 @@ impl<'a> Stage<'a> {
         self.poses.clone()
     }
 
-    /// Finds the nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
+    /// Finds the nearest surface at `t > 0`, opaque or translucent; among equally near ones that of the lowest object, then
+    /// triangle.
     pub fn closest(&self, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+        self.closest_in_sight(poses, ray, Sight::Everything)
+    }
+
+    /// Finds the nearest surface of those that a ray of this sight sees.
+    pub(crate) fn closest_in_sight(
+        &self,
+        poses: &mut Poses,
+        ray: &Ray,
+        sight: Sight,
+    ) -> Option<Hit> {
         match self.traversal {
             #[cfg(target_arch = "x86_64")]
             Traversal::Avx2(lanes) => lanes.run(
                 #[inline(always)]
-                || self.tree.closest(lanes, poses, ray),
+                || self.tree.closest(lanes, poses, ray, sight),
             ),
-            Traversal::Portable => self.tree.closest(Portable, poses, ray),
+            Traversal::Portable => self.tree.closest(Portable, poses, ray, sight),
         }
     }
 
-    /// Returns true if anything lies at `0 < t < limit`.
+    /// Finds the nearest surface behind a hit of the same ray.
+    pub(crate) fn closest_behind(&self, poses: &mut Poses, ray: &Ray, last: &Hit) -> Option<Hit> {
+        match self.traversal {
+            #[cfg(target_arch = "x86_64")]
+            Traversal::Avx2(lanes) => lanes.run(
+                #[inline(always)]
+                || self.tree.closest_behind(lanes, poses, ray, last),
+            ),
+            Traversal::Portable => self.tree.closest_behind(Portable, poses, ray, last),
+        }
+    }
+
+    /// Returns true if any surface is translucent.
+    pub(crate) fn has_translucency(&self) -> bool {
+        self.has_translucency
+    }
+
+    /// The share of the light that passes along a ray at `0 < t < limit`: the product of what all surfaces let pass. It does
+    /// not depend on the order in which they are met, since they are met from near to far.
+    pub(crate) fn transmittance(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> Vec3 {
+        if self.is_blocked(poses, ray, limit) {
+            return Vec3::ZERO;
+        }
+        let mut share = Vec3::ONE;
+        if !self.has_translucency {
+            return share;
+        }
+        let mut next = self.closest(poses, ray);
+        while let Some(hit) = next.filter(|hit| hit.t < limit) {
+            let Some(passage) = Passage::at(self.scene, poses, ray, &hit) else {
+                return Vec3::ZERO;
+            };
+            share *= passage.transmittance();
+            if share == Vec3::ZERO {
+                return share;
+            }
+            next = self.closest_behind(poses, ray, &hit);
+        }
+        share
+    }
+
+    /// Returns true if anything opaque lies at `0 < t < limit`.
     pub fn is_blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         match self.traversal {
             #[cfg(target_arch = "x86_64")]
@@ -105,7 +163,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Returns true if anything lies at `0 < t < limit`, for a ray that nothing blocks which stands still.
+    /// Returns true if anything opaque lies at `0 < t < limit`, for a ray that nothing blocks which stands still.
     pub(crate) fn is_blocked_by_mover(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         if !self.tree.has_few_movers() {
             return self.is_blocked(poses, ray, limit);

@@ -268,7 +268,7 @@ mod tests {
 
     #[test]
     fn every_instruction_set_renders_the_same_bytes() {
-        for scene in ["two_spheres", "fan"] {
+        for scene in ["two_spheres", "fan", "glasshouse"] {
             let scene = load_test_scene(scene);
             let settings = RenderSettings {
                 width: 48,

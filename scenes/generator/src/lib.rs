@@ -18,6 +18,8 @@ mod fence;
 mod files;
 mod flag;
 mod flat_shapes;
+mod glass_front;
+mod grinding;
 mod ground;
 mod hills;
 mod lamp_post;
@@ -117,6 +119,10 @@ pub fn generate_files() -> Vec<File> {
                 ground::ground_files("sand", FIELD, 2.0, ground::sand),
             ],
         ),
+        scene_files(
+            "glasshouse",
+            &[beach_ball::files(), glass_front::files(), wall::brick()],
+        ),
         scene_files("neon", &[neon_sign::files(), wall::brick()]),
         scene_files("ornaments", &[ornaments::files(), wall::boards()]),
         scene_files("pan_sky", &[cloudy_sky::files(), skyline::files()]),
@@ -131,6 +137,7 @@ pub fn generate_files() -> Vec<File> {
             ],
         ),
         scene_files("roll", &[village::files()]),
+        scene_files("sparks", &[grinding::files(), wall::brick()]),
         scene_files(
             "walker",
             &[

@@ -16,7 +16,11 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 39] = [
+const NOT_RUN: [(&str, &str); 40] = [
+    (
+        "shuttertruth run --scenes glasshouse,glasshouse@written,glasshouse@resting,sparks,sparks@written,sparks@opaque --filter bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --samples-per-pixel 64 --out out/translucent",
+        "takes minutes; a test of the catalogue renders these scenes",
+    ),
     (
         "python3 examples/optuna_tune.py --journal study.log --trials 24 --filter jump_flood --scenes fan --size 320x180 --out tuning",
         "takes minutes; a test runs the script with two workers",

@@ -10,6 +10,7 @@ mod overlap;
 mod rendered_scene;
 mod rotation;
 mod thin;
+mod translucent;
 
 /// Asserts that a score is at least a multiple of the score without the cause, and prints both.
 fn assert_worse(what: &str, [there, without]: [f64; 2], times: f64) {

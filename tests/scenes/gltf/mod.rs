@@ -115,6 +115,36 @@ fn a_texture_of_holes_is_joined_with_that_of_the_color() {
     assert!(Played::read(folder.path()).has_holes(&name));
 }
 
+#[test]
+fn films_blend_glass_transmits_and_what_gltf_cannot_say_is_refused() {
+    let mut scene = load_scene(scenes().join("glasshouse"), None).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let export = |scene: &Scene| export_gltf(scene, &tests::scenes().into(), "test", folder.path());
+    export(&scene).unwrap();
+    let text = std::fs::read_to_string(folder.path().join("scene.gltf")).unwrap();
+    let document: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let materials = document["materials"].as_array().unwrap();
+    let named = |name: &str| materials.iter().find(|own| own["name"] == name).unwrap();
+    let (frost, glass) = (named("frost"), named("glass"));
+    assert_eq!(frost["alphaMode"], "BLEND");
+    assert_eq!(glass["alphaMode"], "OPAQUE");
+    let transmission = &glass["extensions"]["KHR_materials_transmission"];
+    assert_eq!(transmission["transmissionFactor"], 1.0);
+    assert_eq!(glass["extensions"]["KHR_materials_ior"]["ior"], 1.5);
+    let base = &glass["pbrMetallicRoughness"]["baseColorFactor"];
+    assert!((base[0].as_f64().unwrap() - 0.9).abs() < 1e-6, "{base}");
+    let used = document["extensionsUsed"].as_array().unwrap();
+    assert!(used.contains(&"KHR_materials_transmission".into()));
+
+    let glass = scene.materials.iter_mut().find(|own| own.name == "glass");
+    glass.unwrap().opacity = 0.5;
+    let error = export(&scene).unwrap_err().to_string();
+    assert!(
+        error.contains("material glass: opacity 0.5 beside glass"),
+        "{error}"
+    );
+}
+
 /// Exports a scene, and compares camera, objects and vertices at random times within the animation.
 fn assert_plays(scene: &Scene) {
     let folder = tempfile::tempdir().unwrap();

@@ -2,6 +2,7 @@
 
 use crate::scene_folder::{Folder, SCENE};
 use glam::Vec3;
+use tracer::{Material, Translucency};
 
 #[test]
 fn a_material_can_change_for_one_object_only() {
@@ -89,4 +90,93 @@ fn a_textures_factor_is_one_unless_given() {
     assert_eq!(material("paint").emission, Vec3::ONE);
     assert_eq!(material("glow").diffuse, Vec3::splat(0.5));
     assert_eq!(material("glow").emission, Vec3::ZERO);
+}
+
+/// Loads the second object's materials `paint` and `glow`, its opacity blended, with more MTL statements for `paint`.
+fn load_blended(statements: &str, keys: &str) -> [Material; 2] {
+    let folder = Folder::new();
+    let paint = "newmtl paint\n";
+    folder.edit("mesh.mtl", paint, &format!("{paint}{statements}\n"));
+    let parent = "parent = \"body\"";
+    folder.edit(
+        "scene.toml",
+        parent,
+        &format!("{parent}\nalpha = \"blended\""),
+    );
+    folder.edit("scene.toml", "diffuse = [0.1, 0.2, 0.3]", keys);
+    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let first = &scene.materials[scene.objects[0].materials[0]];
+    assert_eq!(first.translucency, None, "the first object is cut out");
+    let materials = scene.objects[1].materials.iter();
+    let materials: Vec<&Material> = materials.map(|index| &scene.materials[*index]).collect();
+    ["paint", "glow"].map(|name| {
+        let found = materials.iter().find(|material| material.name == name);
+        (*found.expect("it is there")).clone()
+    })
+}
+
+#[test]
+fn blended_opacity_lets_light_pass_and_other_objects_keep_their_holes() {
+    let film = |filter: [f32; 3]| Translucency {
+        filter: filter.into(),
+        ..Translucency::CLEAR
+    };
+    let glass = |index| Translucency {
+        glass: Some(index),
+        ..film([0.5, 1.0, 0.25])
+    };
+    for (statements, keys, expected) in [
+        // Opaque everywhere.
+        ("", "", None),
+        ("Tf 0.5 1 0.25", "", None),
+        ("d 0.5", "", Some(film([1.0; 3]))),
+        (
+            "d 0.25\nTr 0.75\nTf 0.5 1 0.25",
+            "",
+            Some(film([0.5, 1.0, 0.25])),
+        ),
+        ("map_d dots.png", "", Some(film([1.0; 3]))),
+        ("d 0\nTf 0.5 1 0.25\nillum 4", "", Some(glass(1.5))),
+        ("d 0\nTf 0.5 1 0.25\nillum 4\nNi 1.3", "", Some(glass(1.3))),
+        // Other models say nothing.
+        (
+            "d 0\nTf 0.5 1 0.25\nillum 2\nNi 1.3",
+            "",
+            Some(film([0.5, 1.0, 0.25])),
+        ),
+        // Glass of index 1 reflects nothing.
+        (
+            "d 0\nTf 0.5 1 0.25\nillum 4\nNi 1",
+            "",
+            Some(film([0.5, 1.0, 0.25])),
+        ),
+        (
+            "",
+            "opacity = 0.5\nfilter = [0.5, 1, 0.25]",
+            Some(film([0.5, 1.0, 0.25])),
+        ),
+        (
+            "Tf 0.5 1 0.25",
+            "opacity = 0\nthin_glass = true",
+            Some(glass(1.5)),
+        ),
+        (
+            "d 0\nTf 0.5 1 0.25\nillum 4",
+            "index_of_refraction = 1.8",
+            Some(glass(1.8)),
+        ),
+        (
+            "d 0\nTf 0.5 1 0.25\nillum 4",
+            "thin_glass = false",
+            Some(film([0.5, 1.0, 0.25])),
+        ),
+    ] {
+        let [paint, glow] = load_blended(statements, keys);
+        assert_eq!(paint.translucency, expected, "{statements} then {keys}");
+        assert_eq!(
+            glow.translucency,
+            Some(Translucency::CLEAR),
+            "its d is 0.25"
+        );
+    }
 }

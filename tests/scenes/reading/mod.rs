@@ -44,8 +44,8 @@ fn the_documented_example_loads() {
         .iter()
         .map(|object| object.name.as_str())
         .collect();
-    assert_eq!(names, ["car", "wheel", "dashboard", "flag"]);
-    assert_eq!(scene.meshes[scene.objects[3].mesh].shapes.len(), 3);
+    assert_eq!(names, ["car", "wheel", "dashboard", "window", "flag"]);
+    assert_eq!(scene.meshes[scene.objects[4].mesh].shapes.len(), 3);
     let parents: Vec<_> = scene.objects.iter().map(|object| object.parent).collect();
     assert_eq!(
         parents,
@@ -53,6 +53,7 @@ fn the_documented_example_loads() {
             Parent::World,
             Parent::Object(0),
             Parent::Camera,
+            Parent::Object(0),
             Parent::World
         ]
     );

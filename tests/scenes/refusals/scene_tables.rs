@@ -21,7 +21,7 @@ const SCENE_SLIPS: &[Slip] = &[
     ("unknown key of the camera", "vertical_fov = 40", "vertical_fov = 40\nscale = 2", 
         "scene.toml:10: unknown key `scale`; allowed: `position`, `look_at`, `up`, `rotation`, `vertical_fov`, `keys`, `interpolation`"),
     ("unknown key of an object", "parent = \"body\"", "father = \"body\"", 
-        "scene.toml:28: unknown key `father`; allowed: `mesh`, `shapes`, `group`, `parent`, `translation`, `rotation`, `scale`, `keys`, `interpolation`, `material`"),
+        "scene.toml:28: unknown key `father`; allowed: `mesh`, `shapes`, `group`, `parent`, `translation`, `rotation`, `scale`, `keys`, `interpolation`, `alpha`, `buffers`, `material`"),
     ("unknown key in a variant", "{ time = 1, translation = [2, 0, 0] }", "{ time = 1, move = [2, 0, 0] }", 
         "scene.toml:37: unknown key `move`; allowed: `time`, `translation`, `rotation`, `scale`"),
     ("unknown table in a variant", "[variant.fast.object.body]", "[variant.fast.objects.body]", 

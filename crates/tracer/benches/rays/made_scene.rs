@@ -80,6 +80,7 @@ pub fn made_scene(moving: bool) -> Scene {
             emission_texture: None,
             opacity: 1.0,
             opacity_texture: None,
+            translucency: None,
         }],
         objects,
         notes: Vec::new(),

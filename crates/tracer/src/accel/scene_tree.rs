@@ -8,9 +8,10 @@ use crate::accel::world_tree::{Part, WorldTree};
 use crate::error::TraceError;
 use crate::geometry::aabb::Aabb;
 use crate::geometry::hit::Hit;
-use crate::geometry::ray::Ray;
+use crate::geometry::ray::{LIFT, Ray};
 use crate::geometry::triangle::Crossing;
 use crate::limits::LARGEST_COORDINATE;
+use crate::material::sight::Sight;
 use crate::material::surface::Opacity;
 use crate::motion::poses::Poses;
 use crate::motion::slices::sweep_slices;
@@ -118,7 +119,45 @@ impl<'a> SceneTree<'a> {
 
     /// Finds the nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
     #[inline(always)]
-    pub fn closest<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+    pub fn closest<L: Lanes>(
+        &self,
+        lanes: L,
+        poses: &mut Poses,
+        ray: &Ray,
+        sight: Sight,
+    ) -> Option<Hit> {
+        let all = |_: usize, _: u32, _: &Crossing| true;
+        self.closest_of(lanes, poses, ray, sight, all)
+    }
+
+    /// Finds the nearest surface behind a hit of the same ray, in the order of [`SceneTree::closest`]. Triangles of one object
+    /// that meet at the hit are one surface: a ray through their common edge passes it once.
+    #[inline(always)]
+    pub fn closest_behind<L: Lanes>(
+        &self,
+        lanes: L,
+        poses: &mut Poses,
+        ray: &Ray,
+        last: &Hit,
+    ) -> Option<Hit> {
+        let together = last.t * (1.0 + LIFT);
+        let behind = |object: usize, triangle: u32, crossing: &Crossing| {
+            (crossing.t, object, triangle) > (last.t, last.object, last.triangle)
+                && (object != last.object || crossing.t > together)
+        };
+        self.closest_of(lanes, poses, ray, Sight::Everything, behind)
+    }
+
+    /// Finds the nearest of the surfaces that `is_wanted` names.
+    #[inline(always)]
+    fn closest_of<L: Lanes>(
+        &self,
+        lanes: L,
+        poses: &mut Poses,
+        ray: &Ray,
+        sight: Sight,
+        is_wanted: impl Fn(usize, u32, &Crossing) -> bool,
+    ) -> Option<Hit> {
         let time = poses.time();
         let mut best: Option<Hit> = None;
         self.traverse::<L, true>(
@@ -128,14 +167,16 @@ impl<'a> SceneTree<'a> {
             f64::INFINITY,
             #[inline(always)]
             |object, triangle, crossing| {
-                self.keep_nearer(&mut best, time, object, triangle, crossing);
+                if is_wanted(object, triangle, &crossing) {
+                    self.keep_nearer(&mut best, (sight, time), object, triangle, crossing);
+                }
                 best.map_or(f64::INFINITY, |hit| hit.t)
             },
         );
         best
     }
 
-    /// Returns true if anything lies at `0 < t < limit`.
+    /// Returns true if anything opaque lies at `0 < t < limit`.
     #[inline(always)]
     pub fn is_blocked<L: Lanes>(&self, lanes: L, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
         let mut blocked = false;
@@ -146,15 +187,14 @@ impl<'a> SceneTree<'a> {
             limit,
             #[inline(always)]
             |object, triangle, crossing| {
-                let opaque = self.opacities[object].is_opaque(self.scene, triangle, &crossing);
-                blocked |= crossing.t < limit && opaque;
+                blocked |= crossing.t < limit && self.is_opaque(object, triangle, &crossing);
                 if blocked { NOWHERE } else { limit }
             },
         );
         blocked
     }
 
-    /// Returns true if anything that moves lies at `0 < t < limit`.
+    /// Returns true if anything opaque that moves lies at `0 < t < limit`.
     #[inline(always)]
     pub fn is_blocked_by_mover<L: Lanes>(
         &self,
@@ -179,8 +219,7 @@ impl<'a> SceneTree<'a> {
                 limit,
                 #[inline(always)]
                 |triangle, crossing| {
-                    let opaque = self.opacities[object].is_opaque(self.scene, triangle, &crossing);
-                    blocked |= crossing.t < limit && opaque;
+                    blocked |= crossing.t < limit && self.is_opaque(object, triangle, &crossing);
                     if blocked { NOWHERE } else { limit }
                 },
             );
@@ -251,7 +290,8 @@ impl<'a> SceneTree<'a> {
             let local = ray.transformed(&poses.pose(object).to_object);
             self.mesh(object)
                 .visit_all(&local, time, |triangle, crossing| {
-                    self.keep_nearer(&mut best, time, object, triangle, crossing);
+                    let seen = (Sight::Everything, time);
+                    self.keep_nearer(&mut best, seen, object, triangle, crossing);
                 });
         }
         best
@@ -265,12 +305,17 @@ impl<'a> SceneTree<'a> {
         }
     }
 
-    /// Replaces the best hit by a crossing that is nearer, unless the surface has a hole there.
+    #[inline(always)]
+    fn is_opaque(&self, object: usize, triangle: u32, crossing: &Crossing) -> bool {
+        self.opacities[object].is_seen(Sight::Opaque, self.scene, triangle, crossing)
+    }
+
+    /// Replaces the best hit by a crossing that is nearer, unless the ray does not see the surface there.
     #[inline(always)]
     fn keep_nearer(
         &self,
         best: &mut Option<Hit>,
-        time: f64,
+        (sight, time): (Sight, f64),
         object: usize,
         triangle: u32,
         crossing: Crossing,
@@ -278,7 +323,7 @@ impl<'a> SceneTree<'a> {
         let nearer = best.is_none_or(|best| {
             (crossing.t, object, triangle) < (best.t, best.object, best.triangle)
         });
-        if nearer && self.opacities[object].is_opaque(self.scene, triangle, &crossing) {
+        if nearer && self.opacities[object].is_seen(sight, self.scene, triangle, &crossing) {
             *best = Some(Hit {
                 t: crossing.t,
                 object,

@@ -5,8 +5,9 @@ use glam::{DVec2, DVec3, Vec3};
 use crate::film::canvas::Canvas;
 use crate::film::sampler::Sampler;
 use crate::geometry::hit::Hit;
-use crate::geometry::ray::Ray;
-use crate::light::integrator::{Integrator, LIFT, PathSample};
+use crate::geometry::ray::{LIFT, Ray};
+use crate::light::integrator::Integrator;
+use crate::light::stops::Stop;
 use crate::motion::camera::View;
 use crate::motion::poses::Poses;
 use crate::stage::Stage;
@@ -33,16 +34,6 @@ pub(crate) struct InstantPoint {
     pub is_shown: bool,
     /// Ray of the instant's camera to the point, and its hit; none at infinity.
     ray: Option<(Ray, Hit)>,
-}
-
-/// One sample of a pixel, looked up at the instant.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct InstantSample {
-    pub point: InstantPoint,
-    /// Change of its radiance from its own time to the instant, if it was shaded again.
-    pub shift: Option<Vec3>,
-    /// Centre of the pixel.
-    pub centre: [f64; 2],
 }
 
 /// Sums over the samples of a pixel.
@@ -145,19 +136,20 @@ impl InstantView {
         }
     }
 
-    /// Shades a sample's point at the instant; returns the radiance then minus the radiance of the sample. `then` are the
-    /// poses of the instant.
+    /// Shades a sample's point at the instant; returns the radiance then minus that of the sample's own path from `stop`, which
+    /// scattered `bounces` times. `then` are the poses of the instant.
     pub fn shift(
         &self,
         integrator: &Integrator,
         then: &mut Poses,
-        point: &InstantPoint,
-        sample: &PathSample,
+        (point, stop): (&InstantPoint, Stop),
+        (radiance, bounces): (Vec3, u32),
         sampler: &Sampler,
     ) -> Vec3 {
         match point.ray {
-            Some((ray, hit)) if sample.bounces > 0 && !self.unchanging => {
-                integrator.radiance_along(then, ray, Some(hit), sampler) - sample.radiance
+            Some((ray, hit)) if bounces > 0 && !self.unchanging => {
+                let stop = Some(Stop { hit, ..stop });
+                integrator.follow_path(then, ray, stop, sampler).0 - radiance
             }
             _ => Vec3::ZERO,
         }
@@ -209,28 +201,28 @@ impl InstantView {
 }
 
 impl InstantSums {
-    /// Adds a sample and its radiance.
-    pub fn add(&mut self, sample: &InstantSample, radiance: Vec3) {
-        let InstantSample {
-            point,
-            shift,
-            centre,
-        } = *sample;
+    /// Adds the radiance of a sample, and its change from its own time to the instant, if it was shaded again.
+    pub fn add_radiance(&mut self, radiance: Vec3, shift: Option<Vec3>) {
         self.live += radiance.as_dvec3();
         if let Some(shift) = shift {
             self.shift += shift.as_dvec3();
             self.shifts += 1;
         }
-        self.unknowable += f64::from(!point.is_shown);
+    }
+
+    /// Adds a point that a sample saw, with its share of the sample, to the pixel with this centre.
+    pub fn add_point(&mut self, point: &InstantPoint, share: f64, centre: [f64; 2]) {
+        self.unknowable += share * f64::from(!point.is_shown);
         if let Some(place) = point.place {
             let offset = place - DVec2::from(centre);
-            self.placed += 1.0;
-            self.offset += offset;
-            self.spread += DVec3::new(
-                offset.x * offset.x,
-                offset.x * offset.y,
-                offset.y * offset.y,
-            );
+            self.placed += share;
+            self.offset += share * offset;
+            self.spread += share
+                * DVec3::new(
+                    offset.x * offset.x,
+                    offset.x * offset.y,
+                    offset.y * offset.y,
+                );
         }
     }
 

@@ -149,7 +149,7 @@ fn probe_pixel(replicates: &[Vec<Estimate>], moving: &[bool]) -> TilePilot {
     });
     let coverage = pairs.flat_map(|(a, b)| {
         let seen = a.seen.iter().zip(&b.seen);
-        seen.map(|(a, b)| (f64::from(*a) - f64::from(*b)) / f64::from(PILOT_SAMPLES))
+        seen.map(|(a, b)| (a - b) / f64::from(PILOT_SAMPLES))
     });
     let all = replicates.iter().flatten();
     TilePilot {
@@ -166,7 +166,7 @@ fn probe_pixel(replicates: &[Vec<Estimate>], moving: &[bool]) -> TilePilot {
             / (f64::from(PILOT_REPLICATES) * pictures),
         moves: all
             .flat_map(|estimate| estimate.seen.iter().zip(moving))
-            .any(|(seen, moves)| *seen > 0 && *moves),
+            .any(|(seen, moves)| *seen > 0.0 && *moves),
     }
 }
 
@@ -181,7 +181,7 @@ mod tests {
         vec![Estimate {
             radiance: DVec3::splat(radiance),
             bounces: 0.0,
-            seen: seen.to_vec(),
+            seen: seen.map(f64::from).to_vec(),
             at_instant: InstantMeans {
                 frozen: DVec3::splat(frozen),
                 ..InstantMeans::default()

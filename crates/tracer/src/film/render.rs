@@ -3,17 +3,18 @@
 use std::ops::Range;
 
 use frame::{Image, Picture, Plane, Tile};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::error::TraceError;
-use crate::film::at_instant::{InstantMeans, InstantSample, InstantSums, InstantView};
+use crate::film::at_instant::{InstantMeans, InstantPoint, InstantSums, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::eye::Eye;
 use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::{Sampler, Stream, pixel_seed};
 use crate::film::shutter_sampler::ShutterSampler;
-use crate::light::integrator::{Integrator, PathSample};
+use crate::light::integrator::Integrator;
+use crate::light::stops::visit_layers;
 use crate::progress::Meter;
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
@@ -64,8 +65,8 @@ pub(crate) struct Estimate {
     pub radiance: DVec3,
     /// Share of the samples that met a surface and then scattered, per bounce: the mean number of bounces.
     pub bounces: f64,
-    /// Samples that saw each object, by id.
-    pub seen: Vec<u32>,
+    /// Samples that saw each object, by id; a sample that sees through translucent surfaces is shared out.
+    pub seen: Vec<f64>,
     /// Means at the instant; zero without a view of it.
     pub at_instant: InstantMeans,
 }
@@ -135,6 +136,7 @@ impl<'a> Film<'a> {
         let seed = pixel_seed(self.seed, self.stream, number, replicate);
         let objects = self.integrator.stage.scene.objects.len() + 1;
         let mut sums = vec![PixelSums::new(objects); self.times.len()];
+        let mut sample = FilmSample::default();
         for index in 0..self.samples.of(pixel) {
             let sampler = Sampler::new(seed, index);
             let [x, y, part, _] = sampler.camera();
@@ -142,15 +144,14 @@ impl<'a> Film<'a> {
                 Places::Area => [x, y],
                 Places::Centre => [0.5, 0.5],
             };
-            let mut last: Option<(f64, FilmSample)> = None;
+            let mut traced_at = None;
             for (times, sums) in self.times.iter().zip(&mut sums) {
                 let time = times.at(part, row, self.canvas.height);
-                let sample = match last {
-                    Some((traced_at, sample)) if traced_at == time => sample,
-                    _ => self.trace(eye, pixel, place, time, &sampler),
-                };
+                if traced_at != Some(time) {
+                    self.trace(eye, pixel, place, time, &sampler, &mut sample);
+                    traced_at = Some(time);
+                }
                 sums.add(&sample);
-                last = Some((time, sample));
             }
         }
         sums.iter().map(PixelSums::estimate).collect()
@@ -164,33 +165,72 @@ impl<'a> Film<'a> {
         within: [f64; 2],
         time: f64,
         sampler: &Sampler,
-    ) -> FilmSample {
+        sample: &mut FilmSample,
+    ) {
         let [x, y] = self.canvas.place(pixel, within);
         let ray = eye.view_at(time).ray(x, y);
-        let path = self.integrator.trace(&mut eye.poses, ray, sampler);
-        let at_instant = self.instant.as_ref().map(|instant| {
-            let poses = (&mut eye.poses, &mut eye.instant);
-            let point = instant.look_back(self.integrator.stage, poses, &ray, path.hit.as_ref());
-            let shift = sampler.index().is_multiple_of(self.shaded_again).then(|| {
-                let then = &mut eye.instant;
-                instant.shift(&self.integrator, then, &point, &path, sampler)
+        let stage = self.integrator.stage;
+        let then = &mut eye.instant;
+        let shades_again =
+            self.instant.is_some() && sampler.index().is_multiple_of(self.shaded_again);
+        sample.clear(self.canvas.place(pixel, [0.5; 2]));
+        sample.shift = shades_again.then_some(Vec3::ZERO);
+        visit_layers(stage, &mut eye.poses, &ray, |poses, layer| {
+            let (radiance, bounces) = self.integrator.follow_path(poses, ray, layer.stop, sampler);
+            sample.radiance += layer.weight * radiance;
+            sample.bounces += bounces;
+            let hit = layer.stop.map(|stop| stop.hit);
+            let point = self.instant.as_ref().map(|instant| {
+                let point = instant.look_back(stage, (poses, then), &ray, hit.as_ref());
+                if let (Some(shift), Some(stop)) = (&mut sample.shift, layer.stop) {
+                    let path = (radiance, bounces);
+                    let own = instant.shift(&self.integrator, then, (&point, stop), path, sampler);
+                    *shift += layer.weight * own;
+                }
+                point
             });
-            InstantSample {
-                point,
-                shift,
-                centre: self.canvas.place(pixel, [0.5; 2]),
-            }
+            sample.seen.push(SeenPoint {
+                object_id: hit.map_or(0, |hit| hit.object + 1),
+                share: layer.share,
+                at_instant: point,
+            });
         });
-        FilmSample { path, at_instant }
     }
 }
 
 /// One sample of a pixel.
-#[derive(Clone, Copy)]
+#[derive(Clone, Default)]
 struct FilmSample {
-    path: PathSample,
-    /// The point that it saw, as it was at the instant, if the film looks there.
-    at_instant: Option<InstantSample>,
+    radiance: Vec3,
+    /// Change of the radiance from its own time to the instant, if it was shaded again.
+    shift: Option<Vec3>,
+    bounces: u32,
+    /// All that it saw: more than one point through translucent surfaces.
+    seen: Vec<SeenPoint>,
+    /// Centre of the pixel.
+    centre: [f64; 2],
+}
+
+/// A point that a sample saw.
+#[derive(Clone)]
+struct SeenPoint {
+    /// 0 for the background.
+    object_id: usize,
+    /// Share of the sample.
+    share: f64,
+    /// The point as it was at the instant, if the film looks there.
+    at_instant: Option<InstantPoint>,
+}
+
+impl FilmSample {
+    /// Makes an empty sample.
+    fn clear(&mut self, centre: [f64; 2]) {
+        self.radiance = Vec3::ZERO;
+        self.shift = None;
+        self.bounces = 0;
+        self.seen.clear();
+        self.centre = centre;
+    }
 }
 
 /// Sums over the samples of a pixel of one picture.
@@ -199,7 +239,7 @@ struct PixelSums {
     count: u32,
     radiance: DVec3,
     bounces: u32,
-    seen: Vec<u32>,
+    seen: Vec<f64>,
     at_instant: Option<InstantSums>,
 }
 
@@ -209,19 +249,24 @@ impl PixelSums {
             count: 0,
             radiance: DVec3::ZERO,
             bounces: 0,
-            seen: vec![0; objects],
+            seen: vec![0.0; objects],
             at_instant: None,
         }
     }
 
-    fn add(&mut self, FilmSample { path, at_instant }: &FilmSample) {
+    fn add(&mut self, sample: &FilmSample) {
         self.count += 1;
-        self.radiance += path.radiance.as_dvec3();
-        self.bounces += path.bounces;
-        self.seen[path.object_id()] += 1;
-        if let Some(sample) = at_instant {
-            let sums = self.at_instant.get_or_insert_default();
-            sums.add(sample, path.radiance);
+        self.radiance += sample.radiance.as_dvec3();
+        self.bounces += sample.bounces;
+        for point in &sample.seen {
+            self.seen[point.object_id] += point.share;
+            if let Some(at_instant) = &point.at_instant {
+                let sums = self.at_instant.get_or_insert_default();
+                sums.add_point(at_instant, point.share, sample.centre);
+            }
+        }
+        if let Some(sums) = &mut self.at_instant {
+            sums.add_radiance(sample.radiance, sample.shift);
         }
     }
 
@@ -240,13 +285,13 @@ impl PixelMean {
     /// The mean over estimates, all of the same number of samples, in their order.
     pub fn of<'r>(estimates: impl IntoIterator<Item = &'r Estimate>) -> Self {
         let mut count = 0;
-        let mut samples = 0;
+        let mut samples = 0.0;
         let mut radiance = DVec3::ZERO;
-        let mut seen: Vec<u32> = Vec::new();
+        let mut seen: Vec<f64> = Vec::new();
         for estimate in estimates {
             count += 1;
             radiance += estimate.radiance;
-            seen.resize(estimate.seen.len(), 0);
+            seen.resize(estimate.seen.len(), 0.0);
             for (sum, &seen) in seen.iter_mut().zip(&estimate.seen) {
                 *sum += seen;
                 samples += seen;
@@ -254,10 +299,7 @@ impl PixelMean {
         }
         Self {
             color: (radiance / f64::from(count)).as_vec3().to_array(),
-            coverage: seen
-                .iter()
-                .map(|&seen| (f64::from(seen) / f64::from(samples)) as f32)
-                .collect(),
+            coverage: seen.iter().map(|&seen| (seen / samples) as f32).collect(),
         }
     }
 }

@@ -70,9 +70,14 @@ impl Sampler {
         self.set(depth, 1)
     }
 
-    /// Numbers for the direction to the sky (two) and the choice of a lobe; one is spare.
+    /// Numbers for the direction to the sky (two) and the choice of a lobe; the last is [`Sampler::passage`].
     pub fn sky(&self, depth: u32) -> [f64; 4] {
         self.set(depth, 2)
+    }
+
+    /// Number that chooses where the ray of a bounce stops among translucent surfaces: the spare one of [`Sampler::sky`].
+    pub fn passage(&self, depth: u32) -> f64 {
+        self.sky(depth)[3]
     }
 
     /// One set of numbers.

@@ -9,11 +9,12 @@ use crate::error::TraceError;
 use crate::film::eye::Eye;
 use crate::film::render::{Film, PIXELS_PER_TASK, Times};
 use crate::film::sampler::{Sampler, Stream, pixel_seed};
+use crate::light::stops::visit_layers;
 use crate::progress::Meter;
 
 /// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray stands for may be missed.
 const SAMPLES: u32 = 64;
-/// Rays per pixel where they and those of all eight neighbours met one object alone.
+/// Rays per pixel where they and those of all eight neighbours met the same.
 const FIRST_SAMPLES: u32 = 16;
 /// Seed, the same for all renders, so that regions do not depend on the seed of a truth.
 const SEED: u64 = 0;
@@ -25,6 +26,8 @@ struct PixelProbe {
     seen: Vec<bool>,
     /// True if anything was seen that the frame of the instant does not show.
     unknowable: bool,
+    /// True if two rays saw other objects. A ray sees several through translucent surfaces.
+    is_mixed: bool,
 }
 
 /// Probes the scene over the canvas and each of the times of `film`, which must have a view of the instant; nothing else of
@@ -37,6 +40,7 @@ pub(crate) fn trace_supports(
     let unseen = PixelProbe {
         seen: vec![false; film.integrator.stage.scene.objects.len() + 1],
         unknowable: false,
+        is_mixed: false,
     };
     let pixels = film.canvas.pixels();
     let nothing = vec![vec![unseen; film.times.len()]; pixels.len()];
@@ -92,14 +96,13 @@ fn probe_pixels(
     Ok(tasks.into_iter().flatten().collect())
 }
 
-/// Marks the pixels that found one object alone, as all their neighbours did, all of it knowable or all of it not.
+/// Marks the pixels whose rays all found the same, as those of all their neighbours did, all of it knowable or all of it not.
 fn find_plain(probes: &Raster<PixelProbe>) -> Raster<bool> {
     Raster::from_fn(probes.width, probes.height, |x, y| {
         let own = probes.at(x, y);
-        let objects = own.seen.iter().filter(|seen| **seen).count();
         let around = |at: u32, end: u32| at.saturating_sub(1)..(at + 2).min(end);
         let mut rows = around(y, probes.height);
-        objects == 1 && rows.all(|y| around(x, probes.width).all(|x| probes.at(x, y) == own))
+        !own.is_mixed && rows.all(|y| around(x, probes.width).all(|x| probes.at(x, y) == own))
     })
 }
 
@@ -132,21 +135,31 @@ fn probe_once(
     let row = pixel / film.canvas.columns();
     let seed = pixel_seed(SEED, Stream::Support, film.canvas.seed_number(pixel), 0);
     let [x, y, part, _] = Sampler::new(seed, index).camera();
-    let mut last: Option<(f64, usize, bool)> = None;
+    let mut probed_at = None;
+    // Objects, and whether the instant hides the point that was seen of each.
+    let mut found: Vec<(usize, bool)> = Vec::new();
     for (times, probe) in due {
         let time = times.at(part, row, film.canvas.height);
-        let (object, is_hidden) = match last {
-            Some((probed_at, object, is_hidden)) if probed_at == time => (object, is_hidden),
-            _ => {
-                let ray = eye.view_at(time).ray(left + x, top + y);
-                let hit = stage.closest(&mut eye.poses, &ray);
-                let poses = (&mut eye.poses, &mut eye.instant);
-                let point = instant.look_back(stage, poses, &ray, hit.as_ref());
-                (hit.map_or(0, |hit| hit.object + 1), !point.is_shown)
-            }
-        };
-        probe.seen[object] = true;
-        probe.unknowable |= is_hidden;
-        last = Some((time, object, is_hidden));
+        if probed_at != Some(time) {
+            let ray = eye.view_at(time).ray(left + x, top + y);
+            let then = &mut eye.instant;
+            found.clear();
+            visit_layers(stage, &mut eye.poses, &ray, |poses, layer| {
+                let hit = layer.stop.map(|stop| stop.hit);
+                let point = instant.look_back(stage, (poses, then), &ray, hit.as_ref());
+                found.push((hit.map_or(0, |hit| hit.object + 1), !point.is_shown));
+            });
+            probed_at = Some(time);
+        }
+        let known = probe.seen.iter().filter(|seen| **seen).count();
+        for (object, is_hidden) in &found {
+            probe.seen[*object] = true;
+            probe.unknowable |= is_hidden;
+        }
+        let objects = probe.seen.iter().enumerate();
+        let mut seen = objects.filter(|(_, seen)| **seen).map(|(object, _)| object);
+        let is_found = |object: usize| found.iter().any(|(own, _)| *own == object);
+        probe.is_mixed |= known > 0 && !seen.all(is_found);
+        probe.is_mixed |= known > 0 && probe.seen.iter().filter(|seen| **seen).count() > known;
     }
 }

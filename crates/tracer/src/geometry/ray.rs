@@ -2,6 +2,10 @@
 
 use glam::{DAffine3, DVec3};
 
+/// Offset of secondary rays from their surface, as a part of the greatest coordinate. Positions are exact to about 1e-14 of
+/// it.
+pub(crate) const LIFT: f64 = 1e-9;
+
 /// The points `origin + t * direction` for `t > 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {

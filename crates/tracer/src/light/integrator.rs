@@ -4,11 +4,13 @@ use glam::{DVec3, Vec3};
 
 use crate::film::sampler::Sampler;
 use crate::geometry::hit::Hit;
-use crate::geometry::ray::Ray;
+use crate::geometry::ray::{LIFT, Ray};
 use crate::light::light_sample::{LightSample, density_per_steradian, power_heuristic};
 use crate::light::lights::Emitters;
+use crate::light::stops::{Stop, find_stop};
 use crate::material::brdf::Brdf;
-use crate::material::brdf_sample::BrdfValue;
+use crate::material::brdf_sample::{BrdfSample, BrdfValue};
+use crate::material::passage::Passage;
 use crate::material::surface::Surface;
 use crate::motion::poses::Poses;
 use crate::stage::Stage;
@@ -17,31 +19,11 @@ use crate::stage::Stage;
 const ROULETTE_FROM: u32 = 3;
 /// Most bounces of a path. Roulette ends nearly all paths long before: at albedo 0.8 one in a million gets here.
 const MOST_BOUNCES: u32 = 64;
-/// Offset of secondary rays from their surface, as a part of the greatest coordinate. Positions are exact to about 1e-14 of
-/// it.
-pub(crate) const LIFT: f64 = 1e-9;
 
 /// Traces paths through a stage.
 pub(crate) struct Integrator<'a> {
     pub stage: &'a Stage<'a>,
     pub emitters: Emitters,
-}
-
-/// The result of one path.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PathSample {
-    pub radiance: Vec3,
-    /// First surface; none for the background.
-    pub hit: Option<Hit>,
-    /// Surfaces that scattered light.
-    pub bounces: u32,
-}
-
-impl PathSample {
-    /// The id of the first object; 0 is the background.
-    pub fn object_id(&self) -> usize {
-        self.hit.map_or(0, |hit| hit.object + 1)
-    }
 }
 
 /// Density with which a ray's direction was drawn; none for rays that no light could have drawn: those of the camera and of
@@ -57,73 +39,54 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// Traces a path from a camera ray, at the time of `poses`.
-    pub fn trace(&self, poses: &mut Poses, camera_ray: Ray, sampler: &Sampler) -> PathSample {
-        let hit = self.stage.closest(poses, &camera_ray);
-        let (radiance, bounces) = self.follow_path(poses, camera_ray, hit, sampler);
-        PathSample {
-            radiance,
-            hit,
-            bounces,
-        }
-    }
-
-    /// The radiance along a camera ray whose first hit is known.
-    pub fn radiance_along(
+    /// Follows a path from where its camera ray stops, or from none at the background; returns its radiance and the number of
+    /// bounces.
+    pub fn follow_path(
         &self,
         poses: &mut Poses,
         camera_ray: Ray,
-        first_hit: Option<Hit>,
-        sampler: &Sampler,
-    ) -> Vec3 {
-        self.follow_path(poses, camera_ray, first_hit, sampler).0
-    }
-
-    /// Follows a path from its first hit; returns its radiance and the number of bounces.
-    fn follow_path(
-        &self,
-        poses: &mut Poses,
-        camera_ray: Ray,
-        first_hit: Option<Hit>,
+        first_stop: Option<Stop>,
         sampler: &Sampler,
     ) -> (Vec3, u32) {
         let scene = self.stage.scene;
         let mut radiance = Vec3::ZERO;
         let mut ray = camera_ray;
-        let mut next_hit = first_hit;
+        let mut next_stop = first_stop;
         let mut density: RayDensity = None;
         let mut throughput = Vec3::ONE;
         for depth in 0..MOST_BOUNCES {
-            let Some(hit) = next_hit else {
+            let Some(Stop { hit, mirrors }) = next_stop else {
                 radiance += throughput * self.background_radiance(&ray, density);
                 return (radiance, depth);
             };
             let surface = Surface::at(scene, poses.pose(hit.object), &ray, &hit);
-            radiance += throughput * self.emission(&surface, &ray, &hit, density);
-            let glossy = self.stage.glossy_material(surface.material);
-            let Some(brdf) = surface.brdf(glossy, &ray) else {
-                return (radiance, depth);
-            };
-            let [u, v, roulette, choice] = sampler.bounce(depth);
-            let sky_numbers = match (&brdf, self.stage.sky().is_sampled()) {
-                // Nothing asks for them.
-                (Brdf::Diffuse { .. }, false) => [0.0; 4],
-                _ => sampler.sky(depth),
-            };
-            let [sky_u, sky_v, lobe_choice, _] = sky_numbers;
             let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
-            if self.has_lights() {
-                let points = sampler.lights(depth);
-                radiance += throughput * self.direct_light(poses, start, &brdf, choice, points);
-            }
-            if let Some(sky) = self.stage.sky().sample([sky_u, sky_v]) {
-                radiance += throughput * self.light_from(poses, start, &brdf, &sky, true);
-            }
-            let Some(drawn) = brdf.sample(lobe_choice, [u, v]) else {
-                return (radiance, depth + 1);
+            let drawn = if mirrors {
+                let passage = Passage::at(scene, poses, &ray, &hit);
+                let weight = passage.map_or(Vec3::ZERO, |passage| passage.reflected);
+                let direction = ray.direction.reflect(surface.facet);
+                BrdfSample {
+                    direction,
+                    weight,
+                    density: None,
+                }
+            } else {
+                radiance += throughput * self.emission(&surface, &ray, &hit, density);
+                let glossy = self.stage.glossy_material(surface.material);
+                let Some(brdf) = surface.brdf(glossy, &ray) else {
+                    return (radiance, depth);
+                };
+                let ([lights, sky], drawn) = self.scatter(poses, start, &brdf, depth, sampler);
+                radiance += throughput * lights;
+                radiance += throughput * sky;
+                let Some(drawn) = drawn else {
+                    return (radiance, depth + 1);
+                };
+                drawn
             };
             throughput *= drawn.weight;
             if depth >= ROULETTE_FROM {
+                let [_, _, roulette, _] = sampler.bounce(depth);
                 let survival = f64::from(throughput.max_element()).min(1.0);
                 if roulette >= survival {
                     return (radiance, depth + 1);
@@ -135,9 +98,37 @@ impl<'a> Integrator<'a> {
                 origin: start,
                 direction: drawn.direction,
             };
-            next_hit = self.stage.closest(poses, &ray);
+            let passed;
+            (next_stop, passed) = find_stop(self.stage, poses, &ray, || sampler.passage(depth));
+            throughput *= passed;
         }
         (radiance, MOST_BOUNCES)
+    }
+    /// Gathers the light that a surface scatters, of lights and of the sky, and draws the path's next direction.
+    fn scatter(
+        &self,
+        poses: &mut Poses,
+        start: DVec3,
+        brdf: &Brdf,
+        depth: u32,
+        sampler: &Sampler,
+    ) -> ([Vec3; 2], Option<BrdfSample>) {
+        let [u, v, _, choice] = sampler.bounce(depth);
+        let sky_numbers = match (brdf, self.stage.sky().is_sampled()) {
+            // Nothing asks for them.
+            (Brdf::Diffuse { .. }, false) => [0.0; 4],
+            _ => sampler.sky(depth),
+        };
+        let [sky_u, sky_v, lobe_choice, _] = sky_numbers;
+        let mut light = [Vec3::ZERO; 2];
+        if self.has_lights() {
+            let points = sampler.lights(depth);
+            light[0] = self.direct_light(poses, start, brdf, choice, points);
+        }
+        if let Some(sky) = self.stage.sky().sample([sky_u, sky_v]) {
+            light[1] = self.light_from(poses, start, brdf, &sky, true);
+        }
+        (light, brdf.sample(lobe_choice, [u, v]))
     }
 
     fn has_lights(&self) -> bool {
@@ -216,7 +207,8 @@ impl<'a> Integrator<'a> {
         };
         // The light's own triangle lies at the end of the ray.
         let limit = light.distance * (1.0 - LIFT);
-        if self.stage.is_blocked(poses, &ray, limit) {
+        let passed = self.stage.transmittance(poses, &ray, limit);
+        if passed == Vec3::ZERO {
             return Vec3::ZERO;
         }
         let weight = if by_surface {
@@ -224,7 +216,7 @@ impl<'a> Integrator<'a> {
         } else {
             1.0
         };
-        light.radiance * scattered * (weight / light.density) as f32
+        passed * (light.radiance * scattered * (weight / light.density) as f32)
     }
 }
 

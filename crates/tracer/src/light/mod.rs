@@ -5,3 +5,4 @@ pub(crate) mod integrator;
 pub(crate) mod light_sample;
 pub(crate) mod lights;
 pub(crate) mod sky;
+pub(crate) mod stops;

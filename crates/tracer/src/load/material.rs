@@ -12,6 +12,7 @@ use super::finish::{FinishValue, FinishValues};
 use super::light::{check_albedo, read_radiance};
 use super::schema::MaterialTable;
 use super::texture::{Textures, Use};
+use super::translucency::change_translucency;
 use crate::{Finish, Material};
 
 /// Changes the values of a finish that the table names.
@@ -40,13 +41,14 @@ fn change_finish(
     })
 }
 
-/// Replaces what the table names. Paths of textures are relative to the scene's folder.
+/// Replaces what the table names. Paths of textures are relative to the scene's folder. `is_blended` tells what the object's
+/// opacities mean.
 pub(super) fn change_material(
     document: &Document,
     files: &mut Files,
     textures: &mut Textures,
     folder: &Path,
-    table: &MaterialTable,
+    (table, is_blended): (&MaterialTable, bool),
     material: &mut Material,
 ) -> Result<(), SceneError> {
     if let Some(diffuse) = &table.diffuse {
@@ -66,6 +68,7 @@ pub(super) fn change_material(
         }
     }
     material.finish = change_finish(document, table, material.finish)?;
+    change_translucency(document, table, is_blended, material)?;
     for (name, usage, index) in [
         (
             &table.diffuse_texture,

@@ -17,6 +17,7 @@ use super::mesh_sources::{MeshKey, MeshSource, read_mesh_sources};
 use super::obj::{ObjFile, Slot};
 use super::schema::ObjectTable;
 use super::texture::Textures;
+use super::translucency::Alpha;
 use crate::limits::MOST_TRIANGLES;
 use crate::{Material, Mesh};
 
@@ -90,7 +91,8 @@ impl<'a> MeshLoader<'a> {
                 self.loaded.entry(key).or_insert(mesh).clone()
             }
         };
-        let materials = self.load_materials(&mesh, &sources[0], table)?;
+        let alpha = Alpha::read(self.document, table)?;
+        let materials = self.load_materials(&mesh, &sources[0], table, alpha)?;
         Ok((mesh, materials))
     }
 
@@ -100,10 +102,10 @@ impl<'a> MeshLoader<'a> {
         mesh: &LoadedMesh,
         source: &MeshSource,
         table: &ObjectTable,
+        alpha: Alpha,
     ) -> Result<Vec<usize>, SceneError> {
-        if table.material.is_empty()
-            && let Some(materials) = self.unchanged_materials.get(&mesh.index)
-        {
+        let is_unchanged = table.material.is_empty() && !alpha.is_blended;
+        if is_unchanged && let Some(materials) = self.unchanged_materials.get(&mesh.index) {
             return Ok(materials.clone());
         }
         let path = source.path.display();
@@ -124,9 +126,15 @@ impl<'a> MeshLoader<'a> {
                 &mut self.files,
                 &mut self.textures,
                 self.folder,
-                changes,
+                (changes, alpha.is_blended),
                 &mut slot.material,
             )?;
+        }
+        for slot in &mut slots {
+            alpha.apply(&mut slot.material).map_err(|reason| {
+                let reason = format!("material \"{}\" of {path} {reason}", slot.material.name);
+                self.document.error(source.place.clone(), reason)
+            })?;
         }
         for slot in &slots {
             if !slot.textured && has_texture(&slot.material) {
@@ -142,7 +150,7 @@ impl<'a> MeshLoader<'a> {
             .into_iter()
             .map(|slot| self.materials.add(slot.material))
             .collect();
-        if table.material.is_empty() {
+        if is_unchanged {
             self.unchanged_materials
                 .insert(mesh.index, materials.clone());
         }

@@ -31,6 +31,7 @@ mod shutter;
 mod statements;
 mod texture;
 mod transform_range;
+mod translucency;
 mod variant_changes;
 mod variants;
 

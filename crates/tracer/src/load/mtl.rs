@@ -1,4 +1,4 @@
-//! Materials from MTL files: diffuse, glossy, emissive and cut-out surfaces. Other statements are skipped.
+//! Materials from MTL files: diffuse, glossy, emissive, cut-out and translucent surfaces. Other statements are skipped.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,8 +11,9 @@ use super::finish::{FinishValue, FinishValues};
 use super::light::{check_albedo, check_radiance};
 use super::statements::{Statement, shorten, split_statements};
 use super::texture::{Textures, Use};
+use super::translucency::GLASS;
 use crate::limits::{LARGEST_MATERIAL_FILE, MOST_MATERIALS};
-use crate::{Finish, Material};
+use crate::{Finish, Material, Translucency};
 
 /// Albedo of faces without a material, and of materials with neither Kd nor map_Kd.
 const DEFAULT_ALBEDO: f32 = 0.5;
@@ -29,11 +30,13 @@ pub(super) struct Libraries {
     places: BTreeMap<(String, &'static str), (PathBuf, usize)>,
     /// Numbers of statements that tobj does not read, by material and keyword.
     numbers: BTreeMap<(String, &'static str), f32>,
+    /// Colour of what passes each material (Tf).
+    filters: BTreeMap<String, Vec3>,
 }
 
 /// Statements that are read. tobj gets them checked: it panics on colours of fewer than three numbers.
-const KEYWORDS: [&str; 10] = [
-    "newmtl", "Kd", "Ke", "d", "map_Kd", "map_Ke", "map_d", "Pr", "Pm", "Ni",
+const KEYWORDS: [&str; 13] = [
+    "newmtl", "Kd", "Ke", "d", "map_Kd", "map_Ke", "map_d", "Pr", "Pm", "Ni", "Tf", "Tr", "illum",
 ];
 
 /// Statements that hold a name.
@@ -41,6 +44,14 @@ const NAMES: [&str; 4] = ["newmtl", "map_Kd", "map_Ke", "map_d"];
 
 /// Statements about the finish: roughness, metallic, index of refraction.
 const FINISH: [&str; 3] = ["Pr", "Pm", "Ni"];
+
+/// Statements that tobj is not given, beside those about the finish: colour of what passes, transparency, illumination model.
+const PASSING: [&str; 3] = ["Tf", "Tr", "illum"];
+
+/// Illumination model of glass: "Transparency: Glass on, Reflection: Ray trace on".
+const GLASS_MODEL: f32 = 4.0;
+/// Largest difference between a Tr and 1 - d, by rounding of decimals.
+const SAME_TRANSPARENCY: f32 = 1e-3;
 
 /// Material of faces without one.
 pub(super) fn default_material() -> Material {
@@ -53,6 +64,7 @@ pub(super) fn default_material() -> Material {
         emission_texture: None,
         opacity: 1.0,
         opacity_texture: None,
+        translucency: None,
     }
 }
 
@@ -88,6 +100,7 @@ impl Libraries {
 
     fn check(&mut self, path: &Path, text: &str) -> Result<String, SceneError> {
         let mut checked = String::new();
+        let mut transparencies = Vec::new();
         let mut current: Option<&str> = None;
         let mut materials = 0;
         for statement in split_statements(text) {
@@ -120,14 +133,67 @@ impl Libraries {
                     path.display()
                 )));
             }
-            if FINISH.contains(&keyword) {
+            if keyword == "Tf" {
+                let numbers = statement.read_numbers(&[3]).map_err(fail)?;
+                let filter = Vec3::from_slice(&numbers);
+                self.filters.insert(material.to_owned(), filter);
+            } else if PASSING.contains(&keyword) {
+                // Programs write words for illum too, which are ignored as other models are.
+                let number = statement
+                    .read_numbers(&[1])
+                    .map_or(0.0, |numbers| numbers[0]);
+                self.numbers.insert((material.to_owned(), keyword), number);
+                if keyword == "Tr" {
+                    transparencies.push((statement.line, material.to_owned()));
+                }
+            } else if FINISH.contains(&keyword) {
                 let number = statement.read_numbers(&[1]).map_err(fail)?[0];
                 self.numbers.insert((material.to_owned(), keyword), number);
             } else {
                 checked += &format!("{keyword} {}\n", statement.rest);
+                if keyword == "d" {
+                    let number = statement.read_numbers(&[1]).map_err(fail)?[0];
+                    self.numbers.insert((material.to_owned(), keyword), number);
+                }
             }
         }
+        for (line, material) in transparencies {
+            self.check_transparency(&material)
+                .map_err(|reason| SceneError::at_line(path, line, reason))?;
+        }
         Ok(checked)
+    }
+
+    /// Refuses a Tr that does not say what the material's d says.
+    fn check_transparency(&self, material: &str) -> Result<(), String> {
+        let number = |keyword| self.numbers.get(&(material.to_owned(), keyword)).copied();
+        match (number("Tr"), number("d")) {
+            (None | Some(0.0), _) => Ok(()),
+            (Some(_), None) => Err(
+                "Tr is not read, since programs disagree about its meaning; write d (1 is opaque)"
+                    .into(),
+            ),
+            (Some(transparency), Some(opacity))
+                if (transparency - (1.0 - opacity)).abs() > SAME_TRANSPARENCY =>
+            {
+                let allowed = 1.0 - opacity;
+                Err(format!(
+                    "Tr is {transparency} beside d {opacity}; allowed: 1 - d, here {allowed}; delete Tr"
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Builds what a material asks for where its opacity is blended.
+    fn build_translucency(&self, material: &str) -> Translucency {
+        let number = |keyword| self.numbers.get(&(material.to_owned(), keyword)).copied();
+        let is_glass = number("illum") == Some(GLASS_MODEL);
+        Translucency {
+            filter: self.filters.get(material).copied().unwrap_or(Vec3::ONE),
+            glass: is_glass.then(|| number("Ni").unwrap_or(GLASS)),
+            ..Translucency::CLEAR
+        }
     }
 
     /// Builds a material from what tobj read, with its textures.
@@ -163,6 +229,7 @@ impl Libraries {
             emission_texture,
             opacity: read.dissolve.unwrap_or(1.0),
             opacity_texture,
+            translucency: Some(self.build_translucency(&read.name)),
         })
     }
 
@@ -209,10 +276,8 @@ fn check_statement(statement: &Statement) -> Result<(), String> {
                 "Pm is {metallic}; allowed: 0 (paint, wood, plastic) or 1 (bare metal), nothing between"
             )),
         },
-        "Tr" if read_one() != Ok(0.0) => Err(
-            "Tr is not read, since programs disagree about its meaning; write d (1 is opaque)"
-                .into(),
-        ),
+        "Tf" => check_triple(check_albedo),
+        "Tr" => read_one().map(|_| ()),
         "map_Kd" | "map_Ke" | "map_d" if rest.is_empty() => {
             Err(format!("{keyword} names no file; give it one"))
         }

@@ -115,6 +115,8 @@ pub(super) struct ObjectTable {
     pub(super) scale: Option<Spanned<ScaleTable>>,
     pub(super) keys: Option<Spanned<Vec<KeyTable>>>,
     pub(super) interpolation: Option<Spanned<String>>,
+    pub(super) alpha: Option<Spanned<String>>,
+    pub(super) buffers: Option<Spanned<String>>,
     #[serde(default)]
     pub(super) material: BTreeMap<Spanned<String>, MaterialTable>,
 }
@@ -144,6 +146,8 @@ pub(super) struct MaterialTable {
     pub(super) roughness: Option<Spanned<f32>>,
     pub(super) metallic: Option<Spanned<bool>>,
     pub(super) index_of_refraction: Option<Spanned<f32>>,
+    pub(super) filter: Option<Spanned<[f32; 3]>>,
+    pub(super) thin_glass: Option<Spanned<bool>>,
     pub(super) diffuse_texture: Option<Spanned<String>>,
     pub(super) emission_texture: Option<Spanned<String>>,
     pub(super) opacity_texture: Option<Spanned<String>>,

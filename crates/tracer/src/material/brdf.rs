@@ -100,6 +100,7 @@ mod tests {
             emission_texture: None,
             opacity: 1.0,
             opacity_texture: None,
+            translucency: None,
         };
         GlossyMaterial::new(&material).expect("it is glossy")
     }

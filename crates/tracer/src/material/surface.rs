@@ -7,6 +7,7 @@ use crate::geometry::ray::Ray;
 use crate::geometry::triangle::Crossing;
 use crate::material::brdf::Brdf;
 use crate::material::glossy_material::GlossyMaterial;
+use crate::material::sight::Sight;
 use crate::motion::pose::Pose;
 use crate::scene::{Material, Mesh, Scene};
 
@@ -30,7 +31,7 @@ pub(crate) struct Surface {
     pub area: f64,
 }
 
-/// The holes of an object, cut out by opacity.
+/// The holes of an object, cut out by opacity, and its translucent parts.
 pub(crate) struct Opacity {
     object: usize,
     solid: bool,
@@ -40,7 +41,9 @@ impl Opacity {
     pub fn of_objects(scene: &Scene) -> Vec<Opacity> {
         let solid = |&material: &usize| {
             let material = &scene.materials[material];
-            material.opacity >= HOLE && material.opacity_texture.is_none()
+            material.opacity >= HOLE
+                && material.opacity_texture.is_none()
+                && material.translucency.is_none()
         };
         scene
             .objects
@@ -53,10 +56,23 @@ impl Opacity {
             .collect()
     }
 
-    /// Returns true if the surface has no hole at the crossing.
+    /// Returns true if a ray of this sight sees the surface at the crossing.
     #[inline]
-    pub fn is_opaque(&self, scene: &Scene, triangle: u32, crossing: &Crossing) -> bool {
-        self.solid || opacity(scene, self.object, triangle, [crossing.u, crossing.v]) >= HOLE
+    pub fn is_seen(&self, sight: Sight, scene: &Scene, triangle: u32, crossing: &Crossing) -> bool {
+        self.solid || self.is_seen_at(sight, scene, triangle, [crossing.u, crossing.v])
+    }
+
+    fn is_seen_at(&self, sight: Sight, scene: &Scene, triangle: u32, weights: [f64; 2]) -> bool {
+        let opacity = || opacity(scene, self.object, triangle, weights);
+        let Some(own) = find_material(scene, self.object, triangle).translucency else {
+            return opacity() >= HOLE;
+        };
+        let changes_light = || own.glass.is_some() || own.filter != Vec3::ONE || opacity() > 0.0;
+        match sight {
+            Sight::Everything => changes_light(),
+            Sight::Buffers => own.in_buffers && changes_light(),
+            Sight::Opaque => false,
+        }
     }
 }
 
@@ -64,7 +80,7 @@ impl Surface {
     /// The surface that `ray` meets at `hit`, the object being at `pose`.
     pub fn at(scene: &Scene, pose: &Pose, ray: &Ray, hit: &Hit) -> Surface {
         let mesh = &scene.meshes[scene.objects[hit.object].mesh];
-        let scaled = mesh.at(hit.time).area_normal(hit.triangle, &pose.to_world);
+        let scaled = scaled_normal(scene, pose, hit);
         let facet = face_towards(scaled.normalize_or_zero(), -ray.direction);
         let texcoord = interpolate_texcoord(mesh, hit.triangle, hit.weights);
         let index = material_index(scene, hit.object, hit.triangle);
@@ -92,6 +108,18 @@ impl Surface {
     }
 }
 
+/// The normal of the facet at a hit; its length is twice the triangle's area.
+fn scaled_normal(scene: &Scene, pose: &Pose, hit: &Hit) -> DVec3 {
+    let mesh = &scene.meshes[scene.objects[hit.object].mesh];
+    mesh.at(hit.time).area_normal(hit.triangle, &pose.to_world)
+}
+
+/// The cosine between a ray and the normal of the facet that it meets, from 0 to 1.
+pub(crate) fn incidence(scene: &Scene, pose: &Pose, ray: &Ray, hit: &Hit) -> f64 {
+    let normal = scaled_normal(scene, pose, hit).normalize_or_zero();
+    normal.dot(ray.direction).abs().min(1.0)
+}
+
 /// The material of a triangle.
 pub(crate) fn find_material(scene: &Scene, object: usize, triangle: u32) -> &Material {
     &scene.materials[material_index(scene, object, triangle)]
@@ -103,24 +131,30 @@ fn material_index(scene: &Scene, object: usize, triangle: u32) -> usize {
     object.materials[slot as usize]
 }
 
-/// Emitted radiance at a point of a triangle; zero where it has a hole.
+/// Emitted radiance at a point of a triangle: zero where it has a hole, and in proportion to its opacity where it is translucent.
 pub(crate) fn emission(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> Vec3 {
-    if opacity(scene, object, triangle, weights) < HOLE {
+    let opacity = opacity(scene, object, triangle, weights);
+    let material = find_material(scene, object, triangle);
+    let is_translucent = material.translucency.is_some();
+    if opacity < HOLE && !is_translucent {
         return Vec3::ZERO;
     }
     let mesh = &scene.meshes[scene.objects[object].mesh];
-    let material = find_material(scene, object, triangle);
     let texcoord = interpolate_texcoord(mesh, triangle, weights);
-    apply_texture(
+    let emission = apply_texture(
         scene,
         material.emission,
         material.emission_texture,
         texcoord,
-    )
+    );
+    match is_translucent {
+        true => opacity * emission,
+        false => emission,
+    }
 }
 
 /// The opacity at a point of a triangle; in a texture it is the texels' alpha.
-fn opacity(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> f32 {
+pub(crate) fn opacity(scene: &Scene, object: usize, triangle: u32, weights: [f64; 2]) -> f32 {
     let mesh = &scene.meshes[scene.objects[object].mesh];
     let material = find_material(scene, object, triangle);
     let texel = sample_texture(

@@ -144,11 +144,17 @@ impl Seal {
         let swap = |color: &mut Vec3| *color = Vec3::from(self.colors.map(|from| color[from]));
         let mut shades = Chance::new(self.seed, "shades");
         for Material {
-            diffuse, emission, ..
+            diffuse,
+            emission,
+            translucency,
+            ..
         } in &mut scene.materials
         {
             swap(diffuse);
             swap(emission);
+            if let Some(translucency) = translucency {
+                swap(&mut translucency.filter);
+            }
             *diffuse *= shades.between(SHADE) as f32;
         }
         for texel in scene

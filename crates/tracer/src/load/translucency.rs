@@ -1,0 +1,112 @@
+//! The translucency of materials: what an object's `alpha` makes of opacities, and checks of what its materials ask for.
+
+use glam::Vec3;
+use toml::Spanned;
+
+use super::document::Document;
+use super::error::SceneError;
+use super::light::check_albedo;
+use super::schema::{MaterialTable, ObjectTable};
+use crate::{Finish, Material, Translucency};
+
+/// Index of refraction of glass if no file gives one.
+pub(super) const GLASS: f32 = 1.5;
+
+/// Choices of an object about its translucent surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Alpha {
+    /// True if opacity mixes a surface with what lies behind; else it cuts holes.
+    pub(super) is_blended: bool,
+    /// True if velocity, depth and object id are those of the translucent surfaces.
+    in_buffers: bool,
+}
+
+impl Alpha {
+    /// Reads `alpha` and `buffers` of an object.
+    pub(super) fn read(document: &Document, table: &ObjectTable) -> Result<Self, SceneError> {
+        let choose = |what: &str, key: &Option<Spanned<String>>, words: [&str; 2]| {
+            let Some(key) = key else { return Ok(false) };
+            let index = words.iter().position(|word| word == key.get_ref());
+            index.map(|index| index == 1).ok_or_else(|| {
+                let [first, second] = words;
+                let found = key.get_ref();
+                let reason = format!("{what} is \"{found}\"; allowed: \"{first}\", \"{second}\"");
+                document.error(key.span(), reason)
+            })
+        };
+        let is_blended = choose("alpha", &table.alpha, ["cutout", "blended"])?;
+        let in_buffers = choose("buffers", &table.buffers, ["behind", "own"])?;
+        if let (Some(buffers), false) = (&table.buffers, is_blended) {
+            let reason = "buffers tells what velocity and depth are where an object is translucent; give it alpha = \"blended\"";
+            return Err(document.error(buffers.span(), reason));
+        }
+        Ok(Self {
+            is_blended,
+            in_buffers,
+        })
+    }
+
+    /// Sets the translucency of a material of the object, from what its file asks for. A material that is opaque everywhere has
+    /// none. The error says what is wrong with the material.
+    pub(super) fn apply(self, material: &mut Material) -> Result<(), String> {
+        let asked = material.translucency.take();
+        if !self.is_blended {
+            return Ok(());
+        }
+        let asked = asked.unwrap_or(Translucency::CLEAR);
+        let is_opaque = material.opacity == 1.0 && material.opacity_texture.is_none();
+        if let Some(index) = asked.glass {
+            if is_opaque {
+                let reason = "is thin glass with an opacity of 1, which lets nothing pass; give it less (0 is clean glass)";
+                return Err(reason.into());
+            }
+            if !(1.0..=Finish::DENSEST).contains(&index) {
+                let most = Finish::DENSEST;
+                return Err(format!(
+                    "is thin glass with an index of refraction of {index}; allowed: 1 to {most}"
+                ));
+            }
+        }
+        material.translucency = (!is_opaque).then_some(Translucency {
+            // Glass of index 1 reflects nothing.
+            glass: asked.glass.filter(|index| *index > 1.0),
+            in_buffers: self.in_buffers,
+            ..asked
+        });
+        Ok(())
+    }
+}
+
+/// Changes what a material asks for by the keys that a scene.toml gives.
+pub(super) fn change_translucency(
+    document: &Document,
+    table: &MaterialTable,
+    is_blended: bool,
+    material: &mut Material,
+) -> Result<(), SceneError> {
+    let places = [
+        (table.filter.as_ref().map(Spanned::span), "filter"),
+        (table.thin_glass.as_ref().map(Spanned::span), "thin_glass"),
+    ];
+    for (place, key) in places {
+        if let (Some(place), false) = (place, is_blended) {
+            let reason =
+                format!("{key} is about light that passes; give the object alpha = \"blended\"");
+            return Err(document.error(place, reason));
+        }
+    }
+    let mut asked = material.translucency.unwrap_or(Translucency::CLEAR);
+    if let Some(filter) = &table.filter {
+        check_albedo(*filter.get_ref())
+            .map_err(|reason| document.error(filter.span(), format!("filter {reason}")))?;
+        asked.filter = Vec3::from(*filter.get_ref());
+    }
+    if let Some(is_glass) = &table.thin_glass {
+        asked.glass = is_glass.get_ref().then(|| asked.glass.unwrap_or(GLASS));
+    }
+    if let (Some(glass), Some(index)) = (&mut asked.glass, &table.index_of_refraction) {
+        *glass = *index.get_ref();
+    }
+    material.translucency = Some(asked);
+    Ok(())
+}
