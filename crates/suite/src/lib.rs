@@ -67,9 +67,10 @@ pub use judge::baseline::{
     compare_with_baseline,
 };
 pub use judge::bounds::{
-    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds,
-    bound_subframes, check_names, is_of_subframes, read_bounds, read_bounds_beside_scenes,
-    read_bounds_file, require_bounds, size_for_bounds, sized_bounds_file,
+    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
+    bound_subframes, check_lengths, check_names, is_of_subframes, read_bounds,
+    read_bounds_beside_scenes, read_bounds_file, require_bounds, size_for_bounds,
+    sized_bounds_file,
 };
 pub use judge::calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use judge::check::{CHECK_FORMAT, Check, check};
@@ -77,7 +78,7 @@ pub use judge::decision::Decision;
 pub use judge::{
     BLOCK, CROP, Decoys, FEW_SUBFRAMES, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, JudgedScore,
     Judgement, MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, judge,
-    judge_scores, number, worst_block,
+    judge_scores, judge_sequence, number, worst_block,
 };
 pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,

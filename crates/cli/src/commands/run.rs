@@ -27,7 +27,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     plan.part = args.part.unwrap_or_default();
     let size = (plan.render.width, plan.render.height);
     for bounds in bounds.values_mut() {
-        *bounds = std::mem::take(bounds).at(size);
+        *bounds = std::mem::take(bounds).at(size).over(plan.frames);
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let MeasuredRun {
@@ -51,7 +51,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         if !bounds.contains_key(&case.scene)
             && let Some(earlier) = read_case_bounds(root, case, size)?
         {
-            bounds.insert(case.scene.clone(), earlier);
+            bounds.insert(case.scene.clone(), earlier.over(plan.frames));
         }
     }
     // Bounds are the business of `check`: those that a run breaks fail nothing.
