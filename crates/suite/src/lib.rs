@@ -55,6 +55,7 @@ pub use filter::runner::{Runner, open_adapter, open_gpu};
 pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;
 pub use folder::claim::{Claim, Sharing, claim};
+pub use folder::numbered::{find_numbered, numbered_file};
 pub use folder::placed_file::MOST_TAKEN_BYTES;
 pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
@@ -134,12 +135,14 @@ pub use run::sequence::{Frames, MOST_FRAMES, Sequence, SequenceFrame};
 pub use run::{FORMAT, Run};
 pub use score::finished_picture::{FinishedPicture, read_finished_picture};
 pub use score::scores::{Scored, missing_scores, score};
+pub use score::sequence::{ScoredSequence, SequenceTruth, file_at_frame, score_sequence};
 pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
 pub use stats::ranking::{MOST_RANKED, RankedFilter, rank_for_summary};
 pub use stats::scene_mean::{FEWEST_SCENES, SceneMean};
+pub use stats::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use tune::{
     Advice, Choice, ChoiceLimits, Difference, Estimate, Evaluation, Evaluator, Fold, HeldOutResult,
     JOURNAL_FORMAT, Journal, JournalHeader, LEAST_BLEED, Objective, PairedComparison,

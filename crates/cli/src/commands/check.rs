@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use frame::FileError;
 use suite::{
     BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence,
-    bound_subframes, check, check_lengths, check_names, compare_with_baseline, is_of_subframes, judge,
-    open_gpu, refuse_tracked, require_bounds, size_for_bounds,
+    bound_subframes, check, check_lengths, check_names, compare_with_baseline, is_of_subframes,
+    judge, open_gpu, refuse_tracked, require_bounds, size_for_bounds,
 };
 use tracer::Location;
 

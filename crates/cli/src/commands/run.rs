@@ -16,7 +16,7 @@ use crate::tables::adapter::adapter_text;
 use crate::tables::cases::run_table;
 use crate::tables::failures::failures_text;
 use crate::tables::ranking::ranking_text;
-use crate::tables::sequence::sequence_table;
+use crate::tables::sequence::sequences_text;
 
 /// Runs every case, writes `run.json` and the page, prints the ranking or the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
@@ -72,7 +72,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
             true => run_table(&run),
             false => ranking_text(&run.cases),
         };
-        let text = scores + &sequence_table(&run.sequences) + &failures_text(&run.failures);
+        let text = scores + &sequences_text(&run, args.table) + &failures_text(&run.failures);
         print(&(text + &closing_text(&run, &pages, &plan.out, began.elapsed())))?;
     }
     refuse_failures(&run.failures)

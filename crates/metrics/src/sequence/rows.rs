@@ -22,18 +22,30 @@ impl SequenceMetric {
         }
     }
 
-    /// Formats a score as tables show it: in thousandths of display white, squared errors by their roots; JOD as it is.
-    pub fn text(self, score: &Measured) -> String {
-        let Some(value) = score.value() else {
-            return "n/a".to_owned();
-        };
-        let root = match self.row().unit {
+    /// Converts a score to the number that tables show: thousandths of display white, squared errors by their roots; JOD as it is.
+    pub fn shown(self, value: f64) -> f64 {
+        match self.row().unit {
             // Below 0 by the truth's noise alone.
-            "white^2" => value.max(0.0).sqrt(),
-            "JOD" => return format!("{value:.2}"),
-            _ => value,
-        };
-        format!("{:.1}", 1000.0 * root)
+            "white^2" => 1000.0 * value.max(0.0).sqrt(),
+            "JOD" => value,
+            _ => 1000.0 * value,
+        }
+    }
+
+    /// Formats a number that [`shown`](Self::shown) made.
+    pub fn shown_text(self, shown: f64) -> String {
+        match self {
+            Self::Jod => format!("{shown:.2}"),
+            _ => format!("{shown:.1}"),
+        }
+    }
+
+    /// Formats a score as tables show it.
+    pub fn text(self, score: &Measured) -> String {
+        match score.value() {
+            None => "n/a".to_owned(),
+            Some(value) => self.shown_text(self.shown(value)),
+        }
     }
 }
 
