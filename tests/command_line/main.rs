@@ -16,6 +16,7 @@ mod empty_folder;
 mod export;
 mod failures;
 mod fidelity;
+mod finished_sequence;
 mod gallery;
 #[cfg(unix)]
 mod growth;
@@ -38,6 +39,7 @@ mod refusals;
 mod report;
 mod results;
 mod score;
+mod sequence_ranking;
 mod sequences;
 mod serve;
 mod set_up;

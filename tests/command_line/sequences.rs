@@ -109,6 +109,14 @@ fn a_sequence_is_read_back_and_goes_on_where_it_ended() {
         .partition(|(name, _)| name.starts_with("0002/"));
     assert_eq!(kept, before);
     assert!(new.len() > 10, "{new:?}");
+    // JOD depends on the rate: sequences of two rates are no one run.
+    let other_rate = ["--filters", "velocity_gather:fine", "--fps", "24"];
+    let refused = bench.run(&[&other_rate[..], &THREE].concat());
+    let parts = [
+        "number of frames was 3 at 60 per second, now 3 at 24 per second",
+        "--out",
+    ];
+    assert_refused(&refused, 2, &parts);
 }
 
 #[test]

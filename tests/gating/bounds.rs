@@ -5,8 +5,8 @@ use std::path::Path;
 
 use cli::{Programs, SceneChoice};
 use frame::{Alignment, Picture};
-use metrics::{Measured, Metric, Reference};
-use suite::{JudgedScore, Level, Monitor, Outcome, SceneBounds};
+use metrics::{Measured, Metric, Reference, SequenceMetric};
+use suite::{Frames, JudgedScore, Level, Monitor, Outcome, SceneBounds};
 use tests::scenes;
 use tests::text::assert_contains;
 use tracer::RenderSettings;
@@ -106,7 +106,8 @@ fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> 
     let check = || {
         let bounds = suite::read_bounds(folder.path(), &scene, None)?;
         suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
-        suite::require_bounds(folder.path(), std::iter::once(("fan", &bounds)), &filters)?;
+        let scenes = std::iter::once(("fan", &bounds));
+        suite::require_bounds(folder.path(), scenes, &filters, Frames::default())?;
         Ok(bounds)
     };
     check().map_err(|error: suite::Error| {
@@ -184,6 +185,52 @@ fn limits_hold_only_at_their_own_size() {
 }
 
 #[test]
+fn every_metric_of_sequences_can_have_a_bound_for_a_number_of_frames() {
+    let single = format!("[default]\nflip_moving = {}", limit(0.1));
+    let filters =
+        cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
+    for metric in SequenceMetric::ALL {
+        let name = metric.row().name;
+        let fps = match metric.depends_on_rate() {
+            true => "fps = 60.0, ",
+            false => "",
+        };
+        let text = format!(
+            "[filter.identity]\n{name} = {{ limit = 0.25, frames = 4, {fps}why = \"w\" }}\n"
+        );
+        let bounds = read(&single, &text).unwrap();
+        assert_eq!(bounds.of("identity", "default")[name].limit, 0.25);
+        let at = |count, per_second| Frames { count, per_second };
+        let lengths = |frames| {
+            let scenes = std::iter::once(&bounds);
+            suite::check_lengths(scenes, &filters, frames).map_err(|error| error.to_string())
+        };
+        // Single frames leave it alone, and another length is refused before anything is rendered.
+        assert_eq!(lengths(at(1, 60.0)), Ok(()));
+        assert_eq!(lengths(at(4, 60.0)), Ok(()));
+        let start =
+            format!("fan/bounds.toml:2: the limit on {name} holds for sequences of 4 frames");
+        assert_contains(
+            &lengths(at(3, 60.0)).unwrap_err(),
+            &[&start, "to have 3 frames"],
+        );
+        assert_eq!(lengths(at(4, 24.0)).is_err(), metric.depends_on_rate());
+        // `run` leaves out limits for another length, as it does those for another size.
+        let left = |frames| bounds.clone().over(frames).of("identity", "default");
+        assert!(left(at(4, 60.0)).contains_key(name));
+        assert!(!left(at(1, 60.0)).contains_key(name));
+        assert!(left(at(1, 60.0)).contains_key("flip_moving"));
+        // Limits that nothing judges are no check.
+        assert_contains(
+            &read("", &text).unwrap_err(),
+            &[
+                "fan / identity:default: all its bounds are on sequences of other lengths, such as 4 frames",
+            ],
+        );
+    }
+}
+
+#[test]
 fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("fan");
@@ -246,6 +293,40 @@ fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
             "\n[default]\nflip = { limit = 0.1, why = \"w\" }",
             "",
             &["scenes/bounds.toml:3: metric \"flip\" is unknown; allowed: mse_moving"],
+        ),
+        (
+            "[default]\nflicker = { limit = 0.1, why = \"w\" }",
+            "",
+            &[
+                "scenes/bounds.toml:2: flicker: is a score of a sequence",
+                "such as frames = 4",
+            ],
+        ),
+        (
+            "[default]\njod = { limit = 9, frames = 4, why = \"w\" }",
+            "",
+            &[
+                "scenes/bounds.toml:2: jod: depends on the rate",
+                "such as fps = 60",
+            ],
+        ),
+        (
+            "[default]\nflip_moving = { limit = 0.1, frames = 4, why = \"w\" }",
+            "",
+            &[
+                "scenes/bounds.toml:2: flip_moving: is a score of a single frame",
+                "leave it out",
+            ],
+        ),
+        (
+            "[default]\nflip = { limit = 0.1, why = \"w\" }",
+            "",
+            &["; of sequences: error, flicker"],
+        ),
+        (
+            "[margin]\nflicker = 0.1",
+            "",
+            &["scenes/bounds.toml:2: margin of flicker: is a score of a sequence"],
         ),
         (
             "[default]\nflip_moving = { limit = nan, why = \"w\" }",

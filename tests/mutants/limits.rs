@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use metrics::Metric;
+use metrics::{BoundMetric, Metric};
 use suite::{Case, Error, Level, Outcome, Run, SceneBounds, judge_scores};
 use tests::limits::calibrate_scene;
 use tracer::Scene;
@@ -46,7 +46,7 @@ pub fn find_limits(
                 let named = bounded
                     .keys()
                     .map(|name| name.parse().expect("it was read"));
-                let metrics: Vec<Metric> = named.collect();
+                let metrics: Vec<BoundMetric> = named.collect();
                 let runs = measure_sound_runs(bench, subject, scene, journal)?;
                 calibrate_scene(&runs, &metrics, &scene.name)
             }
@@ -69,8 +69,9 @@ pub fn widen_limits(
     journal: &mut Journal,
     due: &dyn Fn() -> bool,
 ) -> Result<(), Error> {
-    let metrics: Vec<Metric> = (Metric::all().into_iter())
+    let metrics: Vec<BoundMetric> = (Metric::all().into_iter())
         .filter(|metric| metric.report_only().is_none())
+        .map(BoundMetric::Frame)
         .collect();
     for choice in &bench.scenes {
         let scene = &choice.scene;

@@ -15,6 +15,7 @@
 //! | `sequence` | errors from frame to frame |
 //! | `math` | means, convolutions and powers |
 
+mod bound_metric;
 mod color;
 mod error;
 mod interval;
@@ -35,6 +36,7 @@ mod subframes;
 mod viewing;
 mod worth;
 
+pub use bound_metric::BoundMetric;
 pub use color::absolute_error::SMAPE_EPSILON;
 pub use color::cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
 pub use color::flip::{flip_hdr, flip_ldr};
@@ -53,8 +55,8 @@ pub use reference::{ColorReference, Jitter, Measurement, Reference};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
 pub use sequence::{
-    Instant, JOD_DISPLAY, NEW_SHARE, SequenceMeasurement, SequenceMetric, SequenceReference,
-    SequenceScores, accumulate, video_jod,
+    Instant, JOD_DISPLAY, NEW_SHARE, PERFECT_JOD, SequenceMeasurement, SequenceMetric,
+    SequenceReference, SequenceScores, accumulate, video_jod,
 };
 pub use subframes::{Equivalent, LadderRange, Subframes};
 pub use viewing::Viewing;

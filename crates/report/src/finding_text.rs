@@ -1,7 +1,7 @@
 //! A finding in words: its status, its score and the way out.
 
 use metrics::Interval;
-use suite::{Finding, Level, MOST_SAMPLES, Outcome, number};
+use suite::{Finding, Length, Level, MOST_SAMPLES, Outcome, number};
 
 /// Status of a score against its bound, told by colour, sign and word: never by the colour alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ impl Status {
             Outcome::Broken => ("broken", "✗"),
             Outcome::Inconclusive => ("inconclusive", "?"),
             Outcome::TooNoisy => ("undecided", "~"),
-            Outcome::NotApplicable => return None,
+            Outcome::NotApplicable | Outcome::NotJudged => return None,
         };
         Some(Self { word, sign })
     }
@@ -41,12 +41,14 @@ pub fn finding_status(finding: &Finding) -> &'static str {
         (Outcome::TooNoisy, _) => "LIMIT WITHIN NOISE",
         (Outcome::Kept, _) => "kept",
         (Outcome::NotApplicable, _) => "not applicable",
+        (Outcome::NotJudged, _) => "not judged",
     }
 }
 
 /// Writes the score beside its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`.
 pub fn finding_score(finding: &Finding) -> String {
     let mut text = finding.metric.clone();
+    text.extend(length_text(finding).map(|length| format!(" over {length}")));
     if let Some(value) = finding.value {
         let estimate = finding.interval.map_or(value, |own| own.center());
         text += &format!(" {}", finding.with_unit(estimate));
@@ -63,6 +65,21 @@ pub fn finding_score(finding: &Finding) -> String {
         text += &format!(", floor {}", number(floor));
     }
     text
+}
+
+/// Writes the length of the sequence that the limit holds for, `4 frames` or `4 frames at 60 per second`; none for a score of a
+/// single frame.
+pub fn length_text(finding: &Finding) -> Option<String> {
+    let length = Length {
+        frames: finding.frames?,
+        per_second: finding.fps,
+    };
+    Some(length.text())
+}
+
+/// Writes the frame of a sequence that is worst in the score: `worst in frame 2`.
+pub fn worst_frame_text(finding: &Finding) -> Option<String> {
+    Some(format!("worst in frame {}", finding.worst_frame?))
 }
 
 /// Writes `95 % CI 0.05198 to 0.05332, measured 0.05364`; the measured value only where the truth's noise moved it out of the

@@ -55,6 +55,7 @@ pub use filter::runner::{Runner, open_adapter, open_gpu};
 pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;
 pub use folder::claim::{Claim, Sharing, claim};
+pub use folder::numbered::{find_numbered, numbered_file};
 pub use folder::placed_file::MOST_TAKEN_BYTES;
 pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
@@ -67,9 +68,10 @@ pub use judge::baseline::{
     compare_with_baseline,
 };
 pub use judge::bounds::{
-    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Level, Margin, SceneBounds,
-    bound_subframes, check_names, is_of_subframes, read_bounds, read_bounds_beside_scenes,
-    read_bounds_file, require_bounds, size_for_bounds, sized_bounds_file,
+    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
+    bound_subframes, check_lengths, check_names, is_of_subframes, read_bounds,
+    read_bounds_beside_scenes, read_bounds_file, require_bounds, size_for_bounds,
+    sized_bounds_file,
 };
 pub use judge::calibrate::{Calibration, Proposal, Sample, calibrate};
 pub use judge::check::{CHECK_FORMAT, Check, check};
@@ -77,7 +79,7 @@ pub use judge::decision::Decision;
 pub use judge::{
     BLOCK, CROP, Decoys, FEW_SUBFRAMES, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, JudgedScore,
     Judgement, MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, judge,
-    judge_scores, number, worst_block,
+    judge_scores, judge_sequence, number, worst_block,
 };
 pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,
@@ -133,12 +135,14 @@ pub use run::sequence::{Frames, MOST_FRAMES, Sequence, SequenceFrame};
 pub use run::{FORMAT, Run};
 pub use score::finished_picture::{FinishedPicture, read_finished_picture};
 pub use score::scores::{Scored, missing_scores, score};
+pub use score::sequence::{ScoredSequence, SequenceTruth, file_at_frame, score_sequence};
 pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
 pub use stats::ranking::{MOST_RANKED, RankedFilter, rank_for_summary};
 pub use stats::scene_mean::{FEWEST_SCENES, SceneMean};
+pub use stats::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use tune::{
     Advice, Choice, ChoiceLimits, Difference, Estimate, Evaluation, Evaluator, Fold, HeldOutResult,
     JOURNAL_FORMAT, Journal, JournalHeader, LEAST_BLEED, Objective, PairedComparison,

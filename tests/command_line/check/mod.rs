@@ -4,6 +4,7 @@ mod calibrated;
 mod finished_run;
 mod formats;
 mod outcomes;
+mod sequences;
 
 use std::process::Output;
 

@@ -16,10 +16,18 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 41] = [
+const NOT_RUN: [(&str, &str); 43] = [
     (
         "shuttertruth compare-presets paper tuned --filter my_jump_flood --objective flip,bleed --size 640x360 --samples-per-pixel 64 --out held_out --scenes dolly@seal2,fence@seal2,roll@seal2,flag@seal2,sliding_panel@seal2,ramp_floor@seal2,frame_edge@seal2,creep@seal2,ornaments@seal2",
         "the reader copies the folder, with a preset that a search found",
+    ),
+    (
+        "shuttertruth check --scenes fan --filter mcguire:paper --frames 4 --out out/checked_sequence",
+        "renders four frames with enough samples for limits; a test does so on a plate",
+    ),
+    (
+        "shuttertruth calibrate --scenes fan --filter mcguire:paper --size 160x90 --frames 4 --runs 2 --out out/calibrated_sequence",
+        "renders eight frames with enough samples for limits; a test does so on a plate",
     ),
     (
         "shuttertruth run --scenes glasshouse,glasshouse@written,glasshouse@resting,sparks,sparks@written,sparks@opaque --filter bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --samples-per-pixel 64 --out out/translucent",

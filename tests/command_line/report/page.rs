@@ -79,8 +79,8 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
         let [first, second] = cells[..] else {
             panic!("two scenes have {} scores", cells.len())
         };
-        assert!((ranked.flip - (first + second) / 2.0).abs() < 1e-12);
-        let ([low, high], mean) = (ranked.interval.unwrap(), ranked.flip);
+        assert!((ranked.mean - (first + second) / 2.0).abs() < 1e-12);
+        let ([low, high], mean) = (ranked.interval.unwrap(), ranked.mean);
         let on_page = format!("{mean:.3}</td><td class=\"note\">{low:.3} to {high:.3}</td>");
         assert!(table.contains(&on_page), "{on_page}");
         let row = (terminal.lines()).find(|line| line.contains(&ranked.name));

@@ -3,7 +3,8 @@
 use cli::{Programs, select_filters};
 use filters::Filter;
 use suite::{
-    Run, check_names, judge, read_bounds, read_bounds_file, require_bounds, size_for_bounds,
+    Frames, Run, check_lengths, check_names, judge, read_bounds, read_bounds_file, require_bounds,
+    size_for_bounds,
 };
 
 use super::run_json::of;
@@ -53,7 +54,13 @@ fn run(place: &mut Place, input: &[u8]) {
         &root,
         std::iter::once(("plate", &bounds)),
         filters,
+        Frames::default(),
     ));
+    let frames = Frames {
+        count: 4,
+        per_second: 60.0,
+    };
+    drop(check_lengths(std::iter::once(&bounds), filters, frames));
     drop(size_for_bounds(std::iter::once(&bounds), filters, None));
     drop(size_for_bounds(
         std::iter::once(&bounds),

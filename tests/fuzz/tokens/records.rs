@@ -38,6 +38,10 @@ pub const JSON: &[&str] = &[
 /// Words of bounds.toml.
 pub const BOUNDS: &[&str] = &[
     "[default]\n",
+    "flicker = { limit = 0.1, frames = 4, why = \"w\" }\n",
+    "jod = { limit = 9, frames = 4, fps = 60, why = \"w\" }\n",
+    "frames = 4,",
+    "fps = 60,",
     "[margin]\n",
     "[filter.mcguire]\n",
     "[filter.\"mcguire:paper\"]\n",

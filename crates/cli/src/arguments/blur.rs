@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::adapter::AdapterArgs;
-use super::parse::{parse_exposure, parse_whole};
+use super::parse::{parse_exposure, parse_frames, parse_whole};
 use super::programs::ProgramArgs;
 
 /// `shuttertruth blur`
@@ -24,8 +24,9 @@ pub struct BlurArgs {
     /// picture's].
     #[arg(long)]
     pub as_written: bool,
-    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y.
-    #[arg(long, value_name = "FILE")]
+    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y. With --frames that of the first frame, as `run` and `render`
+    /// lay them out, or a folder of 0000.exr, 0001.exr and so on.
+    #[arg(long, value_name = "FILE|DIR")]
     pub frame: PathBuf,
     /// TOML file with a table [convention] that says which velocity, depth and colour the frame has, and the picture gets
     /// [default: pixels per frame, metres, scene-linear].
@@ -34,12 +35,15 @@ pub struct BlurArgs {
     /// Exposure in frames [default: the file's attribute "exposure"].
     #[arg(long, value_name = "E", value_parser = parse_exposure)]
     pub exposure: Option<f64>,
-    /// Frame number, which seeds the filter's noise.
+    /// Frame number, which seeds the filter's noise; of a sequence that of the first frame.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole::<u32>)]
     pub frame_index: u32,
-    /// OpenEXR file to write.
-    #[arg(short, long, value_name = "FILE", default_value = "out/blurred.exr")]
-    pub out: PathBuf,
+    /// Blur N consecutive frames, each with the next frame number, and with the frame before for filters with history.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = parse_frames)]
+    pub frames: u32,
+    /// OpenEXR file to write; with --frames a folder for 0000.exr, 0001.exr and so on [default: out/blurred.exr, or out/blurred].
+    #[arg(short, long, value_name = "FILE|DIR")]
+    pub out: Option<PathBuf>,
     #[command(flatten)]
     pub programs: ProgramArgs,
     #[command(flatten)]

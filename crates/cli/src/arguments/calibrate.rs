@@ -3,16 +3,19 @@
 use std::str::FromStr;
 
 use clap::Args;
-use metrics::Metric;
+use metrics::BoundMetric;
 
 use super::measure::MeasureArgs;
 use super::parse::parse_runs;
+use super::sequence::SequenceArgs;
 
 /// `shuttertruth calibrate`
 #[derive(Debug, Args)]
 pub struct CalibrateArgs {
     #[command(flatten)]
     pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub sequence: SequenceArgs,
     /// Number of runs, each with a truth of its own seed: --seed, --seed + 1, and so on.
     #[arg(help_heading = "Calibration", long, value_name = "K", default_value_t = 3, value_parser = parse_runs)]
     pub runs: u32,
@@ -24,7 +27,7 @@ pub struct CalibrateArgs {
         value_name = "ADAPTERS"
     )]
     pub adapters: Vec<String>,
-    /// Metrics to propose bounds for, separated by commas [default: those that have bounds].
-    #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::from_str)]
-    pub metrics: Vec<Metric>,
+    /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and with --frames all of sequences].
+    #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = BoundMetric::from_str)]
+    pub metrics: Vec<BoundMetric>,
 }

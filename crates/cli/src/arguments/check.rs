@@ -6,9 +6,10 @@ use clap::Args;
 
 use super::adapter::AdapterArgs;
 use super::measure::MeasureArgs;
+use super::sequence::SequenceArgs;
 
 /// Arguments that only a check that measures may have.
-const MEASURING: [&str; 25] = [
+const MEASURING: [&str; 27] = [
     "scenes",
     "samples_per_pixel",
     "exposure",
@@ -33,6 +34,8 @@ const MEASURING: [&str; 25] = [
     "camera_jitter",
     "render_scale",
     "jitter_frames",
+    "frames",
+    "fps",
     "adapter",
 ];
 
@@ -48,6 +51,8 @@ pub struct CheckArgs {
     pub evidence: bool,
     #[command(flatten)]
     pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub sequence: SequenceArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Also compare with the scores that `accept` wrote there, by the margins in bounds.toml.

@@ -42,6 +42,7 @@ mod scenes;
 mod scenes_root;
 mod score;
 mod sensitivity;
+mod sequence;
 mod serve;
 mod tune;
 mod verify;

@@ -1,10 +1,10 @@
 //! The command `blur`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use filters::{Convention, FilterError, Input};
 use frame::{Camera, ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
-use suite::{Error, FilterChoice, Runner, open_gpu, printable_path};
+use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu, printable_path};
 
 use super::convention::read_convention;
 use super::render_settings::check_exposure;
@@ -13,51 +13,106 @@ use crate::output::print::print;
 use crate::output::progress::make_silent_monitor;
 use crate::selection::select_filters;
 
-/// Runs one filter on one frame file and writes its colour.
+/// Runs one filter on one frame file, or on those of a sequence, and writes its colours.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
+    let frames = list_frames(args)?;
     let choice = select_filter(args)?;
     let convention = read_convention(args.convention.as_deref())?;
-    let buffers = read_buffers(&args.frame, args.exposure, &convention)?;
+    let buffers = Buffers::read(&frames[0].file, args.exposure, &convention)?;
     let choice = choice.scaled_to(buffers.picture_width());
     let gpu = open_gpu(
         std::slice::from_ref(&choice),
         args.adapter.adapter.as_deref(),
         make_silent_monitor(),
     )?;
-    let (width, height) = (buffers.color.width, buffers.color.height);
-    let mut runner = Runner::new(
-        gpu.as_ref(),
-        &choice,
-        (width, height),
-        make_silent_monitor(),
-    )?;
-    let input = Input {
-        color: &[&buffers.color],
-        velocity: &buffers.velocity,
-        depth: &buffers.depth,
-        reprojection: buffers.reprojection,
-        camera: buffers.camera,
-        exposure: buffers.exposure,
-        frame_index: args.frame_index,
-    };
-    let outputs = runner.run(&input).map_err(|error| match error {
-        FilterError::Input { reason, .. } => {
-            Error::Usage(format!("{}: {reason}", args.frame.display()))
+    let size = buffers.size();
+    let mut runner = Runner::new(gpu.as_ref(), &choice, size, make_silent_monitor())?;
+    // The first frame stands in for the one before it.
+    let mut before = buffers;
+    for (at, frame) in frames.iter().enumerate() {
+        let own = match at {
+            0 => None,
+            _ => Some(Buffers::read(&frame.file, args.exposure, &convention)?),
+        };
+        let now = own.as_ref().unwrap_or(&before);
+        now.check_size(size, frame, &frames[0])?;
+        let colors = [[&now.color], [&before.color]];
+        let input = now.input(&colors[0], frame.index);
+        let outputs = runner.run_after(&input, &before.input(&colors[1], frame.index));
+        let outputs = outputs.map_err(|error| match error {
+            FilterError::Input { reason, .. } => {
+                Error::Usage(format!("{}: {reason}", frame.file.display()))
+            }
+            other => other.into(),
+        })?;
+        let mut file = ExrFile::new(size.0, size.1);
+        file.push_color("", &convention.convert_color(&outputs[0]));
+        file.set("kind", "output");
+        file.set("filter", choice.name());
+        file.set("program", suite::PROGRAM);
+        if let Some(gpu) = &gpu {
+            file.set("adapter", &gpu.adapter.name);
         }
-        other => other.into(),
-    })?;
-    let mut file = ExrFile::new(width, height);
-    file.push_color("", &convention.convert_color(&outputs[0]));
-    file.set("kind", "output");
-    file.set("filter", choice.name());
-    file.set("program", suite::PROGRAM);
-    if let Some(gpu) = &gpu {
-        file.set("adapter", &gpu.adapter.name);
+        file.set("exposure", now.exposure);
+        file.set("alignment", choice.filter.alignment);
+        write_exr(&frame.out, &file)?;
+        if let Some(own) = own {
+            before = own;
+        }
+        print(&format!("{}\n", printable_path(&frame.out)))?;
     }
-    file.set("exposure", buffers.exposure);
-    file.set("alignment", choice.filter.alignment);
-    write_exr(&args.out, &file)?;
-    print(&format!("{}\n", printable_path(&args.out)))
+    Ok(())
+}
+
+/// One frame to blur.
+struct FrameFiles {
+    /// The frame.
+    file: PathBuf,
+    /// Picture to write.
+    out: PathBuf,
+    /// Frame number, which seeds the filter's noise.
+    index: u32,
+}
+
+/// Lists the frames to blur, and the pictures to write.
+fn list_frames(args: &BlurArgs) -> Result<Vec<FrameFiles>, Error> {
+    let is_one = args.frames == 1;
+    let out = args.out.clone().unwrap_or_else(|| match is_one {
+        true => PathBuf::from("out/blurred.exr"),
+        false => PathBuf::from("out/blurred"),
+    });
+    if is_one {
+        return Ok(vec![FrameFiles {
+            file: args.frame.clone(),
+            index: args.frame_index,
+            out,
+        }]);
+    }
+    if out.extension().is_some_and(|ending| ending == "exr") {
+        return Err(Error::Usage(format!(
+            "--out: {} is the name of one picture, and {} are written; name a folder for them",
+            out.display(),
+            args.frames
+        )));
+    }
+    if args.frame_index.checked_add(args.frames - 1).is_none() {
+        return Err(Error::Usage(format!(
+            "--frame-index {}: each of the {} frames has the next one; allowed: up to {}",
+            args.frame_index,
+            args.frames,
+            u32::MAX - (args.frames - 1)
+        )));
+    }
+    let is_folder = args.frame.is_dir();
+    let frames = (0..args.frames).map(|frame| FrameFiles {
+        file: match is_folder {
+            true => numbered_file(&args.frame, frame),
+            false => file_at_frame(&args.frame, frame),
+        },
+        out: numbered_file(&out, frame),
+        index: args.frame_index + frame,
+    });
+    Ok(frames.collect())
 }
 
 fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {
@@ -83,6 +138,76 @@ struct Buffers {
 }
 
 impl Buffers {
+    /// Reads the buffers, and converts them from the convention of their engine.
+    fn read(path: &Path, exposure: Option<f64>, convention: &Convention) -> Result<Self, Error> {
+        let file = read_exr(path)?;
+        let guard_band: u32 = match file.attributes.contains_key("guard_band") {
+            true => file.get("guard_band")?,
+            false => 0,
+        };
+        let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
+        let velocity = x.zip(&y, |x, y| [*x, *y]);
+        let (color, depth) = (file.color("")?, file.plane("Z")?);
+        let exposure = match exposure {
+            Some(exposure) => exposure,
+            None if file.attributes.contains_key("exposure") => file.get("exposure")?,
+            None => {
+                return Err(Error::Usage(format!(
+                    "{}: has no attribute \"exposure\"; give one with --exposure (0.5 = 180 degrees)",
+                    path.display()
+                )));
+            }
+        };
+        check_exposure(exposure)?;
+        Ok(Self {
+            color: convention.restore_color(&color),
+            velocity: convention.restore_velocity(&velocity, exposure),
+            depth: convention.restore_depth(&depth),
+            reprojection: read_reprojection(&file, guard_band)?,
+            camera: Camera::from_exr(&file)?,
+            exposure,
+            guard_band,
+        })
+    }
+
+    fn size(&self) -> (u32, u32) {
+        (self.color.width, self.color.height)
+    }
+
+    /// Refuses a frame of another size than the first one.
+    fn check_size(
+        &self,
+        size: (u32, u32),
+        own: &FrameFiles,
+        first: &FrameFiles,
+    ) -> Result<(), Error> {
+        match self.size() == size {
+            true => Ok(()),
+            false => Err(Error::Usage(format!(
+                "{}: has {}x{} pixels, {} has {}x{}; the frames of a sequence have one size",
+                own.file.display(),
+                self.size().0,
+                self.size().1,
+                first.file.display(),
+                size.0,
+                size.1
+            ))),
+        }
+    }
+
+    /// Makes the input of a filter, with colours in place of the frame's own.
+    fn input<'a>(&'a self, color: &'a [&'a Image], frame_index: u32) -> Input<'a> {
+        Input {
+            color,
+            velocity: &self.velocity,
+            depth: &self.depth,
+            reprojection: self.reprojection,
+            camera: self.camera,
+            exposure: self.exposure,
+            frame_index,
+        }
+    }
+
     /// Counts the pixels per row without the guard band.
     fn picture_width(&self) -> u32 {
         self.color
@@ -98,40 +223,4 @@ fn read_reprojection(file: &ExrFile, band: u32) -> Result<Option<Reprojection>, 
         return Ok(None);
     }
     Ok(Some(Reprojection::from_exr(file)?.moved(f64::from(band))))
-}
-
-/// Reads the buffers, and converts them from the convention of their engine.
-fn read_buffers(
-    path: &Path,
-    exposure: Option<f64>,
-    convention: &Convention,
-) -> Result<Buffers, Error> {
-    let file = read_exr(path)?;
-    let guard_band: u32 = match file.attributes.contains_key("guard_band") {
-        true => file.get("guard_band")?,
-        false => 0,
-    };
-    let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
-    let velocity = x.zip(&y, |x, y| [*x, *y]);
-    let (color, depth) = (file.color("")?, file.plane("Z")?);
-    let exposure = match exposure {
-        Some(exposure) => exposure,
-        None if file.attributes.contains_key("exposure") => file.get("exposure")?,
-        None => {
-            return Err(Error::Usage(format!(
-                "{}: has no attribute \"exposure\"; give one with --exposure (0.5 = 180 degrees)",
-                path.display()
-            )));
-        }
-    };
-    check_exposure(exposure)?;
-    Ok(Buffers {
-        color: convention.restore_color(&color),
-        velocity: convention.restore_velocity(&velocity, exposure),
-        depth: convention.restore_depth(&depth),
-        reprojection: read_reprojection(&file, guard_band)?,
-        camera: Camera::from_exr(&file)?,
-        exposure,
-        guard_band,
-    })
 }

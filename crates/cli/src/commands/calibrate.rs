@@ -1,6 +1,6 @@
 //! The command `calibrate`.
 
-use metrics::Metric;
+use metrics::{BoundMetric, Metric};
 use suite::{
     BOUNDS_FILE, Error, Run, RunPlan, bound_subframes, calibrate, check_names, estimate_run,
     measure_scenes, open_gpu, printable_path, refuse_failures,
@@ -25,13 +25,17 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
             scene.folder.join(BOUNDS_FILE).display()
         )));
     }
+    refuse_single_frames(args)?;
+    plan.frames = args.sequence.frames();
+    plan.check()?;
     check_replicates_for_intervals(plan.render.replicates)?;
     plan.intervals = true;
     // No limit is on a filter's noise apart from its error.
     plan.jitter_frames = 0;
     plan.ladders = match args.metrics.as_slice() {
         [] => bound_subframes(bounds.values(), &plan.filters),
-        metrics => (metrics.iter()).any(|metric| matches!(metric, Metric::Equivalent(_))),
+        metrics => (metrics.iter())
+            .any(|metric| matches!(metric, BoundMetric::Frame(Metric::Equivalent(_)))),
     };
     check_names(
         &args.measure.scenes.scenes_dir,
@@ -59,6 +63,18 @@ fn print_expected_runs(args: &CalibrateArgs, plan: &RunPlan) {
     let one = estimate_run(plan, None);
     let more = format!("{runs} runs of {} cases", one.cases);
     print_expected_time(one.seconds * runs as f64, &more);
+}
+
+/// Refuses metrics of sequences where single frames are measured.
+fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
+    let is_of_sequence = |metric: &&BoundMetric| matches!(metric, BoundMetric::Sequence(_));
+    match args.metrics.iter().find(is_of_sequence) {
+        Some(metric) if args.sequence.frames().is_one() => Err(Error::Usage(format!(
+            "--metrics: {metric} is a score of a sequence, and single frames would be measured; say of how many frames with \
+             --frames"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Refuses a first seed that leaves none for the last run.

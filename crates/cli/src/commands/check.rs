@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use frame::FileError;
 use suite::{
     BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence,
-    bound_subframes, check, check_names, compare_with_baseline, is_of_subframes, judge, open_gpu,
-    refuse_tracked, require_bounds, size_for_bounds,
+    bound_subframes, check, check_lengths, check_names, compare_with_baseline, is_of_subframes,
+    judge, open_gpu, refuse_tracked, require_bounds, size_for_bounds,
 };
 use tracer::Location;
 
@@ -101,6 +101,9 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
         (plan.render.width, plan.render.height) = (width, height);
         plan.check()?;
     }
+    check_lengths(bounds.values(), &plan.filters, args.sequence.frames())?;
+    plan.frames = args.sequence.frames();
+    plan.check()?;
     plan.intervals = true;
     plan.ladders = bound_subframes(bounds.values(), &plan.filters)
         || margins.keys().any(|name| is_of_subframes(name));
@@ -110,7 +113,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     // With a baseline, nothing else need be bounded.
     if !compared {
         let scenes = bounds.iter().map(|(name, bounds)| (name.as_str(), bounds));
-        require_bounds(root, scenes, &plan.filters)?;
+        require_bounds(root, scenes, &plan.filters, plan.frames)?;
     }
     if let Some(truths) = &plan.truths {
         refuse_tracked(

@@ -37,6 +37,7 @@ mod run;
 mod run_files;
 mod run_plan;
 mod score;
+mod score_sequence;
 mod sensitivity;
 mod serve;
 mod threads;

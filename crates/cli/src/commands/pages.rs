@@ -54,7 +54,7 @@ pub fn write_run_page(
     html: &Path,
 ) -> Result<Vec<WrittenFile>, Error> {
     let mut files = write_report(run, findings, folder, html, LARGEST_PAGE)?;
-    if let Some(page) = sequences_page(run) {
+    if let Some(page) = sequences_page(run, findings) {
         let path = folder.join(SEQUENCES_PAGE);
         frame::write_atomically(&path, page.as_bytes())?;
         files.insert(1, path);

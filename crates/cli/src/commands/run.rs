@@ -16,7 +16,7 @@ use crate::tables::adapter::adapter_text;
 use crate::tables::cases::run_table;
 use crate::tables::failures::failures_text;
 use crate::tables::ranking::ranking_text;
-use crate::tables::sequence::sequence_table;
+use crate::tables::sequence::sequences_text;
 
 /// Runs every case, writes `run.json` and the page, prints the ranking or the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {
@@ -27,7 +27,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     plan.part = args.part.unwrap_or_default();
     let size = (plan.render.width, plan.render.height);
     for bounds in bounds.values_mut() {
-        *bounds = std::mem::take(bounds).at(size);
+        *bounds = std::mem::take(bounds).at(size).over(plan.frames);
     }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let MeasuredRun {
@@ -51,7 +51,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         if !bounds.contains_key(&case.scene)
             && let Some(earlier) = read_case_bounds(root, case, size)?
         {
-            bounds.insert(case.scene.clone(), earlier);
+            bounds.insert(case.scene.clone(), earlier.over(plan.frames));
         }
     }
     // Bounds are the business of `check`: those that a run breaks fail nothing.
@@ -72,7 +72,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
             true => run_table(&run),
             false => ranking_text(&run.cases),
         };
-        let text = scores + &sequence_table(&run.sequences) + &failures_text(&run.failures);
+        let text = scores + &sequences_text(&run, args.table) + &failures_text(&run.failures);
         print(&(text + &closing_text(&run, &pages, &plan.out, began.elapsed())))?;
     }
     refuse_failures(&run.failures)

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use frame::FrameOptions;
 use suite::{
-    BOUNDS_FILE, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, Frames,
-    RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
+    BOUNDS_FILE, BoundsFile, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice,
+    Frames, RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
     read_bounds_beside_scenes, read_bounds_file,
 };
 use tracer::{Location, RenderSettings, Scene, Seal};
@@ -69,7 +69,7 @@ pub fn apply_options(plan: &mut RunPlan, options: &RunOptions) -> Result<(), Err
     if options.intervals {
         check_replicates_for_intervals(plan.render.replicates)?;
     }
-    plan.frames = options.frames();
+    plan.frames = options.sequence.frames();
     plan.intervals = options.intervals;
     plan.common = options.common;
     plan.check()
@@ -150,9 +150,24 @@ fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Er
 pub fn read_engine_bounds(folder: &Path) -> Result<SceneBounds, Error> {
     let path = folder.join(BOUNDS_FILE);
     let files = (path.is_file().then(|| read_bounds_file(&path))).transpose()?;
+    files.as_ref().map_or(Ok(()), refuse_sequence_limits)?;
     Ok(SceneBounds {
         files: files.into_iter().collect(),
     })
+}
+
+/// Refuses limits on sequences beside an engine's scene: it has one frame, and nothing would judge them.
+fn refuse_sequence_limits(file: &BoundsFile) -> Result<(), Error> {
+    let tables = file.filters.values().map(|table| &table.bounds);
+    let mut all = std::iter::once(&file.default).chain(tables).flatten();
+    match all.find(|(_, bound)| bound.length.is_some()) {
+        None => Ok(()),
+        Some((metric, bound)) => Err(Error::Usage(format!(
+            "{}: {metric} is a score of a sequence, and an engine drew one frame here, so that nothing would judge its limit; \
+             remove it",
+            bound.place
+        ))),
+    }
 }
 
 /// Reads the bounds of a case's scene, below the folder `root`, for pictures of one size; none where there is no such scene. What an

@@ -5,12 +5,16 @@ use metrics::Metric;
 use suite::{Error, Scored, engine_name, missing_scores, printable, read_finished_picture, score};
 
 use super::convention::read_convention;
+use super::score_sequence;
 use crate::arguments::ScoreArgs;
 use crate::output::print::{print, print_json};
 use crate::tables::cases::score_table;
 
-/// Scores one finished picture and prints the scores, and those that its file does not allow.
+/// Scores one finished picture, or a sequence of them, and prints the scores, and those that its file does not allow.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
+    if args.frames > 1 {
+        return score_sequence::execute(args);
+    }
     let truth = Truth::read(&args.truth)?;
     let frame = Frame::read(&args.frame)?;
     let ladder = args.ladder.as_deref().map(Ladder::read).transpose()?;

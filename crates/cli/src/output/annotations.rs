@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use report::{finding_line, way_out};
-use suite::{Check, Decision, Finding, Outcome, number, printable};
+use report::{finding_line, length_text, way_out};
+use suite::{Check, Decision, Finding, number, printable};
 
 use crate::tables::check::{comparison_line, count_lines, verdict_word};
 
@@ -52,7 +52,7 @@ pub fn annotations(check: &Check) -> String {
 pub fn summary(check: &Check) -> String {
     let mut text = format!("## Shuttertruth: {}\n\n", verdict_word(check.decision));
     let notable: Vec<&Finding> = (check.findings.iter())
-        .filter(|finding| !matches!(finding.outcome, Outcome::Kept | Outcome::NotApplicable))
+        .filter(|finding| finding.outcome.is_notable())
         .collect();
     let _ = writeln!(text, "{}\n", count_lines(check).join("\n\n"));
     for failure in &check.failures {
@@ -90,12 +90,15 @@ fn summary_row(finding: &Finding) -> String {
     let cells = [
         finding.scene.clone(),
         finding.filter.clone(),
-        finding.metric.clone(),
+        metric_cell(finding),
         or_none(finding.value.map(|value| finding.with_unit(value))),
         or_none(interval),
         number(finding.limit),
         or_none(finding.floor.map(number)),
-        or_none((finding.worst.as_ref()).map(|worst| format!("({}, {})", worst.x, worst.y))),
+        or_none(match (&finding.worst, finding.worst_frame) {
+            (Some(worst), _) => Some(format!("({}, {})", worst.x, worst.y)),
+            (None, frame) => frame.map(|frame| format!("frame {frame}")),
+        }),
         or_none((finding.resembles.as_ref()).map(|alike| alike.decoy.clone())),
         match finding.decision() {
             Decision::Pass => "target".to_owned(),
@@ -103,6 +106,14 @@ fn summary_row(finding: &Finding) -> String {
         },
     ];
     format!("| {} |\n", cells.map(|text| escape_cell(&text)).join(" | "))
+}
+
+/// Names the metric, and the length of the sequence.
+fn metric_cell(finding: &Finding) -> String {
+    match length_text(finding) {
+        None => finding.metric.clone(),
+        Some(length) => format!("{} over {length}", finding.metric),
+    }
 }
 
 fn decision_word(decision: Decision) -> &'static str {

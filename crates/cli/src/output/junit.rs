@@ -2,13 +2,13 @@
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-use report::{finding_line, way_out};
+use report::{finding_line, way_out, worst_frame_text};
 use suite::{Check, Decision, Finding, Level, Outcome};
 
 use crate::tables::check::comparison_line;
 
 /// Makes the document. A case that failed and a broken required bound are failures; an inconclusive one and one whose limit lies within the noise are
-/// errors; what does not apply, and what is broken but only reported, is skipped.
+/// errors; what does not apply or was not judged, and what is broken but only reported, is skipped.
 pub fn junit(check: &Check) -> String {
     let mut report = Report::new("shuttertruth check");
     let mut suites: Vec<TestSuite> = Vec::new();
@@ -59,6 +59,9 @@ fn status(finding: &Finding) -> TestCaseStatus {
     if let Some(worst) = &finding.worst {
         message += &format!("; worst at ({}, {})", worst.x, worst.y);
     }
+    if let Some(frame) = worst_frame_text(finding) {
+        message += &format!("; {frame}");
+    }
     if let Some(alike) = &finding.resembles {
         message += &format!("; most like {}", alike.decoy);
     }
@@ -74,7 +77,9 @@ fn status(finding: &Finding) -> TestCaseStatus {
             with_message(NonSuccessKind::Error, "limit_within_noise", message)
         }
         (Outcome::Broken | Outcome::Inconclusive, Level::Report) => skipped(message),
-        (Outcome::NotApplicable, _) => skipped(finding.reason.clone().unwrap_or_default()),
+        (Outcome::NotApplicable | Outcome::NotJudged, _) => {
+            skipped(finding.reason.clone().unwrap_or_default())
+        }
     }
 }
 

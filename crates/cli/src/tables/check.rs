@@ -7,7 +7,7 @@ use crate::output::colors::{bad, doubtful, good, heading};
 use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
 use crate::tables::failures::failures_text;
-use report::{finding_score, finding_status, way_out};
+use report::{finding_score, finding_status, length_text, way_out, worst_frame_text};
 use suite::{BaselineComparison, Check, Decision, Finding, Level, Outcome, number, printable_path};
 
 /// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then comparisons, then counts. Targets, which
@@ -90,6 +90,10 @@ fn finding_lines(finding: &Finding, out: &Path) -> Vec<(usize, String)> {
             ),
         ));
     }
+    if let Some(frame) = worst_frame_text(finding) {
+        let pictures = out.join(&finding.pictures);
+        lines.push((6, format!("{frame}: {}", printable_path(&pictures))));
+    }
     if let Some(alike) = &finding.resembles {
         let distance = (100.0 * alike.distance).round();
         lines.push((6, format!("most like {}, {distance} % off", alike.decoy)));
@@ -157,6 +161,7 @@ pub fn count_lines(check: &Check) -> Vec<String> {
             (Outcome::Inconclusive, "undecided"),
             (Outcome::TooNoisy, "with a limit within the noise"),
             (Outcome::NotApplicable, "not applicable"),
+            (Outcome::NotJudged, "not judged"),
         ];
         let words = words.map(|(outcome, word)| (count(level, outcome), word));
         let words = words.iter().filter(|(count, _)| *count > 0);
@@ -184,5 +189,32 @@ pub fn count_lines(check: &Check) -> Vec<String> {
             counts(Level::Report, "met", "missed")
         ));
     }
+    lines.extend(not_judged_line(check));
     lines
+}
+
+/// Says which limits were not judged, since they are on sequences of another length, and how they are; none where all were.
+fn not_judged_line(check: &Check) -> Option<String> {
+    let findings = check.findings.iter();
+    let not_judged = findings.filter(|finding| finding.outcome == Outcome::NotJudged);
+    let mut lengths: Vec<(String, String)> = Vec::new();
+    for finding in not_judged {
+        let length = length_text(finding)?;
+        let fps = finding.fps.map(|fps| format!(" --fps {fps}"));
+        let options = format!("--frames {}{}", finding.frames?, fps.unwrap_or_default());
+        if !lengths.iter().any(|(known, _)| *known == length) {
+            lengths.push((length, options));
+        }
+    }
+    let list = |part: fn(&(String, String)) -> &String| {
+        let parts: Vec<&str> = lengths.iter().map(|own| part(own).as_str()).collect();
+        parts.join(", ")
+    };
+    (!lengths.is_empty()).then(|| {
+        format!(
+            "not judged: limits on sequences of {}; measure with {} to judge them",
+            list(|own| &own.0),
+            list(|own| &own.1)
+        )
+    })
 }

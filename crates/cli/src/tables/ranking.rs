@@ -64,13 +64,18 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     table
 }
 
-/// ` 2= jimenez:hdrp`, its FLIP, the interval, and the worst scene.
-fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
-    let number = |value: f64| Headline::FLIP.number(value);
+/// Names a filter behind its rank: ` 2= jimenez:hdrp`.
+pub fn rank_text(ranked: &RankedFilter) -> String {
     let rank = match ranked.is_tied {
         true => format!("{}=", ranked.rank),
         false => ranked.rank.to_string(),
     };
+    format!("{rank:>3} {}", ranked.name)
+}
+
+/// ` 2= jimenez:hdrp`, its FLIP, the interval, and the worst scene.
+fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
+    let number = |value: f64| Headline::FLIP.number(value);
     let interval = match ranked.interval {
         Some([low, high]) => format!("{} to {}", number(low), number(high)),
         None => "-".to_owned(),
@@ -80,12 +85,7 @@ fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
     if ranked.scenes < scenes {
         worst += &format!(" ({} of {scenes} scenes)", ranked.scenes);
     }
-    vec![
-        format!("{rank:>3} {}", ranked.name),
-        number(ranked.flip),
-        interval,
-        worst,
-    ]
+    vec![rank_text(ranked), number(ranked.mean), interval, worst]
 }
 
 /// Makes the table of references: one row each, one column per shutter.

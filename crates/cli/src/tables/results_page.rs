@@ -207,12 +207,12 @@ pub(super) fn mean(ranked: &RankedFilter) -> String {
         Some([low, high]) => {
             format!(
                 "{} ({} to {})",
-                number(ranked.flip),
+                number(ranked.mean),
                 number(low),
                 number(high)
             )
         }
-        None => number(ranked.flip),
+        None => number(ranked.mean),
     }
 }
 
@@ -284,7 +284,7 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
                 Some(own) => {
                     let text = match own.scenes >= FEWEST_SCENES {
                         true => format!("{}, {}", mean(own), rank(own)),
-                        false => Headline::FLIP.number(own.flip),
+                        false => Headline::FLIP.number(own.mean),
                     };
                     write!(page, " {text} |")
                 }

@@ -2,13 +2,15 @@
 
 use frame::Plane;
 
-use super::rows::SequenceScores;
+use super::rows::{SequenceMetric, SequenceScores};
 
 /// Scores of a sequence of pictures, and what they were pooled from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SequenceMeasurement {
     /// Scores over all frames.
     pub scores: SequenceScores,
+    /// Frame that is worst in a score, from 0, for every score that frames have a share in. A change is that of its second frame.
+    pub worst_frames: Vec<(SequenceMetric, usize)>,
     /// Squared error over what moves, per frame; none where nothing does.
     pub errors: Vec<Option<f64>>,
     /// Squared error of the change along the motion since the frame before, per frame; none for the first.

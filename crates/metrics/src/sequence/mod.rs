@@ -15,5 +15,5 @@ pub use instant::Instant;
 pub use jod::{JOD_DISPLAY, video_jod};
 pub use measurement::SequenceMeasurement;
 pub use reference::SequenceReference;
-pub use rows::{SequenceMetric, SequenceScores};
+pub use rows::{PERFECT_JOD, SequenceMetric, SequenceScores};
 pub use temporal_antialiasing::{NEW_SHARE, accumulate};

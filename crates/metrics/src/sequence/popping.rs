@@ -17,13 +17,14 @@ pub fn object_errors(error: &Raster<f64>, seen: &[Raster<bool>]) -> Vec<Option<f
     seen.iter().map(root).collect()
 }
 
-/// Finds the largest jump of any object's error between consecutive frames; none where no object counts in two of them.
-pub fn largest_jump(frames: &[Vec<Option<f64>>]) -> Option<f64> {
-    let pairs = frames
-        .windows(2)
-        .flat_map(|pair| pair[0].iter().zip(&pair[1]));
-    let jumps = pairs.filter_map(|(before, now)| Some(((*now)? - (*before)?).abs()));
-    jumps.reduce(f64::max)
+/// Finds the largest jump of any object's error from each frame to the next; none where no object counts in both.
+pub fn largest_jumps(frames: &[Vec<Option<f64>>]) -> Vec<Option<f64>> {
+    let largest = |pair: &[Vec<Option<f64>>]| {
+        let objects = pair[0].iter().zip(&pair[1]);
+        let jumps = objects.filter_map(|(before, now)| Some(((*now)? - (*before)?).abs()));
+        jumps.reduce(f64::max)
+    };
+    frames.windows(2).map(largest).collect()
 }
 
 /// Finds the error that the truth's noise makes of the object that it changes most; none where no object counts.
@@ -50,7 +51,11 @@ mod tests {
             vec![Some(0.3), None],
             vec![Some(0.2), Some(0.0)],
         ];
-        assert!((largest_jump(&frames).unwrap() - 0.2).abs() < 1e-12);
-        assert_eq!(largest_jump(&frames[..1]), None);
+        let [first, second] = largest_jumps(&frames)[..] else {
+            panic!("three frames have two changes");
+        };
+        assert!((first.unwrap() - 0.2).abs() < 1e-12);
+        assert!((second.unwrap() - 0.1).abs() < 1e-12);
+        assert_eq!(largest_jumps(&frames[..1]), []);
     }
 }

@@ -7,8 +7,8 @@ use super::instant::Instant;
 use super::jod::{JOD_DISPLAY, displayed, video_jod};
 use super::measurement::SequenceMeasurement;
 use super::pairs::{Pair, mean_in, scatter_in};
-use super::popping::{largest_floor, largest_jump, object_errors};
-use super::rows::SequenceScores;
+use super::popping::{largest_floor, largest_jumps, object_errors};
+use super::rows::{SequenceMetric, SequenceScores};
 use super::temporal_antialiasing::accumulate;
 use crate::color::cross_error::squared_error;
 use crate::math::pooling::mean;
@@ -122,11 +122,15 @@ impl SequenceReference {
         let own_floors: Vec<Option<f64>> = (self.masks.iter().enumerate())
             .map(|(at, mask)| scatter_in(halves(at), mask, scale))
             .collect();
+        let changes = pool_pairs(&self.fixed, &change_maps);
+        let along = pool_pairs(&self.along, &along_maps);
+        let changes_after_taa = pool_pairs(&self.along_accumulated, &accumulated_maps);
+        let jumps = self.jumps(&error_maps);
         let scores = SequenceScores {
             error: self.combine(&errors, &own_floors, NOTHING_MOVES),
-            flicker: self.change(&self.fixed, &change_maps, NOTHING_MOVES),
-            flicker_along: self.change(&self.along, &along_maps, NOTHING_IN_TWO),
-            popping: self.popping(&error_maps),
+            flicker: self.change(&self.fixed, &changes, NOTHING_MOVES),
+            flicker_along: self.change(&self.along, &along, NOTHING_IN_TWO),
+            popping: self.popping(&jumps),
             fixed_pattern: self.fixed_pattern(pictures),
             jod: self.jod(pictures),
             error_after_taa: match pictures.len() {
@@ -135,19 +139,27 @@ impl SequenceReference {
             },
             flicker_after_taa: self.change(
                 &self.along_accumulated,
-                &accumulated_maps,
+                &changes_after_taa,
                 NOTHING_IN_TWO,
             ),
         };
-        let pooled = self
-            .along
-            .iter()
-            .zip(&along_maps)
-            .map(|(pair, map)| pair.pool(map));
+        // Of the others, the first value is that of the second frame.
+        let shares = [
+            (SequenceMetric::Error, 0, &errors),
+            (SequenceMetric::Flicker, 1, &changes),
+            (SequenceMetric::FlickerAlong, 1, &along),
+            (SequenceMetric::Popping, 1, &jumps),
+            (SequenceMetric::ErrorAfterTaa, 1, &later_errors),
+            (SequenceMetric::FlickerAfterTaa, 1, &changes_after_taa),
+        ];
+        let worst_frames = shares
+            .into_iter()
+            .filter_map(|(metric, first, values)| Some((metric, first + largest_at(values)?)));
         Ok(SequenceMeasurement {
+            worst_frames: worst_frames.collect(),
             scores,
             errors,
-            flickers: std::iter::once(None).chain(pooled).collect(),
+            flickers: std::iter::once(None).chain(along).collect(),
             change_errors: change_maps.iter().map(root).collect(),
         })
     }
@@ -186,28 +198,31 @@ impl SequenceReference {
     }
 
     /// Averages the error of a change over all pairs.
-    fn change(&self, pairs: &[Pair], maps: &[Raster<f64>], none: &str) -> Measured {
+    fn change(&self, pairs: &[Pair], values: &[Option<f64>], none: &str) -> Measured {
         if pairs.is_empty() {
             return Measured::not_applicable(ONE_FRAME);
         }
-        let values: Vec<_> = (pairs.iter().zip(maps))
-            .map(|(pair, map)| pair.pool(map))
-            .collect();
         let floors: Vec<_> = pairs.iter().map(|pair| pair.floor(self.scale)).collect();
-        self.combine(&values, &floors, none)
+        self.combine(values, &floors, none)
     }
 
-    fn popping(&self, error_maps: &[Raster<f64>]) -> Measured {
-        if self.instants.len() == 1 {
-            return Measured::not_applicable(ONE_FRAME);
-        }
+    /// Finds the largest jump of an object's error from each frame to the next.
+    fn jumps(&self, error_maps: &[Raster<f64>]) -> Vec<Option<f64>> {
         let frames: Vec<_> = (error_maps.iter().zip(&self.instants))
             .map(|(map, instant)| object_errors(map, &instant.seen))
             .collect();
+        largest_jumps(&frames)
+    }
+
+    fn popping(&self, jumps: &[Option<f64>]) -> Measured {
+        if self.instants.len() == 1 {
+            return Measured::not_applicable(ONE_FRAME);
+        }
         let floors = self.instants.iter().filter_map(|instant| {
             largest_floor(instant.halves.each_ref(), &instant.seen, self.scale)
         });
-        match (largest_jump(&frames), floors.reduce(f64::max)) {
+        let largest = jumps.iter().flatten().copied().reduce(f64::max);
+        match (largest, floors.reduce(f64::max)) {
             (Some(value), Some(floor)) => Measured::score(value, floor),
             _ => Measured::not_applicable(NO_OBJECT),
         }
@@ -259,6 +274,23 @@ fn map_pairs(pairs: &[Pair], pictures: &[Image], scale: f64) -> Vec<Raster<f64>>
     let maps = pairs.iter().zip(pictures.windows(2));
     maps.map(|(pair, two)| pair.map_error([&two[0], &two[1]], scale))
         .collect()
+}
+
+/// Averages the error of the change of each pair; none where no pixel counts.
+fn pool_pairs(pairs: &[Pair], maps: &[Raster<f64>]) -> Vec<Option<f64>> {
+    let pairs = pairs.iter().zip(maps);
+    pairs.map(|(pair, map)| pair.pool(map)).collect()
+}
+
+/// Finds the place of the largest value, the first of equal ones; none where there is no value.
+fn largest_at(values: &[Option<f64>]) -> Option<usize> {
+    let values = values.iter().enumerate();
+    let known = values.filter_map(|(at, value)| Some((at, (*value)?)));
+    let largest = known.reduce(|largest, own| match own.1 > largest.1 {
+        true => own,
+        false => largest,
+    });
+    largest.map(|(at, _)| at)
 }
 
 /// Takes roots of squared errors, 0 for those that noise takes below 0.

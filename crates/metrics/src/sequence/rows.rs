@@ -5,22 +5,47 @@ use serde::{Deserialize, Serialize};
 use crate::metric::{Group, Row, metrics};
 use crate::{ErrorMap, Ideal, Measured};
 
-/// Reason why bounds name no metric of a sequence.
-const NOT_BOUNDED: Option<&str> = Some("is a score of a sequence, and bounds judge single frames");
+/// Quality of a video without visible difference, in JOD.
+pub const PERFECT_JOD: f64 = 10.0;
 
 impl SequenceMetric {
-    /// Formats a score as tables show it: in thousandths of display white, squared errors by their roots; JOD as it is.
-    pub fn text(self, score: &Measured) -> String {
-        let Some(value) = score.value() else {
-            return "n/a".to_owned();
-        };
-        let root = match self.row().unit {
+    /// Returns true for a score that depends on the rate at which the frames are shown.
+    pub fn depends_on_rate(self) -> bool {
+        self == Self::Jod
+    }
+
+    /// Computes the strictest bound that a truth with this noise floor can carry: three floors from perfect.
+    pub fn strictest_bound(self, floor: f64) -> f64 {
+        match self {
+            Self::Jod => PERFECT_JOD - 3.0 * (PERFECT_JOD - floor),
+            _ => 3.0 * floor,
+        }
+    }
+
+    /// Converts a score to the number that tables show: thousandths of display white, squared errors by their roots; JOD as it is.
+    pub fn shown(self, value: f64) -> f64 {
+        match self.row().unit {
             // Below 0 by the truth's noise alone.
-            "white^2" => value.max(0.0).sqrt(),
-            "JOD" => return format!("{value:.2}"),
-            _ => value,
-        };
-        format!("{:.1}", 1000.0 * root)
+            "white^2" => 1000.0 * value.max(0.0).sqrt(),
+            "JOD" => value,
+            _ => 1000.0 * value,
+        }
+    }
+
+    /// Formats a number that [`shown`](Self::shown) made.
+    pub fn shown_text(self, shown: f64) -> String {
+        match self {
+            Self::Jod => format!("{shown:.2}"),
+            _ => format!("{shown:.1}"),
+        }
+    }
+
+    /// Formats a score as tables show it.
+    pub fn text(self, score: &Measured) -> String {
+        match score.value() {
+            None => "n/a".to_owned(),
+            Some(value) => self.shown_text(self.shown(value)),
+        }
     }
 }
 
@@ -35,55 +60,55 @@ metrics! {
     Error => error {
         name: "error", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "squared error of single frames where anything moves",
-        is_percentile: false, report_only: NOT_BOUNDED,
+        is_percentile: false, report_only: None,
     }
 
     /// Squared error of the difference between consecutive frames, at fixed places of the screen.
     Flicker => flicker {
         name: "flicker", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "error of the change from frame to frame",
-        is_percentile: false, report_only: NOT_BOUNDED,
+        is_percentile: false, report_only: None,
     }
 
     /// Squared error of that difference along the motion, where both frames show the point.
     FlickerAlong => flicker_along {
         name: "flicker_along", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "error of the change from frame to frame of what the eye follows",
-        is_percentile: false, report_only: NOT_BOUNDED,
+        is_percentile: false, report_only: None,
     }
 
     /// Largest jump between consecutive frames of an object's root mean squared error.
     Popping => popping {
         name: "popping", unit: "white", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "largest jump of an object's error from one frame to the next",
-        is_percentile: false, report_only: NOT_BOUNDED,
+        is_percentile: false, report_only: None,
     }
 
     /// Mean product of the fine errors of different frames at one place of the screen.
     FixedPattern => fixed_pattern {
         name: "fixed_pattern", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "fine error that stands still on the screen, as dirt on a window does",
-        is_percentile: false, report_only: NOT_BOUNDED,
+        is_percentile: false, report_only: None,
     }
 
     /// Quality of the video by ColorVideoVDP, in just-objectionable differences: 10 is no visible difference.
     Jod => jod {
         name: "jod", unit: "JOD", ideal: Ideal::Highest, group: Group::Time, map: ErrorMap::Flip,
         meaning: "quality of the video that ColorVideoVDP predicts; 10 is no visible difference",
-        is_percentile: false, report_only: NOT_BOUNDED,
+        is_percentile: false, report_only: None,
     }
 
     /// `error` after temporal anti-aliasing of pictures and truths, without the first frame.
     ErrorAfterTaa => error_after_taa {
         name: "error_after_taa", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "squared error that temporal anti-aliasing leaves",
-        is_percentile: false, report_only: NOT_BOUNDED,
+        is_percentile: false, report_only: None,
     }
 
     /// `flicker_along` after temporal anti-aliasing of pictures and truths.
     FlickerAfterTaa => flicker_after_taa {
         name: "flicker_after_taa", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "error of the change from frame to frame that temporal anti-aliasing leaves",
-        is_percentile: false, report_only: NOT_BOUNDED,
+        is_percentile: false, report_only: None,
     }
 }

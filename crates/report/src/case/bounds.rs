@@ -1,13 +1,14 @@
 //! Bounds of a case, with evidence for those that are not kept.
 
 use maud::{Markup, html};
-use metrics::Metric;
+use metrics::BoundMetric;
 
 use super::case_view::CaseView;
 use super::evidence::Evidence;
 use crate::filter_id::case_anchor;
-use crate::finding_text::{Status, finding_line, way_out};
+use crate::finding_text::{Status, finding_line, way_out, worst_frame_text};
 use crate::numbers::counted;
+use crate::sequence::SEQUENCES_PAGE;
 use suite::Level;
 use suite::{CROP, Finding, Outcome, number};
 
@@ -56,6 +57,7 @@ pub fn bounds(page: &CaseView) -> Markup {
             @if explained { (failure_pattern(page)) }
             @for (finding, evidence) in notable() {
                 @if let Some(evidence) = evidence { (finding_section(page, finding, evidence)) }
+                @else if finding.is_of_sequence() && finding.outcome.is_notable() { (sequence_section(finding)) }
             }
         }
     }
@@ -78,12 +80,36 @@ fn failure_pattern(page: &CaseView) -> Markup {
     }
 }
 
-fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> Markup {
+/// Shows a score of a sequence that does not keep its limit: the frame that is worst, and where to see it play.
+fn sequence_section(finding: &Finding) -> Markup {
+    html! {
+        div class=(format!("verdict {}", required_word(finding).unwrap_or_default())) {
+            p { strong { (finding_line(finding)) } }
+            (facts(finding))
+            @if let Some(way_out) = way_out(finding) { p.note { (way_out) } }
+            p {
+                @if let Some(frame) = worst_frame_text(finding) { (sentence(&frame)) " (" code { (finding.pictures.display()) } "). " }
+                "To see it play, open " code { (SEQUENCES_PAGE) } " beside run.json."
+            }
+        }
+    }
+}
+
+fn sentence(text: &str) -> String {
+    let (first, rest) = text.split_at(1);
+    first.to_uppercase() + rest
+}
+
+/// Names the status of a required bound.
+fn required_word(finding: &Finding) -> Option<&'static str> {
     let required = Status::of(finding.outcome).filter(|_| finding.level == Level::Required);
-    let class = required.map(|status| status.word);
+    required.map(|status| status.word)
+}
+
+fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> Markup {
     let [x, y] = evidence.place;
     html! {
-        div class=(format!("verdict {}", class.unwrap_or_default())) {
+        div class=(format!("verdict {}", required_word(finding).unwrap_or_default())) {
             p { strong { (finding_line(finding)) } }
             (facts(finding))
             @if let Some(way_out) = way_out(finding) { p.note { (way_out) } }
@@ -106,7 +132,7 @@ fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> M
 
 /// Lists metric, limit, value and interval.
 fn facts(finding: &Finding) -> Markup {
-    let metric: Option<Metric> = finding.metric.parse().ok();
+    let metric: Option<BoundMetric> = finding.metric.parse().ok();
     html! {
         dl {
             div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (metric.meaning()) } } }

@@ -19,7 +19,7 @@ pub struct Evidence {
     pub plane: usize,
 }
 
-/// Finds the place to look at; none for a finding that needs no explanation. A `check` has looked for the place; after a `run`
+/// Finds the place to look at; none for a finding that needs no explanation, or is about a sequence. A `check` has looked for the place; after a `run`
 /// it is looked for here.
 pub fn find_evidence(
     finding: &Finding,
@@ -30,7 +30,9 @@ pub fn find_evidence(
     if !finding.outcome.is_notable() {
         return Ok(None);
     }
-    let metric = Metric::from_str(&finding.metric).expect("a run's verdicts are about metrics");
+    let Ok(metric) = Metric::from_str(&finding.metric) else {
+        return Ok(None);
+    };
     let map = match &finding.worst {
         Some(worst) => worst.map.clone(),
         None => metric.row().map.name().to_owned(),

@@ -5,6 +5,7 @@ pub mod costs;
 mod headlines;
 mod pareto;
 mod score_table;
+mod sequences;
 
 use maud::{Markup, html};
 
@@ -18,6 +19,7 @@ use crate::run_facts::provenance;
 use costs::costs;
 use headlines::{TABLE_SCORES, TableScore};
 use score_table::score_table;
+use sequences::sequence_winners;
 use suite::{Bench, Finding, Headline, Level, Outcome, RankedFilter, rank_for_summary};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
@@ -31,6 +33,7 @@ pub fn overview(
         section #overview {
             (outcome(views))
             (winners(table))
+            (sequence_winners(table.run))
             (counts(table, views))
             (engines(table))
             (broken_bounds(views))
@@ -150,16 +153,16 @@ fn winner(table: &CaseTable, group: &[RankedFilter]) -> Markup {
     let weakest = table.case_on(&id_of(best), scene);
     html! {
         li {
-            "Best with a " (best.alignment) " shutter: " strong { (link(best)) } ", FLIP " strong { (number(best.flip)) }
+            "Best with a " (best.alignment) " shutter: " strong { (link(best)) } ", FLIP " strong { (number(best.mean)) }
             @if let Some([low, high]) = best.interval { " (95 % CI " (number(low)) " to " (number(high)) ")" }
             @if let Some(index) = weakest {
                 "; weakest on " a href=(format!("#{}", case_anchor(&table.run.cases[index]))) { (scene) } " (" (number(*error)) ")"
             }
             @for (index, own) in ties.iter().enumerate() {
-                (if index == 0 { "; too close to tell apart: " } else { ", " }) (link(own)) " (" (number(own.flip)) ")"
+                (if index == 0 { "; too close to tell apart: " } else { ", " }) (link(own)) " (" (number(own.mean)) ")"
             }
             @if let Some(last) = group.last().filter(|own| own.rank > best.rank) {
-                "; worst: " (link(last)) " (" (number(last.flip)) ")"
+                "; worst: " (link(last)) " (" (number(last.mean)) ")"
             }
             "."
         }

@@ -2,8 +2,9 @@
 
 use maud::{PreEscaped, html};
 use serde::Serialize;
-use suite::{CHANGE_PICTURE, Run, Sequence};
+use suite::{CHANGE_PICTURE, Finding, RANKED_BY, Run, Sequence};
 
+use super::ranking::ranking_tables;
 use super::scores::score_tables;
 use crate::document::{Document, Siblings};
 
@@ -31,9 +32,9 @@ struct PlayedFrame {
     flicker: Option<f64>,
 }
 
-/// Makes the page that plays the sequences of a run; none where it has none. It loads the pictures of the run's folder, in which it
+/// Makes the page that plays the sequences of a run; none where it has none. `findings` are those about the run. It loads the pictures of the run's folder, in which it
 /// must lie.
-pub fn sequences_page(run: &Run) -> Option<String> {
+pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     if run.sequences.is_empty() {
         return None;
     }
@@ -50,6 +51,8 @@ pub fn sequences_page(run: &Run) -> Option<String> {
     ];
     let mut sequences = run.sequences.iter();
     let first_filter = (sequences.position(|own| !own.is_reference)).unwrap_or(0);
+    let mut scenes: Vec<&str> = run.sequences.iter().map(|own| own.scene.as_str()).collect();
+    scenes.dedup();
     let frames = run.frames;
     let rates = rates(frames.per_second);
     let document = Document {
@@ -92,9 +95,16 @@ pub fn sequences_page(run: &Run) -> Option<String> {
                         "Space plays and stops, , and . go frame by frame, 1 to " (rates.len()) " choose the rate, [ and ] the sequence. The \
                          error of the change is the difference of the output from the frame before, less that of the truth: black is none."
                     }
+                    (ranking_tables(run, scenes.len()))
                     h2 { "Scores over time" }
-                    p.note { "Roots of squared errors, in thousandths of display white; lower is better. JOD as it is; higher is better. Italics: references." }
-                    (score_tables(run))
+                    p.note {
+                        "Roots of squared errors, in thousandths of display white; lower is better. JOD as it is; higher is better. "
+                        "Filters are ranked by " (RANKED_BY.row().name) ". Italics: references."
+                        @if findings.iter().any(Finding::is_of_sequence) {
+                            " ✓ bound kept; ✗ bound broken; ? too noisy to decide; ~ limit stricter than the noise allows."
+                        }
+                    }
+                    (score_tables(run, findings))
                 }
             }
             script #sequences type="application/json" { (PreEscaped(data)) }

@@ -2,10 +2,13 @@
 
 use maud::{Markup, html};
 use metrics::{Measured, SequenceMetric};
-use suite::{Run, Sequence};
+use suite::{Finding, Level, RankedSequence, Run, Sequence, number, rank_sequences_on};
 
-/// Makes a table per scene and shutter.
-pub fn score_tables(run: &Run) -> Markup {
+use super::ranking::rank_text;
+use crate::finding_text::Status;
+
+/// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
+pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
     let mut groups: Vec<[&str; 2]> = Vec::new();
     for own in &run.sequences {
         let group = [own.scene.as_str(), own.alignment.as_str()];
@@ -25,10 +28,8 @@ pub fn score_tables(run: &Run) -> Markup {
                         }
                     }
                     tbody {
-                        @for (index, own) in run.sequences.iter().enumerate().filter(|(_, own)| {
-                            own.scene == scene && own.alignment == alignment
-                        }) {
-                            (row(index, own))
+                        @for (index, rank, own) in order_rows(run, scene, alignment) {
+                            (row(index, &rank, own, findings))
                         }
                     }
                 }
@@ -42,19 +43,78 @@ pub fn score_tables(run: &Run) -> Markup {
     }
 }
 
-fn row(index: usize, own: &Sequence) -> Markup {
+/// Orders the sequences of one scene and shutter, each with its number in the run and the text of its rank.
+fn order_rows<'a>(
+    run: &'a Run,
+    scene: &str,
+    alignment: &str,
+) -> Vec<(usize, String, &'a Sequence)> {
+    let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene)
+        .into_iter()
+        .flatten()
+        .collect();
+    let place = |own: &Sequence| {
+        let mut ranked = ranked.iter().map(|own| &own.ranked);
+        ranked.position(|it| it.name == own.filter && it.alignment == own.alignment)
+    };
+    let all = run.sequences.iter().enumerate();
+    let mut rows: Vec<(usize, &Sequence)> = all
+        .filter(|(_, own)| own.scene == scene && own.alignment == alignment)
+        .collect();
+    rows.sort_by_key(|(_, own)| (!own.is_reference, place(own).unwrap_or(usize::MAX)));
+    let with_rank = rows.into_iter().map(|(index, own)| {
+        let place = place(own).filter(|_| !own.is_reference);
+        let rank = place.map(|at| rank_text(&ranked[at].ranked) + " ");
+        (index, rank.unwrap_or_default(), own)
+    });
+    with_rank.collect()
+}
+
+fn row(index: usize, rank: &str, own: &Sequence, findings: &[Finding]) -> Markup {
     html! {
         tr {
             th {
+                (rank)
                 a href=(format!("#{index}")) {
                     @if own.is_reference { i { (own.filter) } } @else { (own.filter) }
                 }
             }
-            @for metric in SequenceMetric::ALL {
-                td title=(score_title(own.scores.get(metric))) { (metric.text(own.scores.get(metric))) }
-            }
+            @for metric in SequenceMetric::ALL { (cell(own, metric, finding_about(own, metric, findings))) }
         }
     }
+}
+
+/// Shows a score, and the status of its bound where it has one.
+fn cell(own: &Sequence, metric: SequenceMetric, finding: Option<&Finding>) -> Markup {
+    let score = own.scores.get(metric);
+    let status = finding.and_then(|own| Status::of(own.outcome));
+    let required = finding.is_some_and(|own| own.level == Level::Required);
+    let mut title = score_title(score);
+    title.extend(finding.map(|own| format!(", limit {}: {}", number(own.limit), own.place)));
+    html! {
+        td title=(title) class=[status.filter(|_| required).map(|status| status.word)] {
+            @if let Some(status) = status {
+                span.sign aria-hidden="true" { (status.sign) }
+                span.unseen { (status.word) " " }
+            }
+            (metric.text(score))
+        }
+    }
+}
+
+/// Finds the finding about a score of a filter's sequence.
+fn finding_about<'a>(
+    own: &Sequence,
+    metric: SequenceMetric,
+    findings: &'a [Finding],
+) -> Option<&'a Finding> {
+    let name = metric.row().name;
+    findings.iter().find(|finding| {
+        !own.is_reference
+            && (finding.metric == name
+                && finding.scene == own.scene
+                && finding.filter == own.filter)
+    })
 }
 
 fn score_title(score: &Measured) -> String {

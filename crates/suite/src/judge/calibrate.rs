@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use metrics::{Ideal, Interval, Measured, Metric, Score};
+use metrics::{BoundMetric, Ideal, Interval, Measured, Metric, PERFECT_JOD, Score, SequenceMetric};
 
 use crate::judge::bounds::SceneBounds;
-use crate::judge::number;
 use crate::judge::outcome::badness_within;
-use crate::{Case, Run};
+use crate::judge::{find_sequence, number};
+use crate::{Case, Frames, Intervals, Run};
 
 /// Margin, in standard deviations.
 const DEVIATIONS: f64 = 3.0;
@@ -21,6 +21,9 @@ const ABOVE_STRICTEST: f64 = 1.2;
 /// its spread says nothing, and another adapter need not agree to the last bit.
 const LEAST_LIMITS: [(&str, f64); 2] = [("px", 0.1), ("", 0.005)];
 
+/// The score that has a perfect value to which higher values come nearer.
+const JOD: BoundMetric = BoundMetric::Sequence(SequenceMetric::Jod);
+
 /// Scores of several runs, per scene and filter.
 #[derive(Clone, Debug, Default)]
 pub struct Calibration {
@@ -28,6 +31,8 @@ pub struct Calibration {
     pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<String, Vec<Sample>>>>,
     /// Columns and rows of the pictures.
     pub size: (u32, u32),
+    /// Frames of the sequences.
+    pub frames: Frames,
 }
 
 /// A score of one run.
@@ -50,35 +55,54 @@ pub struct Proposal {
     pub why: String,
 }
 
-/// Gathers the scores that have a bound from several runs of the same scenes, size and filters; those of `metrics` if any are given.
+/// Gathers the scores that have a bound from several runs of the same scenes, size, frames and filters, and all scores of sequences;
+/// those of `metrics` alone if any are given.
 pub fn calibrate<'a>(
     runs: &[Run],
     bounds: impl Fn(&Case) -> &'a SceneBounds,
-    metrics: &[Metric],
+    metrics: &[BoundMetric],
 ) -> Calibration {
+    let first = runs.first();
     let mut calibration = Calibration {
-        size: runs
-            .first()
-            .map_or((0, 0), |run| (run.render.width, run.render.height)),
+        size: first.map_or((0, 0), |run| (run.render.width, run.render.height)),
+        frames: first.map_or(Frames::default(), |run| run.frames),
         ..Calibration::default()
     };
-    for case in runs.iter().flat_map(|run| &run.cases) {
+    let cases = runs.iter().flat_map(|run| {
+        let of_run = run.cases.iter();
+        of_run.map(move |case| (case, find_sequence(run, case)))
+    });
+    for (case, sequence) in cases {
         if case.is_reference || case.input.change().is_some() {
             continue;
         }
         let bounded = bounds(case).of(&case.filter, &case.preset);
-        let wanted = |metric: &Metric| match metrics.is_empty() {
-            true => bounded.contains_key(&metric.name()),
-            false => metrics.contains(metric),
+        let wanted = |metric: BoundMetric| match (metrics.is_empty(), metric) {
+            (true, BoundMetric::Frame(_)) => bounded.contains_key(&metric.name()),
+            (true, BoundMetric::Sequence(_)) => true,
+            (false, _) => metrics.contains(&metric),
         };
         let filters = calibration.scores.entry(case.scene.clone()).or_default();
         let scores = filters.entry(case.name()).or_default();
-        for metric in Metric::all().into_iter().filter(wanted) {
-            if let Measured::Score(score) = case.scores.get(metric) {
-                let interval = case.intervals.get(&metric.name()).copied();
+        let mut add = |metric: BoundMetric, measured: Measured, intervals: &Intervals| {
+            if let Measured::Score(score) = measured
+                && wanted(metric)
+            {
+                let interval = intervals.get(&metric.name()).copied();
                 let sample = Sample { score, interval };
                 scores.entry(metric.name()).or_default().push(sample);
             }
+        };
+        for metric in Metric::all() {
+            let measured = case.scores.get(metric);
+            add(BoundMetric::Frame(metric), measured, &case.intervals);
+        }
+        for (metric, own) in SequenceMetric::ALL
+            .into_iter()
+            .flat_map(|metric| sequence.map(|own| (metric, own)))
+        {
+            let measured = own.scores.get(metric).clone();
+            add(BoundMetric::Sequence(metric), measured, &own.intervals);
         }
     }
     calibration
@@ -87,8 +111,8 @@ pub fn calibrate<'a>(
 /// Proposes the limit that follows from the scores of one metric. It is the worst value that any interval reaches, since a check
 /// asks that of a score, plus a margin: three standard deviations between runs, or a twentieth of the worst score if that is more.
 /// It is at least 1.2 times as far from perfect as the strictest limit that the truth's noise carries, and at least a tenth of a
-/// pixel or half a hundredth. It is rounded to two digits, away from perfect.
-pub fn propose(metric: Metric, samples: &[Sample]) -> Proposal {
+/// pixel or half a hundredth. It is rounded to two digits, away from perfect. Parts of JOD are parts of its distance from 10.
+pub fn propose(metric: BoundMetric, samples: &[Sample]) -> Proposal {
     let ideal = metric.ideal();
     let worst_of = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let badness: Vec<f64> = (samples.iter())
@@ -102,12 +126,20 @@ pub fn propose(metric: Metric, samples: &[Sample]) -> Proposal {
         .collect();
     let worst = worst_of(&badness);
     let deviation = standard_deviation(&badness);
-    let margin = (DEVIATIONS * deviation).max(LEAST_PART * worst.abs());
+    let size = match metric {
+        JOD => PERFECT_JOD + worst,
+        _ => worst.abs(),
+    };
+    let margin = (DEVIATIONS * deviation).max(LEAST_PART * size);
     let far = worst_of(&reached) + margin;
     let bearable = (samples.iter()).map(|sample| metric.strictest_bound(sample.score.floor));
     let limit = match ideal {
         Ideal::Highest => {
-            let bearable = bearable.fold(f64::INFINITY, f64::min) / ABOVE_STRICTEST;
+            let strictest = bearable.fold(f64::INFINITY, f64::min);
+            let bearable = match metric {
+                JOD => PERFECT_JOD - ABOVE_STRICTEST * (PERFECT_JOD - strictest),
+                _ => strictest / ABOVE_STRICTEST,
+            };
             round_away((-far).min(bearable), f64::floor)
         }
         Ideal::Lowest | Ideal::Target(_) => {
@@ -162,16 +194,29 @@ impl Calibration {
         for (filter, metrics) in self.scores.get(scene).into_iter().flatten() {
             let _ = writeln!(text, "[filter.\"{filter}\"]");
             for (name, samples) in metrics {
-                let metric: Metric = name.parse().expect("calibrated scores are of metrics");
+                let metric: BoundMetric = name.parse().expect("calibrated scores are of metrics");
+                let length = self.length(metric);
                 let Proposal { metric, limit, why } = propose(metric, samples);
                 let _ = writeln!(
                     text,
-                    "{metric} = {{ limit = {limit:?}, size = [{width}, {height}], why = \"{why}\" }}"
+                    "{metric} = {{ limit = {limit:?}, {length}size = [{width}, {height}], why = \"{why}\" }}"
                 );
             }
             text += "\n";
         }
         text
+    }
+
+    /// Writes the keys of a limit that say for which frames it holds; empty for a score of single frames.
+    fn length(&self, metric: BoundMetric) -> String {
+        let Frames { count, per_second } = self.frames;
+        match metric {
+            BoundMetric::Sequence(own) if own.depends_on_rate() => {
+                format!("frames = {count}, fps = {per_second:?}, ")
+            }
+            BoundMetric::Sequence(_) => format!("frames = {count}, "),
+            BoundMetric::Frame(_) => String::new(),
+        }
     }
 }
 
@@ -202,6 +247,9 @@ mod tests {
         // The higher the better: 30 dB less a twentieth, rounded down.
         assert_eq!(limit("psnr_moving", &[30.0, 30.0], 80.0), 28.0);
         assert_eq!(limit("n_eq", &[4.0, 5.0], 64.0), 1.8);
+        // A twentieth of the 2 JOD from perfect: 8 - 0.1.
+        assert_eq!(limit("jod", &[8.0, 8.0], 9.9), 7.9);
+        assert_eq!(limit("flicker", &[0.002, 0.002], 0.0), 0.0021);
     }
 
     #[test]
@@ -209,6 +257,8 @@ mod tests {
         // 1.2 times three floors.
         assert_eq!(limit("flip_moving", &[0.0, 0.0], 0.01), 0.036);
         assert_eq!(limit("n_eq", &[60.0, 60.0], 36.0), 10.0);
+        // 1.2 times three times the 0.5 JOD that the noise costs, below 10.
+        assert_eq!(limit("jod", &[9.9, 9.9], 9.5), 8.2);
     }
 
     #[test]

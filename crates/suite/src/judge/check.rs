@@ -34,7 +34,8 @@ pub struct Check {
 /// Decides on a finished run by the findings about it and, if there is a baseline, the comparisons with it. Pure: reads nothing,
 /// prints nothing.
 pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<BaselineComparison>) -> Check {
-    let applies = |finding: &Finding| finding.outcome != Outcome::NotApplicable;
+    let applies =
+        |finding: &Finding| !matches!(finding.outcome, Outcome::NotApplicable | Outcome::NotJudged);
     let bounds = findings.iter().map(Finding::decision);
     let baseline = comparisons.iter().map(BaselineComparison::decision);
     let judged: HashSet<(&str, &str)> = (findings.iter().filter(|finding| applies(finding)))

@@ -12,13 +12,13 @@ use crate::render::ladders::ladder_folder;
 use crate::run::error_maps::ErrorMaps;
 use crate::{Case, Error, Run};
 
-/// Adds evidence to every notable finding of a run, from the run's files below `folder`, and writes a picture of each worst place
+/// Adds evidence to every notable finding about a single frame of a run, from the run's files below `folder`, and writes a picture of each worst place
 /// into its case's folder.
 pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Result<(), Error> {
     let mut notable: Vec<(&Case, Vec<&mut Finding>)> = Vec::new();
     for finding in findings
         .iter_mut()
-        .filter(|finding| finding.outcome.is_notable())
+        .filter(|finding| finding.outcome.is_notable() && !finding.is_of_sequence())
     {
         match notable.last_mut() {
             Some((case, own)) if finding.is_of(case) => own.push(finding),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use metrics::{Interval, Measured, Metric};
+use metrics::{BoundMetric, Interval, Measured};
 use serde::{Deserialize, Serialize};
 
 use super::decision::Decision;
@@ -11,6 +11,7 @@ use super::judged_score::JudgedScore;
 use super::outcome::{Outcome, limit_as_badness};
 use super::worst::Worst;
 use crate::judge::bounds::Level;
+use crate::run::sequence::Sequence;
 use crate::{Case, Run};
 
 /// A score, its bound, and how they stand to each other.
@@ -39,6 +40,15 @@ pub struct Finding {
     pub floor: Option<f64>,
     /// Strictest limit that the floor can carry.
     pub strictest: Option<f64>,
+    /// Frames of the sequence that the limit holds for; none for a score of a single frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frames: Option<u32>,
+    /// Frames per second that the limit holds for; none for a score that does not depend on them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fps: Option<f64>,
+    /// Frame of the sequence that is worst in the score, from 0; none for a score that no single frame has a share in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worst_frame: Option<u32>,
     /// Reason for the limit.
     pub why: String,
     /// File and line of the bound.
@@ -54,13 +64,13 @@ pub struct Finding {
     pub worst: Option<Worst>,
     /// Wrong blur that the picture resembles most; none if it resembles none, or without evidence.
     pub resembles: Option<Resemblance>,
-    /// Folder of the case's pictures, relative to `run.json`.
+    /// Folder of the case's pictures, of a sequence those of its worst frame; relative to `run.json`.
     pub pictures: PathBuf,
 }
 
 /// Estimates the samples per pixel that would settle the score: doubles the run's until the interval, whose width falls as the root
 /// of the samples, leaves the limit outside. Assumes that its middle stays.
-fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64 {
+fn samples_to_settle(run: &Run, metric: BoundMetric, interval: &Interval, limit: f64) -> u64 {
     let middle = metric.ideal().badness((interval.low + interval.high) / 2.0);
     let apart = (middle - limit_as_badness(metric.ideal(), limit)).abs();
     let half_width = (interval.high - interval.low) / 2.0;
@@ -79,18 +89,49 @@ pub const MOST_SAMPLES: u64 = tracer::MOST_SAMPLES as u64;
 impl Finding {
     /// Makes the finding about a judged score of a case, without evidence.
     pub(super) fn new(run: &Run, case: &Case, judged: JudgedScore) -> Self {
+        let interval = case.intervals.get(&judged.metric).copied();
+        Self::with_interval(run, case, judged, interval)
+    }
+
+    /// Makes the finding about a judged score of the sequence that a case is the first frame of; none where it has no scores.
+    pub(super) fn of_sequence(
+        run: &Run,
+        case: &Case,
+        sequence: Option<&Sequence>,
+        judged: JudgedScore,
+    ) -> Self {
+        let name = judged.metric.clone();
+        let is_judged = |_: &&Sequence| judged.outcome != Outcome::NotJudged;
+        let sequence = sequence.filter(is_judged);
+        let interval = sequence.and_then(|own| own.intervals.get(&name).copied());
+        let worst_frame = sequence.and_then(|own| own.worst_frames.get(&name).copied());
+        let frames = sequence.into_iter().flat_map(|own| &own.frames);
+        let worst = frames.zip(0..).find(|(_, at)| Some(*at) == worst_frame);
+        let finding = Self::with_interval(run, case, judged, interval);
+        Self {
+            worst_frame,
+            pictures: worst.map_or(finding.pictures, |(frame, _)| frame.folder.clone()),
+            ..finding
+        }
+    }
+
+    fn with_interval(
+        run: &Run,
+        case: &Case,
+        judged: JudgedScore,
+        interval: Option<Interval>,
+    ) -> Self {
         let JudgedScore {
             metric: name,
             bound,
             measured,
             outcome,
         } = judged;
-        let metric: Metric = name.parse().expect("a judged score is a metric's");
+        let metric: BoundMetric = name.parse().expect("a judged score is a metric's");
         let (score, reason) = match measured {
             Measured::Score(score) => (Some(score), None),
             Measured::NotApplicable { reason } => (None, Some(reason)),
         };
-        let interval = case.intervals.get(&name).copied();
         Self {
             outcome,
             level: bound.level,
@@ -103,6 +144,9 @@ impl Finding {
             limit: bound.limit,
             floor: score.map(|score| score.floor),
             strictest: score.map(|score| metric.strictest_bound(score.floor)),
+            frames: bound.length.map(|length| length.frames),
+            fps: bound.length.and_then(|length| length.per_second),
+            worst_frame: None,
             why: bound.why,
             place: bound.place,
             reason,
@@ -117,6 +161,11 @@ impl Finding {
             resembles: None,
             pictures: case.folder.clone(),
         }
+    }
+
+    /// Returns true for a finding about a score of a sequence.
+    pub fn is_of_sequence(&self) -> bool {
+        self.frames.is_some()
     }
 
     /// Returns the decision that follows from this finding alone.

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use frame::{read_bounded, write_atomically};
-use metrics::Metric;
+use metrics::BoundMetric;
 use serde::{Deserialize, Serialize};
 
 use super::Finding;
@@ -88,7 +88,7 @@ impl Judgement {
 
 /// Refuses a finding about an unknown metric, or with a place outside of the run's pictures or folder.
 fn check_finding(finding: &Finding, run: &Run) -> Result<(), String> {
-    Metric::from_str(&finding.metric)?;
+    BoundMetric::from_str(&finding.metric)?;
     match &finding.worst {
         Some(worst) if worst.x >= run.render.width || worst.y >= run.render.height => Err(format!(
             "the worst place ({}, {}) lies outside of {}x{} pixels",

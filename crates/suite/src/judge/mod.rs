@@ -16,12 +16,13 @@ mod worst;
 use std::collections::BTreeMap;
 
 use self::bounds::SceneBounds;
-use crate::Run;
+use crate::run::sequence::Sequence;
+use crate::{Case, Run};
 
 pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance};
 pub use evidence::add_evidence;
 pub use finding::{Finding, MOST_SAMPLES, number};
-pub use judged_score::{JudgedScore, judge_scores};
+pub use judged_score::{JudgedScore, judge_scores, judge_sequence};
 pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
 pub use outcome::Outcome;
 pub use worst::{BLOCK, CROP, Worst, worst_block};
@@ -29,7 +30,8 @@ pub use worst::{BLOCK, CROP, Worst, worst_block};
 /// The bounds of a run's scenes, by the names that its cases give them.
 pub type RunBounds = BTreeMap<String, SceneBounds>;
 
-/// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases.
+/// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases, and
+/// behind those of a case the ones of its sequence.
 /// Bars have no bounds. Pure: reads nothing, writes nothing.
 pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
     let filters = run.cases.iter().filter(|case| !case.is_reference);
@@ -40,10 +42,23 @@ pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
                 .unwrap_or_default();
             // A run with intervals has some in every case.
             let intervals = (!case.intervals.is_empty()).then_some(&case.intervals);
-            judge_scores(&case.scores, intervals, &bounds)
+            let of_frame = judge_scores(&case.scores, intervals, &bounds)
                 .into_iter()
-                .map(|judged| Finding::new(run, case, judged))
-                .collect::<Vec<_>>()
+                .map(|judged| Finding::new(run, case, judged));
+            let sequence = find_sequence(run, case);
+            let of_sequence = judge_sequence(sequence, run.frames, &bounds)
+                .into_iter()
+                .map(|judged| Finding::of_sequence(run, case, sequence, judged));
+            of_frame.chain(of_sequence).collect::<Vec<_>>()
         })
         .collect()
+}
+
+/// Finds the sequence that a case is the first frame of.
+pub(crate) fn find_sequence<'a>(run: &'a Run, case: &Case) -> Option<&'a Sequence> {
+    let name = case.name();
+    run.sequences.iter().find(|own| {
+        !own.is_reference
+            && (own.scene == case.scene && own.filter == name && own.alignment == case.alignment)
+    })
 }

@@ -1,6 +1,6 @@
 //! Outcome of one bound.
 
-use metrics::{Ideal, Interval, Measured, Metric};
+use metrics::{BoundMetric, Ideal, Interval, Measured};
 use serde::{Deserialize, Serialize};
 
 /// Relation of a score to its bound.
@@ -17,6 +17,8 @@ pub enum Outcome {
     TooNoisy,
     /// The metric does not apply to this scene.
     NotApplicable,
+    /// The limit is on a sequence of another length than the run's.
+    NotJudged,
 }
 
 impl Outcome {
@@ -24,7 +26,7 @@ impl Outcome {
     pub fn is_notable(self) -> bool {
         match self {
             Outcome::Broken | Outcome::Inconclusive | Outcome::TooNoisy => true,
-            Outcome::Kept | Outcome::NotApplicable => false,
+            Outcome::Kept | Outcome::NotApplicable | Outcome::NotJudged => false,
         }
     }
 }
@@ -32,7 +34,7 @@ impl Outcome {
 /// Compares a score with a limit: by its interval if `interval` is given, by its value otherwise. `Some(None)` is a score whose
 /// interval the truth cannot tell.
 pub fn judge_score(
-    metric: Metric,
+    metric: BoundMetric,
     measured: &Measured,
     interval: Option<Option<&Interval>>,
     limit: f64,

@@ -12,6 +12,7 @@ pub mod part;
 pub mod pictures;
 pub mod plan;
 pub mod planned_case;
+pub(crate) mod points_of_frame;
 pub mod probes;
 pub mod references;
 pub(crate) mod run_scene;

@@ -2,18 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{
-    Alignment, FrameOptions, Image, Raster, Truth, VelocityKind, read_exr, read_png,
-    write_animated_png, write_png,
-};
-use metrics::{Instant, SequenceReference};
-use tracer::{PointMotion, RenderSettings, Scene, trace_motion};
+use frame::{Alignment, Image, Raster, Truth, read_exr, read_png, write_animated_png, write_png};
+use metrics::{Instant, SequenceReference, SequenceScores};
+use tracer::Scene;
 
 use super::plan::RunPlan;
+use super::points_of_frame::PointsOfFrame;
 use crate::Error;
 use crate::colors::magma;
-use crate::run::case::Case;
+use crate::render::truths::render_replicates;
+use crate::run::case::{Case, Intervals};
 use crate::run::sequence::{Sequence, SequenceFrame};
+use crate::stats::intervals::{count_pairs, sequence_intervals, truth_without_pair};
 
 /// Picture of the error of the change since the frame before, beside a case's other pictures.
 pub const CHANGE_PICTURE: &str = "change.png";
@@ -52,14 +52,17 @@ pub(super) fn measure_sequences(
         if first.is_empty() {
             continue;
         }
-        let reference = make_reference(plan, scene, alignment, &layers)?;
-        for case in first {
-            let Some(all) = frames.all_of(case) else {
-                // It failed in one of them, which the run says.
-                continue;
-            };
-            sequences.push(measure_sequence(plan, &reference, case, &all)?);
-        }
+        let truths = SequenceTruths {
+            plan,
+            scene,
+            alignment,
+            layers: &layers,
+        };
+        // Those that failed in a frame, which the run says, have no sequence.
+        let all: Vec<Vec<&Case>> = (first.into_iter())
+            .filter_map(|case| frames.all_of(case))
+            .collect();
+        sequences.extend(truths.measure(&all)?);
     }
     Ok(sequences)
 }
@@ -78,64 +81,108 @@ impl FrameCases {
     }
 }
 
-/// What a rasteriser writes of one frame, with the motion since the frame before.
-struct PointsOfFrame {
-    scene: String,
-    points: tracer::PointLayers,
+/// The truths of one scene and shutter, frame after frame.
+struct SequenceTruths<'a> {
+    plan: &'a RunPlan,
+    scene: &'a Scene,
+    alignment: Alignment,
+    layers: &'a [PointsOfFrame],
 }
 
-impl PointsOfFrame {
-    fn trace(scene: &Scene, render: &RenderSettings) -> Result<Self, Error> {
-        let settings = RenderSettings {
-            options: FrameOptions {
-                velocity: VelocityKind::PreviousFrame,
-                ..FrameOptions::default()
-            },
-            guard_band: 0,
-            ..*render
-        };
-        Ok(Self {
-            scene: scene.name.clone(),
-            points: trace_motion(scene, &settings, &PointMotion::RIGHT)?,
+impl SequenceTruths<'_> {
+    /// Measures the sequences of cases, of which each entry lists those of all frames.
+    fn measure(&self, all: &[Vec<&Case>]) -> Result<Vec<Sequence>, Error> {
+        let reference = self.whole()?;
+        let mut sequences: Vec<Sequence> = (all.iter())
+            .map(|cases| measure_sequence(self.plan, &reference, cases))
+            .collect::<Result<_, _>>()?;
+        drop(reference);
+        let intervals = self.intervals(&sequences, all)?;
+        for (own, intervals) in sequences.iter_mut().zip(intervals) {
+            own.intervals = intervals;
+        }
+        Ok(sequences)
+    }
+
+    /// Computes the intervals of the scores of filters; empty for references, and where none are asked for. One truth at a time is in
+    /// memory.
+    fn intervals(
+        &self,
+        sequences: &[Sequence],
+        all: &[Vec<&Case>],
+    ) -> Result<Vec<Intervals>, Error> {
+        let is_due = |own: &Sequence| self.plan.intervals && !own.is_reference;
+        let mut without: Vec<Vec<SequenceScores>> = vec![Vec::new(); sequences.len()];
+        if sequences.iter().any(is_due) {
+            for pair in 0..count_pairs(self.plan.render.replicates as usize) {
+                let reference = self.without_pair(pair)?;
+                let due = sequences.iter().zip(all).zip(&mut without);
+                for ((_, cases), scores) in due.filter(|((own, _), _)| is_due(own)) {
+                    scores.push(reference.measure(&self.plan.read_outputs(cases)?)?.scores);
+                }
+            }
+        }
+        let both = sequences.iter().zip(&without);
+        Ok(both
+            .map(|(own, without)| sequence_intervals(&own.scores, without))
+            .collect())
+    }
+
+    /// Reads the truths of all frames.
+    fn whole(&self) -> Result<SequenceReference, Error> {
+        self.reference(|scene| {
+            let folder = self.plan.out.join(&scene.name);
+            Ok(Truth::read(
+                &folder.join(format!("truth_{}.exr", self.alignment)),
+            )?)
         })
+    }
+
+    /// Makes the truths of all frames without one pair of replicates.
+    fn without_pair(&self, pair: usize) -> Result<SequenceReference, Error> {
+        let RunPlan {
+            render,
+            out,
+            monitor,
+            ..
+        } = self.plan;
+        self.reference(|scene| {
+            let replicates = render_replicates(scene, render, self.alignment, out, *monitor)?;
+            Ok(truth_without_pair(&replicates, pair)?)
+        })
+    }
+
+    fn reference(
+        &self,
+        truth: impl Fn(&Scene) -> Result<Truth, Error>,
+    ) -> Result<SequenceReference, Error> {
+        let instants = (0..).zip(self.layers).map(|(frame, layer)| {
+            let truth = truth(&self.scene.at_frame(frame))?;
+            Ok(layer.instant(&truth))
+        });
+        Ok(SequenceReference::new(
+            instants.collect::<Result<Vec<Instant>, Error>>()?,
+            &self.scene.display.into(),
+            self.plan.frames.per_second,
+        ))
     }
 }
 
-/// Reads the truths of all frames.
-fn make_reference(
-    plan: &RunPlan,
-    scene: &Scene,
-    alignment: Alignment,
-    layers: &[PointsOfFrame],
-) -> Result<SequenceReference, Error> {
-    let instants = layers.iter().map(|layer| {
-        let path = (plan.out.join(&layer.scene)).join(format!("truth_{alignment}.exr"));
-        let points = layer.points.clone();
-        Ok(Instant::new(
-            &Truth::read(&path)?,
-            points.velocity,
-            points.depth,
-            points.object_id,
-        ))
-    });
-    let instants = instants.collect::<Result<Vec<Instant>, Error>>()?;
-    Ok(SequenceReference::new(
-        instants,
-        &scene.display.into(),
-        plan.frames.per_second,
-    ))
+impl RunPlan {
+    /// Reads the pictures that the cases of a sequence left, frame after frame.
+    fn read_outputs(&self, cases: &[&Case]) -> Result<Vec<Image>, Error> {
+        let folders = cases.iter().map(|case| self.out.join(&case.folder));
+        folders.map(|folder| read_picture(&folder)).collect()
+    }
 }
 
 fn measure_sequence(
     plan: &RunPlan,
     reference: &SequenceReference,
-    first: &Case,
     all: &[&Case],
 ) -> Result<Sequence, Error> {
-    let pictures: Vec<Image> = (all.iter())
-        .map(|case| read_picture(&plan.out.join(&case.folder)))
-        .collect::<Result<_, _>>()?;
-    let measured = reference.measure(&pictures)?;
+    let first = all[0];
+    let measured = reference.measure(&plan.read_outputs(all)?)?;
     write_animation(plan, first, all)?;
     for (case, map) in all[1..].iter().zip(&measured.change_errors) {
         let path = plan.out.join(&case.folder).join(CHANGE_PICTURE);
@@ -150,12 +197,17 @@ fn measure_sequence(
             flicker: *flicker,
         },
     );
+    let worst_frames = measured.worst_frames.iter();
     Ok(Sequence {
         scene: first.scene.clone(),
         filter: first.name(),
         is_reference: first.is_reference,
         alignment: first.alignment.clone(),
         frames: frames.collect(),
+        worst_frames: worst_frames
+            .map(|(metric, frame)| (metric.row().name.to_owned(), *frame as u32))
+            .collect(),
+        intervals: Intervals::new(),
         scores: measured.scores,
     })
 }

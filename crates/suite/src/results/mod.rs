@@ -12,7 +12,7 @@ pub use self::cost::ResultCost;
 use crate::json::file::read_text;
 use crate::json::lines::to_lines;
 use crate::run::failure::refuse_failures;
-use crate::stats::ranking::{FlipScore, RankedFilter, rank_by_flip};
+use crate::stats::ranking::{RankedFilter, RankedScore, rank_by_score};
 use crate::{Case, Error, Headline, InputFormat, Run};
 
 /// Version of the layout of a file of results.
@@ -237,10 +237,10 @@ impl Results {
     /// Ranks the filter presets of each shutter by FLIP, over the scenes of one family or over all.
     pub fn ranking(&self, family: Option<Family>) -> Vec<Vec<RankedFilter>> {
         let of_family = |own: &&ResultScores| family.is_none() || own.family == family;
-        let scores: Vec<FlipScore> = (self.scores.iter().filter(of_family))
+        let scores: Vec<RankedScore> = (self.scores.iter().filter(of_family))
             .filter_map(ResultScores::flip)
             .collect();
-        rank_by_flip(&scores, false)
+        rank_by_score(&scores, false)
     }
 }
 
@@ -264,13 +264,13 @@ impl ResultScores {
         self.scores.get(&headline.name()).copied()
     }
 
-    fn flip(&self) -> Option<FlipScore> {
-        Some(FlipScore {
+    fn flip(&self) -> Option<RankedScore> {
+        Some(RankedScore {
             scene: self.scene.clone(),
             filter: self.filter.clone(),
             name: self.name.clone(),
             alignment: self.alignment.clone(),
-            flip: self.score(Headline::FLIP)?,
+            value: self.score(Headline::FLIP)?,
             floor: self.floor,
         })
     }

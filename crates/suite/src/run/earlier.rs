@@ -222,7 +222,10 @@ fn find_difference(
     let settings = std::iter::zip(list_settings(&run.render), list_settings(&plan.render));
     let settings = settings.map(|((setting, earlier), (_, now))| (setting, earlier, now));
     let adapters = ("the adapter", name(run.adapter.as_ref()), name(adapter));
-    let [earlier, now] = [run.frames, plan.frames].map(|frames: Frames| frames.count.to_string());
+    let [earlier, now] = [run.frames, plan.frames].map(|frames: Frames| match frames.count {
+        1 => "1".to_owned(),
+        count => format!("{count} at {} per second", frames.per_second),
+    });
     let frames = ("number of frames", earlier, now);
     let now = (plan.common).map_or(run.common_alignment.clone(), |own| own.name().to_owned());
     let common = ("the common shutter", run.common_alignment.clone(), now);

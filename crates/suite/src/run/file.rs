@@ -114,6 +114,16 @@ fn check_sequence(sequence: &Sequence) -> Result<(), String> {
         .frames
         .iter()
         .flat_map(|frame| [&frame.scene, &frame.folder]);
+    let count = sequence.frames.len();
+    let mut worst = sequence.worst_frames.iter();
+    if let Some((metric, frame)) = worst.find(|(_, frame)| **frame as usize >= count) {
+        return Err(format!(
+            "the sequence {} / {} is worst in {metric} at frame {frame}; allowed: 0 to {}",
+            sequence.scene,
+            sequence.filter,
+            count.saturating_sub(1)
+        ));
+    }
     match paths.into_iter().find(|path| !is_below(path)) {
         None if sequence.frames.len() <= MOST_FRAMES as usize => Ok(()),
         None => Err(format!(

@@ -1,9 +1,12 @@
 //! A sequence: pictures of consecutive frames of one scene, with scores over time.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use metrics::SequenceScores;
 use serde::{Deserialize, Serialize};
+
+use super::case::Intervals;
 
 /// Upper limit on the frames of a sequence.
 pub const MOST_FRAMES: u32 = 1000;
@@ -22,6 +25,12 @@ pub struct Sequence {
     pub alignment: String,
     /// Scores over time.
     pub scores: SequenceScores,
+    /// 95 % confidence intervals of the scores; empty where none were asked for.
+    #[serde(default, skip_serializing_if = "Intervals::is_empty")]
+    pub intervals: Intervals,
+    /// Frame that is worst in a score, from 0, by the names of the metrics that frames have a share in.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub worst_frames: BTreeMap<String, u32>,
     /// Frames, from the first on.
     pub frames: Vec<SequenceFrame>,
 }

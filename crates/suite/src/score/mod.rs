@@ -2,3 +2,4 @@
 
 pub mod finished_picture;
 pub mod scores;
+pub mod sequence;

@@ -1,7 +1,7 @@
 //! Jackknife intervals of scores, from truths without one pair of replicates each.
 
 use frame::{Replicate, Truth, TruthError};
-use metrics::{Measured, Metric, Scores, jackknife};
+use metrics::{Interval, Measured, Metric, Scores, SequenceMetric, SequenceScores, jackknife};
 
 use crate::run::case::Intervals;
 
@@ -14,18 +14,29 @@ pub const FEWEST_REPLICATES: u32 = 4;
 /// Makes one truth per pair of `replicates`, of all the others. Replicates share one support, so that the pixels that scores are
 /// pooled over stay the same.
 pub fn truths_without_pairs(replicates: &[Replicate]) -> Result<Vec<Truth>, TruthError> {
-    (0..replicates.len() / GROUP)
-        .map(|pair| {
-            let others = (replicates.iter().enumerate()).filter(|(at, _)| at / GROUP != pair);
-            let others: Vec<Replicate> = (others.map(|(_, replicate)| replicate).zip(0..))
-                .map(|(replicate, index)| Replicate {
-                    index,
-                    ..replicate.clone()
-                })
-                .collect();
-            Truth::of(&others)
-        })
+    (0..count_pairs(replicates.len()))
+        .map(|pair| truth_without_pair(replicates, pair))
         .collect()
+}
+
+/// Counts the pairs of a number of replicates.
+pub(crate) fn count_pairs(replicates: usize) -> usize {
+    replicates / GROUP
+}
+
+/// Makes the truth of all replicates but those of one pair.
+pub(crate) fn truth_without_pair(
+    replicates: &[Replicate],
+    pair: usize,
+) -> Result<Truth, TruthError> {
+    let others = (replicates.iter().enumerate()).filter(|(at, _)| at / GROUP != pair);
+    let others: Vec<Replicate> = (others.map(|(_, replicate)| replicate).zip(0..))
+        .map(|(replicate, index)| Replicate {
+            index,
+            ..replicate.clone()
+        })
+        .collect();
+    Truth::of(&others)
 }
 
 /// Computes the interval, by [`jackknife`], of each of `metrics` that has a score against the whole truth and against the truth
@@ -40,20 +51,39 @@ pub fn intervals(
 ) -> Intervals {
     (metrics.into_iter())
         .filter_map(|metric| {
-            let Measured::Score(score) = whole.get(metric) else {
-                return None;
-            };
-            let value = |scores: &Scores| match scores.get(metric) {
-                Measured::Score(score) => Some(score.value),
-                Measured::NotApplicable { .. } => None,
-            };
-            let without: Option<Vec<f64>> = without.iter().map(value).collect();
-            let mut interval = jackknife(score.value, &without?)?;
-            if metric.row().is_percentile {
-                interval.low -= score.floor;
-                interval.high += score.floor;
-            }
-            Some((metric.name(), interval))
+            let without = without.iter().map(|scores| scores.get(metric));
+            let found = interval(&whole.get(metric), without, metric.row().is_percentile)?;
+            Some((metric.name(), found))
         })
         .collect()
+}
+
+/// Computes the intervals of a sequence's scores as [`intervals`] does those of a picture.
+pub(crate) fn sequence_intervals(whole: &SequenceScores, without: &[SequenceScores]) -> Intervals {
+    (SequenceMetric::ALL.into_iter())
+        .filter_map(|metric| {
+            let row = metric.row();
+            let without = without.iter().map(|scores| scores.get(metric).clone());
+            let found = interval(whole.get(metric), without, row.is_percentile)?;
+            Some((row.name.to_owned(), found))
+        })
+        .collect()
+}
+
+/// Computes the interval of one score; none where it does not apply to every truth.
+fn interval(
+    whole: &Measured,
+    without: impl Iterator<Item = Measured>,
+    is_percentile: bool,
+) -> Option<Interval> {
+    let Measured::Score(score) = whole else {
+        return None;
+    };
+    let without: Option<Vec<f64>> = without.map(|score| score.value()).collect();
+    let mut found = jackknife(score.value, &without?)?;
+    if is_percentile {
+        found.low -= score.floor;
+        found.high += score.floor;
+    }
+    Some(found)
 }

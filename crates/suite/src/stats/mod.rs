@@ -9,3 +9,4 @@ pub mod preference_scale;
 pub mod rank_correlation;
 pub mod ranking;
 pub mod scene_mean;
+pub mod sequence_ranking;

@@ -1,4 +1,4 @@
-//! Ranking of a run's filters by FLIP, with ties.
+//! Ranking of filters by one score, with ties.
 
 use super::headline::Headline;
 use super::scene_mean::{TWO_SIDED, plain_mean};
@@ -17,21 +17,21 @@ pub struct RankedFilter {
     pub rank: usize,
     /// True if another filter shares the rank.
     pub is_tied: bool,
-    /// Mean FLIP over the scenes.
-    pub flip: f64,
+    /// Mean score over the scenes.
+    pub mean: f64,
     /// 95 % CI of the mean over scenes; none on a single scene.
     pub interval: Option<[f64; 2]>,
     /// Number of scenes that have a score.
     pub scenes: usize,
-    /// Scene with the largest FLIP, and that FLIP.
+    /// Scene with the largest score, and that score.
     pub worst: (String, f64),
     /// Number of ranked presets of the filter, this one included.
     pub presets: usize,
 }
 
-/// FLIP of one filter preset on one scene.
+/// Score of one filter preset on one scene, of which lower is better.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FlipScore {
+pub struct RankedScore {
     /// Name of the scene.
     pub scene: String,
     /// Name of the filter alone.
@@ -40,15 +40,15 @@ pub struct FlipScore {
     pub name: String,
     /// Shutter alignment that it is scored against.
     pub alignment: String,
-    /// Estimate against a truth without noise.
-    pub flip: f64,
-    /// Noise floor.
+    /// The score; of FLIP the estimate against a truth without noise.
+    pub value: f64,
+    /// Difference that the truth's noise makes.
     pub floor: f64,
 }
 
 struct Entry {
     ranked: RankedFilter,
-    scores: Vec<FlipScore>,
+    scores: Vec<RankedScore>,
 }
 
 /// Upper limit on presets that a summary ranks one by one.
@@ -56,26 +56,26 @@ pub const MOST_RANKED: usize = 16;
 
 /// Ranks filters for a summary, with the full form of their input where the run tried others as well. Where the presets are too many for it, the best preset of each filter stands for the filter.
 pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
-    let full: Vec<FlipScore> = (cases.iter())
+    let full: Vec<RankedScore> = (cases.iter())
         .filter(|case| !case.is_reference && case.input == InputFormat::default())
-        .filter_map(FlipScore::of)
+        .filter_map(RankedScore::flip_of)
         .collect();
-    let presets = rank_by_flip(&full, false);
+    let presets = rank_by_score(&full, false);
     match presets.iter().map(Vec::len).sum() {
         ..=MOST_RANKED => presets,
-        _ => rank_by_flip(&full, true),
+        _ => rank_by_score(&full, true),
     }
 }
 
-impl FlipScore {
+impl RankedScore {
     /// The FLIP of a case; none where nothing moves.
-    fn of(case: &Case) -> Option<Self> {
+    fn flip_of(case: &Case) -> Option<Self> {
         Some(Self {
             scene: case.scene.clone(),
             filter: case.filter.clone(),
             name: case.name(),
             alignment: case.alignment.clone(),
-            flip: Headline::FLIP.estimate(case)?,
+            value: Headline::FLIP.estimate(case)?,
             floor: Headline::FLIP.floor(case)?,
         })
     }
@@ -86,7 +86,7 @@ impl FlipScore {
 ///
 /// Two filters tie where the mean difference over their common scenes is not told from 0: its 95 % CI holds 0. On a single
 /// scene they tie within the noise floor.
-pub(crate) fn rank_by_flip(scores: &[FlipScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
+pub(crate) fn rank_by_score(scores: &[RankedScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for score in scores {
         let group = (groups.iter()).position(|group| group[0].ranked.alignment == score.alignment);
@@ -105,7 +105,7 @@ pub(crate) fn rank_by_flip(scores: &[FlipScore], best_presets: bool) -> Vec<Vec<
         .collect()
 }
 
-fn new_entry(score: &FlipScore) -> Entry {
+fn new_entry(score: &RankedScore) -> Entry {
     Entry {
         ranked: RankedFilter {
             name: score.name.clone(),
@@ -113,7 +113,7 @@ fn new_entry(score: &FlipScore) -> Entry {
             alignment: score.alignment.clone(),
             rank: 0,
             is_tied: false,
-            flip: 0.0,
+            mean: 0.0,
             interval: None,
             scenes: 0,
             worst: (String::new(), 0.0),
@@ -127,7 +127,7 @@ fn rank_group(mut group: Vec<Entry>, best_presets: bool) -> Vec<RankedFilter> {
     for entry in &mut group {
         summarize(entry);
     }
-    group.sort_by(|a, b| a.ranked.flip.total_cmp(&b.ranked.flip));
+    group.sort_by(|a, b| a.ranked.mean.total_cmp(&b.ranked.mean));
     if best_presets {
         group = keep_best_presets(group);
     }
@@ -146,15 +146,15 @@ fn rank_group(mut group: Vec<Entry>, best_presets: bool) -> Vec<RankedFilter> {
 }
 
 fn summarize(entry: &mut Entry) {
-    let values: Vec<f64> = entry.scores.iter().map(|score| score.flip).collect();
+    let values: Vec<f64> = entry.scores.iter().map(|score| score.value).collect();
     let mean = plain_mean(&values, TWO_SIDED);
     let worst = (entry.scores.iter())
-        .max_by(|a, b| a.flip.total_cmp(&b.flip))
+        .max_by(|a, b| a.value.total_cmp(&b.value))
         .expect("an entry has a score");
-    entry.ranked.flip = mean.mean;
+    entry.ranked.mean = mean.mean;
     entry.ranked.interval = (values.len() > 1).then_some(mean.interval);
     entry.ranked.scenes = values.len();
-    entry.ranked.worst = (worst.scene.clone(), worst.flip);
+    entry.ranked.worst = (worst.scene.clone(), worst.value);
 }
 
 /// Keeps the first preset of every filter of a sorted group.
@@ -173,7 +173,7 @@ fn keep_best_presets(group: Vec<Entry>) -> Vec<Entry> {
 fn are_tied(a: &Entry, b: &Entry) -> bool {
     let pairs = a.scores.iter().filter_map(|score| {
         let other = b.scores.iter().find(|other| other.scene == score.scene)?;
-        Some((other.flip - score.flip, score.floor.max(other.floor)))
+        Some((other.value - score.value, score.floor.max(other.floor)))
     });
     let (differences, floors): (Vec<f64>, Vec<f64>) = pairs.unzip();
     match differences.as_slice() {

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use metrics::Metric;
+use metrics::{BoundMetric, Metric, SequenceMetric};
 use serde::Deserialize;
 use toml::Spanned;
 use tracer::Location;
 
-use super::{Bound, Bounds, Level};
+use super::{Bound, Bounds, Length, Level};
 use crate::json::file::read_text;
 use crate::printable::{printable, printable_path};
 use crate::{Error, SIDES};
@@ -66,6 +66,8 @@ struct Contents {
 struct Entry {
     limit: f64,
     size: Option<(u32, u32)>,
+    frames: Option<u32>,
+    fps: Option<f64>,
     why: Option<String>,
     #[serde(default)]
     level: Level,
@@ -108,8 +110,9 @@ impl Source<'_> {
             .map(|(name, entry)| {
                 let start = name.span().start;
                 let refuse = |reason: &str| self.refuse(Some(start), reason);
-                let metric = Metric::from_str(name.get_ref()).map_err(|reason| refuse(&reason))?;
-                if let Some(reason) = metric.report_only() {
+                let metric =
+                    BoundMetric::from_str(name.get_ref()).map_err(|reason| refuse(&reason))?;
+                if let Some(reason) = metric.row().report_only {
                     return Err(refuse(&format!(
                         "{metric} is for reports and no bound: it {reason}"
                     )));
@@ -117,6 +120,8 @@ impl Source<'_> {
                 let Entry {
                     limit,
                     size,
+                    frames,
+                    fps,
                     why,
                     level,
                 } = entry;
@@ -136,6 +141,8 @@ impl Source<'_> {
                         SIDES.end()
                     )));
                 }
+                let length =
+                    Length::check(metric, frames, fps).map_err(|reason| refuse(&reason))?;
                 let why = why.unwrap_or_default();
                 if printable(&why) != why {
                     return Err(refuse(&format!(
@@ -153,6 +160,7 @@ impl Source<'_> {
                 let bound = Bound {
                     limit,
                     size,
+                    length,
                     why,
                     level,
                     place: self.place(Some(start)),
@@ -166,8 +174,16 @@ impl Source<'_> {
         (entries.into_iter())
             .map(|(name, width)| {
                 let start = name.span().start;
-                Metric::from_str(name.get_ref())
-                    .map_err(|reason| self.refuse(Some(start), &reason))?;
+                let text = name.get_ref();
+                let mut of_sequences = SequenceMetric::ALL.iter();
+                if of_sequences.any(|metric| metric.row().name == text) {
+                    let reason = format!(
+                        "margin of {text}: is a score of a sequence, and baselines hold scores of single frames; give it a \
+                         limit instead"
+                    );
+                    return Err(self.refuse(Some(start), &reason));
+                }
+                Metric::from_str(text).map_err(|reason| self.refuse(Some(start), &reason))?;
                 if !(width.is_finite() && width >= 0.0) {
                     let reason = format!(
                         "margin of {} is {width}; allowed: 0 or more",

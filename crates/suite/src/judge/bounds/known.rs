@@ -4,8 +4,8 @@ use filters::Filter;
 use tracer::Location;
 
 use super::sized::read_all_bounds;
-use super::{BOUNDS_FILE, BoundsFile, Level, SceneBounds};
-use crate::{Error, FilterChoice};
+use super::{BOUNDS_FILE, BoundsFile, Length, Level, SceneBounds};
+use crate::{Error, FilterChoice, Frames};
 
 /// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, the bounds of the
 /// scenes that take part.
@@ -24,18 +24,30 @@ pub fn check_names<'a>(
 }
 
 /// Refuses a case without a bound, and bounds of which none is required: such a check cannot fail. `scenes` are the names and the
-/// bounds of scenes in the folder `root`.
+/// bounds of scenes in the folder `root`, and `frames` those that each scene is measured at: limits on sequences of another length
+/// judge nothing.
 pub fn require_bounds<'a>(
     root: impl Into<Location>,
     scenes: impl Iterator<Item = (&'a str, &'a SceneBounds)>,
     filters: &[FilterChoice],
+    frames: Frames,
 ) -> Result<(), Error> {
     let root = root.into();
     let mut required = false;
     for (scene, bounds) in scenes {
         for choice in filters {
-            let bounds = bounds.of(&choice.filter.name, &choice.preset);
+            let mut bounds = bounds.of(&choice.filter.name, &choice.preset);
+            let lengths: Vec<Length> = bounds.values().filter_map(|bound| bound.length).collect();
+            bounds.retain(|_, bound| bound.length.is_none_or(|own| own.holds_for(frames)));
             if bounds.is_empty() {
+                if let Some(length) = lengths.first() {
+                    return Err(Error::Usage(format!(
+                        "{scene} / {name}: all its bounds are on sequences of other lengths, such as {}, and no check is no \
+                         success; check as many frames, or bound a score of single frames",
+                        length.text(),
+                        name = choice.name(),
+                    )));
+                }
                 return Err(Error::Usage(format!(
                     "{scene} / {name}: has no bound, and no check is no success; give it some in {root}/{BOUNDS_FILE} or \
                      beside the scene, under [default] or [filter.\"{name}\"]",

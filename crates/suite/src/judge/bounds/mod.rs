@@ -2,6 +2,7 @@
 
 mod file;
 mod known;
+mod length;
 mod size;
 mod sized;
 mod subframes;
@@ -10,10 +11,11 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use tracer::Location;
 
-use crate::Error;
+use crate::{Error, Frames};
 
 pub use file::{BoundsFile, FilterBounds, Margin, read_bounds_file};
 pub use known::{check_names, require_bounds};
+pub use length::{Length, check_lengths};
 pub use size::size_for_bounds;
 pub use sized::sized_bounds_file;
 pub use subframes::{bound_subframes, is_of_subframes};
@@ -31,6 +33,8 @@ pub struct Bound {
     pub limit: f64,
     /// Columns and rows of the pictures that it holds for; none if it holds for all.
     pub size: Option<(u32, u32)>,
+    /// Length of the sequence that it holds for; none for a score of a single frame.
+    pub length: Option<Length>,
     /// Reason in one line: what was measured, and how the limit follows.
     pub why: String,
     /// Consequence of breaking it.
@@ -74,11 +78,20 @@ impl SceneBounds {
     }
 
     /// Removes limits that hold only for other picture sizes.
-    pub fn at(mut self, size: (u32, u32)) -> Self {
+    pub fn at(self, size: (u32, u32)) -> Self {
+        self.retain(|bound| bound.size.is_none_or(|own| own == size))
+    }
+
+    /// Removes limits on sequences of another length.
+    pub fn over(self, frames: Frames) -> Self {
+        self.retain(|bound| bound.length.is_none_or(|own| own.holds_for(frames)))
+    }
+
+    fn retain(mut self, is_kept: impl Fn(&Bound) -> bool) -> Self {
         for file in &mut self.files {
             let filters = file.filters.values_mut().map(|table| &mut table.bounds);
             for bounds in std::iter::once(&mut file.default).chain(filters) {
-                bounds.retain(|_, bound| bound.size.is_none_or(|own| own == size));
+                bounds.retain(|_, bound| is_kept(bound));
             }
         }
         self

@@ -1,0 +1,148 @@
+//! The command `score` for a sequence of pictures.
+
+use frame::{Frame, Image, Truth};
+use metrics::{Measured, SequenceMetric};
+use suite::{
+    Error, ScoredSequence, SequenceTruth, file_at_frame, find_numbered, printable, printable_path,
+    read_finished_picture, score_sequence,
+};
+use tracer::Scene;
+
+use super::convention::read_convention;
+use crate::arguments::ScoreArgs;
+use crate::output::print::{print, print_json};
+use crate::selection::select_scenes;
+use crate::tables::sequence::score_sequence_table;
+
+/// Scores the numbered pictures of a folder, and prints their scores over time.
+pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
+    let files = find_numbered(&args.image, args.frames)?;
+    let first = read_truth(args, 0)?;
+    let scene = load_scene(args, &first)?;
+    let others = (1..args.frames).map(|frame| read_truth(args, frame));
+    let truths = std::iter::once(Ok(first))
+        .chain(others)
+        .collect::<Result<Vec<SequenceTruth>, Error>>()?;
+    let convention = read_convention(args.convention.as_deref())?;
+    let mut notes: Vec<String> = Vec::new();
+    let mut pictures: Vec<Image> = Vec::new();
+    for (file, own) in files.iter().zip(&truths) {
+        let picture = read_finished_picture(file, &convention, &own.frame, &own.truth)?;
+        notes.extend(picture.notes);
+        pictures.push(picture.color);
+    }
+    notes.sort();
+    notes.dedup();
+    let scored = score_sequence(&pictures, &scene, &truths, args.fps)?;
+    if args.json {
+        print_json(&scores_json(args, &truths, &scored, &notes))
+    } else {
+        print(&scores_text(args, &truths[0].truth, &scored, &notes))
+    }
+}
+
+/// Reads frame and truth of a frame of the sequence.
+fn read_truth(args: &ScoreArgs, frame: u32) -> Result<SequenceTruth, Error> {
+    let path = file_at_frame(&args.truth, frame);
+    let truth = Truth::read(&path)?;
+    let own = file_at_frame(&args.frame, frame);
+    let frame = Frame::read(&own)?;
+    if frame.provenance.scene != truth.provenance.scene {
+        return Err(Error::Usage(format!(
+            "{}: was rendered from the scene {}, the truth from {}; render both from one",
+            own.display(),
+            frame.provenance.scene,
+            truth.provenance.scene
+        )));
+    }
+    Ok(SequenceTruth { frame, truth, path })
+}
+
+/// Loads the scene of the first truth.
+fn load_scene(args: &ScoreArgs, first: &SequenceTruth) -> Result<Scene, Error> {
+    let provenance = &first.truth.provenance;
+    let name = printable(&provenance.scene).into_owned();
+    let refuse = |reason: &str| {
+        let path = printable_path(&first.path);
+        Err(Error::Usage(format!("{path}: {reason}")))
+    };
+    if provenance.engine.is_some() {
+        return refuse("an engine drew it, which makes one frame; leave --frames out");
+    }
+    if name.contains('/') {
+        return refuse(&format!(
+            "is the truth of a later frame, {name}; name that of the first frame"
+        ));
+    }
+    let choices = select_scenes(args.scenes_dir.clone(), std::slice::from_ref(&name));
+    let mut choices = choices.map_err(|error| {
+        Error::Usage(format!(
+            "{}: is of the scene {name}, whose motion the scores of a sequence follow; name the folder that holds it with \
+             --scenes-dir: {error}",
+            printable_path(&first.path)
+        ))
+    })?;
+    match choices.len() {
+        1 => Ok(choices.remove(0).scene),
+        _ => refuse(&format!("its scene {name} is no name of one scene")),
+    }
+}
+
+fn scores_text(
+    args: &ScoreArgs,
+    truth: &Truth,
+    scored: &ScoredSequence,
+    notes: &[String],
+) -> String {
+    let name = printable_path(&args.image);
+    let mut text =
+        score_sequence_table(&truth.provenance.scene, &name, args.frames, &scored.scores);
+    text += &format!(
+        "\ntruth: {} shutter, open for {} frames\n",
+        truth.alignment,
+        truth.shutter.exposure()
+    );
+    let worst: Vec<String> = (scored.worst_frames.iter())
+        .map(|(metric, frame)| format!("{metric} {frame}"))
+        .collect();
+    text += &format!("worst frames: {}\n", worst.join(", "));
+    for note in notes {
+        text += &format!("{name}: {note}\n");
+    }
+    for metric in SequenceMetric::ALL {
+        if let Measured::NotApplicable { reason } = scored.scores.get(metric) {
+            text += &format!("not available: {}: {reason}\n", metric.row().name);
+        }
+    }
+    text
+}
+
+fn scores_json(
+    args: &ScoreArgs,
+    truths: &[SequenceTruth],
+    scored: &ScoredSequence,
+    notes: &[String],
+) -> serde_json::Value {
+    let first = &truths[0].truth;
+    let frames = truths.iter().zip(&scored.errors).zip(&scored.flickers);
+    let frames = frames.map(|((own, error), flicker)| {
+        serde_json::json!({
+            "truth_hash": own.truth.provenance.content_hash,
+            "error": error,
+            "flicker": flicker,
+        })
+    });
+    serde_json::json!({
+        "format": suite::FORMAT,
+        "program": suite::PROGRAM,
+        "image": args.image,
+        "scene": first.provenance.scene,
+        "exposure": first.shutter.exposure(),
+        "alignment": first.alignment.name(),
+        "per_second": args.fps,
+        "notes": notes,
+        "scores": scored.scores,
+        "worst_frames": scored.worst_frames,
+        "frames": frames.collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,175 @@
+//! `blur --frames` and `score --frames`: sequences of a filter that runs elsewhere.
+
+use std::fs;
+
+use frame::{Image, display_srgb, read_exr, write_png};
+use metrics::{SequenceMetric, SequenceScores};
+use tests::filter_folder::one_kernel_without_parameters;
+
+use crate::bench::{Bench, SCENE, assert_done, assert_refused, stdout};
+
+const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
+const FRAME: [&str; 2] = ["--frame", "out/plate/frame.exr"];
+const THREE: [&str; 2] = ["--frames", "3"];
+
+/// Makes a bench with a filter whose picture depends on the frame before and on the frame's number, and runs it on three frames.
+fn run_filter() -> Bench {
+    let bench = Bench::new();
+    let manifest = "name = \"late\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\nhistory = [\"color\"]\n\n[[pass]]\nentry = \"work\"\n";
+    let body = "let before = textureLoad(color_before, pixel, 0).rgb;
+    let now = textureLoad(color, pixel, 0).rgb;
+    let noise = fract(0.618 * f32(frame.frame_index) + 0.1 * f32(pixel.x));
+    textureStore(output, pixel, vec4<f32>(mix(before, now, 0.5 + 0.2 * noise), 1.0));";
+    let texture = "@group(0) @binding(4) var color_before: texture_2d<f32>;\n";
+    let kernels = texture.to_owned() + &one_kernel_without_parameters(body);
+    bench.write_filter("late", manifest, &kernels);
+    assert_done(&bench.run(&[&["--filter", "./late", "--fps", "24"][..], &THREE].concat()));
+    bench
+}
+
+fn read_color(bench: &Bench, name: &str) -> Image {
+    read_exr(&bench.path(name)).unwrap().color("").unwrap()
+}
+
+fn score(bench: &Bench, images: &str, more: &[&str]) -> std::process::Output {
+    let words = [&["score", "--image", images][..], &TRUTH, &FRAME, more];
+    bench.shuttertruth(&words.concat())
+}
+
+fn scores(bench: &Bench, images: &str, more: &[&str]) -> SequenceScores {
+    let output = score(bench, images, &[&THREE[..], &["--json"], more].concat());
+    assert_done(&output);
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(
+        (&json["scene"], &json["alignment"]),
+        (&"plate".into(), &"trailing".into())
+    );
+    assert_eq!(json["frames"].as_array().unwrap().len(), 3);
+    serde_json::from_value(json["scores"].clone()).unwrap()
+}
+
+#[test]
+fn blur_and_score_repeat_the_sequence_of_a_run() {
+    let bench = run_filter();
+    let words = ["blur", "--filter", "./late", "--out", "mine"];
+    bench.execute(&[&words[..], &FRAME, &THREE].concat());
+    let pictures = ["mine/0000.exr", "mine/0001.exr", "mine/0002.exr"];
+    for (picture, folder) in pictures.iter().zip(["plate", "plate/0001", "plate/0002"]) {
+        let expected = read_color(&bench, &format!("out/{folder}/late_default/output.exr"));
+        assert!(
+            read_color(&bench, picture) == expected,
+            "{picture}: bit for bit"
+        );
+    }
+    let run = bench.read_run();
+    let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
+    assert_eq!(
+        scores(&bench, "mine", &["--fps", "24"]),
+        own.scores,
+        "bit for bit"
+    );
+    // Only JOD depends on the rate.
+    let slow = scores(&bench, "mine", &[]);
+    for metric in SequenceMetric::ALL {
+        let is_same = slow.get(metric) == own.scores.get(metric);
+        assert_eq!(is_same, !metric.depends_on_rate(), "{metric:?}");
+    }
+    let text = stdout(&score(&bench, "mine", &THREE));
+    for part in [
+        "3 frames",
+        "flick",
+        "mine",
+        "truth: trailing shutter, open for 0.5 frames",
+        "worst frames: ",
+    ] {
+        assert!(text.contains(part), "\"{part}\" is missing from:\n{text}");
+    }
+
+    // Another order of the frames has other scores over time.
+    let [first, last] = ["mine/0000.exr", "mine/0002.exr"].map(|name| bench.path(name));
+    fs::rename(&first, bench.path("kept.exr")).unwrap();
+    fs::rename(&last, &first).unwrap();
+    fs::rename(bench.path("kept.exr"), &last).unwrap();
+    let swapped = scores(&bench, "mine", &[]);
+    assert!(swapped.flicker.value() > slow.flicker.value());
+
+    // Engines write PNGs. A plate of up to 0.7 of white loses little by 8 bits.
+    fs::create_dir(bench.path("shown")).unwrap();
+    for (at, folder) in ["plate", "plate/0001", "plate/0002"].iter().enumerate() {
+        let color = read_color(&bench, &format!("out/{folder}/late_default/output.exr"));
+        let path = bench.path(&format!("shown/{at:04}.png"));
+        write_png(&path, &display_srgb(&color, 0.0)).unwrap();
+    }
+    let shown = scores(&bench, "shown", &[]);
+    let ratio = shown.flicker.value().unwrap() / slow.flicker.value().unwrap();
+    assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+}
+
+#[test]
+fn sequences_that_do_not_fit_are_refused() {
+    let bench = run_filter();
+    bench.execute(
+        &[
+            &["blur", "--filter", "./late", "--out", "mine"][..],
+            &FRAME,
+            &THREE,
+        ]
+        .concat(),
+    );
+    let refused = |images: &str, more: &[&str], parts: &[&str]| {
+        assert_refused(&score(&bench, images, more), 2, parts);
+    };
+    refused(
+        "mine",
+        &["--frames", "4"],
+        &["mine/0003.exr", "numbered from 0000"],
+    );
+    refused("mine/0000.exr", &THREE, &["is no folder", "0001.exr"]);
+    let ladder = [&THREE[..], &["--ladder", "out/plate/ladder_trailing"]].concat();
+    refused(
+        "mine",
+        &ladder,
+        &["--ladder", "cannot be used with", "--frames"],
+    );
+    let elsewhere = [&THREE[..], &["--scenes-dir", "elsewhere"]].concat();
+    refused(
+        "mine",
+        &elsewhere,
+        &["truth_trailing.exr: is of the scene plate", "--scenes-dir"],
+    );
+    let later = [
+        "--truth",
+        "out/plate/0001/truth_trailing.exr",
+        "--frame",
+        "out/plate/0001/frame.exr",
+    ];
+    let words = [&["score", "--image", "mine", "--frames", "2"][..], &later].concat();
+    let parts = ["0001/truth_trailing.exr: is the truth of a later frame, plate/0001"];
+    assert_refused(&bench.shuttertruth(&words), 2, &parts);
+
+    let blur = ["blur", "--filter", "./late", "--out", "mine.exr"];
+    let output = bench.shuttertruth(&[&blur[..], &FRAME, &THREE].concat());
+    assert_refused(
+        &output,
+        2,
+        &["--out: mine.exr is the name of one picture, and 3 are written"],
+    );
+
+    fs::copy(
+        bench.path("out/plate/frame.png"),
+        bench.path("mine/0001.png"),
+    )
+    .unwrap();
+    refused(
+        "mine",
+        &THREE,
+        &["mine/0001.exr and mine/0001.png", "remove one of them"],
+    );
+    fs::remove_file(bench.path("mine/0001.png")).unwrap();
+    bench.write("scene.toml", &SCENE.replace("-1.6", "-1.5"));
+    let parts = [
+        "truth_trailing.exr: was rendered from other files of the scene plate",
+        "render frames and truths again",
+    ];
+    refused("mine", &THREE, &parts);
+}

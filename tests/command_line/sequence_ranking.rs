@@ -1,0 +1,153 @@
+//! Ranking of sequences: sorted, with intervals over scenes, with ties.
+
+use std::fs;
+
+use metrics::{Measured, PERFECT_JOD, SequenceMetric};
+use suite::{Case, RANKED_BY, RankedSequence, Run, rank_sequences, rank_sequences_on};
+
+use crate::bench::{Bench, assert_done, stdout};
+
+/// Names of a ranking with their ranks: `1 a`, `2= b`.
+fn names(ranking: &[Vec<RankedSequence>]) -> Vec<String> {
+    let ranked = ranking.iter().flatten().map(|own| &own.ranked);
+    ranked
+        .map(|own| {
+            format!(
+                "{}{} {}",
+                own.rank,
+                if own.is_tied { "=" } else { "" },
+                own.name
+            )
+        })
+        .collect()
+}
+
+/// Replaces the run's scenes by six, in which the filters lack the given JOD to the perfect ones.
+fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
+    let mut made = Run {
+        cases: Vec::new(),
+        sequences: Vec::new(),
+        ..run.clone()
+    };
+    for scene in 0..6 {
+        let name = format!("scene{scene}");
+        for case in run.cases.iter().filter(|case| case.scene == "plate") {
+            made.cases.push(Case {
+                scene: name.clone(),
+                ..case.clone()
+            });
+        }
+        for own in run.sequences.iter().filter(|own| own.scene == "plate") {
+            let mut own = own.clone();
+            own.scene.clone_from(&name);
+            let value = PERFECT_JOD - lost(&own.filter, f64::from(scene));
+            *own.scores.get_mut(RANKED_BY) = Measured::score(value, PERFECT_JOD - floor);
+            made.sequences.push(own);
+        }
+    }
+    made
+}
+
+#[test]
+fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
+    let bench = Bench::two_scenes();
+    let filters = "identity,velocity_gather:fine,velocity_gather:departure";
+    let words = [
+        "--filters",
+        filters,
+        "--frames",
+        "2",
+        "--jitter-frames",
+        "0",
+    ];
+    let output = bench.run(&words);
+    assert_done(&output);
+    let run = bench.read_run();
+    let text = stdout(&output);
+    let title = text
+        .lines()
+        .find(|line| line.contains("2 scenes, 2 frames"))
+        .expect("a ranking");
+    for part in ["JOD", "95 % CI", "error", "along", "worst scene"] {
+        assert!(title.contains(part), "{title}");
+    }
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+    let ranking = rank_sequences(&run);
+    assert_eq!(
+        ranking.iter().map(Vec::len).sum::<usize>(),
+        3,
+        "one rank per filter"
+    );
+    for own in ranking.iter().flatten() {
+        let shown = |scene: &str| {
+            let mut sequences = run.sequences.iter().filter(|it| !it.is_reference);
+            let found = sequences.find(|it| it.scene == scene && it.filter == own.ranked.name);
+            RANKED_BY.shown(found.unwrap().scores.get(RANKED_BY).value().unwrap())
+        };
+        let [plate, slow] = ["plate", "slow"].map(shown);
+        let mean = (plate + slow) / 2.0;
+        assert!((own.ranked.mean - mean).abs() < 1e-9, "{own:?}");
+        // Student's t of one degree of freedom, by the table's digits.
+        let half = 12.706 * (plate - slow).abs() / 2.0;
+        let [low, high] = own.ranked.interval.unwrap();
+        assert!(((high - low) / 2.0 / half - 1.0).abs() < 1e-4, "{own:?}");
+        let interval = format!(
+            "{} to {}",
+            RANKED_BY.shown_text(low),
+            RANKED_BY.shown_text(high)
+        );
+        let due = [RANKED_BY.shown_text(mean), interval];
+        let mut lines = text.lines().filter(|line| line.contains(&own.ranked.name));
+        let is_shown = lines.any(|line| due.iter().all(|part| line.contains(part)));
+        assert!(is_shown, "{due:?} is missing from:\n{text}");
+    }
+    // The page has the same ranking, and every scene its own.
+    let page = fs::read_to_string(bench.path("out/sequences.html")).unwrap();
+    assert!(page.contains("Means over 2 scenes, ranked by jod"));
+    let first = &ranking[0][0].ranked;
+    assert!(page.contains(&format!(
+        "{} {}",
+        names(&ranking)[0].split(' ').next().unwrap(),
+        first.name
+    )));
+
+    // In every scene fine is a little better than identity, and the third beside it by chance alone.
+    let by = |name: &str, scene: f64| match name {
+        "velocity_gather:fine" => 1.0 + 0.1 * scene,
+        "identity:default" => 1.1 + 0.101 * scene,
+        _ => 1.1 + 0.101 * scene + if scene % 2.0 == 0.0 { 0.05 } else { -0.04 },
+    };
+    let far = with_scores(&run, by, 0.01);
+    assert_eq!(
+        names(&rank_sequences(&far)),
+        [
+            "1 velocity_gather:fine",
+            "2= identity:default",
+            "2= velocity_gather:departure"
+        ]
+    );
+    // On one scene the floor decides.
+    assert_eq!(
+        names(&rank_sequences_on(&far, "scene0")),
+        [
+            "1 velocity_gather:fine",
+            "2 identity:default",
+            "3 velocity_gather:departure"
+        ]
+    );
+    let noisy = with_scores(&run, by, 0.12);
+    assert_eq!(
+        names(&rank_sequences_on(&noisy, "scene0")),
+        [
+            "1= velocity_gather:fine",
+            "1= identity:default",
+            "3 velocity_gather:departure"
+        ]
+    );
+    let means = &rank_sequences(&far)[0][0].means;
+    assert_eq!(means.len(), SequenceMetric::ALL.len());
+    assert_eq!(means[2].1.unwrap().scenes, 6);
+}
