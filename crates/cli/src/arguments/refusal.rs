@@ -283,7 +283,7 @@ mod tests {
             (
                 "score --truth a.exr",
                 ErrorKind::MissingRequiredArgument,
-                "shuttertruth score: --frame <FILE> and --image <FILE> are missing; shuttertruth help score says more",
+                "shuttertruth score: --frame <FILE> and --image <FILE|DIR> are missing; shuttertruth help score says more",
             ),
             (
                 "import",
