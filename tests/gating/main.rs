@@ -1,5 +1,6 @@
 //! Bounds, tuning, and tuned presets.
 
+mod bars;
 mod bounds;
 mod planted_defects;
 mod shipped_bounds;

@@ -146,7 +146,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
     for (words, parts) in [
         (
             ask(&["--filters", "identity"]),
-            &["1 filters of the trailing shutter", "2 to 64"][..],
+            &["this many filters of the trailing shutter: 1", "2 to 64"][..],
         ),
         (
             ask(&["--filters", "bevy"]),

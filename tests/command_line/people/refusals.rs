@@ -71,7 +71,7 @@ fn answers_that_no_page_of_this_run_asked_for_are_refused() {
     );
     refuse(
         &[changed(|file| file.study.shutters[0].filters.truncate(1))],
-        &["its page asks about 1 filters"],
+        &["its page has this many filters"],
     );
     refuse(
         &[changed(|file| {

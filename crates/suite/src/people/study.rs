@@ -71,7 +71,7 @@ impl Study {
     pub fn check(&self) -> Result<(), String> {
         if !(1..=MOST_ASKED_SCENES).contains(&self.scenes.len()) {
             return Err(format!(
-                "asks about {} scenes; allowed: 1 to {MOST_ASKED_SCENES}",
+                "has this many scenes: {}; allowed: 1 to {MOST_ASKED_SCENES}",
                 self.scenes.len()
             ));
         }
@@ -110,7 +110,7 @@ impl Study {
         let alignment = &own.alignment;
         if !(2..=MOST_ASKED_FILTERS).contains(&own.filters.len()) {
             return Err(format!(
-                "asks about {} filters of the {alignment} shutter; allowed: 2 to {MOST_ASKED_FILTERS}",
+                "has this many filters of the {alignment} shutter: {}; allowed: 2 to {MOST_ASKED_FILTERS}",
                 own.filters.len()
             ));
         }
