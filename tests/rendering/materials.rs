@@ -68,13 +68,7 @@ fn floor_scene(finish: Finish, color: f32, sky: Background) -> Scene {
         glossy(finish, color),
         flat,
     );
-    let eye = DVec3::new(4.0, 2.0, 0.0);
-    scene.camera.motion = Motion::still(Key {
-        translation: eye,
-        orientation: DQuat::from_rotation_arc(DVec3::NEG_Z, -eye.normalize()),
-        ..Key::REST
-    });
-    scene.camera.vertical_fov = vec![(0.0, 0.005_f64.to_radians())];
+    look_at_a_spot(&mut scene);
     scene
 }
 

@@ -83,10 +83,8 @@ fn failure_pattern(page: &CaseView) -> Markup {
 /// Shows a score of a sequence that does not keep its limit: the frame that is worst, and where to see it play.
 fn sequence_section(finding: &Finding) -> Markup {
     html! {
-        div class=(format!("verdict {}", required_word(finding).unwrap_or_default())) {
-            p { strong { (finding_line(finding)) } }
-            (facts(finding))
-            @if let Some(way_out) = way_out(finding) { p.note { (way_out) } }
+        div class=(verdict_class(finding)) {
+            (verdict_head(finding))
             p {
                 @if let Some(frame) = worst_frame_text(finding) { (sentence(&frame)) " (" code { (finding.pictures.display()) } "). " }
                 "To see it play, open " code { (SEQUENCES_PAGE) } " beside run.json."
@@ -106,13 +104,24 @@ fn required_word(finding: &Finding) -> Option<&'static str> {
     required.map(|status| status.word)
 }
 
+fn verdict_class(finding: &Finding) -> String {
+    format!("verdict {}", required_word(finding).unwrap_or_default())
+}
+
+/// Says what was found, what is allowed, and the way out.
+fn verdict_head(finding: &Finding) -> Markup {
+    html! {
+        p { strong { (finding_line(finding)) } }
+        (facts(finding))
+        @if let Some(way_out) = way_out(finding) { p.note { (way_out) } }
+    }
+}
+
 fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> Markup {
     let [x, y] = evidence.place;
     html! {
-        div class=(format!("verdict {}", required_word(finding).unwrap_or_default())) {
-            p { strong { (finding_line(finding)) } }
-            (facts(finding))
-            @if let Some(way_out) = way_out(finding) { p.note { (way_out) } }
+        div class=(verdict_class(finding)) {
+            (verdict_head(finding))
             p {
                 "Worst at (" (x) ", " (y) ") of " (evidence.map) ". "
                 button.place type="button" data-x=(x) data-y=(y) { "Show it above" }

@@ -25,7 +25,7 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
                         thead {
                             tr {
                                 th { "filter" }
-                                @for metric in SequenceMetric::ALL { th title=(metric.row().meaning) { (metric.row().name) } }
+                                (metric_heads())
                                 th { "worst scene" }
                             }
                         }
@@ -35,6 +35,11 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
             }
         }
     }
+}
+
+/// Heads the columns of the scores of sequences.
+pub fn metric_heads() -> Markup {
+    html! { @for metric in SequenceMetric::ALL { th title=(metric.row().meaning) { (metric.row().name) } } }
 }
 
 /// Writes a rank: `2`, or `2=` where another filter shares it.

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use metrics::{Measured, SequenceMetric};
 use suite::{Finding, Level, RankedSequence, Run, Sequence, number, rank_sequences_on};
 
-use super::ranking::rank_text;
+use super::ranking::{metric_heads, rank_text};
 use crate::finding_text::Status;
 
 /// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
@@ -24,7 +24,7 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
                     thead {
                         tr {
                             th { "filter" }
-                            @for metric in SequenceMetric::ALL { th title=(metric.row().meaning) { (metric.row().name) } }
+                            (metric_heads())
                         }
                     }
                     tbody {

@@ -219,24 +219,26 @@ impl SceneContext<'_> {
 
     /// Returns the key that a case is recorded by.
     pub(super) fn case_key(&self, planned: &PlannedCase) -> Option<String> {
-        self.key_with(planned, self.plan.ladders)
+        self.keys_with(planned, &[self.plan.ladders]).pop()
     }
 
     /// Lists the keys of cases that the plan may take: where it asks for no ladder, it takes those that have one as well.
     fn keys_to_read(&self, planned: &PlannedCase) -> Vec<String> {
-        let ladders: &[bool] = match self.plan.ladders {
-            true => &[true],
-            false => &[true, false],
-        };
-        let keys = ladders.iter().map(|ladder| self.key_with(planned, *ladder));
-        keys.flatten().collect()
+        match self.plan.ladders {
+            true => self.keys_with(planned, &[true]),
+            false => self.keys_with(planned, &[true, false]),
+        }
     }
 
-    fn key_with(&self, planned: &PlannedCase, has_ladder: bool) -> Option<String> {
+    /// Returns a key for each answer to whether the case has a ladder; none where nothing is read back.
+    fn keys_with(&self, planned: &PlannedCase, ladders: &[bool]) -> Vec<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
-        let own = planned.inputs(self.plan, adapter)?;
+        let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
+            return Vec::new();
+        };
         let alignments = [planned.alignment, self.plan.common_alignment()];
-        Some((self.keys.as_ref()?).case(&own, alignments, has_ladder))
+        let key = |ladder: &bool| keys.case(&own, alignments, *ladder);
+        ladders.iter().map(key).collect()
     }
 
     pub(super) fn case_record(&self, planned: &PlannedCase) -> PathBuf {
