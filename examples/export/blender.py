@@ -62,10 +62,70 @@ def set_sun():
         light.angle = 2 * math.radians(manifest["sun_angular_radius"])
 
 
+def make_pane(material, surface):
+    """Makes thin glass of a surface that transmits: light passes straight on, with all reflections between both sides of a pane.
+
+    A side reflects r by Fresnel's equations, and light keeps the share a between them. Then (1 - r)^2 a / (1 - r^2 a^2) = T passes, and
+    r + r a T is reflected. The importer's surface is the side of a solid body instead.
+    """
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+
+    def connect(value, socket):
+        if isinstance(value, bpy.types.NodeSocket):
+            links.new(value, socket)
+        else:
+            socket.default_value = value
+
+    def math_node(operation, *values):
+        node = nodes.new("ShaderNodeMath")
+        node.operation = operation
+        for value, socket in zip(values, node.inputs):
+            connect(value, socket)
+        return node.outputs[0]
+
+    def vector_node(operation, *values, scale=None):
+        node = nodes.new("ShaderNodeVectorMath")
+        node.operation = operation
+        for value, socket in zip(values, node.inputs):
+            connect(value, socket)
+        if scale is not None:
+            connect(scale, node.inputs["Scale"])
+        return node.outputs["Vector"]
+
+    index = surface.inputs["IOR"].default_value
+    a = surface.inputs["Base Color"].default_value[:3]
+    # Fresnel's node takes the other side of a surface for the inside of a body. A pane is the same from both.
+    behind = nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"]
+    fresnel = nodes.new("ShaderNodeFresnel")
+    connect(math_node("POWER", index, math_node("SUBTRACT", 1, math_node("MULTIPLY", 2, behind))), fresnel.inputs["IOR"])
+    r = fresnel.outputs[0]
+    once = math_node("SUBTRACT", 1, r)
+    round_trip = vector_node("SCALE", [part * part for part in a], scale=math_node("MULTIPLY", r, r))
+    passed = vector_node(
+        "DIVIDE",
+        vector_node("SCALE", a, scale=math_node("MULTIPLY", once, once)),
+        vector_node("SUBTRACT", [1, 1, 1], round_trip),
+    )
+    reflected = vector_node("SCALE", vector_node("ADD", [1, 1, 1], vector_node("MULTIPLY", a, passed)), scale=r)
+    straight = nodes.new("ShaderNodeBsdfTransparent")
+    connect(passed, straight.inputs["Color"])
+    mirror = nodes.new("ShaderNodeBsdfGlossy")
+    mirror.inputs["Roughness"].default_value = 0
+    connect(reflected, mirror.inputs["Color"])
+    both = nodes.new("ShaderNodeAddShader")
+    connect(straight.outputs[0], both.inputs[0])
+    connect(mirror.outputs[0], both.inputs[1])
+    for link in list(surface.outputs[0].links):
+        links.new(both.outputs[0], link.to_socket)
+
+
 def make_diffuse(material):
-    """Replaces the importer's surface, whose diffuse part is not Lambert's; one that emits is left."""
+    """Replaces the importer's surface, whose diffuse part is not Lambert's; one that emits is left, and glass is made thin."""
     nodes, links = material.node_tree.nodes, material.node_tree.links
     for surface in [n for n in nodes if n.type == "BSDF_PRINCIPLED"]:
+        if surface.inputs["Transmission"].default_value > 0:
+            make_pane(material, surface)
+            continue
         emission = surface.inputs["Emission"]
         if emission.links or max(emission.default_value[:3]) > 0:
             surface.inputs["Specular"].default_value = 0
@@ -121,6 +181,7 @@ scene.cycles.samples = 256 if shutter else 64
 scene.cycles.use_adaptive_sampling = False
 scene.cycles.use_denoising = False
 scene.cycles.max_bounces = scene.cycles.diffuse_bounces = 16
+scene.cycles.transparent_max_bounces = 64
 scene.cycles.pixel_filter_type = "BOX"
 scene.cycles.sample_clamp_indirect = 0
 for alignment in shutter:

@@ -28,6 +28,7 @@ pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::cases::{run_table, score_table};
 pub use tables::check::check_text;
 pub use tables::comparison::compare_table;
+pub use tables::preferences::preferences_table;
 pub use tables::ranking::ranking_text;
 pub use tables::results_filter_page::{picture_name, results_filter_pages};
 pub use tables::results_page::{main_results, results_page};

@@ -16,11 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 43] = [
-    (
-        "shuttertruth compare-presets paper tuned --filter my_jump_flood --objective flip,bleed --size 640x360 --samples-per-pixel 64 --out held_out --scenes dolly@seal2,fence@seal2,roll@seal2,flag@seal2,sliding_panel@seal2,ramp_floor@seal2,frame_edge@seal2,creep@seal2,ornaments@seal2",
-        "the reader copies the folder, with a preset that a search found",
-    ),
+const NOT_RUN: [(&str, &str); 42] = [
     (
         "shuttertruth check --scenes fan --filter mcguire:paper --frames 4 --out out/checked_sequence",
         "renders four frames with enough samples for limits; a test does so on a plate",
@@ -112,7 +108,7 @@ const NOT_RUN: [(&str, &str); 43] = [
         "needs a capture, for which three.js is installed",
     ),
     (
-        "shuttertruth run --scenes out/engine/railing --filter jimenez:slides_2014,kino,mcguire:tuned,bevy:high",
+        "shuttertruth run --scenes out/engine/railing --filter jimenez:slides_2014,kino,bevy:high",
         "needs a capture, for which three.js is installed",
     ),
     (

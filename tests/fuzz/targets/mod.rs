@@ -1,10 +1,12 @@
 //! Targets: everything that the program reads.
 
+mod answers;
 mod bounds;
 mod command_line;
 mod exr;
 mod filter;
 mod kernels;
+mod pack;
 mod planted;
 mod records;
 mod run_json;
@@ -20,7 +22,7 @@ pub use serve::Service;
 use crate::target::Target;
 
 /// All targets.
-pub static ALL: [&Target; 26] = [
+pub static ALL: [&Target; 29] = [
     &scene::SCENE,
     &scene::OBJ,
     &scene::MTL,
@@ -42,6 +44,9 @@ pub static ALL: [&Target; 26] = [
     &run_json::JUDGEMENT,
     &tuning::JOURNAL,
     &tuning::TUNE,
+    &answers::TARGET,
+    &pack::MANIFEST,
+    &pack::ARCHIVE,
     &bounds::TARGET,
     &records::TARGET,
     &serve::TARGET,

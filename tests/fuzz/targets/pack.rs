@@ -1,0 +1,104 @@
+//! Packs of truths: archives that come from other people.
+
+use std::fs;
+
+use serde_json::Value;
+use suite::{Manifest, PACK_FORMAT, Pack, PackedFile};
+
+use crate::huge;
+use crate::place::Place;
+use crate::seeds::Seed;
+use crate::target::{Shape, Target};
+use crate::tokens;
+
+/// What the files of a pack hold. No pack is read as pictures here.
+const CONTENTS: [&[u8]; 3] = [b"a frame", b"a replicate", b"a truth"];
+
+/// The manifest of a pack. The files in its archive have the names that the manifest gives them, whatever these are.
+pub static MANIFEST: Target = Target {
+    name: "pack_manifest",
+    share: 450,
+    batch: 250,
+    shape: Shape::Text,
+    tokens: tokens::JSON,
+    seeds: |_| vec![Seed::Bytes(manifest()), Seed::Made(huge::deep_json)],
+    run: |place, input| unpack(place, &pack_up(input)),
+};
+
+/// The archive of a pack, before it is compressed.
+pub static ARCHIVE: Target = Target {
+    name: "pack_archive",
+    share: 450,
+    batch: 250,
+    shape: Shape::Bytes,
+    tokens: &["ustar", "../../canary.txt", "/dev/null", "5", "2"],
+    seeds: |_| vec![Seed::Bytes(pack_up(&manifest()))],
+    run: unpack,
+};
+
+/// Compresses an archive, reads it, and unpacks it as a run does.
+fn unpack(place: &mut Place, archive: &[u8]) {
+    let path = place.write("pack.tar.zst", zstd::encode_all(archive, 1).unwrap());
+    let folder = place.folder.join("out");
+    fs::create_dir_all(&folder).unwrap();
+    if let Ok(pack) = Pack::open(&path)
+        && pack.check().is_ok()
+    {
+        drop(pack.unpack(&folder, |_| true));
+    }
+    fs::remove_dir_all(folder).unwrap();
+}
+
+fn manifest() -> Vec<u8> {
+    let paths = [
+        "plate/frame.exr",
+        "plate/truth_centred/replicate_000.exr",
+        "plate/truth_centred.exr",
+    ];
+    let mut files: Vec<PackedFile> = (paths.iter().zip(CONTENTS))
+        .map(|(path, content)| PackedFile {
+            path: (*path).to_owned(),
+            bytes: content.len() as u64,
+            blake3: blake3::hash(content).to_hex().to_string(),
+            content_hash: "0".repeat(64),
+            scene: "plate".to_owned(),
+            width: 16,
+            height: 16,
+            samples_per_pixel: 16,
+        })
+        .collect();
+    files.sort_by(|one, other| one.path.cmp(&other.path));
+    let manifest = Manifest {
+        format: PACK_FORMAT,
+        program: "shuttertruth".to_owned(),
+        files,
+    };
+    serde_json::to_vec_pretty(&manifest).unwrap()
+}
+
+/// Makes the archive of a manifest. A file whose hash fits one of the contents gets that content.
+fn pack_up(manifest: &[u8]) -> Vec<u8> {
+    let mut archive = tar::Builder::new(Vec::new());
+    add(&mut archive, "manifest.json", manifest);
+    let parsed: Value = serde_json::from_slice(manifest).unwrap_or_default();
+    for file in parsed["files"].as_array().into_iter().flatten() {
+        let hash = file["blake3"].as_str().unwrap_or_default();
+        let fitting = (CONTENTS.iter()).find(|content| *blake3::hash(content).to_hex() == *hash);
+        let name = file["path"].as_str().unwrap_or_default();
+        add(&mut archive, name, fitting.copied().unwrap_or_default());
+    }
+    archive.into_inner().unwrap()
+}
+
+/// Adds a file under a name that may be forbidden; longer names are cut off.
+fn add(archive: &mut tar::Builder<Vec<u8>>, name: &str, content: &[u8]) {
+    let mut header = tar::Header::new_ustar();
+    let field = &mut header.as_ustar_mut().unwrap().name;
+    let length = name.len().min(field.len());
+    field[..length].copy_from_slice(&name.as_bytes()[..length]);
+    header.set_entry_type(tar::EntryType::Regular);
+    header.set_size(content.len() as u64);
+    header.set_mode(0o644);
+    header.set_cksum();
+    archive.append(&header, content).unwrap();
+}
