@@ -111,7 +111,7 @@ fn push_picture(page: &mut String, name: &str, results: &Results) {
     };
     let _ = write!(
         page,
-        "\n## Worst picture of its best preset\n\n![truth, output and FLIP of {case} on {scene}](pictures/{file})\n\nTruth, output and FLIP of `{case}` \
+        "\n## Worst picture of its best preset\n\nScenes in which even the one-frame oracle gains nothing are left out: all filters fail alike there.\n\n![truth, output and FLIP of {case} on {scene}](pictures/{file})\n\nTruth, output and FLIP of `{case}` \
          on {scene}{exposes}\n",
         case = worst.name,
         scene = worst.scene,

@@ -226,12 +226,20 @@ impl Results {
         scenes
     }
 
-    /// Finds the worst score by FLIP of the best preset of a filter; none where no FLIP is known.
+    /// Finds the worst score by FLIP of the best preset of a filter, among the scenes where one frame knows enough for a gain: those
+    /// with a skill. Without any of them it is the worst of all; none where no FLIP is known.
     pub fn worst_of(&self, filter: &str) -> Option<&ResultScores> {
         let mut ranked = self.ranking(None).into_iter().flatten();
         let best = ranked.find(|own| own.filter == filter)?;
-        let mut scores = self.scores.iter();
-        scores.find(|own| own.name == best.name && own.scene == best.worst.0)
+        let error = |own: &&ResultScores| {
+            Some((
+                own.score(Headline::SKILL).is_some(),
+                own.score(Headline::FLIP)?,
+            ))
+        };
+        (self.scores.iter())
+            .filter(|own| own.name == best.name && error(own).is_some())
+            .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
     }
 
     /// Ranks the filter presets of each shutter by FLIP, over the scenes of one family or over all.
