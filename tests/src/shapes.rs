@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
-use tracer::{
+use tracer::{FrameRate, 
     Background, Camera, Display, Family, Finish, FlipExposures, Key, Material, Mesh, Motion,
     Object, Parent, Scene, Turn,
 };
@@ -17,6 +17,8 @@ pub fn empty_scene(name: &str) -> Scene {
         exposes: "a test".into(),
         family: Family::Translation,
         exposure: 1.0,
+        rate: FrameRate::WRITTEN,
+        written_exposure: 1.0,
         shutter_profile: ShutterProfile::default(),
         width: 48,
         height: 27,

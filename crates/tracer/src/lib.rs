@@ -7,6 +7,7 @@ mod aligned_shutter;
 mod content_hash;
 mod error;
 mod film;
+mod frame_rate;
 mod geometry;
 mod instant;
 mod ladder;
@@ -30,6 +31,7 @@ mod truth;
 pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use error::TraceError;
 pub use film::sampler::MOST_SAMPLES;
+pub use frame_rate::FrameRate;
 pub use geometry::hit::Hit;
 pub use geometry::ray::Ray;
 pub use instant::{

@@ -72,6 +72,18 @@ pub const SMALLEST_SCALE: f64 = 1e-12;
 /// Least time between two keys, in frames.
 pub const CLOSEST_KEYS: f64 = 1e-6;
 
+/// Slowest frame rate that a scene may be taken at, in frames per second.
+pub const SLOWEST_RATE: f64 = 1.0;
+
+/// Fastest frame rate, in frames per second.
+pub const FASTEST_RATE: f64 = 1000.0;
+
+/// Fewest exposures of a shutter in time that fill a second: 1 s is its longest time.
+pub const SLOWEST_SHUTTER: f64 = 1.0;
+
+/// Most exposures that fill a second: 1/100000 s is the shortest time.
+pub const FASTEST_SHUTTER: f64 = 100_000.0;
+
 /// Narrowest vertical field of view, in degrees.
 pub const NARROWEST_VIEW: f64 = 0.001;
 

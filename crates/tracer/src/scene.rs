@@ -6,13 +6,14 @@ use frame::ShutterProfile;
 pub use frame::{Display, FlipExposures};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
+use crate::frame_rate::FrameRate;
 use crate::motion::keys::Motion;
 
 /// The input of a render. Indices are valid, numbers finite, meshes not empty.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Folder name, with the variant if one was chosen, and the frame if it is a later one: `sliding_panel@64px_45deg`,
-    /// `fan/0003`.
+    /// Folder name, with the variant and the frame rate if they were chosen, and the frame if it is a later one:
+    /// `sliding_panel@64px_45deg`, `fan@24fps`, `fan/0003`.
     pub name: String,
     /// Frames of the scene's own clock at its instant; above 0 for what [`Scene::at_frame`] made.
     pub frame: u32,
@@ -22,6 +23,10 @@ pub struct Scene {
     pub family: Family,
     /// Exposure in frames; 0.5 = 180 degrees.
     pub exposure: f64,
+    /// Frame rate that times and exposure are for.
+    pub rate: FrameRate,
+    /// Exposure of the scene's file, in frames of the file.
+    pub written_exposure: f64,
     /// Opening and closing of the shutter, and the delay from row to row.
     pub shutter_profile: ShutterProfile,
     /// Default width in pixels.

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::error::TraceError;
+use crate::frame_rate::FrameRate;
 use crate::motion::keys::Motion;
 use crate::scene::{Mesh, Scene};
 
@@ -43,23 +44,63 @@ impl Scene {
         format!("{}/{frame:04}", self.name)
     }
 
-    /// Refuses a time of a later frame at which the scene is not defined. `time` is in frames after that frame's instant.
-    pub(crate) fn check_defined(&self, time: f64) -> Result<(), TraceError> {
-        if self.frame == 0 {
+    /// Refuses times at which the scene is not defined, `open` to `close` in frames after the instant: of a later frame those beyond
+    /// the end of its keys, and at another frame rate those before their begin as well.
+    pub(crate) fn check_defined(&self, open: f64, close: f64) -> Result<(), TraceError> {
+        if self.rate != FrameRate::WRITTEN {
+            self.check_begin(open)?;
+        } else if self.frame == 0 {
             return Ok(());
         }
+        self.check_end(close)
+    }
+
+    /// Refuses a time before the begin of a path or of key shapes.
+    fn check_begin(&self, time: f64) -> Result<(), TraceError> {
+        let paths = (self.named_motions().into_iter())
+            .map(|(what, motion)| {
+                let first = begin_of_path(&motion.keys, |key| key.time);
+                (format!("the motion of {what}"), first)
+            });
+        let view = begin_of_path(&self.camera.vertical_fov, |(time, _)| *time);
+        let shapes = self.objects.iter().map(|object| {
+            let first = self.meshes[object.mesh].shapes.first();
+            let what = format!("the shapes of object {}", object.name);
+            (what, first.map(|shape| shape.time))
+        });
+        let view = ("the camera's field of view".to_owned(), view);
+        for (what, first) in paths.chain([view]).chain(shapes) {
+            if let Some(first) = first.filter(|first| *first > time) {
+                return Err(TraceError::BeforeKeys {
+                    scene: self.name.clone(),
+                    what,
+                    first,
+                    time,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Lists all motions, each with its name for messages.
+    fn named_motions(&self) -> Vec<(String, &Motion)> {
+        let objects = self.objects.iter().map(|object| {
+            let name = format!("object {}", object.name);
+            (name, &object.motion)
+        });
+        let camera = ("the camera".to_owned(), &self.camera.motion);
+        objects.chain([camera]).collect()
+    }
+
+    /// Refuses a time beyond the end of a path or of key shapes, or beyond the last at which a scale keeps its sign.
+    fn check_end(&self, time: f64) -> Result<(), TraceError> {
         let refuse = |what: String, last: f64| TraceError::Undefined {
             scene: self.name.clone(),
             what,
             last: last + f64::from(self.frame),
             time: time + f64::from(self.frame),
         };
-        let camera = ("the camera".to_owned(), &self.camera.motion);
-        let objects = self.objects.iter().map(|object| {
-            let name = format!("object {}", object.name);
-            (name, &object.motion)
-        });
-        for (what, motion) in objects.chain([camera]) {
+        for (what, motion) in self.named_motions() {
             if let Some(last) = end_of_path(motion).filter(|last| *last < time) {
                 return Err(refuse(format!("the motion of {what}"), last));
             }
@@ -95,6 +136,12 @@ fn end_of_path(motion: &Motion) -> Option<f64> {
     let keys = &motion.keys;
     let is_path = keys.len() > STEADY_KEYS;
     keys.last().filter(|_| is_path).map(|key| key.time)
+}
+
+/// Finds the time at which a path begins; none of keys that are steady.
+fn begin_of_path<T>(keys: &[T], time: impl Fn(&T) -> f64) -> Option<f64> {
+    let is_path = keys.len() > STEADY_KEYS;
+    keys.first().filter(|_| is_path).map(time)
 }
 
 /// Finds the last key of a motion whose scale passes 0 between that key and `time`; none where it keeps its sign.

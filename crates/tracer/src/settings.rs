@@ -73,8 +73,9 @@ impl RenderSettings {
         self.check_sizes()?;
         Alignment::Trailing.shutter(self.exposure(scene))?;
         check_samples(self.samples_per_pixel, 1)?;
-        scene.check_defined(0.0)?;
-        check_field_of_view(scene, earliest_time(self.options.velocity), 0.0)
+        let earliest = earliest_time(self.options.velocity);
+        scene.check_defined(earliest, 0.0)?;
+        check_field_of_view(scene, earliest, 0.0)
     }
 
     /// Refuses a frame of no size that a picture has, with its guard band or without.
@@ -97,7 +98,7 @@ impl RenderSettings {
         let shutter = alignment.shutter(self.exposure(scene))?;
         scene.shutter_profile.check()?;
         let whole = scene.shutter_profile.whole(shutter);
-        scene.check_defined(whole.close)?;
+        scene.check_defined(whole.open, whole.close)?;
         check_field_of_view(scene, whole.open, whole.close)?;
         Ok(shutter)
     }

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
 use tracer::{
-    Background, Camera, Display, Family, FlipExposures, Key, Material, Mesh, Motion, Object,
-    Parent, Scene, Turn,
+    Background, Camera, Display, Family, FlipExposures, FrameRate, Key, Material, Mesh, Motion,
+    Object, Parent, Scene, Turn,
 };
 
 /// Quads along each side of the ground.
@@ -48,6 +48,8 @@ pub fn made_scene(moving: bool) -> Scene {
         exposes: "the speed of rays".into(),
         family: Family::Limits,
         exposure: 1.0,
+        rate: FrameRate::WRITTEN,
+        written_exposure: 1.0,
         shutter_profile: ShutterProfile::default(),
         width: 1920,
         height: 1080,

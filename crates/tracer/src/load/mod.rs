@@ -49,13 +49,13 @@ use schema::SceneTable;
 use variants::ParsedScene;
 
 use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
-use crate::{Location, Scene, Seal};
+use crate::{FrameRate, Location, Scene, Seal};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
 const UNLIT: &str = "unlit";
 
 /// Loads the scene in `folder`, on disk or in a [`Bundle`](crate::Bundle), or one of its variants. The variants `unlit` and `seal7`, with
-/// any seed, are made of any scene.
+/// any seed, are made of any scene. So are those at another [`FrameRate`], such as `144fps` or `unlit@24fps_1-48s`.
 ///
 /// Refuses whatever a render could not use, with its place and what is allowed; repairs nothing.
 pub fn load_scene(folder: impl Into<Location>, variant: Option<&str>) -> Result<Scene, SceneError> {
@@ -73,11 +73,19 @@ pub fn load_scene_and_files(
     let document = read_document(&mut files, folder)?;
     let parsed = ParsedScene::parse(&document)?;
     let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
-    let made = variant.filter(|name| !own(name));
+    let (from_file, rate) = match variant.filter(|name| !own(name)) {
+        Some(made) => FrameRate::split_variant(made),
+        None => (variant, None),
+    };
+    let rate = rate.unwrap_or_default();
+    if let Err(reason) = rate.check() {
+        return Err(SceneError::in_file(&document.path, reason));
+    }
+    let made = from_file.filter(|name| !own(name));
     let is_unlit = made == Some(UNLIT);
     let seed = made.and_then(Seal::seed_in);
     let is_made = is_unlit || seed.is_some();
-    let table = parsed.read(variant.filter(|_| !is_made))?;
+    let table = parsed.read(from_file.filter(|_| !is_made))?;
     parsed.check_variants()?;
     check_picture(&document, &table)?;
 
@@ -89,7 +97,7 @@ pub fn load_scene_and_files(
         .as_ref()
         .map(|sun| light::read_sun(&document, sun));
     let display = light::read_display(&document, &table.display)?;
-    let interval = rendered_interval(&table, shutter_profile.rolling, seed.is_some());
+    let interval = rendered_interval(&table, shutter_profile.rolling, seed.is_some(), rate);
     let meshes = MeshLoader::new(&document, folder, files, interval);
     let mut loader = ObjectLoader::new(&document, meshes, interval);
     loader.add_objects(&table.camera, &camera, &table.object)?;
@@ -108,7 +116,9 @@ pub fn load_scene_and_files(
         frame: 0,
         exposes: table.exposes.into_inner(),
         family: table.family,
-        exposure: table.exposure.into_inner(),
+        exposure: *table.exposure.get_ref(),
+        rate: FrameRate::WRITTEN,
+        written_exposure: *table.exposure.get_ref(),
         shutter_profile,
         width,
         height,
@@ -128,12 +138,18 @@ pub fn load_scene_and_files(
         Some(seed) => Seal::new(seed, &name).apply(scene),
         None => scene,
     };
-    Ok((scene, paths))
+    Ok((scene.at_rate(rate), paths))
 }
 
-/// Finds the times, in frames, that a render may ask for: those of an open shutter, and a frame to either side.
-fn rendered_interval(table: &SceneTable, rolling: f64, is_sealed: bool) -> [f64; 2] {
-    let longest = 1.0 + table.exposure.get_ref() + rolling.abs();
+/// Finds the times, in frames of the file, that a render may ask for: those of an open shutter, and a frame to either side.
+fn rendered_interval(
+    table: &SceneTable,
+    rolling: f64,
+    is_sealed: bool,
+    rate: FrameRate,
+) -> [f64; 2] {
+    let frames = rate.frames_per_written_frame();
+    let longest = (1.0 + rate.exposure(*table.exposure.get_ref())) / frames + rolling.abs();
     let longest = if is_sealed {
         Seal::farthest(longest)
     } else {

@@ -69,8 +69,8 @@ impl Seal {
     /// seed the name stays as it is.
     pub fn split_name(scene: &str) -> (&str, Option<u64>) {
         let seed = scene.split_once('@').and_then(|(name, variant)| {
-            // A later frame's name goes on: `fan@seal7/0003`.
-            let seed = Self::seed_in(variant.split('/').next()?)?;
+            // The name goes on with a frame rate or a later frame: `fan@seal7@24fps/0003`.
+            let seed = Self::seed_in(variant.split(['/', '@']).next()?)?;
             Some((name, Some(seed)))
         });
         seed.unwrap_or((scene, None))

@@ -1,0 +1,214 @@
+//! Scenes at other frame rates than that of their files.
+
+use serde::{Deserialize, Serialize};
+
+use crate::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
+use crate::scene::Scene;
+
+/// A frame rate, and the rule by which the shutter follows it. Names have it as the last word behind the scene and its variant:
+/// `fan@144fps`, `fan@unlit@24fps_1-48s`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrameRate {
+    /// Frames per second, from 1 to 1000.
+    pub per_second: f64,
+    /// Number of exposures that fill a second, 48 for a shutter time of 1/48 s; none for a shutter that keeps its share of the frame
+    /// interval.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shutters_per_second: Option<f64>,
+}
+
+impl Default for FrameRate {
+    fn default() -> Self {
+        Self::WRITTEN
+    }
+}
+
+impl FrameRate {
+    /// The rate at which scenes are as their files say: 60 frames per second, and a shutter in frames.
+    pub const WRITTEN: Self = Self {
+        per_second: 60.0,
+        shutters_per_second: None,
+    };
+
+    /// Writes the rate as the word of a name: `144fps`, or `144fps_1-48s` for a shutter in time.
+    pub fn word(&self) -> String {
+        match self.shutters_per_second {
+            None => format!("{}fps", self.per_second),
+            Some(count) => format!("{}fps_1-{count}s", self.per_second),
+        }
+    }
+
+    /// Says it in words: `144 frames per second, open for 1/48 s`.
+    pub fn text(&self) -> String {
+        match self.shutters_per_second {
+            None => format!("{} frames per second", self.per_second),
+            Some(count) => format!("{} frames per second, open for 1/{count} s", self.per_second),
+        }
+    }
+
+    /// Reads the word of a name; none for another word. The numbers may be beyond what [`FrameRate::check`] allows.
+    pub fn in_word(word: &str) -> Option<Self> {
+        let (rate, shutter) = match word.split_once("fps")? {
+            (rate, "") => (rate, None),
+            (rate, rest) => (rate, Some(rest.strip_prefix("_1-")?.strip_suffix('s')?)),
+        };
+        let own = Self {
+            per_second: rate.parse().ok()?,
+            shutters_per_second: shutter.map(str::parse).transpose().ok()?,
+        };
+        // One rate has one name.
+        (own.word() == word).then_some(own)
+    }
+
+    /// Takes the variant of a scene's name apart into the variant of its file and the rate: `unlit@24fps` into `unlit` and 24.
+    pub fn split_variant(variant: &str) -> (Option<&str>, Option<Self>) {
+        let (rest, word) = match variant.rsplit_once('@') {
+            Some((rest, word)) => (Some(rest), word),
+            None => (None, variant),
+        };
+        match Self::in_word(word) {
+            Some(rate) => (rest, Some(rate)),
+            None => (Some(variant), None),
+        }
+    }
+
+    /// Finds the rate in the name of a scene, which may be that of a later frame: `fan@24fps/0003`. None where the name has none.
+    pub fn of_name(scene: &str) -> Option<Self> {
+        let (_, variant) = scene.split_once('@')?;
+        Self::split_variant(variant.split('/').next()?).1
+    }
+
+    /// Refuses numbers beyond the limits; the reason says what is allowed.
+    pub fn check(&self) -> Result<(), String> {
+        let range = SLOWEST_RATE..=FASTEST_RATE;
+        if !range.contains(&self.per_second) {
+            return Err(format!(
+                "{} frames per second; allowed: {SLOWEST_RATE} to {FASTEST_RATE}",
+                self.per_second
+            ));
+        }
+        let range = SLOWEST_SHUTTER..=FASTEST_SHUTTER;
+        match self.shutters_per_second {
+            Some(count) if !range.contains(&count) => Err(format!(
+                "a shutter time of 1/{count} s; allowed: 1/{SLOWEST_SHUTTER} to 1/{FASTEST_SHUTTER}"
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// Number of frames that pass in the time of one frame of the scene's file.
+    pub fn frames_per_written_frame(&self) -> f64 {
+        self.per_second / Self::WRITTEN.per_second
+    }
+
+    /// Returns the exposure in frames, where that of the file is `written`.
+    pub fn exposure(&self, written: f64) -> f64 {
+        match self.shutters_per_second {
+            None => written,
+            Some(count) => self.per_second / count,
+        }
+    }
+}
+
+impl Scene {
+    /// Takes the scene at another frame rate. Whatever its file says about a time happens at the same time in seconds; so does the
+    /// delay of a rolling shutter. The instant stays. Name and hash stay the caller's to set.
+    pub(crate) fn at_rate(mut self, rate: FrameRate) -> Self {
+        let frames = rate.frames_per_written_frame();
+        let objects = self.objects.iter_mut().map(|object| &mut object.motion);
+        for motion in objects.chain([&mut self.camera.motion]) {
+            for key in &mut motion.keys {
+                key.time *= frames;
+            }
+        }
+        for (time, _) in &mut self.camera.vertical_fov {
+            *time *= frames;
+        }
+        for shape in self.meshes.iter_mut().flat_map(|mesh| &mut mesh.shapes) {
+            shape.time *= frames;
+        }
+        self.shutter_profile.rolling *= frames;
+        self.exposure = rate.exposure(self.exposure);
+        self.rate = rate;
+        self
+    }
+
+    /// Returns the frames per second at which its frames follow each other, where scenes as their files say are shown at `shown`.
+    pub fn frames_per_second(&self, shown: f64) -> f64 {
+        match self.rate.per_second == FrameRate::WRITTEN.per_second {
+            true => shown,
+            false => self.rate.per_second,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_has_one_word() {
+        let rate = |per_second, shutters_per_second| FrameRate {
+            per_second,
+            shutters_per_second,
+        };
+        for (word, expected) in [
+            ("24fps", Some(rate(24.0, None))),
+            ("23.976fps", Some(rate(23.976, None))),
+            ("144fps_1-48s", Some(rate(144.0, Some(48.0)))),
+            ("0fps", Some(rate(0.0, None))),
+            ("-5fps", Some(rate(-5.0, None))),
+            ("024fps", None),
+            ("24.0fps", None),
+            ("fps", None),
+            ("24fps_", None),
+            ("24fps_48s", None),
+            ("24fps_1-48", None),
+            ("24fps_1-048s", None),
+            ("24", None),
+            ("unlit", None),
+        ] {
+            assert_eq!(FrameRate::in_word(word), expected, "{word}");
+            if let Some(rate) = expected {
+                assert_eq!(rate.word(), word);
+            }
+        }
+    }
+
+    #[test]
+    fn a_name_ends_with_its_rate() {
+        let rate = FrameRate::in_word("24fps_1-48s");
+        assert_eq!(
+            FrameRate::split_variant("unlit@24fps_1-48s"),
+            (Some("unlit"), rate)
+        );
+        assert_eq!(FrameRate::split_variant("24fps_1-48s"), (None, rate));
+        assert_eq!(FrameRate::split_variant("seal7"), (Some("seal7"), None));
+        assert_eq!(FrameRate::of_name("fan@unlit@24fps_1-48s/0003"), rate);
+        assert_eq!(FrameRate::of_name("fan@24fps_1-48s"), rate);
+        assert_eq!(FrameRate::of_name("fan@unlit/0003"), None);
+        assert_eq!(FrameRate::of_name("fan"), None);
+    }
+
+    #[test]
+    fn numbers_beyond_the_limits_are_refused() {
+        let check = |per_second, shutters_per_second| {
+            FrameRate {
+                per_second,
+                shutters_per_second,
+            }
+            .check()
+        };
+        assert_eq!(check(24.0, Some(48.0)), Ok(()));
+        assert_eq!(check(SLOWEST_RATE, Some(SLOWEST_SHUTTER)), Ok(()));
+        assert_eq!(check(FASTEST_RATE, Some(FASTEST_SHUTTER)), Ok(()));
+        for rate in [0.0, -24.0, 0.99, 1000.1, f64::NAN, f64::INFINITY] {
+            let reason = check(rate, None).unwrap_err();
+            assert!(reason.contains("allowed: 1 to 1000"), "{reason}");
+        }
+        for count in [0.0, -48.0, 0.5, 100_001.0, f64::NAN, f64::INFINITY] {
+            let reason = check(24.0, Some(count)).unwrap_err();
+            assert!(reason.contains("allowed: 1/1 to 1/100000"), "{reason}");
+        }
+    }
+}
