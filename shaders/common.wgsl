@@ -11,6 +11,8 @@ struct Frame {
     // Of the pass that runs: 0 to iterations - 1.
     iteration: u32,
     iterations: u32,
+    // As far as the frame or the filter's convention says it; else 60.
+    frames_per_second: f32,
     // The camera's motion: see before_camera.
     reprojection: mat4x3<f32>,
 }

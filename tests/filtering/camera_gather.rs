@@ -73,6 +73,7 @@ fn blur_frame(gpu: &Gpu, filter: &str, preset: &str, frame: &Frame) -> Image {
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
         camera: frame.camera,
         exposure: frame.exposure,
+        frames_per_second: frame.frames_per_second,
         frame_index: 0,
     };
     blur.run(&input).unwrap().remove(0)
@@ -119,6 +120,7 @@ fn a_frame_without_the_camera_s_motion_is_refused() {
         reprojection: None,
         camera: None,
         exposure: frame.exposure,
+        frames_per_second: frame.frames_per_second,
         frame_index: 0,
     };
     let error = blur.run(&input).unwrap_err().to_string();

@@ -23,6 +23,7 @@ impl Field {
             reprojection: None,
             camera: None,
             exposure,
+            frames_per_second: None,
             frame_index,
         };
         blur.run(&input).unwrap().remove(0)

@@ -114,6 +114,7 @@ fn blur(kernels: &Kernels, choice: &FilterChoice, frame: &Frame) -> Result<Image
         reprojection: Some(frame.reprojection),
         camera: frame.camera,
         exposure: frame.exposure,
+        frames_per_second: frame.frames_per_second,
         frame_index: 0,
     })?;
     Ok(outputs.into_iter().next().expect("one image comes back"))

@@ -57,6 +57,7 @@ fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common)
         family: Some(Family::Translation),
         drawn: None,
         exposes: "nothing".to_owned(),
+        rate: None,
         exposure: 0.5,
         filter: filter.to_owned(),
         preset: preset.to_owned(),

@@ -77,6 +77,7 @@ impl Picture {
             velocity: &self.velocity,
             depth: &self.depth,
             exposure: self.exposure,
+            frames_per_second: None,
             frame_index: 0,
             reprojection: None,
             camera: None,

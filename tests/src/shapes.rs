@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
-use tracer::{FrameRate, 
-    Background, Camera, Display, Family, Finish, FlipExposures, Key, Material, Mesh, Motion,
-    Object, Parent, Scene, Turn,
+use tracer::{
+    Background, Camera, Display, Family, Finish, FlipExposures, FrameRate, Key, Material, Mesh,
+    Motion, Object, Parent, Scene, Turn,
 };
 
 /// Makes a scene without objects under a black sky. The camera at the origin looks along -Z, 90 degrees high.

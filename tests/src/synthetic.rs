@@ -107,6 +107,7 @@ impl Scene {
         Frame {
             provenance: Provenance::default(),
             exposure: EXPOSURE,
+            frames_per_second: None,
             options: FrameOptions::default(),
             guard_band: 0,
             reprojection: Reprojection::STILL,

@@ -4,6 +4,9 @@ use frame::{Camera, Image, Plane, Raster, Reprojection, Vectors};
 
 use crate::FilterError;
 
+/// Frames per second of frames that do not say their rate, for filters whose convention does not either.
+pub(crate) const FRAMES_PER_SECOND: f64 = 60.0;
+
 /// Input of a filter: one instant, as [`frame::Frame`] holds it.
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a> {
@@ -20,6 +23,8 @@ pub struct Input<'a> {
     pub camera: Option<Camera>,
     /// Time that the shutter is open, in frames; above 0.
     pub exposure: f64,
+    /// Frames per second, where the frame says its rate. It goes before that of a filter's convention.
+    pub frames_per_second: Option<f64>,
     /// Changes the noise of filters that have any, and nothing else.
     pub frame_index: u32,
 }

@@ -19,6 +19,8 @@ pub struct Frame {
     pub provenance: Provenance,
     /// Exposure that a filter is to blur by, in frames.
     pub exposure: f64,
+    /// Frames per second that the scene was taken at; none where that is the rate of its file.
+    pub frames_per_second: Option<f64>,
     /// Kind of motion in `velocity`, sampling of `color` and `coverage`, motion of the background.
     pub options: FrameOptions,
     /// Pixels by which all rasters extend beyond the picture on every side.
@@ -99,6 +101,9 @@ impl Frame {
         }
         file.set("kind", "frame");
         file.set("exposure", self.exposure);
+        if let Some(rate) = self.frames_per_second {
+            file.set("frames_per_second", rate);
+        }
         self.options.set(&mut file);
         file.set("guard_band", self.guard_band);
         self.reprojection.set(&mut file);
@@ -129,6 +134,7 @@ impl Frame {
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,
             exposure: read_exposure(&file)?,
+            frames_per_second: read_frame_rate(&file)?,
             options: FrameOptions::from_exr(&file)?,
             guard_band: read_guard_band(&file)?,
             reprojection: Reprojection::from_exr(&file)?,
@@ -151,6 +157,21 @@ fn read_exposure(file: &ExrFile) -> Result<f64, FileError> {
     match Alignment::Trailing.shutter(exposure) {
         Ok(_) => Ok(exposure),
         Err(error) => Err(file.foreign(error.to_string())),
+    }
+}
+
+/// Reads a frame rate; none where the file has none. Refuses one that is no rate.
+pub fn read_frame_rate(file: &ExrFile) -> Result<Option<f64>, FileError> {
+    const NAME: &str = "frames_per_second";
+    if !file.attributes.contains_key(NAME) {
+        return Ok(None);
+    }
+    let rate: f64 = file.get(NAME)?;
+    match rate.is_finite() && rate > 0.0 {
+        true => Ok(Some(rate)),
+        false => Err(file.foreign(format!(
+            "attribute \"{NAME}\" holds {rate}; allowed: a finite number above 0"
+        ))),
     }
 }
 

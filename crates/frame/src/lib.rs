@@ -51,7 +51,7 @@ pub use exr::{
     Samples, read_attribute, read_exr, read_exr_header, write_exr, write_half_exr,
 };
 pub use file::{FileError, read_bounded, remove_leftovers, write_atomically, write_streamed};
-pub use frame::{FAR_DEPTH, Frame};
+pub use frame::{FAR_DEPTH, Frame, read_frame_rate};
 pub use frame_options::{ColorSampling, FrameOptions, VelocityKind};
 pub use hidden::is_hidden;
 pub use picture::Picture;

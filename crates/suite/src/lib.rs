@@ -52,6 +52,7 @@ pub use filter::input_format::{InputFormat, InputForms};
 pub use filter::multisampling::Multisampling;
 pub use filter::render_scale::RenderScale;
 pub use filter::runner::{Runner, open_adapter, open_gpu};
+pub use filter::shutter_rule::ShutterRule;
 pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;
 pub use folder::claim::{Claim, Sharing, claim};
@@ -140,7 +141,7 @@ pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
-pub use stats::ranking::{MOST_RANKED, RankedFilter, rank_for_summary};
+pub use stats::ranking::{MOST_RANKED, RankedFilter, list_summarized, rank_for_summary};
 pub use stats::scene_mean::{FEWEST_SCENES, SceneMean};
 pub use stats::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use tune::{

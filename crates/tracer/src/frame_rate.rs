@@ -42,7 +42,10 @@ impl FrameRate {
     pub fn text(&self) -> String {
         match self.shutters_per_second {
             None => format!("{} frames per second", self.per_second),
-            Some(count) => format!("{} frames per second, open for 1/{count} s", self.per_second),
+            Some(count) => format!(
+                "{} frames per second, open for 1/{count} s",
+                self.per_second
+            ),
         }
     }
 
@@ -131,14 +134,6 @@ impl Scene {
         self.exposure = rate.exposure(self.exposure);
         self.rate = rate;
         self
-    }
-
-    /// Returns the frames per second at which its frames follow each other, where scenes as their files say are shown at `shown`.
-    pub fn frames_per_second(&self, shown: f64) -> f64 {
-        match self.rate.per_second == FrameRate::WRITTEN.per_second {
-            true => shown,
-            false => self.rate.per_second,
-        }
     }
 }
 

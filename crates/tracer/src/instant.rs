@@ -11,6 +11,7 @@ use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::sampler::Stream;
+use crate::frame_rate::FrameRate;
 use crate::light::integrator::Integrator;
 use crate::material::sight::Sight;
 use crate::motion::velocity::{PointMotion, TrackedPoint, camera, camera_velocity, reprojection};
@@ -129,6 +130,8 @@ fn trace_part(
             grid_hash(scene, settings, grid),
         ),
         exposure: settings.exposure(scene),
+        frames_per_second: Some(scene.rate.per_second)
+            .filter(|rate| *rate != FrameRate::WRITTEN.per_second),
         options: settings.options,
         guard_band: settings.guard_band,
         reprojection: scale_reprojection(reprojection(scene, canvas.view), canvas.step),

@@ -57,11 +57,10 @@ impl Scene {
 
     /// Refuses a time before the begin of a path or of key shapes.
     fn check_begin(&self, time: f64) -> Result<(), TraceError> {
-        let paths = (self.named_motions().into_iter())
-            .map(|(what, motion)| {
-                let first = begin_of_path(&motion.keys, |key| key.time);
-                (format!("the motion of {what}"), first)
-            });
+        let paths = (self.named_motions().into_iter()).map(|(what, motion)| {
+            let first = begin_of_path(&motion.keys, |key| key.time);
+            (format!("the motion of {what}"), first)
+        });
         let view = begin_of_path(&self.camera.vertical_fov, |(time, _)| *time);
         let shapes = self.objects.iter().map(|object| {
             let first = self.meshes[object.mesh].shapes.first();

@@ -47,6 +47,7 @@ pub static OUTCOMES: LazyLock<Vec<Outcome>> = LazyLock::new(|| {
                 reprojection: Some(shot.frame.reprojection),
                 camera: shot.frame.camera,
                 exposure: EXPOSURE,
+                frames_per_second: None,
                 frame_index: 0,
             };
             let gain = gain(&filter, &settings);

@@ -89,6 +89,7 @@ fn by_camera(frame: &Frame) -> Image {
         reprojection: Some(frame.reprojection),
         camera: frame.camera,
         exposure: frame.exposure,
+        frames_per_second: frame.frames_per_second,
         frame_index: 0,
     };
     blur.run(&input).unwrap().remove(0)

@@ -114,6 +114,7 @@ fn run(filter: &Filter, frame: &Frame, camera: Option<Camera>) -> Result<Image, 
         reprojection: None,
         camera,
         exposure: frame.exposure,
+        frames_per_second: frame.frames_per_second,
         frame_index: 0,
     };
     let outputs = blur.run(&input).map_err(|error| error.to_string());

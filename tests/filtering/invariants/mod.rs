@@ -83,6 +83,7 @@ impl Field {
             reprojection: Some(self.reprojection),
             camera: None,
             exposure: self.exposure,
+            frames_per_second: None,
             frame_index: 3,
         }
     }

@@ -144,6 +144,7 @@ fn the_kernel_keeps_the_candidate_of_the_published_comparison() {
         reprojection: None,
         camera: None,
         exposure: 1.0,
+        frames_per_second: None,
         frame_index: 0,
     };
     blur.run(&input).unwrap();

@@ -30,6 +30,7 @@ pub static TARGET: Target = Target {
                 reprojection: None,
                 camera: None,
                 exposure: 0.5,
+                frames_per_second: None,
                 frame_index: 0,
             }));
         }

@@ -65,6 +65,7 @@ pub fn a_frame() -> Frame {
     Frame {
         provenance: provenance(),
         exposure: 0.1 + 0.2, // not representable in short decimals
+        frames_per_second: Some(24000.0 / 1001.0),
         options: FrameOptions {
             velocity: VelocityKind::PreviousFrame,
             color: ColorSampling::Point,

@@ -93,6 +93,7 @@ impl RenderedScene {
             ),
             camera: self.frame.camera,
             exposure: self.frame.exposure,
+            frames_per_second: self.frame.frames_per_second,
             frame_index: 0,
         };
         let outputs = blur.run(&input).unwrap();

@@ -9,8 +9,10 @@ use super::measure::MeasureArgs;
 use super::sequence::SequenceArgs;
 
 /// Arguments that only a check that measures may have.
-const MEASURING: [&str; 27] = [
+const MEASURING: [&str; 30] = [
     "scenes",
+    "frame_rate",
+    "shutter_time",
     "samples_per_pixel",
     "exposure",
     "velocity",
@@ -33,6 +35,7 @@ const MEASURING: [&str; 27] = [
     "msaa",
     "camera_jitter",
     "render_scale",
+    "shutter_rule",
     "jitter_frames",
     "frames",
     "fps",

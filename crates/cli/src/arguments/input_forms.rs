@@ -3,7 +3,7 @@
 use clap::Args;
 use suite::{
     Border, BufferSize, CameraJitter, DepthFormat, InputForms, Multisampling, RenderScale,
-    VelocityDefect, VelocityFormat,
+    ShutterRule, VelocityDefect, VelocityFormat,
 };
 
 use super::parse::parse_named;
@@ -36,6 +36,10 @@ pub struct InputFormArgs {
     /// after they are upscaled.
     #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(RenderScale::ALL, RenderScale::name, RenderScale::help), value_delimiter = ',', value_name = "SCALES")]
     pub render_scale: Vec<RenderScale>,
+    /// Rules by which every filter sets its exposure at another frame rate to try beside the truth's exposure, separated by commas. They
+    /// show what a filter costs that does not follow the shutter.
+    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(ShutterRule::ALL, ShutterRule::name, ShutterRule::help), value_delimiter = ',', value_name = "RULES")]
+    pub shutter_rule: Vec<ShutterRule>,
 }
 
 impl InputFormArgs {
@@ -50,6 +54,7 @@ impl InputFormArgs {
             msaa: self.msaa.clone(),
             jitter: self.camera_jitter.clone(),
             scale: self.render_scale.clone(),
+            rule: self.shutter_rule.clone(),
         }
     }
 }

@@ -16,6 +16,7 @@ mod compare_presets;
 mod completions;
 mod evaluate;
 mod export;
+mod frame_rates;
 mod given;
 mod groups;
 #[cfg(test)]

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
 use suite::Error;
-use tracer::{Location, RenderSettings};
+use tracer::{FrameRate, Location, RenderSettings};
 
+use super::frame_rates::FrameRateArgs;
 use super::parse::{parse_exposure, parse_whole};
 use super::scenes_root::{default_scenes_root, scenes_root_parser};
 use crate::selection::split_variant;
@@ -36,6 +37,8 @@ pub struct SceneArgs {
     /// Take the sealed variant SCENE@sealS of every scene. It has other speeds, directions, places, times and colours.
     #[arg(long, value_name = "S", value_parser = parse_whole::<u64>)]
     pub seal: Option<u64>,
+    #[command(flatten)]
+    pub rates: FrameRateArgs,
     /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
     /// built-in where there is no such folder].
     #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
@@ -72,8 +75,18 @@ pub struct SceneArgs {
 }
 
 impl SceneArgs {
-    /// Names the scenes, each in its sealed variant where --seal asks for one.
+    /// Names the scenes, each in its sealed variant where --seal asks for one, and at the frame rates that are asked for.
     pub fn names(&self) -> Result<Vec<String>, Error> {
+        let names = self.rates.add_to(self.variant_names()?)?;
+        match names.iter().find(|name| has_shutter_time(name)) {
+            Some(name) if self.exposure.is_some() => Err(Error::Usage(format!(
+                "--exposure: {name} has its shutter time in its name; allowed: one of the two; leave --exposure or the shutter time out"
+            ))),
+            _ => Ok(names),
+        }
+    }
+
+    fn variant_names(&self) -> Result<Vec<String>, Error> {
         let Some(seed) = self.seal else {
             return Ok(self.scenes.clone());
         };
@@ -98,4 +111,11 @@ impl SceneArgs {
             sky_velocity: self.sky_velocity == Switch::On,
         }
     }
+}
+
+/// Tells whether a scene's name gives the time that its shutter is open.
+fn has_shutter_time(name: &str) -> bool {
+    let (_, variant) = split_variant(name);
+    let rate = variant.and_then(|variant| FrameRate::split_variant(variant).1);
+    rate.is_some_and(|rate| rate.shutters_per_second.is_some())
 }

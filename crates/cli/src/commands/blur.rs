@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use filters::{Convention, FilterError, Input};
-use frame::{Camera, ExrFile, Image, Plane, Reprojection, Vectors, read_exr, write_exr};
+use frame::{
+    Camera, ExrFile, Image, Plane, Reprojection, Vectors, read_exr, read_frame_rate, write_exr,
+};
 use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu, printable_path};
 
 use super::convention::read_convention;
@@ -134,6 +136,7 @@ struct Buffers {
     reprojection: Option<Reprojection>,
     camera: Option<Camera>,
     exposure: f64,
+    frames_per_second: Option<f64>,
     guard_band: u32,
 }
 
@@ -166,6 +169,7 @@ impl Buffers {
             reprojection: read_reprojection(&file, guard_band)?,
             camera: Camera::from_exr(&file)?,
             exposure,
+            frames_per_second: read_frame_rate(&file)?,
             guard_band,
         })
     }
@@ -204,6 +208,7 @@ impl Buffers {
             reprojection: self.reprojection,
             camera: self.camera,
             exposure: self.exposure,
+            frames_per_second: self.frames_per_second,
             frame_index,
         }
     }

@@ -8,7 +8,7 @@ use suite::{
     Frames, RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
     read_bounds_beside_scenes, read_bounds_file,
 };
-use tracer::{Location, RenderSettings, Scene, Seal};
+use tracer::{FrameRate, Location, RenderSettings, Scene, Seal};
 
 use super::kept_truths::check_truths;
 use super::render_settings::make_render_settings;
@@ -22,6 +22,9 @@ use crate::selection::{select_engine_scenes, select_filters, select_scenes};
 pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
     let scenes_dir = &args.scenes.scenes_dir;
     let (engine_scenes, names) = select_engine_scenes(scenes_dir, &args.scenes.names()?)?;
+    if let Some(scene) = engine_scenes.first() {
+        refuse_render_options(&args.scenes, scene)?;
+    }
     let scenes = match engine_scenes.is_empty() || !names.is_empty() {
         true => load_scenes(scenes_dir, &names, args.size)?,
         false => Vec::new(),
@@ -37,9 +40,6 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
     let default = RenderSettings::default();
     let drawn = (engine_scenes.first()).map(|scene| (scene.size[0], scene.size[1]));
     let size = (args.size.or(drawn)).unwrap_or((default.width, default.height));
-    if let Some(scene) = engine_scenes.first() {
-        refuse_render_options(&args.scenes, scene)?;
-    }
     let plan = RunPlan {
         scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
         engine_scenes,
@@ -127,6 +127,8 @@ fn leave_out_filters(
 fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Error> {
     let default = FrameOptions::default();
     let given = [
+        ("--frame-rate", !args.rates.frame_rate.is_empty()),
+        ("--shutter-time", !args.rates.shutter_time.is_empty()),
         ("--exposure", args.exposure.is_some()),
         ("--velocity", args.velocity != default.velocity),
         ("--frame-sampling", args.frame_sampling != default.color),
@@ -215,17 +217,17 @@ pub fn scene_folder_below(root: &Location, scene: &str) -> Location {
     root.join(scene.split_once('@').map_or(scene, |(name, _)| name))
 }
 
-/// Reads the bounds of a scene, which may be a variant. A sealed one has those beside the scenes alone: limits on its scene were
-/// measured at other speeds.
+/// Reads the bounds of a scene, which may be a variant. A sealed one, and one at another frame rate, have those beside the scenes alone:
+/// limits on their scene were measured at other speeds.
 fn read_scene_bounds(
     root: &Location,
     folder: &Location,
     name: &str,
     size: Option<(u32, u32)>,
 ) -> Result<SceneBounds, Error> {
-    match Seal::split_name(name).1 {
-        Some(_) => read_bounds_beside_scenes(root, size),
-        None => read_bounds(root, folder, size),
+    match Seal::split_name(name).1.is_some() || FrameRate::of_name(name).is_some() {
+        true => read_bounds_beside_scenes(root, size),
+        false => read_bounds(root, folder, size),
     }
 }
 

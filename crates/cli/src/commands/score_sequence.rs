@@ -3,8 +3,8 @@
 use frame::{Frame, Image, Truth};
 use metrics::{Measured, SequenceMetric};
 use suite::{
-    Error, ScoredSequence, SequenceTruth, file_at_frame, find_numbered, printable, printable_path,
-    read_finished_picture, score_sequence,
+    Error, Frames, ScoredSequence, SequenceTruth, file_at_frame, find_numbered, printable,
+    printable_path, read_finished_picture, score_sequence,
 };
 use tracer::Scene;
 
@@ -33,7 +33,7 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     }
     notes.sort();
     notes.dedup();
-    let scored = score_sequence(&pictures, &scene, &truths, args.fps)?;
+    let scored = score_sequence(&pictures, &scene, &truths, per_second(args, &scene.name))?;
     if args.json {
         print_json(&scores_json(args, &truths, &scored, &notes))
     } else {
@@ -117,6 +117,15 @@ fn scores_text(
     text
 }
 
+/// Returns the rate at which the sequence is shown.
+fn per_second(args: &ScoreArgs, scene: &str) -> f64 {
+    let frames = Frames {
+        count: args.frames,
+        per_second: args.fps,
+    };
+    frames.shown(scene)
+}
+
 fn scores_json(
     args: &ScoreArgs,
     truths: &[SequenceTruth],
@@ -139,7 +148,7 @@ fn scores_json(
         "scene": first.provenance.scene,
         "exposure": first.shutter.exposure(),
         "alignment": first.alignment.name(),
-        "per_second": args.fps,
+        "per_second": per_second(args, &first.provenance.scene),
         "notes": notes,
         "scores": scored.scores,
         "worst_frames": scored.worst_frames,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use suite::{EngineScene, Error};
-use tracer::{Location, Scene, list_scene, list_scenes, load_scene};
+use tracer::{FrameRate, Location, Scene, list_scene, list_scenes, load_scene};
 
 use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};
 use super::path::is_path;
@@ -52,7 +52,7 @@ pub fn select_scenes(
         let (name, variant) = split_variant(text);
         for folder in find_folders(root, name, &known)? {
             match variant {
-                Some("all") => scenes.extend(load_all_variants(&folder)?),
+                Some(all) if is_of_all(all) => scenes.extend(load_all_variants(&folder, all)?),
                 _ => scenes.push(load_choice(&folder, variant)?),
             }
         }
@@ -127,8 +127,16 @@ pub fn split_variant(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// Loads every variant of the scene in a folder.
-fn load_all_variants(folder: &Location) -> Result<Vec<SceneChoice>, Error> {
+/// Word for all variants of a scene.
+const ALL: &str = "all";
+
+/// Tells whether a variant is `all`, or `all` at a frame rate.
+fn is_of_all(variant: &str) -> bool {
+    FrameRate::split_variant(variant).0 == Some(ALL)
+}
+
+/// Loads every variant of the scene in a folder, at the frame rate behind `all` in the text if there is one.
+fn load_all_variants(folder: &Location, all: &str) -> Result<Vec<SceneChoice>, Error> {
     let variants = list_scene(folder)?.variants;
     if variants.is_empty() {
         return Err(Error::Usage(format!(
@@ -137,7 +145,7 @@ fn load_all_variants(folder: &Location) -> Result<Vec<SceneChoice>, Error> {
         )));
     }
     (variants.iter())
-        .map(|variant| load_choice(folder, Some(variant)))
+        .map(|variant| load_choice(folder, Some(&all.replacen(ALL, variant, 1))))
         .collect()
 }
 

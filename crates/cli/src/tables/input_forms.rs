@@ -1,6 +1,6 @@
 //! Table of what each form of the input costs each filter.
 
-use suite::{Case, Headline, InputFormat};
+use suite::{Case, Headline, InputFormat, ShutterRule, list_summarized};
 
 use super::columns::{legend_text, list_once, number_table};
 
@@ -8,10 +8,14 @@ use super::columns::{legend_text, list_once, number_table};
 const FILTERS_ABREAST: usize = 3;
 
 /// Makes a row per form of the input and a column per filter: the change of mean FLIP against the full form. Empty for a run that
-/// tried no other form.
+/// tried no other form. Rules of the shutter, which change nothing at the frame rate of the scenes' files, stand in the table of
+/// rates.
 pub fn input_forms_text(cases: &[Case]) -> String {
+    let cases = list_summarized(cases);
+    let rates = |case: &&&Case| case.rate.is_some() || case.input.rule == ShutterRule::default();
     let changes: Vec<String> = cases
         .iter()
+        .filter(rates)
         .filter_map(|case| case.input.change())
         .collect();
     let changes = list_once(changes.iter().map(String::as_str));
@@ -20,6 +24,7 @@ pub fn input_forms_text(cases: &[Case]) -> String {
     }
     let full: Vec<&Case> = (cases.iter())
         .filter(|case| !case.is_reference && case.input == InputFormat::default())
+        .copied()
         .collect();
     let names: Vec<String> = full.iter().map(|case| case.name()).collect();
     let mut text = String::from("\n");
@@ -30,7 +35,7 @@ pub fn input_forms_text(cases: &[Case]) -> String {
         let mut table = number_table(&titles);
         for change in &changes {
             let cost = |name: &&str| {
-                mean_cost(cases, &full, name, change)
+                mean_cost(&cases, &full, name, change)
                     .map_or("n/a".to_owned(), |cost| format!("{cost:+.3}"))
             };
             table.push(
@@ -47,7 +52,7 @@ pub fn input_forms_text(cases: &[Case]) -> String {
 }
 
 /// Averages the change of FLIP over the scenes that have both scores.
-fn mean_cost(cases: &[Case], full: &[&Case], name: &str, change: &str) -> Option<f64> {
+fn mean_cost(cases: &[&Case], full: &[&Case], name: &str, change: &str) -> Option<f64> {
     let flip = |case: &Case| Headline::FLIP.estimate(case);
     let of_scene = |own: &&&Case| {
         let changed = format!("{name} {change}");

@@ -8,6 +8,7 @@ pub mod check;
 pub mod columns;
 pub mod comparison;
 pub mod failures;
+pub mod frame_rates;
 pub mod input_forms;
 pub mod jobs;
 pub mod layout;

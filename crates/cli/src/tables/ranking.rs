@@ -1,8 +1,11 @@
 //! Summary of a run: the ranking of its filters, and the references beside them.
 
-use suite::{Case, Headline, MOST_RANKED, RankedFilter, rank_for_summary};
+use suite::{Case, Headline, MOST_RANKED, RankedFilter, list_summarized, rank_for_summary};
+
+use tracer::FrameRate;
 
 use super::columns::{legend_text, list_once};
+use super::frame_rates::frame_rates_text;
 use super::input_forms::input_forms_text;
 use super::layout::{Align, Table};
 use crate::output::colors::faint;
@@ -29,6 +32,7 @@ pub fn ranking_text(cases: &[Case]) -> String {
         text += &legend_text(&format!("And {hidden} more: --table shows all."));
     }
     text += &input_forms_text(cases);
+    text += &frame_rates_text(cases);
     text
 }
 
@@ -44,8 +48,23 @@ fn limit_rows(groups: &mut [Vec<RankedFilter>], rows: usize) -> usize {
     rows - groups.iter().map(Vec::len).sum::<usize>()
 }
 
+/// Names the shutter of a group: `centred shutter`, with the frame rate if it is none of the scenes' files.
+pub fn group_text(ranked: &RankedFilter) -> String {
+    shutter_text(&ranked.alignment, ranked.rate)
+}
+
+/// Names a shutter and a frame rate.
+pub fn shutter_text(alignment: &str, rate: Option<FrameRate>) -> String {
+    let rate = rate.map_or(String::new(), |rate| format!(", {}", rate.text()));
+    format!("{alignment} shutter{rate}")
+}
+
 fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
-    let scenes = list_once(cases.iter().map(|case| case.scene.as_str()));
+    // All groups but those of frame rates have the same scenes.
+    let first = groups[0][0].rate;
+    let cases = list_summarized(cases).into_iter();
+    let cases = cases.filter(|case| case.rate == first);
+    let scenes = list_once(cases.map(|case| case.scene.as_str()));
     let (title, columns) = match scenes.as_slice() {
         [scene] => ((*scene).to_owned(), 2),
         scenes => (format!("mean over {} scenes", scenes.len()), 4),
@@ -54,7 +73,7 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     let align = [Align::Left, Align::Right, Align::Right, Align::Left];
     let mut table = Table::new(&titles[..columns], &align[..columns]);
     for group in groups {
-        table.push_text(&format!("{} shutter", group[0].alignment));
+        table.push_text(&group_text(&group[0]));
         for ranked in group {
             let mut cells = ranking_cells(ranked, scenes.len());
             cells.truncate(columns);
@@ -90,30 +109,36 @@ fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
 
 /// Makes the table of references: one row each, one column per shutter.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
-    let references = || cases.iter().filter(|case| case.is_reference);
+    let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
     let names: Vec<String> = references().map(Case::name).collect();
     let names = list_once(names.iter().map(String::as_str));
     if names.is_empty() {
         return String::new();
     }
-    let alignments: Vec<&str> = groups
+    let shutters: Vec<(&str, Option<FrameRate>)> = groups
         .iter()
-        .map(|group| group[0].alignment.as_str())
+        .map(|group| (group[0].alignment.as_str(), group[0].rate))
+        .collect();
+    let columns: Vec<String> = (shutters.iter())
+        .map(|(alignment, rate)| match rate {
+            None => (*alignment).to_owned(),
+            Some(rate) => format!("{alignment} {}", rate.word()),
+        })
         .collect();
     let titles: Vec<&str> = std::iter::once("references")
-        .chain(alignments.iter().copied())
+        .chain(columns.iter().map(String::as_str))
         .collect();
     let align: Vec<Align> = std::iter::once(Align::Left)
-        .chain(alignments.iter().map(|_| Align::Right))
+        .chain(columns.iter().map(|_| Align::Right))
         .collect();
     let mut table = Table::new(&titles, &align);
     for name in names {
-        let mean = |alignment: &&str| {
-            let own =
-                references().filter(|case| case.name() == name && case.alignment == **alignment);
-            mean_flip(own)
+        let mean = |(alignment, rate): &(&str, Option<FrameRate>)| {
+            let of_shutter = |case: &&Case| case.alignment == *alignment && case.rate == *rate;
+            let own = references().filter(of_shutter);
+            mean_flip(own.filter(|case| case.name() == name))
         };
-        let cells = std::iter::once(format!("    {name}")).chain(alignments.iter().map(mean));
+        let cells = std::iter::once(format!("    {name}")).chain(shutters.iter().map(mean));
         table.push_styled(cells.collect(), faint);
     }
     table.text()

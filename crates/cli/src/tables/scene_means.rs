@@ -4,6 +4,7 @@ use suite::{Headline, Overall, rank_filters};
 
 use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::Table;
+use super::ranking::shutter_text;
 use crate::output::colors;
 
 /// Columns behind FLIP, which ranks filters of one alignment.
@@ -29,7 +30,8 @@ pub fn means_table(overall: &[Overall]) -> String {
     }
     let mut by_flip = means_heading(overall, "FLIP", &MEAN_COLUMNS, None);
     for group in groups {
-        by_flip.push_text(&colors::heading(&format!("{} shutter", group[0].alignment)));
+        let heading = shutter_text(&group[0].alignment, group[0].rate);
+        by_flip.push_text(&colors::heading(&heading));
         for row in group {
             push_mean(
                 &mut by_flip,
@@ -43,6 +45,9 @@ pub fn means_table(overall: &[Overall]) -> String {
     let mut text = "\n".to_owned() + &by_flip.text();
     for group in rank_filters(overall, Headline::SKILL) {
         let mut by_skill = means_heading(overall, "skill", &SKILL_COLUMNS, Some("shutter"));
+        if let Some(rate) = group[0].rate {
+            by_skill.push_text(&colors::heading(&rate.text()));
+        }
         for row in group {
             let columns = (Headline::SKILL, &SKILL_COLUMNS[..]);
             push_mean(&mut by_skill, overall, row, columns, Some(&row.alignment));

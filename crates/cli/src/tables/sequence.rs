@@ -7,7 +7,7 @@ use suite::{
 
 use super::columns::{bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::{Align, Table};
-use super::ranking::rank_text;
+use super::ranking::{group_text, rank_text};
 use crate::output::colors;
 
 /// Columns, each with its title.
@@ -67,7 +67,7 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
     ];
     let mut table = Table::new(&titles, &align);
     for group in &groups {
-        table.push_text(&format!("{} shutter", group[0].ranked.alignment));
+        table.push_text(&group_text(&group[0].ranked));
         for own in group {
             table.push(ranking_cells(own, scenes));
         }

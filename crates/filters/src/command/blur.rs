@@ -11,6 +11,7 @@ use super::environment::collect_environment;
 use super::process::{End, Limits, run_process};
 use crate::filter::fill_placeholders;
 use crate::input::CameraUse;
+use crate::input::FRAMES_PER_SECOND;
 use crate::{Command, Filter, FilterError, Input, Settings};
 
 /// Upper limit on the bytes per pixel that a program may write: 64 channels of 32 bits.
@@ -127,6 +128,7 @@ impl CommandBlur {
                 "out" => out.display().to_string(),
                 "exposure" => input.exposure.to_string(),
                 "frame_index" => input.frame_index.to_string(),
+                "frames_per_second" => frames_per_second(input).to_string(),
                 parameter => self.settings.values.get(parameter)?.to_string(),
             })
         };
@@ -255,6 +257,11 @@ fn kind_of(found: &std::fs::Metadata) -> &'static str {
     "a pipe or a device"
 }
 
+/// Returns the rate that a program is told.
+fn frames_per_second(input: &Input) -> f64 {
+    input.frames_per_second.unwrap_or(FRAMES_PER_SECOND)
+}
+
 /// Makes the file of a frame, with all that kernels may read.
 fn make_frame_file(color: &Image, input: &Input) -> ExrFile {
     let mut file = ExrFile::new(color.width, color.height);
@@ -266,6 +273,7 @@ fn make_frame_file(color: &Image, input: &Input) -> ExrFile {
         reprojection.set(&mut file);
     }
     file.set("exposure", input.exposure);
+    file.set("frames_per_second", frames_per_second(input));
     file.set("frame_index", input.frame_index);
     file
 }

@@ -26,7 +26,7 @@ pub struct Convention {
     pub velocity_sign: VelocitySign,
     /// Time in which a surface moves that far.
     pub velocity_per: VelocityTime,
-    /// Frame rate, for velocity per second.
+    /// Frame rate, for velocity per second. A frame that says its own rate goes before it.
     pub frames_per_second: Option<f64>,
     /// Factor on velocity after all that; 1 if left out.
     pub velocity_scale: Option<f64>,
@@ -195,6 +195,15 @@ impl Convention {
             }
         }
         Ok(())
+    }
+
+    /// Returns the convention for frames of a rate of their own. One that names no rate stays as it is.
+    pub(crate) fn at_rate(self, frames_per_second: Option<f64>) -> Self {
+        Self {
+            frames_per_second: (self.frames_per_second)
+                .map(|written| frames_per_second.unwrap_or(written)),
+            ..self
+        }
     }
 
     /// Returns a value that members of uniform blocks may name; none if the convention does not have it.

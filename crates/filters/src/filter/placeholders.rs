@@ -1,7 +1,13 @@
 //! Placeholders: names in braces that stand for files and values in the arguments of a command.
 
 /// Placeholders for the frame. Every parameter of the filter is a placeholder beside these.
-pub(crate) const PLACEHOLDERS: [&str; 4] = ["frame", "out", "exposure", "frame_index"];
+pub(crate) const PLACEHOLDERS: [&str; 5] = [
+    "frame",
+    "out",
+    "exposure",
+    "frame_index",
+    "frames_per_second",
+];
 
 /// Replaces each `{name}` in a word by `value(name)`, and `{{` and `}}` by braces. The error says which name has no value, or that
 /// a brace has no other.

@@ -215,9 +215,12 @@ impl BoundPasses {
             let frame = frame.of_run(dispatch.iteration, dispatch.iterations);
             self.uniforms.upload_frame(gpu, index, frame.uniform);
             for (block, buffer) in &dispatch.blocks {
-                let bytes = block.encode(&|name| match self.values.get(name) {
-                    Some(value) => *value,
-                    None => frame.value(name),
+                let bytes = block.encode(&|name| {
+                    let of_rate = frame.value_of_rate(name);
+                    match of_rate.or(self.values.get(name).copied()) {
+                        Some(value) => value,
+                        None => frame.value(name),
+                    }
                 });
                 gpu.queue.write_buffer(buffer, 0, &bytes);
             }

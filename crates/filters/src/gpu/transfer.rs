@@ -170,6 +170,7 @@ pub(super) fn to_texels(color: &Image, scale: f32) -> Vec<f32> {
 
 /// Converts the velocity of an input as a shader expects it, with as many components as its format has.
 pub(super) fn velocity_texels(convention: &Convention, input: &Input) -> Vec<f32> {
+    let convention = convention.at_rate(input.frames_per_second);
     let velocity = convention.convert_velocity(input.velocity, input.exposure);
     match convention.input_format("velocity").components() {
         4 => (velocity.pixels.iter())

@@ -168,6 +168,7 @@ impl TinyFrame {
             reprojection: Some(Reprojection::STILL),
             camera: Some(Camera::still(CameraPose::at_origin(f64::from(SIDE)))),
             exposure: 0.5,
+            frames_per_second: None,
             frame_index: 0,
         }
     }

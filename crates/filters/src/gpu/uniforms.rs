@@ -5,6 +5,7 @@ use frame::Reprojection;
 use super::device::Gpu;
 use super::matrices::CameraMatrices;
 use crate::filter::split_element;
+use crate::input::FRAMES_PER_SECOND;
 use crate::{Convention, Input};
 
 /// The uniform `frame`: the WGSL struct `Frame` of common.wgsl.
@@ -16,19 +17,22 @@ pub(super) struct FrameUniform {
     pub frame_index: u32,
     pub iteration: u32,
     pub iterations: u32,
+    pub frames_per_second: f32,
     /// WGSL aligns matrices to 16 bytes.
-    pub gap: [u32; 2],
+    pub gap: u32,
     pub reprojection: [[f32; 4]; 4],
 }
 
 impl FrameUniform {
     /// Takes what all dispatches of an input share.
-    pub fn of(input: &Input) -> Self {
+    pub fn of(input: &Input, convention: &Convention) -> Self {
         let velocity = input.velocity;
+        let rate = (input.frames_per_second).or(convention.frames_per_second);
         Self {
             size: [velocity.width as i32, velocity.height as i32],
             exposure: input.exposure as f32,
             frame_index: input.frame_index,
+            frames_per_second: rate.unwrap_or(FRAMES_PER_SECOND) as f32,
             reprojection: to_columns(input.reprojection.unwrap_or(Reprojection::STILL)),
             ..Self::default()
         }
@@ -39,6 +43,8 @@ impl FrameUniform {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrameValues {
     pub uniform: FrameUniform,
+    /// Convention of the filter, with the frame's own rate.
+    rate: Convention,
     /// Matrices of the camera; none for a filter that reads none.
     matrices: Option<CameraMatrices>,
 }
@@ -48,7 +54,8 @@ impl FrameValues {
     pub fn of(input: &Input, convention: &Convention) -> Self {
         let size = [input.velocity.width, input.velocity.height];
         Self {
-            uniform: FrameUniform::of(input),
+            uniform: FrameUniform::of(input, convention),
+            rate: convention.at_rate(input.frames_per_second),
             matrices: (input.camera.as_ref())
                 .map(|camera| CameraMatrices::new(camera, size, convention)),
         }
@@ -59,6 +66,12 @@ impl FrameValues {
         self.uniform.iteration = iteration;
         self.uniform.iterations = iterations;
         self
+    }
+
+    /// Returns a value of the convention that depends on the frame; none for any other name.
+    pub fn value_of_rate(&self, name: &str) -> Option<f64> {
+        let depends = matches!(name, "frames_per_second" | "delta_time");
+        self.rate.value(name).filter(|_| depends)
     }
 
     /// Returns a value by name.
@@ -170,6 +183,10 @@ mod tests {
             ("frame_index", offset_of!(FrameUniform, frame_index)),
             ("iteration", offset_of!(FrameUniform, iteration)),
             ("iterations", offset_of!(FrameUniform, iterations)),
+            (
+                "frames_per_second",
+                offset_of!(FrameUniform, frames_per_second),
+            ),
             ("reprojection", offset_of!(FrameUniform, reprojection)),
         ];
         assert_eq!(found, expected);

@@ -153,7 +153,7 @@ fn winner(table: &CaseTable, group: &[RankedFilter]) -> Markup {
     let weakest = table.case_on(&id_of(best), scene);
     html! {
         li {
-            "Best with a " (best.alignment) " shutter: " strong { (link(best)) } ", FLIP " strong { (number(best.mean)) }
+            "Best with a " (best.alignment) " shutter" @if let Some(rate) = best.rate { " at " (rate.text()) } ": " strong { (link(best)) } ", FLIP " strong { (number(best.mean)) }
             @if let Some([low, high]) = best.interval { " (95 % CI " (number(low)) " to " (number(high)) ")" }
             @if let Some(index) = weakest {
                 "; weakest on " a href=(format!("#{}", case_anchor(&table.run.cases[index]))) { (scene) } " (" (number(*error)) ")"

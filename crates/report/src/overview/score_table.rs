@@ -10,7 +10,8 @@ use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
 use crate::filter_id::{FilterId, list_alignments, mean, mean_floor};
-use suite::{Bench, Headline, Level, Outcome, Overall};
+use suite::{Bench, Case, Headline, Level, Outcome, Overall, list_summarized};
+use tracer::FrameRate;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
 const WHISKERS: f64 = 1.5;
@@ -33,12 +34,14 @@ fn rank_rows<'a>(table: &CaseTable<'a>, headline: Headline) -> Vec<Vec<Row<'a>>>
     // Shutters come in the order of their filters, as in every ranking, and references behind the filters.
     let mut filters = table.filters.clone();
     filters.sort_by_key(|filter| filter.is_reference);
+    let rate = summarized_rate(&table.run.cases);
     let means: Vec<&Overall> = (table.run.overall.iter())
-        .filter(|own| own.metric == headline.name())
+        .filter(|own| own.metric == headline.name() && Some(own.rate) == rate)
         .collect();
     let row = |filter: &FilterId| {
         let overall = means.iter().find(|own| filter.is_of(own)).copied();
-        let scores = table.cases_of(filter);
+        let of_rate = |case: &Case| rate.is_none_or(|rate| case.rate == rate);
+        let scores = (table.cases_of(filter)).filter(|(_, case)| of_rate(case));
         let only = mean(scores.filter_map(|(_, case)| headline.estimate(case)));
         Row {
             overall,
@@ -157,6 +160,13 @@ fn caption(headline: Headline, has_means: bool, scenes: usize) -> &'static str {
             "Best mean over scenes first. Line: 95 % CI over scenes; grey: noise floor of the truth. Compare filters of one shutter only"
         }
     }
+}
+
+/// Finds the frame rate whose means are shown: that of the scenes' files, or the only one; none where there are several others.
+fn summarized_rate(cases: &[Case]) -> Option<Option<FrameRate>> {
+    let cases = list_summarized(cases);
+    let first = cases.first().map(|case| case.rate);
+    first.filter(|rate| cases.iter().all(|case| case.rate == *rate))
 }
 
 /// Tells whether any required bound on a filter's scores is broken.

@@ -30,7 +30,7 @@ fn winner(group: &[&RankedFilter]) -> Markup {
     let (scene, worst) = &best.worst;
     html! {
         li {
-            "Best sequences with a " (best.alignment) " shutter: " strong { (best.name) } ", JOD " strong { (number(best.mean)) }
+            "Best sequences with a " (best.alignment) " shutter" @if let Some(rate) = best.rate { " at " (rate.text()) } ": " strong { (best.name) } ", JOD " strong { (number(best.mean)) }
             @if let Some([low, high]) = best.interval { " (95 % CI " (number(low)) " to " (number(high)) ")" }
             "; weakest on " (scene) " (" (number(*worst)) ")"
             @for (index, own) in ties.enumerate() {

@@ -19,7 +19,7 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
                 @if is_tied { " Filters with one rank (=) are too close to tell apart." }
             }
             @for group in &groups {
-                h3 { (group[0].ranked.alignment) " shutter" }
+                h3 { (group[0].ranked.alignment) " shutter" @if let Some(rate) = group[0].ranked.rate { ", " (rate.text()) } }
                 div.scroll {
                     table {
                         thead {

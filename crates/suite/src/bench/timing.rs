@@ -180,6 +180,7 @@ fn load<'b, 'g>(
         reprojection: Some(panels.reprojection),
         camera: Some(panels.camera),
         exposure: EXPOSURE,
+        frames_per_second: None,
         frame_index: 0,
     })
 }

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use serde::Serialize;
+use tracer::FrameRate;
 
 use super::change::{Change, ChangeKind};
 use crate::stats::scene_mean::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
@@ -10,7 +11,7 @@ use crate::stats::scene_mean::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
 /// Mean of one metric of one filter, over the scenes that it applies to in both runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeanChange {
-    /// `jump_flood:paper`.
+    /// `jump_flood:paper`, and behind that the frame rate of the scenes where that is none of their files: `jump_flood:paper 24fps`.
     pub filter: String,
     /// Name of the metric.
     pub metric: String,
@@ -62,21 +63,34 @@ impl MeanKind {
     }
 }
 
-/// Averages changes per filter and metric, in the order of the changes; leaves out bars.
+/// Averages changes per filter, metric and frame rate, in the order of the changes; leaves out bars.
 pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
-    let mut keys: Vec<(&str, &str)> = Vec::new();
+    let mut keys: Vec<(String, &str)> = Vec::new();
     for change in changes.iter().filter(|change| !change.bar) {
-        let key = (change.filter.as_str(), change.metric.as_str());
+        let key = key(change);
         if !keys.contains(&key) {
             keys.push(key);
         }
     }
-    let of_key = |(filter, metric): (&str, &str)| {
-        let own = (changes.iter())
-            .filter(|change| change.filter == filter && change.metric == metric && !change.bar);
-        average(&own.collect::<Vec<_>>())
+    let of_key = |own: (String, &str)| {
+        let of_it = changes
+            .iter()
+            .filter(|change| !change.bar && key(change) == own);
+        MeanChange {
+            filter: own.0.clone(),
+            ..average(&of_it.collect::<Vec<_>>())
+        }
     };
     keys.into_iter().map(of_key).collect()
+}
+
+/// Names filter and frame rate of a change, and its metric.
+fn key(change: &Change) -> (String, &str) {
+    let filter = match FrameRate::of_name(&change.scene) {
+        Some(rate) => format!("{} {}", change.filter, rate.word()),
+        None => change.filter.clone(),
+    };
+    (filter, &change.metric)
 }
 
 fn average(changes: &[&Change]) -> MeanChange {

@@ -10,6 +10,7 @@ use super::camera_jitter::CameraJitter;
 use super::depth_format::DepthFormat;
 use super::multisampling::Multisampling;
 use super::render_scale::RenderScale;
+use super::shutter_rule::ShutterRule;
 use super::velocity_defect::VelocityDefect;
 use super::velocity_format::VelocityFormat;
 use crate::{Error, Monitor};
@@ -38,6 +39,9 @@ pub struct InputFormat {
     /// Scale of the frame.
     #[serde(default, skip_serializing_if = "is_default")]
     pub scale: RenderScale,
+    /// Rule by which the filter's exposure follows the frame rate.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub rule: ShutterRule,
 }
 
 /// Forms to try, part by part.
@@ -59,6 +63,8 @@ pub struct InputForms {
     pub jitter: Vec<CameraJitter>,
     /// Scales of the frame.
     pub scale: Vec<RenderScale>,
+    /// Rules by which the filter's exposure follows the frame rate.
+    pub rule: Vec<ShutterRule>,
 }
 
 fn is_default<T: Default + PartialEq>(part: &T) -> bool {
@@ -85,6 +91,7 @@ impl InputForms {
         try_each(&mut (self.msaa.iter()).map(|&msaa| InputFormat { msaa, ..full }));
         try_each(&mut (self.jitter.iter()).map(|&jitter| InputFormat { jitter, ..full }));
         try_each(&mut (self.scale.iter()).map(|&scale| InputFormat { scale, ..full }));
+        try_each(&mut (self.rule.iter()).map(|&rule| InputFormat { rule, ..full }));
         formats
     }
 }
@@ -102,6 +109,7 @@ impl InputFormat {
             ("msaa", self.msaa.name(), full.msaa.name()),
             ("jitter", self.jitter.name(), full.jitter.name()),
             ("scale", self.scale.name(), full.scale.name()),
+            ("rule", self.rule.name(), full.rule.name()),
         ];
         let changes: Vec<String> = (all.iter().filter(|(_, own, full)| own != full))
             .map(|(part, own, _)| format!("{part}={own}"))
@@ -121,6 +129,13 @@ impl InputFormat {
             ),
             ("--render-scale", self.scale.name(), is_default(&self.scale)),
         ];
+        if !is_default(&self.rule) && !has_scene {
+            return Err(Error::Usage(format!(
+                "--shutter-rule {}: follows the frame rate of a scene, which an engine's capture does not have; leave the option \
+                 out, or leave out the capture",
+                self.rule.name()
+            )));
+        }
         match rendered_again.iter().find(|(.., is_full)| !is_full) {
             Some((option, name, _)) if !has_scene => Err(Error::Usage(format!(
                 "{option} {name}: renders the scene again, which an engine's capture does not have; leave the option out, \
@@ -146,7 +161,8 @@ impl InputFormat {
             Some(scene) => {
                 let frame = self.msaa.apply(frame, scene, monitor)?;
                 let frame = self.jitter.apply(&frame, scene, monitor)?;
-                self.scale.apply(&frame, scene, monitor)?
+                let frame = self.scale.apply(&frame, scene, monitor)?;
+                self.rule.apply(frame, scene)
             }
         };
         let mut stored = Frame {
@@ -178,6 +194,7 @@ mod tests {
             msaa: vec![Multisampling::First],
             jitter: vec![CameraJitter::LeftIn],
             scale: vec![RenderScale::HalfBlurFirst],
+            rule: vec![ShutterRule::InFrames],
         };
         let formats = forms.one_by_one();
         let changes: Vec<_> = formats.iter().map(|format| format.change()).collect();
@@ -194,6 +211,7 @@ mod tests {
                 said("msaa=first"),
                 said("jitter=left_in"),
                 said("scale=50_blur_first"),
+                said("rule=in_frames"),
             ]
         );
     }
@@ -205,6 +223,7 @@ mod tests {
             msaa: vec![Multisampling::Nearest],
             jitter: vec![CameraJitter::Resolved],
             scale: vec![RenderScale::HalfUpscaleFirst],
+            rule: vec![ShutterRule::InTime],
             ..InputForms::default()
         };
         let refused: Vec<_> = (forms.one_by_one().iter())
@@ -216,6 +235,7 @@ mod tests {
             "--msaa nearest: ",
             "--camera-jitter resolved: ",
             "--render-scale 50_upscale_first: ",
+            "--shutter-rule in_time: ",
         ]) {
             assert!(error.as_ref().unwrap().starts_with(option), "{error:?}");
         }

@@ -10,6 +10,7 @@ pub mod multisampling;
 pub mod render_scale;
 mod resample;
 pub mod runner;
+pub mod shutter_rule;
 #[cfg(test)]
 mod test_frame;
 mod traced_again;

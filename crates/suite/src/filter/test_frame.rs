@@ -7,6 +7,7 @@ pub(crate) fn test_frame(width: u32, height: u32) -> Frame {
     Frame {
         provenance: Provenance::default(),
         exposure: 1.0,
+        frames_per_second: None,
         options: FrameOptions::default(),
         guard_band: 0,
         reprojection: Reprojection::STILL,

@@ -172,6 +172,7 @@ fn make_frame(
     Frame {
         provenance,
         exposure: scene.exposure,
+        frames_per_second: None,
         options: FrameOptions {
             velocity: VelocityKind::PreviousFrame,
             sky_velocity: moving_sky.any(|(_, velocity)| *velocity != [0.0, 0.0]),

@@ -8,6 +8,8 @@ use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
 
+use tracer::FrameRate;
+
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
 use super::plan::RunPlan;
@@ -259,6 +261,7 @@ impl CaseContext<'_> {
             family: self.scene.family(),
             exposes: self.scene.exposes(),
             drawn: self.scene.drawn(),
+            rate: FrameRate::of_name(self.scene.name()),
             exposure: self.frame.exposure,
             filter: planned.filter().to_owned(),
             preset: planned.preset(),

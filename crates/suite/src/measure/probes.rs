@@ -131,6 +131,7 @@ fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
             .then(|| frame.reprojection.moved(f64::from(frame.guard_band))),
         camera: frame.camera,
         exposure: frame.exposure,
+        frames_per_second: frame.frames_per_second,
         frame_index: 0,
     }
 }

@@ -163,7 +163,7 @@ impl SequenceTruths<'_> {
         Ok(SequenceReference::new(
             instants.collect::<Result<Vec<Instant>, Error>>()?,
             &self.scene.display.into(),
-            self.plan.frames.per_second,
+            self.plan.frames.shown(&self.scene.name),
         ))
     }
 }
@@ -183,7 +183,8 @@ fn measure_sequence(
 ) -> Result<Sequence, Error> {
     let first = all[0];
     let measured = reference.measure(&plan.read_outputs(all)?)?;
-    write_animation(plan, first, all)?;
+    let shown = plan.frames.shown(&first.scene);
+    write_animation(plan, first, all, shown)?;
     for (case, map) in all[1..].iter().zip(&measured.change_errors) {
         let path = plan.out.join(&case.folder).join(CHANGE_PICTURE);
         write_png(&path, &magma(&map.map(|error| error.sqrt())))?;
@@ -213,7 +214,12 @@ fn measure_sequence(
 }
 
 /// Writes the frames of a case as an animation, side by side: instant, truth, output, and FLIP.
-fn write_animation(plan: &RunPlan, first: &Case, all: &[&Case]) -> Result<(), Error> {
+fn write_animation(
+    plan: &RunPlan,
+    first: &Case,
+    all: &[&Case],
+    per_second: f64,
+) -> Result<(), Error> {
     let truth = format!("truth_{}.png", first.alignment);
     let strips = all.iter().map(|case| {
         let [scene, own] = [plan.out.join(&case.scene), plan.out.join(&case.folder)];
@@ -228,7 +234,7 @@ fn write_animation(plan: &RunPlan, first: &Case, all: &[&Case]) -> Result<(), Er
     });
     let strips = strips.collect::<Result<Vec<Image>, Error>>()?;
     let path = plan.out.join(&first.folder).join(SEQUENCE_PICTURE);
-    Ok(write_animated_png(&path, &strips, plan.frames.per_second)?)
+    Ok(write_animated_png(&path, &strips, per_second)?)
 }
 
 /// Places pictures of one size side by side.

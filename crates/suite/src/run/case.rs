@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use filters::{Convention, Value};
 use metrics::{ImageScores, Interval, Jitter, Scores};
 use serde::{Deserialize, Serialize};
-use tracer::Family;
+use tracer::{Family, FrameRate};
 
 use crate::InputFormat;
 use crate::filter::choice::overrides_text;
@@ -18,7 +18,7 @@ pub type Intervals = BTreeMap<String, Interval>;
 /// One filter preset, or one reference picture, on one scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Case {
-    /// Scene, with its variant: `sliding_panel@64px_45deg`.
+    /// Scene, with its variant and its frame rate: `sliding_panel@64px_45deg`, `fan@144fps`.
     pub scene: String,
     /// The scene's family; none of a scene that an engine drew.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -28,6 +28,9 @@ pub struct Case {
     /// Engine that drew the frame and the truth; none where both were rendered here.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawn: Option<Drawn>,
+    /// Frame rate that the scene was taken at; none for that of its file, 60 frames per second.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate: Option<FrameRate>,
     /// Exposure in frames.
     pub exposure: f64,
     /// Filter name; of a reference picture [`IDENTITY`], [`SCATTER_ORACLE`] or [`ACCUMULATE`].

@@ -1,6 +1,7 @@
 //! Means over the scenes, as a run records them.
 
 use serde::{Deserialize, Serialize};
+use tracer::FrameRate;
 
 /// One metric of one filter preset, or of one reference picture, over the scenes that it applies to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -12,6 +13,9 @@ pub struct Overall {
     pub is_reference: bool,
     /// The shutter alignment that it is scored against.
     pub alignment: String,
+    /// Frame rate of the scenes; none for that of their files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate: Option<FrameRate>,
     /// Name of the metric, `bleed` or `flip_common`.
     pub metric: String,
     /// Number of scenes, each variant of one counted.
@@ -23,9 +27,9 @@ pub struct Overall {
 }
 
 impl Overall {
-    /// Tells whether both are of one filter preset or reference picture.
+    /// Tells whether both are of one filter preset or reference picture, at one frame rate.
     pub fn is_of_same(&self, other: &Self) -> bool {
         let key = |own: &Self| (own.is_reference, own.filter.clone(), own.alignment.clone());
-        key(self) == key(other)
+        key(self) == key(other) && self.rate == other.rate
     }
 }

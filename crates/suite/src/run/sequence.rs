@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use metrics::SequenceScores;
 use serde::{Deserialize, Serialize};
+use tracer::FrameRate;
 
 use super::case::Intervals;
 
@@ -55,7 +56,8 @@ pub struct SequenceFrame {
 pub struct Frames {
     /// Number of consecutive frames of each scene.
     pub count: u32,
-    /// Frames per second at which they are shown. It changes no picture, and no score but JOD: times are in frames.
+    /// Frames per second at which scenes as their files say are shown. It changes no picture, and no score but JOD: times are in
+    /// frames. Scenes at another frame rate are shown at that.
     pub per_second: f64,
 }
 
@@ -69,6 +71,15 @@ impl Default for Frames {
 }
 
 impl Frames {
+    /// Returns the frames per second at which a scene is shown: those of its frame rate, or the run's for a scene as its file says.
+    pub fn shown(&self, scene: &str) -> f64 {
+        let rate = FrameRate::of_name(scene).unwrap_or_default();
+        match rate.per_second == FrameRate::WRITTEN.per_second {
+            true => self.per_second,
+            false => rate.per_second,
+        }
+    }
+
     /// Tells whether there is one frame, as in a run without a sequence.
     pub fn is_one(&self) -> bool {
         self.count == 1

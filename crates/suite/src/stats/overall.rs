@@ -23,14 +23,17 @@ pub fn overall(cases: &[Case]) -> Vec<Overall> {
     subjects.into_iter().flat_map(of_subject).collect()
 }
 
-/// Sorts the means of one score, the best first, in one group per shutter alignment, reference pictures among the filters. A score
-/// that compares across alignments has one group for all.
+/// Sorts the means of one score, the best first, in one group per frame rate and shutter alignment, reference pictures among the
+/// filters. A score that compares across alignments has one group for all of a rate.
 pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall>> {
     let name = headline.name();
     let mut groups: Vec<Vec<&Overall>> = Vec::new();
     for mean in overall.iter().filter(|mean| mean.metric == name) {
-        let group = (groups.iter_mut())
-            .find(|group| headline.spans_alignments() || group[0].alignment == mean.alignment);
+        let is_of = |group: &Vec<&Overall>| {
+            group[0].rate == mean.rate
+                && (headline.spans_alignments() || group[0].alignment == mean.alignment)
+        };
+        let group = groups.iter_mut().find(|group| is_of(group));
         match group {
             Some(group) => group.push(mean),
             None => groups.push(vec![mean]),
@@ -43,10 +46,10 @@ pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall
     groups
 }
 
-/// Tells whether both are of the same filter preset or reference picture.
+/// Tells whether both are of the same filter preset or reference picture, at the same frame rate.
 fn are_of_one(a: &Case, b: &Case) -> bool {
     let key = |case: &Case| (case.is_reference, case.name(), case.alignment.clone());
-    key(a) == key(b)
+    key(a) == key(b) && a.rate == b.rate
 }
 
 fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
@@ -64,6 +67,7 @@ fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
             filter: own[0].name(),
             is_reference: own[0].is_reference,
             alignment: own[0].alignment.clone(),
+            rate: own[0].rate,
             metric: headline.name(),
             scenes: scores.len(),
             mean: found.mean,

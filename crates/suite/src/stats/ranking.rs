@@ -3,6 +3,7 @@
 use super::headline::Headline;
 use super::scene_mean::{TWO_SIDED, plain_mean};
 use crate::{Case, InputFormat};
+use tracer::FrameRate;
 
 /// A filter preset in the ranking of its shutter.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,8 @@ pub struct RankedFilter {
     pub filter: String,
     /// Shutter alignment that it is scored against.
     pub alignment: String,
+    /// Frame rate of the scenes; none for that of their files.
+    pub rate: Option<FrameRate>,
     /// Rank among the filters of its shutter, from 1; filters that are too close to tell apart share one.
     pub rank: usize,
     /// True if another filter shares the rank.
@@ -54,9 +57,19 @@ struct Entry {
 /// Upper limit on presets that a summary ranks one by one.
 pub const MOST_RANKED: usize = 16;
 
-/// Ranks filters for a summary, with the full form of their input where the run tried others as well. Where the presets are too many for it, the best preset of each filter stands for the filter.
+/// Lists the cases that a summary ranks: those of scenes at the frame rate of their files, or all where no scene is.
+pub fn list_summarized(cases: &[Case]) -> Vec<&Case> {
+    let as_written = |case: &&Case| case.rate.is_none();
+    match cases.iter().any(|case| as_written(&case)) {
+        true => cases.iter().filter(as_written).collect(),
+        false => cases.iter().collect(),
+    }
+}
+
+/// Ranks filters for a summary, with the full form of their input, on scenes at the frame rate of their files, where the run tried
+/// others as well. Where the presets are too many for it, the best preset of each filter stands for the filter.
 pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
-    let full: Vec<RankedScore> = (cases.iter())
+    let full: Vec<RankedScore> = (list_summarized(cases).into_iter())
         .filter(|case| !case.is_reference && case.input == InputFormat::default())
         .filter_map(RankedScore::flip_of)
         .collect();
@@ -81,7 +94,7 @@ impl RankedScore {
     }
 }
 
-/// Ranks filters of one shutter among each other, the best first: one group per shutter. With `best_presets`, the best preset stands
+/// Ranks filters of one shutter and frame rate among each other, the best first: one group per shutter and rate. With `best_presets`, the best preset stands
 /// for its filter.
 ///
 /// Two filters tie where the mean difference over their common scenes is not told from 0: its 95 % CI holds 0. On a single
@@ -89,7 +102,11 @@ impl RankedScore {
 pub(crate) fn rank_by_score(scores: &[RankedScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for score in scores {
-        let group = (groups.iter()).position(|group| group[0].ranked.alignment == score.alignment);
+        let rate = FrameRate::of_name(&score.scene);
+        let group = (groups.iter()).position(|group| {
+            let ranked = &group[0].ranked;
+            ranked.alignment == score.alignment && ranked.rate == rate
+        });
         let group = group.unwrap_or_else(|| {
             groups.push(Vec::new());
             groups.len() - 1
@@ -111,6 +128,7 @@ fn new_entry(score: &RankedScore) -> Entry {
             name: score.name.clone(),
             filter: score.filter.clone(),
             alignment: score.alignment.clone(),
+            rate: FrameRate::of_name(&score.scene),
             rank: 0,
             is_tied: false,
             mean: 0.0,

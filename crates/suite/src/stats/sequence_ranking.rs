@@ -8,6 +8,7 @@ use super::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};
 use super::scene_mean::{SceneMean, TWO_SIDED, plain_mean};
 use crate::run::sequence::Sequence;
 use crate::{Case, InputFormat, Run};
+use tracer::FrameRate;
 
 /// The score that sequences are ranked by: the one that counts errors of single frames and of their changes together. Scores of changes
 /// alone rank a filter high that flickers little around a wrong picture.
@@ -71,6 +72,7 @@ fn rank(own: &[(&Sequence, &Case)], best_presets: bool) -> Vec<Vec<RankedSequenc
     let with_means = |lost: RankedFilter| {
         let sequences: Vec<&Sequence> = (own.iter().map(|(sequence, _)| *sequence))
             .filter(|own| own.filter == lost.name && own.alignment == lost.alignment)
+            .filter(|own| FrameRate::of_name(&own.scene) == lost.rate)
             .collect();
         RankedSequence {
             means: SequenceMetric::ALL

@@ -98,6 +98,7 @@ fn with_input<T>(target: &Target, bleed: bool, use_it: impl FnOnce(&Input) -> T)
         reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
         camera: frame.camera,
         exposure: frame.exposure,
+        frames_per_second: frame.frames_per_second,
         frame_index: 0,
     })
 }

@@ -31,6 +31,7 @@ impl Stopwatch<'_> {
             reprojection: Some(self.frame.reprojection),
             camera: self.frame.camera,
             exposure: self.frame.exposure,
+            frames_per_second: self.frame.frames_per_second,
             frame_index: 0,
         };
         let (mut start, mut candidate) = (blur(&self.choice.settings)?, blur(settings)?);

@@ -12,6 +12,7 @@ use super::schema::{
 use super::variant_changes::{
     VARIANT_KEYS, apply_variant, find_object, merge_tables, unknown_change,
 };
+use crate::FrameRate;
 use crate::limits::{MOST_OBJECTS, MOST_VARIANTS};
 
 /// Parsed scene.toml, with the variants apart.
@@ -140,6 +141,13 @@ fn read_variant_names(document: &Document, variants: &DeTable) -> Result<Vec<Str
     for (index, name) in names.iter().enumerate() {
         check_name(name.get_ref())
             .map_err(|reason| document.error(name.span(), format!("variant {reason}")))?;
+        if FrameRate::in_word(name.get_ref()).is_some() {
+            let reason = format!(
+                "variant \"{}\" has the name of a frame rate, which every scene can be taken at; rename it",
+                name.get_ref()
+            );
+            return Err(document.error(name.span(), reason));
+        }
         if index == MOST_VARIANTS {
             let reason = format!(
                 "the scene has {} variants; allowed: {MOST_VARIANTS}; move some to a folder of their own",

@@ -11,16 +11,33 @@ use super::scene_words::{SceneWords, list_scene_words};
 use crate::arguments::{PlanArgs, given_options, words_behind};
 
 /// Options that every job of cases gets in words of its own, or that change no case.
-const OWN: [&str; 15] = [
-    "scenes", "seal", "filter", "preset", "set", "size", "out", "common", "part", "truths", "html",
-    "table", "json", "no-cache", "quiet",
+const OWN: [&str; 17] = [
+    "scenes",
+    "seal",
+    "frame-rate",
+    "shutter-time",
+    "filter",
+    "preset",
+    "set",
+    "size",
+    "out",
+    "common",
+    "part",
+    "truths",
+    "html",
+    "table",
+    "json",
+    "no-cache",
+    "quiet",
 ];
 /// Options of a calibration's jobs that are its own as well.
 const OWN_OF_SEEDS: [&str; 3] = ["seed", "intervals", "jitter-frames"];
 /// Options that a render gets in words of its own.
-const OWN_OF_RENDERS: [&str; 8] = [
+const OWN_OF_RENDERS: [&str; 10] = [
     "scenes",
     "seal",
+    "frame-rate",
+    "shutter-time",
     "size",
     "out",
     "alignments",

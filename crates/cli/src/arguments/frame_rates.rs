@@ -1,0 +1,102 @@
+//! Arguments on the frame rates that scenes are taken at.
+
+use clap::Args;
+use suite::Error;
+use tracer::FrameRate;
+use tracer::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
+
+use crate::selection::split_variant;
+
+/// Frame rates and shutter times to try on every scene.
+#[derive(Clone, Debug, Args)]
+pub struct FrameRateArgs {
+    /// Frame rates to take every scene at, beside the 60 frames per second of its file, separated by commas: SCENE@144fps. All
+    /// happens at the same time in seconds; the shutter keeps its share of the frame.
+    #[arg(long, value_delimiter = ',', value_name = "RATES", value_parser = parse_frame_rate)]
+    pub frame_rate: Vec<f64>,
+    /// Shutter times, such as 1/120, to try at each of these rates beside that share, separated by commas: SCENE@144fps_1-120s. They may
+    /// be longer than a frame.
+    #[arg(long, value_delimiter = ',', value_name = "TIMES", value_parser = parse_shutter_time)]
+    pub shutter_time: Vec<f64>,
+}
+
+impl FrameRateArgs {
+    /// Lists the frame rates, without that of the scenes' files: those of a shutter in frames, then those of each shutter time.
+    fn list(&self) -> Result<Vec<FrameRate>, Error> {
+        refuse_twins("--frame-rate", &self.frame_rate, |rate| rate.to_string())?;
+        let time = |count: &f64| format!("1/{count}");
+        refuse_twins("--shutter-time", &self.shutter_time, time)?;
+        let written = [FrameRate::WRITTEN.per_second];
+        let rates = match self.frame_rate.as_slice() {
+            [] => &written[..],
+            rates => rates,
+        };
+        let shutters = std::iter::once(None).chain(self.shutter_time.iter().copied().map(Some));
+        let all = shutters.flat_map(|shutters_per_second| {
+            rates.iter().map(move |&per_second| FrameRate {
+                per_second,
+                shutters_per_second,
+            })
+        });
+        Ok(all.filter(|rate| *rate != FrameRate::WRITTEN).collect())
+    }
+
+    /// Adds each scene at each of the frame rates behind the scene itself. Without names, that is every scene.
+    pub fn add_to(&self, names: Vec<String>) -> Result<Vec<String>, Error> {
+        let rates = self.list()?;
+        if rates.is_empty() {
+            return Ok(names);
+        }
+        let names = match names.is_empty() {
+            true => vec!["*".to_owned()],
+            false => names,
+        };
+        let mut all = Vec::new();
+        for name in names {
+            let own = name.trim_end_matches(['/', '\\']);
+            let variant = split_variant(own).1;
+            if variant.is_some_and(|variant| FrameRate::split_variant(variant).1.is_some()) {
+                return Err(Error::Usage(format!(
+                    "--frame-rate: {name} has a frame rate of its own; allowed: scenes and variants without one"
+                )));
+            }
+            let at_rates = rates.iter().map(|rate| format!("{own}@{}", rate.word()));
+            let at_rates: Vec<String> = at_rates.collect();
+            all.push(name);
+            all.extend(at_rates);
+        }
+        Ok(all)
+    }
+}
+
+fn refuse_twins(option: &str, all: &[f64], text: impl Fn(&f64) -> String) -> Result<(), Error> {
+    for (index, value) in all.iter().enumerate() {
+        if all[..index].contains(value) {
+            return Err(Error::Usage(format!(
+                "{option}: {} is named twice; allowed: each once",
+                text(value)
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn parse_frame_rate(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(rate) if (SLOWEST_RATE..=FASTEST_RATE).contains(&rate) => Ok(rate),
+        _ => Err(format!(
+            "allowed: frames per second from {SLOWEST_RATE} to {FASTEST_RATE}, such as 144"
+        )),
+    }
+}
+
+/// Parses `1/48` as 48, the number of such times in a second.
+fn parse_shutter_time(text: &str) -> Result<f64, String> {
+    let count = text.strip_prefix("1/").and_then(|count| count.parse().ok());
+    match count {
+        Some(count) if (SLOWEST_SHUTTER..=FASTEST_SHUTTER).contains(&count) => Ok(count),
+        _ => Err(format!(
+            "allowed: parts of a second from 1/{SLOWEST_SHUTTER} to 1/{FASTEST_SHUTTER}, such as 1/48"
+        )),
+    }
+}
