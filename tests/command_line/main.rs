@@ -17,6 +17,7 @@ mod export;
 mod failures;
 mod fidelity;
 mod finished_sequence;
+mod frame_rates;
 mod gallery;
 #[cfg(unix)]
 mod growth;

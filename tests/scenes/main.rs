@@ -4,6 +4,7 @@ mod appearance;
 mod audit;
 mod built_in;
 mod catalogue;
+mod frame_rates;
 mod gltf;
 mod reading;
 mod refusals;

@@ -202,3 +202,11 @@ fn a_plan_of_a_user_s_own_files_names_them() {
         execute(&bench, job);
     }
 }
+
+#[test]
+fn jobs_of_frame_rates_make_the_files_of_one_process() {
+    let words = format!(
+        "{QUICK} --filter identity --frame-rate 24,144 --shutter-time 1/48 --shutter-rule in_frames --scenes plate"
+    );
+    assert_jobs_equal_one_process(&split(&words));
+}

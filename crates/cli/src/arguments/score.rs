@@ -32,7 +32,7 @@ pub struct ScoreArgs {
     /// `render` lay them out.
     #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = parse_frames, conflicts_with = "ladder")]
     pub frames: u32,
-    /// Frames per second at which the sequence is shown. No score but JOD depends on it.
+    /// Frames per second at which the sequence is shown. No score but JOD depends on it. A scene at a frame rate is shown at that.
     #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = parse_per_second)]
     pub fps: f64,
     /// Folder that holds the scene, whose motion the scores of a sequence follow; built-in names the program's own [default: scenes,

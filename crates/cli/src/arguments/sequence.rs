@@ -11,7 +11,8 @@ pub struct SequenceArgs {
     /// Consecutive frames to render and blur of every scene. Later frames lie in numbered folders below the scene's own.
     #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = parse_frames)]
     pub frames: u32,
-    /// Frames per second at which a sequence is shown. It changes no picture, and no score but JOD: times are in frames.
+    /// Frames per second at which a sequence is shown. It changes no picture, and no score but JOD: times are in frames. Scenes at a
+    /// --frame-rate are shown at that.
     #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = parse_per_second)]
     pub fps: f64,
 }

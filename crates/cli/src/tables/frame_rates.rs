@@ -1,6 +1,6 @@
 //! Table of what filters score at each frame rate.
 
-use suite::{Case, Headline};
+use suite::{Case, Headline, InputFormat};
 use tracer::FrameRate;
 
 use super::columns::{legend_text, list_once, number_table};
@@ -8,16 +8,11 @@ use super::columns::{legend_text, list_once, number_table};
 /// Columns side by side, so that a row fits a terminal.
 const COLUMNS_ABREAST: usize = 3;
 
-/// Makes a row per frame rate and a column per filter and form of its input, and per picture of doing nothing: the mean FLIP over the
+/// Makes a row per frame rate and rule of the shutter, and a column per filter and per picture of doing nothing: the mean FLIP over the
 /// scenes. Empty for a run of one rate.
 pub fn frame_rates_text(cases: &[Case]) -> String {
-    let mut rates: Vec<Option<FrameRate>> = Vec::new();
-    for case in cases {
-        if !rates.contains(&case.rate) {
-            rates.push(case.rate);
-        }
-    }
-    if rates.len() < 2 {
+    let rows = list_rows(cases);
+    if rows.iter().all(|row| row.rate == rows[0].rate) {
         return String::new();
     }
     let columns: Vec<String> = cases.iter().filter_map(column).collect();
@@ -27,33 +22,79 @@ pub fn frame_rates_text(cases: &[Case]) -> String {
             .chain(columns.iter().copied())
             .collect();
         let mut table = number_table(&titles);
-        for rate in &rates {
-            let word = rate.map_or("as written".to_owned(), |rate| rate.word());
-            let means = columns.iter().map(|name| mean_flip(cases, *rate, name));
-            table.push(std::iter::once(word).chain(means).collect());
+        for row in &rows {
+            let means = columns.iter().map(|name| mean_flip(cases, row, name));
+            table.push(std::iter::once(row.title()).chain(means).collect());
         }
         text += &table.text();
     }
     text += "\n";
     text += &legend_text(
         "Mean FLIP at each frame rate, against the truths of that rate. [identity] is doing nothing. Compare the filters of one row, \
-         and filters with the identity of their shutter.",
+         and each with the identity of its shutter.",
     );
     text
 }
 
-/// Names the column of a case; none of a reference other than doing nothing.
+/// A row of the table.
+#[derive(PartialEq)]
+struct Row {
+    /// None for the rate of the scenes' files.
+    rate: Option<FrameRate>,
+    /// Form in which filters get the frame: the full one, or that of another rule of the shutter.
+    input: InputFormat,
+}
+
+impl Row {
+    fn title(&self) -> String {
+        let rate = self
+            .rate
+            .map_or("as written".to_owned(), |rate| rate.word());
+        match self.input.change() {
+            None => rate,
+            Some(change) => format!("{rate} {change}"),
+        }
+    }
+}
+
+/// Lists rates and rules in the order of the cases. At the rate of the files every rule is the right one.
+fn list_rows(cases: &[Case]) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for case in cases {
+        let row = Row {
+            rate: case.rate,
+            input: InputFormat {
+                rule: case.input.rule,
+                ..InputFormat::default()
+            },
+        };
+        let is_shown = row.input == InputFormat::default() || row.rate.is_some();
+        if is_shown && row.input == case.input && !rows.contains(&row) {
+            rows.push(row);
+        }
+    }
+    rows
+}
+
+/// Names the column of a case, without the form of its input; none of a reference other than doing nothing.
 fn column(case: &Case) -> Option<String> {
+    let name = case.name();
     match (case.is_reference, case.filter.as_str()) {
-        (false, _) => Some(case.name()),
-        (true, suite::IDENTITY) => Some(format!("[{}] {}", case.name(), case.alignment)),
+        (false, _) => {
+            let form = case.input.change().map(|change| format!(" {change}"));
+            let full = form.and_then(|form| name.strip_suffix(form.as_str()).map(str::to_owned));
+            Some(full.unwrap_or(name))
+        }
+        (true, suite::IDENTITY) => Some(format!("[{name}] {}", case.alignment)),
         _ => None,
     }
 }
 
-fn mean_flip(cases: &[Case], rate: Option<FrameRate>, name: &str) -> String {
-    let own = cases.iter().filter(|case| case.rate == rate);
-    let own = own.filter(|case| column(case).as_deref() == Some(name));
+/// Averages FLIP over the scenes of a row. Doing nothing follows no rule.
+fn mean_flip(cases: &[Case], row: &Row, name: &str) -> String {
+    let of_row =
+        |case: &&Case| case.rate == row.rate && (case.input == row.input || case.is_reference);
+    let own = (cases.iter().filter(of_row)).filter(|case| column(case).as_deref() == Some(name));
     let flips: Vec<f64> = own
         .filter_map(|case| Headline::FLIP.estimate(case))
         .collect();

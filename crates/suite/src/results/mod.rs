@@ -65,8 +65,8 @@ pub struct ResultScores {
 }
 
 impl Results {
-    /// Joins runs of different scenes with the same settings. References, and forms of the input other than the full one, are left
-    /// out.
+    /// Joins runs of different scenes with the same settings. References, forms of the input other than the full one, and scenes at
+    /// another frame rate than that of their files are left out.
     ///
     /// # Errors
     /// There is no run, a case failed, two runs differ in size, samples, adapter or seal, or a case is there twice.
@@ -92,7 +92,8 @@ impl Results {
             refuse_failures(&run.failures)?;
             for case in &run.cases {
                 results.refuse_other(run, case)?;
-                if case.is_reference || case.input != InputFormat::default() {
+                let is_plain = case.input == InputFormat::default() && case.rate.is_none();
+                if case.is_reference || !is_plain {
                     continue;
                 }
                 if !known.insert((case.scene.clone(), case.name())) {
