@@ -4,6 +4,7 @@ use std::path::Path;
 
 use frame::{Alignment, MOST_STOPS, is_hidden};
 use serde::Deserialize;
+use tracer::FrameRate;
 
 use crate::Error;
 use crate::json::file::read_text;
@@ -94,13 +95,17 @@ impl CaptureDescription {
     }
 }
 
-/// Tells whether a text can be the name of a scene, with an optional variant: it becomes the name of a folder.
+/// Tells whether a text can be the name of a scene, with an optional variant and frame rate: it becomes the name of a folder.
 fn is_scene_name(text: &str) -> bool {
     let is_word = |word: &str| {
         let is_allowed = |letter: char| letter.is_alphanumeric() || "_-.".contains(letter);
         !word.is_empty() && !word.starts_with('.') && word.chars().all(is_allowed)
     };
-    text.split('@').count() <= 2 && text.split('@').all(is_word)
+    let most = match FrameRate::of_name(text) {
+        Some(_) => 3,
+        None => 2,
+    };
+    text.split('@').count() <= most && text.split('@').all(is_word)
 }
 
 /// Counts the lines up to an offset.
@@ -127,6 +132,8 @@ mod tests {
         for (name, allowed) in [
             ("railing", true),
             ("railing@64px_45deg", true),
+            ("railing@unlit@24fps", true),
+            ("a@b@c@24fps", false),
             ("../railing", false),
             ("a@b@c", false),
             ("..", false),

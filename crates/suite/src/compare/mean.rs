@@ -190,6 +190,20 @@ mod tests {
     }
 
     #[test]
+    fn frame_rates_have_means_of_their_own() {
+        let mut all = changes(&[0.1, 0.1, 0.3, 0.3]);
+        for change in &mut all[2..] {
+            change.scene += "@24fps";
+        }
+        let means = average_changes(&all);
+        let found: Vec<(&str, usize)> = (means.iter())
+            .map(|mean| (mean.filter.as_str(), mean.scenes))
+            .collect();
+        assert_eq!(found, [("one:paper", 2), ("one:paper 24fps", 2)]);
+        assert!((means[1].worse - 0.3).abs() < 1e-12);
+    }
+
+    #[test]
     fn bars_have_no_means() {
         let mut all = changes(&[0.1; 5]);
         all[0].bar = true;
