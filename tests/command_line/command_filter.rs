@@ -142,7 +142,16 @@ fn a_program_gets_the_same_inputs_as_a_kernel() {
     let names: Vec<&str> = given.channels.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["B", "G", "R", "Z", "velocity.X", "velocity.Y"]);
     let attributes: Vec<&str> = given.attributes.keys().map(String::as_str).collect();
-    assert_eq!(attributes, ["exposure", "frame_index", "reprojection"]);
+    assert_eq!(
+        attributes,
+        [
+            "exposure",
+            "frame_index",
+            "frames_per_second",
+            "reprojection"
+        ]
+    );
+    assert_eq!(given.get::<f64>("frames_per_second").unwrap(), 60.0);
     let frame = Frame::read(&bench.path("r/plate/frame.exr")).unwrap();
     let reprojection = Reprojection::from_exr(&given).unwrap();
     assert_eq!(reprojection, frame.reprojection);
@@ -325,7 +334,7 @@ fn bad_folders_of_programs_are_refused_with_the_line() {
             "command = [\"cp\", \"{frame}\", \"{out}\", \"-m{shutter}\"]".into(),
             &[
                 "\"-m{shutter}\" holds the unknown {shutter}",
-                "allowed: {frame}, {out}, {exposure}, {frame_index}, and",
+                "allowed: {frame}, {out}, {exposure}, {frame_index}, {frames_per_second}, and",
             ],
         ),
         (
