@@ -7,7 +7,6 @@ use suite::{
 };
 
 use crate::huge;
-use crate::place::Place;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
 use crate::tokens;
