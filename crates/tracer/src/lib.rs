@@ -49,8 +49,8 @@ pub use motion::velocity::{ObjectsBefore, PointMotion};
 pub use pixel_grid::PixelGrid;
 pub use progress::{Progress, Watch};
 pub use scene::{
-    Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
-    Object, Parent, Scene, Shape, Sun, Texture, Translucency,
+    Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Lens, Material,
+    Mesh, Object, Parent, Scene, Shape, Sun, Texture, Translucency,
 };
 pub use seal::Seal;
 pub use settings::RenderSettings;

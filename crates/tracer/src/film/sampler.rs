@@ -8,6 +8,8 @@ pub const MOST_SAMPLES: u32 = 1 << 16;
 const SETS_PER_BOUNCE: u32 = 3;
 /// Bounces that share the camera's sequence.
 const JOINT_BOUNCES: u32 = 2;
+/// Number of the lens' set, which no bounce has.
+const LENS_SET: u32 = u32::MAX;
 
 /// Independent streams of random numbers, so that no two renders of a scene share their noise.
 #[derive(Clone, Copy)]
@@ -60,6 +62,13 @@ impl Sampler {
         draw(self.index, 0, self.seed)
     }
 
+    /// Numbers for the point of the lens, stratified together. They change no others, so that a pinhole's samples are what they are
+    /// without them.
+    pub fn lens(&self) -> [f64; 2] {
+        let [u, v, ..] = self.shuffled_set(LENS_SET);
+        [u, v]
+    }
+
     /// Numbers for the next direction (two), roulette, and the choice of an emitter.
     pub fn bounce(&self, depth: u32) -> [f64; 4] {
         self.set(depth, 0)
@@ -91,6 +100,11 @@ impl Sampler {
         if depth < JOINT_BOUNCES {
             return draw(self.index, set, self.seed);
         }
+        self.shuffled_set(set)
+    }
+
+    /// The sequence's first four dimensions, with a seed of the set's own.
+    fn shuffled_set(&self, set: u32) -> [f64; 4] {
         let seed = mix32(self.seed ^ mix32(set));
         draw(self.index, 0, seed)
     }
