@@ -5,6 +5,7 @@
 mod accel;
 mod aligned_shutter;
 mod content_hash;
+mod defocus;
 mod error;
 mod film;
 mod geometry;
@@ -28,6 +29,7 @@ mod test_scene;
 mod truth;
 
 pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};
+pub use defocus::{Defocus, trace_defocus};
 pub use error::TraceError;
 pub use film::sampler::MOST_SAMPLES;
 pub use geometry::hit::Hit;

@@ -9,7 +9,7 @@ use super::measure::MeasureArgs;
 use super::sequence::SequenceArgs;
 
 /// Arguments that only a check that measures may have.
-const MEASURING: [&str; 27] = [
+const MEASURING: [&str; 28] = [
     "scenes",
     "samples_per_pixel",
     "exposure",
@@ -33,6 +33,7 @@ const MEASURING: [&str; 27] = [
     "msaa",
     "camera_jitter",
     "render_scale",
+    "depth_of_field",
     "jitter_frames",
     "frames",
     "fps",

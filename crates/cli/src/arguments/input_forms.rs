@@ -2,8 +2,8 @@
 
 use clap::Args;
 use suite::{
-    Border, BufferSize, CameraJitter, DepthFormat, InputForms, Multisampling, RenderScale,
-    VelocityDefect, VelocityFormat,
+    Border, BufferSize, CameraJitter, DepthFormat, DepthOfField, InputForms, Multisampling,
+    RenderScale, VelocityDefect, VelocityFormat,
 };
 
 use super::parse::parse_named;
@@ -36,6 +36,9 @@ pub struct InputFormArgs {
     /// after they are upscaled.
     #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(RenderScale::ALL, RenderScale::name, RenderScale::help), value_delimiter = ',', value_name = "SCALES")]
     pub render_scale: Vec<RenderScale>,
+    /// Places of depth of field to try, in scenes whose camera has a lens, separated by commas: before motion blur, or after.
+    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(DepthOfField::ALL, DepthOfField::name, DepthOfField::help), value_delimiter = ',', value_name = "PLACES")]
+    pub depth_of_field: Vec<DepthOfField>,
 }
 
 impl InputFormArgs {
@@ -50,6 +53,7 @@ impl InputFormArgs {
             msaa: self.msaa.clone(),
             jitter: self.camera_jitter.clone(),
             scale: self.render_scale.clone(),
+            depth_of_field: self.depth_of_field.clone(),
         }
     }
 }

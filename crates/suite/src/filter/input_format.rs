@@ -8,6 +8,7 @@ use super::border::{Border, repeat_border, smear_margin};
 use super::buffer_size::BufferSize;
 use super::camera_jitter::CameraJitter;
 use super::depth_format::DepthFormat;
+use super::depth_of_field::DepthOfField;
 use super::multisampling::Multisampling;
 use super::render_scale::RenderScale;
 use super::velocity_defect::VelocityDefect;
@@ -38,6 +39,9 @@ pub struct InputFormat {
     /// Scale of the frame.
     #[serde(default, skip_serializing_if = "is_default")]
     pub scale: RenderScale,
+    /// Place of depth of field.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub depth_of_field: DepthOfField,
 }
 
 /// Forms to try, part by part.
@@ -59,6 +63,8 @@ pub struct InputForms {
     pub jitter: Vec<CameraJitter>,
     /// Scales of the frame.
     pub scale: Vec<RenderScale>,
+    /// Places of depth of field.
+    pub depth_of_field: Vec<DepthOfField>,
 }
 
 fn is_default<T: Default + PartialEq>(part: &T) -> bool {
@@ -85,6 +91,11 @@ impl InputForms {
         try_each(&mut (self.msaa.iter()).map(|&msaa| InputFormat { msaa, ..full }));
         try_each(&mut (self.jitter.iter()).map(|&jitter| InputFormat { jitter, ..full }));
         try_each(&mut (self.scale.iter()).map(|&scale| InputFormat { scale, ..full }));
+        let places = self.depth_of_field.iter();
+        try_each(&mut places.map(|&depth_of_field| InputFormat {
+            depth_of_field,
+            ..full
+        }));
         formats
     }
 }
@@ -102,6 +113,11 @@ impl InputFormat {
             ("msaa", self.msaa.name(), full.msaa.name()),
             ("jitter", self.jitter.name(), full.jitter.name()),
             ("scale", self.scale.name(), full.scale.name()),
+            (
+                "depth_of_field",
+                self.depth_of_field.name(),
+                full.depth_of_field.name(),
+            ),
         ];
         let changes: Vec<String> = (all.iter().filter(|(_, own, full)| own != full))
             .map(|(part, own, _)| format!("{part}={own}"))
@@ -120,6 +136,11 @@ impl InputFormat {
                 is_default(&self.jitter),
             ),
             ("--render-scale", self.scale.name(), is_default(&self.scale)),
+            (
+                "--depth-of-field",
+                self.depth_of_field.name(),
+                is_default(&self.depth_of_field),
+            ),
         ];
         match rendered_again.iter().find(|(.., is_full)| !is_full) {
             Some((option, name, _)) if !has_scene => Err(Error::Usage(format!(
@@ -144,7 +165,10 @@ impl InputFormat {
         let rendered = match scene {
             None => frame.clone(),
             Some(scene) => {
-                let frame = self.msaa.apply(frame, scene, monitor)?;
+                self.depth_of_field.check(scene)?;
+                let scene = &*self.depth_of_field.seen_scene(scene);
+                let frame = self.depth_of_field.apply(frame, scene, monitor)?;
+                let frame = self.msaa.apply(&frame, scene, monitor)?;
                 let frame = self.jitter.apply(&frame, scene, monitor)?;
                 self.scale.apply(&frame, scene, monitor)?
             }
@@ -178,6 +202,7 @@ mod tests {
             msaa: vec![Multisampling::First],
             jitter: vec![CameraJitter::LeftIn],
             scale: vec![RenderScale::HalfBlurFirst],
+            depth_of_field: vec![DepthOfField::Before, DepthOfField::After],
         };
         let formats = forms.one_by_one();
         let changes: Vec<_> = formats.iter().map(|format| format.change()).collect();
@@ -194,6 +219,7 @@ mod tests {
                 said("msaa=first"),
                 said("jitter=left_in"),
                 said("scale=50_blur_first"),
+                said("depth_of_field=after"),
             ]
         );
     }
@@ -205,6 +231,7 @@ mod tests {
             msaa: vec![Multisampling::Nearest],
             jitter: vec![CameraJitter::Resolved],
             scale: vec![RenderScale::HalfUpscaleFirst],
+            depth_of_field: vec![DepthOfField::After],
             ..InputForms::default()
         };
         let refused: Vec<_> = (forms.one_by_one().iter())
@@ -216,6 +243,7 @@ mod tests {
             "--msaa nearest: ",
             "--camera-jitter resolved: ",
             "--render-scale 50_upscale_first: ",
+            "--depth-of-field after: ",
         ]) {
             assert!(error.as_ref().unwrap().starts_with(option), "{error:?}");
         }

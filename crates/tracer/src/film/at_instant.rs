@@ -71,6 +71,15 @@ impl InstantView {
         }
     }
 
+    /// The view of the lens' centre on points that other points of the lens see.
+    pub fn of_pinhole(stage: &Stage, canvas: Canvas) -> Self {
+        Self {
+            // What stands still may hide from the centre what the rim sees.
+            camera_stands_still: false,
+            ..Self::new(stage, canvas)
+        }
+    }
+
     /// Looks back at the point that `ray` meets at the time of `poses`; `then` are the poses of the instant.
     ///
     /// The camera of the instant looks from the same point of its lens: places, hidden points and shading then tell of motion alone,

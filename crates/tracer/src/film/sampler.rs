@@ -22,6 +22,8 @@ pub(crate) enum Stream {
     /// Pilots of frames and of truths.
     FramePilot,
     TruthPilot,
+    /// A pass of depth of field.
+    Defocus,
 }
 
 /// The random numbers of one sample of one pixel.
@@ -41,6 +43,7 @@ pub(crate) fn pixel_seed(seed: u64, stream: Stream, pixel: u32, replicate: u32) 
         Stream::Support => u64::MAX,
         Stream::TruthPilot => u64::MAX - 1,
         Stream::FramePilot => u64::MAX - 2,
+        Stream::Defocus => u64::MAX - 3,
     };
     let pixel_hash = mix64(mix64(mix64(seed) ^ stream) ^ u64::from(pixel));
     mix32((pixel_hash as u32).wrapping_add(replicate))

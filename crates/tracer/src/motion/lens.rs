@@ -64,7 +64,10 @@ mod tests {
         let each = f64::from(SIDE * SIDE) / 8.0;
         for count in rings.into_iter().chain(sectors) {
             // A border is crossed by a row of the grid at most, of 256 on each of four sides.
-            assert!((f64::from(count) - each).abs() < 1100.0, "{rings:?} {sectors:?}");
+            assert!(
+                (f64::from(count) - each).abs() < 1100.0,
+                "{rings:?} {sectors:?}"
+            );
         }
     }
 
@@ -85,7 +88,10 @@ mod tests {
     fn neighbours_stay_neighbours() {
         let step = 1e-4;
         for index in 0..10_000u32 {
-            let numbers = [f64::from(index % 100) / 100.0, f64::from(index / 100) / 100.0];
+            let numbers = [
+                f64::from(index % 100) / 100.0,
+                f64::from(index / 100) / 100.0,
+            ];
             let moved = numbers.map(|number| number + 0.5 * step);
             let apart = map_to_disc(numbers).distance(map_to_disc(moved));
             assert!(apart < 4.0 * step, "{numbers:?}");
