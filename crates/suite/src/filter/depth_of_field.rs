@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use frame::{Frame, Picture};
+use frame::Frame;
 use tracer::{Defocus, Scene, trace_defocus, trace_frame};
 
 use super::traced_again::settings_of;
@@ -14,7 +14,7 @@ named! {
     pub enum DepthOfField {
         /// Before motion blur: a filter gets colour out of focus, as the lens shows the instant; velocity and depth are a pinhole's.
         Before = "before",
-        /// After motion blur: a filter gets the frame of a pinhole, and its output is defocused by the geometry of the instant.
+        /// After motion blur: a filter gets the frame of a pinhole, and its output is defocused as the lens shows the instant.
         After = "after",
     }
 }
@@ -76,15 +76,5 @@ impl DepthOfField {
         let label = format!("{} depth of field", scene.name);
         let pass = monitor.watch(&label, |watch| trace_defocus(scene, &settings, watch))?;
         Ok(Some(pass))
-    }
-}
-
-/// Applies the pass behind a filter to a picture.
-pub(crate) fn defocus(pass: &Defocus, picture: &Picture) -> Picture {
-    Picture {
-        color: pass.apply(&picture.color),
-        coverage: (picture.coverage.iter())
-            .map(|plane| pass.apply_to_plane(plane))
-            .collect(),
     }
 }

@@ -18,7 +18,7 @@ use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use crate::Error;
 use crate::filter::choice::FilterChoice;
-use crate::filter::depth_of_field::{DepthOfField, defocus};
+use crate::filter::depth_of_field::DepthOfField;
 use crate::filter::input_format::InputFormat;
 use crate::filter::runner::Runner;
 use crate::ingest::engine_scene::EngineScene;
@@ -157,7 +157,7 @@ impl CaseContext<'_> {
         .map_err(|error| name_scene(error, self.scene))?;
         let pass = self.pass_behind(input);
         if let Some(pass) = pass {
-            output.picture = defocus(pass, &output.picture);
+            output.picture = pass.apply(&output.picture);
         }
         // A smaller one would not fit into the output's file.
         let dilated_velocity = match input.scale.blurred_size(picture) == picture {
@@ -234,7 +234,10 @@ impl CaseContext<'_> {
         (self.plan.monitor.ended)("kernels: noise frames");
         let outputs = outputs.map(|outputs| match pass {
             None => outputs,
-            Some(pass) => outputs.iter().map(|output| pass.apply(output)).collect(),
+            Some(pass) => outputs
+                .iter()
+                .map(|output| pass.apply_to_color(output))
+                .collect(),
         });
         Ok(outputs
             .filter(|outputs| outputs[1..].iter().any(|output| *output != outputs[0]))
