@@ -205,7 +205,7 @@ impl Defocus {
     fn apply_to_each<T: Send>(
         &self,
         raster: &Raster<T>,
-        mean: impl Fn(&Recipe) -> T + Sync,
+        mean: impl Fn(&Recipe) -> T + Sync + Send,
     ) -> Raster<T> {
         assert_eq!(
             (raster.width, raster.height),
