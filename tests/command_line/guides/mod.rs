@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 42] = [
+const NOT_RUN: [(&str, &str); 43] = [
     (
         "shuttertruth check --scenes fan --filter mcguire:paper --frames 4 --out out/checked_sequence",
         "renders four frames with enough samples for limits; a test does so on a plate",
@@ -24,6 +24,10 @@ const NOT_RUN: [(&str, &str); 42] = [
     (
         "shuttertruth calibrate --scenes fan --filter mcguire:paper --size 160x90 --frames 4 --runs 2 --out out/calibrated_sequence",
         "renders eight frames with enough samples for limits; a test does so on a plate",
+    ),
+    (
+        "shuttertruth run --scenes shallow_focus,shallow_focus@on_ball,shallow_focus@resting --filter identity,bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --depth-of-field after --out out/depth_of_field",
+        "takes minutes; a test of the catalogue renders these scenes",
     ),
     (
         "shuttertruth run --scenes glasshouse,glasshouse@written,glasshouse@resting,sparks,sparks@written,sparks@opaque --filter bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --samples-per-pixel 64 --out out/translucent",
