@@ -8,20 +8,18 @@ use tracer::RenderSettings;
 fn a_ball_out_of_focus_is_smeared_by_the_velocity_of_a_sharp_one() {
     let names = ["", "@pinhole", "@on_ball"].map(|variant| format!("shallow_focus{variant}"));
     let settings = RenderSettings {
-        width: 120,
-        height: 68,
         samples_per_pixel: 256,
         ..small_settings()
     };
     let render = |name: String| RenderedScene::with_settings(&name, settings);
     let [lens, pinhole, on_ball] = names.map(render);
-    // The part of the identity's squared error that is left. At 160x90 measured 0.44, 0.54, 0.90 and 0.14 out of focus; 0.05, 0.11,
-    // 0.25 and 0.05 without a lens; and about the same where the ball is in focus and the wall is not.
+    // The part of the identity's squared error that is left. Measured 0.45, 0.61, 1.07 and 0.13 out of focus; 0.04, 0.11, 0.26 and
+    // 0.05 where the ball is in focus and the wall is not; and about the same without a lens.
     for (filter, times) in [
-        ("jimenez:slides_2014", 4.0),
-        ("kino:default", 2.5),
-        ("mcguire:tuned", 2.0),
-        ("jump_flood:corrected", 1.7),
+        ("jimenez:slides_2014", 2.5),
+        ("kino:default", 2.0),
+        ("mcguire:tuned", 1.5),
+        ("jump_flood:corrected", 1.5),
     ] {
         let left = |scene: &RenderedScene| scene.error_left_by(filter, "mse_moving");
         assert_worse(
@@ -35,7 +33,8 @@ fn a_ball_out_of_focus_is_smeared_by_the_velocity_of_a_sharp_one() {
             times,
         );
     }
-    // Bevy's filter is worse than none: measured 2.0, and 0.5 without a lens.
+    // Bevy's filter is worse than none: measured 2.5, and 0.5 without a lens.
     let bevy = lens.error_left_by("bevy:default", "mse_moving");
+    println!("bevy leaves {bevy}");
     assert!(bevy > 1.2, "bevy leaves {bevy}");
 }
