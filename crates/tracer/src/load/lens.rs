@@ -31,7 +31,7 @@ pub(super) fn read_lens(
                 aperture: *aperture.get_ref(),
                 focus: *focus.get_ref(),
             };
-            if !(lens.focus >= NEAREST_FOCUS) {
+            if lens.focus < NEAREST_FOCUS {
                 let found = lens.focus;
                 return refuse(
                     focus,
