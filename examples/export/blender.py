@@ -10,7 +10,7 @@ With a shutter as the last word, trailing or centred, Cycles blurs as its own mo
     blender -b --python examples/export/blender.py -- out/gltf/railing out/blurred.exr 160 90 centred
     python3 examples/export/compare.py out/blurred.exr out/render/railing/truth_centred.exr
 
-The importer keeps places, motion, colours and the sun. The script adds what glTF cannot say: the sky, light without limits on
+The importer keeps places, motion, colours and the sun. The script adds what glTF cannot say: the lens, the sky, light without limits on
 bounces, and diffuse surfaces without Blender's own gloss. Tried with Blender 3.4.1.
 """
 
@@ -52,6 +52,17 @@ def add_sky():
     links.new(place.outputs["Generated"], turn.inputs["Vector"])
     links.new(turn.outputs["Vector"], sky.inputs["Vector"])
     links.new(sky.outputs["Color"], nodes["Background"].inputs["Color"])
+
+
+def set_lens():
+    """Gives the camera its lens. Blender has a focal length in millimetres and an f-number, whose quotient is the aperture."""
+    lens, camera = manifest["lens"], scene.camera.data
+    if lens:
+        camera.dof.use_dof = True
+        camera.dof.focus_distance = lens["focus"]
+        camera.dof.aperture_fstop = camera.lens / 1000 / lens["aperture"]
+        # A disc without blades.
+        camera.dof.aperture_blades = 0
 
 
 def set_sun():
@@ -173,6 +184,7 @@ for image in bpy.data.images:
     image.update()
 decode_textures()
 add_sky()
+set_lens()
 set_sun()
 for material in [m for m in bpy.data.materials if m.use_nodes]:
     make_diffuse(material)

@@ -1,9 +1,9 @@
 //! Forms in which engines hand over a frame: sizes of buffers, samples, jitter, scale.
 
 use frame::read_exr;
-use suite::{BufferSize, CameraJitter, Case, Multisampling, RenderScale, Sequence};
+use suite::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderScale, Sequence};
 
-use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stdout};
 
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
@@ -143,4 +143,46 @@ fn samples_jitter_and_scale_change_what_filters_get() {
     let other = find_case(&cases, "identity:default jitter=left_in");
     assert_eq!(other.input.jitter, CameraJitter::LeftIn);
     assert_eq!(other.input.msaa, Multisampling::None);
+}
+
+#[test]
+fn depth_of_field_runs_before_a_filter_or_after_it() {
+    let bench = Bench::new();
+    let words = "--filters identity,velocity_gather:fine --depth-of-field before,after";
+    // A scene without a lens is refused before anything is rendered.
+    let refused = bench.run(&split(words));
+    assert_refused(
+        &refused,
+        2,
+        &[
+            "--depth-of-field after",
+            "plate has no lens",
+            "aperture and focus",
+        ],
+    );
+    bench.write(
+        "scene.toml",
+        &SCENE.replace("vertical_fov", "aperture = 0.8\nfocus = 2\nvertical_fov"),
+    );
+    let output = bench.run(&split(words));
+    assert_done(&output);
+    let cases = bench.read_filter_cases();
+    assert_eq!(cases.len(), 2 * 2);
+    assert!(stdout(&output).contains("depth_of_field=after"));
+    let case = |name: &str| find_case(&cases, name);
+    let after = case("velocity_gather:fine depth_of_field=after");
+    assert_eq!(after.input.depth_of_field, DepthOfField::After);
+    let output = |name: &str| {
+        let folder = bench.path("out").join(&case(name).folder);
+        read_exr(&folder.join("output.exr")).unwrap()
+    };
+    // Without a blur the pass leaves the plate about as the lens shows it: the plate hides nothing of a flat background.
+    let [before, after] = ["", " depth_of_field=after"]
+        .map(|form| output(&format!("identity:default{form}")))
+        .map(|output| output.plane("coverage.plate").unwrap().pixels.clone());
+    let apart = (before.iter().zip(&after)).map(|(a, b)| (a - b).abs());
+    assert!(apart.fold(0.0, f32::max) < 0.25);
+    let [a, b] = ["", " depth_of_field=after"]
+        .map(|form| flip(&cases, &format!("velocity_gather:fine{form}")));
+    assert!((a - b).abs() > 1e-4, "{a} {b}");
 }

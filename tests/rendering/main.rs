@@ -11,6 +11,7 @@ mod frame_variants;
 mod furnace;
 mod instances;
 mod intersection;
+mod lens;
 mod materials;
 mod motion;
 mod moving_shapes;

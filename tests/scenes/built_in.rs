@@ -68,6 +68,7 @@ fn every_scene_loads_with_every_variant() {
         "ramp_floor",
         "reversal",
         "roll",
+        "shallow_focus",
         "sliding_panel",
         "sparks",
         "two_spheres",

@@ -8,7 +8,7 @@ use frame::ColorSampling;
 use tests::scenes;
 use tracer::{RenderSettings, Scene, list_scenes, load_scene, trace_frame};
 
-/// Renders colour at the pixels' centres.
+/// Renders colour at the pixels' centres, without a lens, which has noise of its own.
 fn render(scene: &Scene, seed: u64) -> frame::Image {
     let mut settings = RenderSettings {
         width: 48,
@@ -18,7 +18,8 @@ fn render(scene: &Scene, seed: u64) -> frame::Image {
         ..RenderSettings::default()
     };
     settings.options.color = ColorSampling::Point;
-    let frame = trace_frame(scene, &settings, &|_| ControlFlow::Continue(())).unwrap();
+    let sharp = scene.clone().pinhole();
+    let frame = trace_frame(&sharp, &settings, &|_| ControlFlow::Continue(())).unwrap();
     frame.color
 }
 

@@ -33,6 +33,7 @@ pub fn empty_scene(name: &str) -> Scene {
         camera: Camera {
             motion: Motion::still(Key::REST),
             vertical_fov: vec![(0.0, std::f64::consts::FRAC_PI_2)],
+            lens: None,
         },
         background: Background::Constant(Vec3::ZERO),
         sun: None,

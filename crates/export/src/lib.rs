@@ -18,5 +18,5 @@ mod timeline;
 
 pub use document::export_gltf;
 pub use error::ExportError;
-pub use manifest::{MANIFEST_FORMAT, Manifest};
+pub use manifest::{MANIFEST_FORMAT, Manifest, ManifestLens};
 pub use timeline::{FRAMES_PER_SECOND, Timeline};

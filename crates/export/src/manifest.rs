@@ -41,6 +41,8 @@ pub struct Manifest {
     pub has_shutter_profile: bool,
     /// Vertical field of view in degrees.
     pub vertical_fov: f64,
+    /// Lens of the camera; none of a pinhole. glTF has no words for it.
+    pub lens: Option<ManifestLens>,
     /// Display exposure in stops; the radiance of the picture is without it.
     pub stops: f32,
     /// Irradiance of the sun on a surface that faces it, linear Rec.709; none without a sun.
@@ -57,12 +59,23 @@ pub struct Manifest {
     pub conventions: Vec<&'static str>,
 }
 
-const CONVENTIONS: [&str; 6] = [
+/// A thin lens.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ManifestLens {
+    /// Diameter in metres.
+    pub aperture: f64,
+    /// Distance along the view axis at which points are sharp, in metres.
+    pub focus: f64,
+}
+
+const CONVENTIONS: [&str; 7] = [
     "Units are metres and linear Rec.709 radiance; the space is right-handed with +Y up, and the camera looks along its own -Z.",
     "Light: the directional light's intensity is its irradiance, without any factor for lumens; a white diffuse surface that \
      faces it sends irradiance / pi.",
     "Every surface is two-sided, casts shadows and receives indirect light; emissive surfaces light others.",
-    "The picture is a pinhole's without lens, fog, tone curve or exposure; its pixels are box-filtered.",
+    "The picture is without fog, tone curve or exposure; its pixels are box-filtered.",
+    "Without a lens the camera is a pinhole. With one, truths and the frame's colour are out of focus, by a thin lens that does not \
+     darken the picture; velocity and depth are the pinhole's.",
     "Before its first key and after its last the animation stands still, in the scene the motion goes on; draw only times within.",
     "Expected velocity, to compare with the suite's: pixels per frame, +x right, +y down, the position at the instant minus the \
      position one frame before.",
@@ -91,6 +104,10 @@ impl Manifest {
             shutter: Alignment::ALL.into_iter().map(shutter).collect(),
             has_shutter_profile: scene.shutter_profile != frame::ShutterProfile::default(),
             vertical_fov: scene.camera.vertical_fov_at(0.0).to_degrees(),
+            lens: scene.camera.lens.map(|lens| ManifestLens {
+                aperture: lens.aperture,
+                focus: lens.focus,
+            }),
             stops: scene.display.stops,
             sun_irradiance: scene.sun.map(|sun| sun.irradiance.to_array()),
             sun_angular_radius: scene.sun.map(|sun| sun.angular_radius.to_degrees()),

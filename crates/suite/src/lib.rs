@@ -48,6 +48,7 @@ pub use filter::buffer_size::BufferSize;
 pub use filter::camera_jitter::CameraJitter;
 pub use filter::choice::FilterChoice;
 pub use filter::depth_format::DepthFormat;
+pub use filter::depth_of_field::DepthOfField;
 pub use filter::input_format::{InputFormat, InputForms};
 pub use filter::multisampling::Multisampling;
 pub use filter::render_scale::RenderScale;

@@ -94,6 +94,10 @@ pub(crate) fn provenance(
 /// Hashes the debug output of the settings. It holds every field, and every number in full: no new setting can be forgotten.
 fn content_hash(scene: &Scene, kind: &str, settings: &dyn Debug) -> String {
     let tracer = env!("TRACER_SOURCES");
-    let text = format!("{PROGRAM}\n{tracer}\n{kind}\n{}\n{settings:?}", scene.hash);
+    let mut text = format!("{PROGRAM}\n{tracer}\n{kind}\n{}\n{settings:?}", scene.hash);
+    // The scene's own hash covers its lens, but not that it was taken away.
+    if let Some(lens) = scene.camera.lens {
+        text += &format!("\n{lens:?}");
+    }
     blake3::hash(text.as_bytes()).to_hex().to_string()
 }

@@ -5,6 +5,7 @@
 mod accel;
 mod aligned_shutter;
 mod content_hash;
+mod defocus;
 mod error;
 mod film;
 mod frame_rate;
@@ -29,6 +30,7 @@ mod test_scene;
 mod truth;
 
 pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};
+pub use defocus::{Defocus, trace_defocus};
 pub use error::TraceError;
 pub use film::sampler::MOST_SAMPLES;
 pub use frame_rate::FrameRate;
@@ -51,8 +53,8 @@ pub use motion::velocity::{ObjectsBefore, PointMotion};
 pub use pixel_grid::PixelGrid;
 pub use progress::{Progress, Watch};
 pub use scene::{
-    Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Material, Mesh,
-    Object, Parent, Scene, Shape, Sun, Texture, Translucency,
+    Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Lens, Material,
+    Mesh, Object, Parent, Scene, Shape, Sun, Texture, Translucency,
 };
 pub use seal::Seal;
 pub use settings::RenderSettings;

@@ -87,6 +87,12 @@ pub const FASTEST_SHUTTER: f64 = 100_000.0;
 /// Narrowest vertical field of view, in degrees.
 pub const NARROWEST_VIEW: f64 = 0.001;
 
+/// Nearest focus of a lens, in metres.
+pub const NEAREST_FOCUS: f64 = 1e-6;
+
+/// Largest diameter of a lens, as a part of the distance of its focus.
+pub const WIDEST_LENS: f64 = 1.0;
+
 /// Smallest angular radius of a sun that is no point, in degrees.
 pub const SMALLEST_SUN: f64 = 0.001;
 

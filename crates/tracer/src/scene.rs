@@ -90,7 +90,7 @@ impl Family {
     }
 }
 
-/// A pinhole camera that looks along its own -Z, +Y up.
+/// A camera that looks along its own -Z, +Y up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
     /// Transform from camera to world; never scales.
@@ -98,6 +98,18 @@ pub struct Camera {
     /// At least one key of time in frames and vertical field of view in radians. Between and beyond its keys the field of
     /// view is interpolated as the motion is.
     pub vertical_fov: Vec<(f64, f64)>,
+    /// Lens; none for a pinhole.
+    pub lens: Option<Lens>,
+}
+
+/// A thin lens: a disc across the view axis, around the camera's position. It has no errors and does not darken the picture: a pixel
+/// is the mean of what the pinholes at all points of the disc see.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Diameter in metres, above 0.
+    pub aperture: f64,
+    /// Distance along the view axis at which points are sharp, in metres, above 0.
+    pub focus: f64,
 }
 
 /// Radiance from infinity.
@@ -323,6 +335,15 @@ impl Scene {
             sun: None,
             ..self
         }
+    }
+
+    /// Takes the camera's lens away: everything is sharp.
+    pub fn pinhole(self) -> Self {
+        let camera = Camera {
+            lens: None,
+            ..self.camera
+        };
+        Self { camera, ..self }
     }
 
     /// Names of the background and the objects, by id.

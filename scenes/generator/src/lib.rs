@@ -137,6 +137,7 @@ pub fn generate_files() -> Vec<File> {
             ],
         ),
         scene_files("roll", &[village::files()]),
+        scene_files("shallow_focus", &[beach_ball::files(), wall::brick()]),
         scene_files("sparks", &[grinding::files(), wall::brick()]),
         scene_files(
             "walker",

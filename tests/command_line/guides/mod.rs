@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 43] = [
+const NOT_RUN: [(&str, &str); 44] = [
     (
         "shuttertruth run --scenes railing@unlit,fan@unlit,crossing@unlit,pan_sky@unlit --filter bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --samples-per-pixel 64 --out out/rates --frame-rate 24,60,144 --shutter-time 1/120,1/48 --shutter-rule in_frames,in_time,in_time_capped,share_falls",
         "renders truths of nine rates and shutters; a test does so on a plate",
@@ -28,6 +28,10 @@ const NOT_RUN: [(&str, &str); 43] = [
     (
         "shuttertruth calibrate --scenes fan --filter mcguire:paper --size 160x90 --frames 4 --runs 2 --out out/calibrated_sequence",
         "renders eight frames with enough samples for limits; a test does so on a plate",
+    ),
+    (
+        "shuttertruth run --scenes shallow_focus,shallow_focus@on_ball,shallow_focus@resting --filter identity,bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --depth-of-field after --out out/depth_of_field",
+        "takes minutes; a test of the catalogue renders these scenes",
     ),
     (
         "shuttertruth run --scenes glasshouse,glasshouse@written,glasshouse@resting,sparks,sparks@written,sparks@opaque --filter bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --samples-per-pixel 64 --out out/translucent",

@@ -57,6 +57,7 @@ pub const WORDS: &[&str] = &[
     "--msaa",
     "--camera-jitter",
     "--render-scale",
+    "--depth-of-field",
     "--as-written",
     "--noise",
     "--most-replicates",

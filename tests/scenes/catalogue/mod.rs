@@ -5,6 +5,7 @@
 
 mod camera;
 mod deforming;
+mod lens;
 mod limits;
 mod overlap;
 mod rendered_scene;

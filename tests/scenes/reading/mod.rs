@@ -58,6 +58,8 @@ fn the_documented_example_loads() {
         ]
     );
     assert_eq!(scene.camera.motion.interpolation, Interpolation::Cubic);
+    let lens = scene.camera.lens.expect("the example has one");
+    assert_eq!((lens.aperture, lens.focus), (0.02, 5.0));
     assert_eq!(scene.objects[0].motion.interpolation, Interpolation::Linear);
 
     let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));

@@ -8,9 +8,40 @@ fn slips_in_scene_toml_are_refused() {
 }
 
 #[test]
+fn slips_in_lenses_are_refused() {
+    check_slips("scene.toml", LENS_SLIPS);
+}
+
+#[test]
 fn slips_in_shutters_are_refused() {
     check_slips("scene.toml", SHUTTER_SLIPS);
 }
+
+#[rustfmt::skip]
+const LENS_SLIPS: &[Slip] = &[
+    ("aperture without focus", "vertical_fov = 40", "vertical_fov = 40\naperture = 0.05",
+        "scene.toml:10: the camera has an aperture and no focus; give the distance in metres at which it is sharp, or leave both out"),
+    ("focus without aperture", "vertical_fov = 40", "vertical_fov = 40\nfocus = 5",
+        "scene.toml:10: the camera has a focus and no aperture; give the diameter of its lens in metres, or leave both out: a pinhole is sharp at all distances"),
+    ("aperture of nothing", "vertical_fov = 40", "vertical_fov = 40\naperture = 0\nfocus = 5",
+        "scene.toml:10: aperture is 0.0 m and focus 5.0 m; allowed: an aperture above 0 and up to 1 times the focus; leave both out for a pinhole"),
+    ("negative aperture", "vertical_fov = 40", "vertical_fov = 40\naperture = -0.05\nfocus = 5",
+        "scene.toml:10: aperture is -0.05 m and focus 5.0 m; allowed: an aperture above 0 and up to 1 times the focus; leave both out for a pinhole"),
+    ("aperture in millimetres", "vertical_fov = 40", "vertical_fov = 40\naperture = 50\nfocus = 5",
+        "scene.toml:10: aperture is 50.0 m and focus 5.0 m; allowed: an aperture above 0 and up to 1 times the focus; leave both out for a pinhole"),
+    ("infinite aperture", "vertical_fov = 40", "vertical_fov = 40\naperture = inf\nfocus = 5",
+        "scene.toml:10: found inf; allowed: finite numbers"),
+    ("focus of NaN", "vertical_fov = 40", "vertical_fov = 40\naperture = 0.05\nfocus = nan",
+        "scene.toml:11: found nan; allowed: finite numbers"),
+    ("focus at the lens", "vertical_fov = 40", "vertical_fov = 40\naperture = 0.05\nfocus = 0",
+        "scene.toml:11: focus is 0.0 m; allowed: 1e-6 or more"),
+    ("focus behind the camera", "vertical_fov = 40", "vertical_fov = 40\naperture = 0.05\nfocus = -5",
+        "scene.toml:11: focus is -5.0 m; allowed: 1e-6 or more"),
+    ("aperture by number", "vertical_fov = 40", "vertical_fov = 40\naperture = \"f/2\"\nfocus = 5",
+        "scene.toml:10: invalid type: string \"f/2\"; allowed: a number"),
+    ("lens in a key", "position = [0, 0, 5]\nlook_at = [0, 0, 0]", "keys = [{ time = 0, position = [0, 0, 5], look_at = [0, 0, 0], focus = 5 }]",
+        "scene.toml:7: unknown key `focus`; allowed: `time`, `position`, `look_at`, `up`, `rotation`, `vertical_fov`"),
+];
 
 #[rustfmt::skip]
 const SCENE_SLIPS: &[Slip] = &[
@@ -19,7 +50,7 @@ const SCENE_SLIPS: &[Slip] = &[
     ("unknown key", "exposure = 0.5", "exposure = 0.5\nshuter = 1", 
         "scene.toml:4: unknown key `shuter`; allowed: `exposes`, `family`, `exposure`, `size`, `shutter`, `display`, `camera`, `background`, `sun`, `object`, `variant`"),
     ("unknown key of the camera", "vertical_fov = 40", "vertical_fov = 40\nscale = 2", 
-        "scene.toml:10: unknown key `scale`; allowed: `position`, `look_at`, `up`, `rotation`, `vertical_fov`, `keys`, `interpolation`"),
+        "scene.toml:10: unknown key `scale`; allowed: `position`, `look_at`, `up`, `rotation`, `vertical_fov`, `aperture`, `focus`, `keys`, `interpolation`"),
     ("unknown key of an object", "parent = \"body\"", "father = \"body\"", 
         "scene.toml:28: unknown key `father`; allowed: `mesh`, `shapes`, `group`, `parent`, `translation`, `rotation`, `scale`, `keys`, `interpolation`, `alpha`, `buffers`, `material`"),
     ("unknown key in a variant", "{ time = 1, translation = [2, 0, 0] }", "{ time = 1, move = [2, 0, 0] }", 

@@ -9,7 +9,7 @@ use super::measure::MeasureArgs;
 use super::sequence::SequenceArgs;
 
 /// Arguments that only a check that measures may have.
-const MEASURING: [&str; 30] = [
+const MEASURING: [&str; 31] = [
     "scenes",
     "frame_rate",
     "shutter_time",
@@ -36,6 +36,7 @@ const MEASURING: [&str; 30] = [
     "camera_jitter",
     "render_scale",
     "shutter_rule",
+    "depth_of_field",
     "jitter_frames",
     "frames",
     "fps",

@@ -2,8 +2,8 @@
 
 use clap::Args;
 use suite::{
-    Border, BufferSize, CameraJitter, DepthFormat, InputForms, Multisampling, RenderScale,
-    ShutterRule, VelocityDefect, VelocityFormat,
+    Border, BufferSize, CameraJitter, DepthFormat, DepthOfField, InputForms, Multisampling,
+    RenderScale, ShutterRule, VelocityDefect, VelocityFormat,
 };
 
 use super::parse::parse_named;
@@ -40,6 +40,9 @@ pub struct InputFormArgs {
     /// show what a filter costs that does not follow the shutter.
     #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(ShutterRule::ALL, ShutterRule::name, ShutterRule::help), value_delimiter = ',', value_name = "RULES")]
     pub shutter_rule: Vec<ShutterRule>,
+    /// Places of depth of field to try, in scenes whose camera has a lens, separated by commas: before motion blur, or after.
+    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(DepthOfField::ALL, DepthOfField::name, DepthOfField::help), value_delimiter = ',', value_name = "PLACES")]
+    pub depth_of_field: Vec<DepthOfField>,
 }
 
 impl InputFormArgs {
@@ -55,6 +58,7 @@ impl InputFormArgs {
             jitter: self.camera_jitter.clone(),
             scale: self.render_scale.clone(),
             rule: self.shutter_rule.clone(),
+            depth_of_field: self.depth_of_field.clone(),
         }
     }
 }

@@ -8,6 +8,7 @@ use super::border::{Border, repeat_border, smear_margin};
 use super::buffer_size::BufferSize;
 use super::camera_jitter::CameraJitter;
 use super::depth_format::DepthFormat;
+use super::depth_of_field::DepthOfField;
 use super::multisampling::Multisampling;
 use super::render_scale::RenderScale;
 use super::shutter_rule::ShutterRule;
@@ -42,6 +43,9 @@ pub struct InputFormat {
     /// Rule by which the filter's exposure follows the frame rate.
     #[serde(default, skip_serializing_if = "is_default")]
     pub rule: ShutterRule,
+    /// Place of depth of field.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub depth_of_field: DepthOfField,
 }
 
 /// Forms to try, part by part.
@@ -65,6 +69,8 @@ pub struct InputForms {
     pub scale: Vec<RenderScale>,
     /// Rules by which the filter's exposure follows the frame rate.
     pub rule: Vec<ShutterRule>,
+    /// Places of depth of field.
+    pub depth_of_field: Vec<DepthOfField>,
 }
 
 fn is_default<T: Default + PartialEq>(part: &T) -> bool {
@@ -92,6 +98,11 @@ impl InputForms {
         try_each(&mut (self.jitter.iter()).map(|&jitter| InputFormat { jitter, ..full }));
         try_each(&mut (self.scale.iter()).map(|&scale| InputFormat { scale, ..full }));
         try_each(&mut (self.rule.iter()).map(|&rule| InputFormat { rule, ..full }));
+        let places = self.depth_of_field.iter();
+        try_each(&mut places.map(|&depth_of_field| InputFormat {
+            depth_of_field,
+            ..full
+        }));
         formats
     }
 }
@@ -110,6 +121,11 @@ impl InputFormat {
             ("jitter", self.jitter.name(), full.jitter.name()),
             ("scale", self.scale.name(), full.scale.name()),
             ("rule", self.rule.name(), full.rule.name()),
+            (
+                "depth_of_field",
+                self.depth_of_field.name(),
+                full.depth_of_field.name(),
+            ),
         ];
         let changes: Vec<String> = (all.iter().filter(|(_, own, full)| own != full))
             .map(|(part, own, _)| format!("{part}={own}"))
@@ -128,6 +144,11 @@ impl InputFormat {
                 is_default(&self.jitter),
             ),
             ("--render-scale", self.scale.name(), is_default(&self.scale)),
+            (
+                "--depth-of-field",
+                self.depth_of_field.name(),
+                is_default(&self.depth_of_field),
+            ),
         ];
         if !is_default(&self.rule) && !has_scene {
             return Err(Error::Usage(format!(
@@ -159,7 +180,10 @@ impl InputFormat {
         let rendered = match scene {
             None => frame.clone(),
             Some(scene) => {
-                let frame = self.msaa.apply(frame, scene, monitor)?;
+                self.depth_of_field.check(scene)?;
+                let scene = &*self.depth_of_field.seen_scene(scene);
+                let frame = self.depth_of_field.apply(frame, scene, monitor)?;
+                let frame = self.msaa.apply(&frame, scene, monitor)?;
                 let frame = self.jitter.apply(&frame, scene, monitor)?;
                 let frame = self.scale.apply(&frame, scene, monitor)?;
                 self.rule.apply(frame, scene)
@@ -195,6 +219,7 @@ mod tests {
             jitter: vec![CameraJitter::LeftIn],
             scale: vec![RenderScale::HalfBlurFirst],
             rule: vec![ShutterRule::InFrames],
+            depth_of_field: vec![DepthOfField::Before, DepthOfField::After],
         };
         let formats = forms.one_by_one();
         let changes: Vec<_> = formats.iter().map(|format| format.change()).collect();
@@ -212,6 +237,7 @@ mod tests {
                 said("jitter=left_in"),
                 said("scale=50_blur_first"),
                 said("rule=in_frames"),
+                said("depth_of_field=after"),
             ]
         );
     }
@@ -224,6 +250,7 @@ mod tests {
             jitter: vec![CameraJitter::Resolved],
             scale: vec![RenderScale::HalfUpscaleFirst],
             rule: vec![ShutterRule::InTime],
+            depth_of_field: vec![DepthOfField::After],
             ..InputForms::default()
         };
         let refused: Vec<_> = (forms.one_by_one().iter())
@@ -236,6 +263,7 @@ mod tests {
             "--camera-jitter resolved: ",
             "--render-scale 50_upscale_first: ",
             "--shutter-rule in_time: ",
+            "--depth-of-field after: ",
         ]) {
             assert!(error.as_ref().unwrap().starts_with(option), "{error:?}");
         }

@@ -5,6 +5,7 @@ pub mod buffer_size;
 pub mod camera_jitter;
 pub mod choice;
 pub mod depth_format;
+pub mod depth_of_field;
 pub mod input_format;
 pub mod multisampling;
 pub mod render_scale;

@@ -7,6 +7,7 @@ use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
+use tracer::Defocus;
 
 use tracer::FrameRate;
 
@@ -19,6 +20,7 @@ use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use crate::Error;
 use crate::filter::choice::FilterChoice;
+use crate::filter::depth_of_field::DepthOfField;
 use crate::filter::input_format::InputFormat;
 use crate::filter::runner::Runner;
 use crate::ingest::engine_scene::EngineScene;
@@ -43,6 +45,8 @@ pub(crate) struct CaseContext<'a> {
     pub stored_frames: &'a [(InputFormat, Frame)],
     /// The frame before in these forms; empty for the first frame, and where no filter reads it.
     pub frames_before: &'a [(InputFormat, Frame)],
+    /// The pass behind filters that run before depth of field; none where no case has one.
+    pub depth_of_field: Option<&'a Defocus>,
     pub references: &'a TruthReferences<'a>,
     /// Reads the rung of a number of sub-frames, as a ladder of it alone.
     pub read_rung: &'a dyn Fn(u32) -> Result<Ladder, Error>,
@@ -145,7 +149,7 @@ impl CaseContext<'_> {
         let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
         let ended = self.plan.monitor.ended;
         ended("filter made ready");
-        let output = blur_with_probes(
+        let mut output = blur_with_probes(
             &mut runner,
             frame,
             (before, self.scene.frame_index()),
@@ -153,13 +157,17 @@ impl CaseContext<'_> {
             ended,
         )
         .map_err(|error| name_scene(error, self.scene))?;
+        let pass = self.pass_behind(input);
+        if let Some(pass) = pass {
+            output.picture = pass.apply(&output.picture);
+        }
         // A smaller one would not fit into the output's file.
         let dilated_velocity = match input.scale.blurred_size(picture) == picture {
             true => read_dilated_velocity(&choice.filter, &runner, frame)?,
             false => None,
         };
         ended("mattes and probes");
-        let jitter = self.measure_jitter(&mut runner, frame)?;
+        let jitter = self.measure_jitter(&mut runner, frame, pass)?;
         ended("noise of the filter");
         let measurement = measure_output(&self.references.reference, &output)?;
         ended("probes");
@@ -172,6 +180,11 @@ impl CaseContext<'_> {
             jitter,
             dilated_velocity,
         })
+    }
+
+    /// Returns the pass that a filter's output goes through before it is measured; none where the filter comes last.
+    fn pass_behind(&self, input: InputFormat) -> Option<&Defocus> {
+        (self.depth_of_field).filter(|_| input.depth_of_field == DepthOfField::After)
     }
 
     /// Returns columns and rows of the picture.
@@ -208,7 +221,12 @@ impl CaseContext<'_> {
     }
 
     /// Separates the filter's noise from its other errors; none where it has no noise, or too few frames are asked for.
-    fn measure_jitter(&self, runner: &mut Runner, frame: &Frame) -> Result<Option<Jitter>, Error> {
+    fn measure_jitter(
+        &self,
+        runner: &mut Runner,
+        frame: &Frame,
+        pass: Option<&Defocus>,
+    ) -> Result<Option<Jitter>, Error> {
         if self.plan.jitter_frames < 2 {
             return Ok(None);
         }
@@ -216,6 +234,13 @@ impl CaseContext<'_> {
         let outputs = blur_noise_frames(runner, frame, frames, self.picture_size())
             .map_err(|error| name_scene(error, self.scene))?;
         (self.plan.monitor.ended)("kernels: noise frames");
+        let outputs = outputs.map(|outputs| match pass {
+            None => outputs,
+            Some(pass) => outputs
+                .iter()
+                .map(|output| pass.apply_to_color(output))
+                .collect(),
+        });
         Ok(outputs
             .filter(|outputs| outputs[1..].iter().any(|output| *output != outputs[0]))
             .and_then(|outputs| self.references.reference.jitter(&outputs)))

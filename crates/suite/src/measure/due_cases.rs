@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use filters::FilterError;
 use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::{ColorReference, Reference};
-use tracer::{Progress, Scene, Watch};
+use tracer::{Defocus, Progress, Scene, Watch};
 
 use super::case::{CaseContext, CommonTruth};
 use super::history::{frames_before, store_frame};
@@ -16,6 +16,7 @@ use super::run_scene::RunScene;
 use super::scene::SceneContext;
 use crate::Error;
 use crate::cache::record::write_record;
+use crate::filter::depth_of_field::DepthOfField;
 use crate::filter::input_format::InputFormat;
 use crate::render::ladders::LadderFiles;
 use crate::render::truths::{render_replicates, render_truth};
@@ -42,6 +43,7 @@ impl SceneContext<'_> {
         let is_due = |input: &&InputFormat| due.iter().any(|case| case.input() == **input);
         let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_due).copied().collect();
         let stored_frames = store_frame(&inputs, frame, self.scene.traced(), monitor)?;
+        let depth_of_field = self.prepare_passes(&inputs, frame)?;
         let frames_before = frames_before(self.plan, self.filters, self.scene, &inputs)?;
         let common_alignment = self.plan.common_alignment();
         let has_others = (due.iter()).any(|case| case.alignment != common_alignment);
@@ -93,6 +95,7 @@ impl SceneContext<'_> {
                     frame,
                     stored_frames: &stored_frames,
                     frames_before: &frames_before,
+                    depth_of_field: depth_of_field.as_ref(),
                     references: &references,
                     read_rung: &|subframes| self.read_rung(&truth, subframes),
                     common: match &common {
@@ -108,6 +111,20 @@ impl SceneContext<'_> {
             }
         }
         Ok(cases.into_values().collect())
+    }
+
+    /// Prepares the pass of depth of field behind filters; none where all of them come last.
+    fn prepare_passes(
+        &self,
+        inputs: &[InputFormat],
+        frame: &Frame,
+    ) -> Result<Option<Defocus>, Error> {
+        let last = inputs.iter().map(|input| input.depth_of_field);
+        let mut last = last.filter(|place| *place == DepthOfField::After);
+        match (last.next(), self.scene.traced()) {
+            (Some(place), Some(scene)) => place.prepare_pass(frame, scene, self.plan.monitor),
+            _ => Ok(None),
+        }
     }
 
     /// Measures a case and writes its record; a failure where it concerns this case alone.

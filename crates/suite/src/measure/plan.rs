@@ -86,6 +86,9 @@ impl RunPlan {
         for input in &self.inputs {
             let has_scenes = self.engine_scenes.is_empty();
             input.check(self.render.options.velocity, has_scenes)?;
+            for scene in &self.scenes {
+                input.depth_of_field.check(scene)?;
+            }
         }
         Ok(())
     }

@@ -68,6 +68,7 @@ pub fn made_scene(moving: bool) -> Scene {
                 ..Key::REST
             }),
             vertical_fov: vec![(0.0, 0.7)],
+            lens: None,
         },
         background: Background::Constant(Vec3::ONE),
         sun: None,

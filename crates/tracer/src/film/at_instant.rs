@@ -3,12 +3,14 @@
 use glam::{DVec2, DVec3, Vec3};
 
 use crate::film::canvas::Canvas;
+use crate::film::eye::EyeRay;
 use crate::film::sampler::Sampler;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::{LIFT, Ray};
 use crate::light::integrator::Integrator;
 use crate::light::stops::Stop;
 use crate::motion::camera::View;
+use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;
 use crate::stage::Stage;
 
@@ -69,16 +71,28 @@ impl InstantView {
         }
     }
 
+    /// The view of the lens' centre on points that other points of the lens see.
+    pub fn of_pinhole(stage: &Stage, canvas: Canvas) -> Self {
+        Self {
+            // What stands still may hide from the centre what the rim sees.
+            camera_stands_still: false,
+            ..Self::new(stage, canvas)
+        }
+    }
+
     /// Looks back at the point that `ray` meets at the time of `poses`; `then` are the poses of the instant.
+    ///
+    /// The camera of the instant looks from the same point of its lens: places, hidden points and shading then tell of motion alone,
+    /// and where nothing moves, nothing differs.
     pub fn look_back(
         &self,
         stage: &Stage,
         (poses, then): (&mut Poses, &mut Poses),
-        ray: &Ray,
+        EyeRay { ray, from }: &EyeRay,
         hit: Option<&Hit>,
     ) -> InstantPoint {
         let Some(hit) = hit else {
-            return self.look_at_infinity(stage, then, ray.direction);
+            return self.look_at_infinity(stage, then, ray.direction, *from);
         };
         let mesh = &stage.scene.meshes[stage.scene.objects[hit.object].mesh];
         let own = mesh.at(0.0).point(hit.triangle, hit.weights);
@@ -88,7 +102,8 @@ impl InstantView {
             let normal = mesh.at(time).area_normal(hit.triangle, to_world);
             normal.dot(direction) > 0.0
         };
-        let way = point - self.view.to_world.translation;
+        let eye = self.view.eye(*from);
+        let way = point - eye;
         let seen = side(poses, hit.time, ray.direction);
         let same_side = side(then, 0.0, way) == seen;
         // Where the camera saw the other side then, this ray meets the side that is seen now, in the same direction as now
@@ -111,21 +126,27 @@ impl InstantView {
             time: 0.0,
             ..*hit
         };
-        let place = self.view.project(point).map(DVec2::from);
+        let place = self.view.project_through(point, *from);
         InstantPoint {
             place,
             is_shown: same_side
                 && place.is_some_and(|place| self.contains(place))
-                && !self.is_hidden(stage, then, &ray, &hit, point),
+                && !self.is_hidden(stage, then, (&ray, eye), &hit, point),
             ray: Some((ray, hit)),
         }
     }
 
     /// Looks back at a point at infinity.
-    fn look_at_infinity(&self, stage: &Stage, then: &mut Poses, direction: DVec3) -> InstantPoint {
-        let place = self.view.project_direction(direction).map(DVec2::from);
+    fn look_at_infinity(
+        &self,
+        stage: &Stage,
+        then: &mut Poses,
+        direction: DVec3,
+        from: LensPoint,
+    ) -> InstantPoint {
+        let place = self.view.project_direction_through(direction, from);
         let ray = Ray {
-            origin: self.view.to_world.translation,
+            origin: self.view.eye(from),
             direction,
         };
         InstantPoint {
@@ -166,14 +187,14 @@ impl InstantView {
         &self,
         stage: &Stage,
         then: &mut Poses,
-        ray: &Ray,
+        (ray, eye): (&Ray, DVec3),
         hit: &Hit,
         point: DVec3,
     ) -> bool {
         let facet = stage.facet(then, ray, hit);
         let magnitude = point.abs().max_element().max(hit.t);
         let start = point + LIFT * magnitude * facet;
-        let way = self.view.to_world.translation - start;
+        let way = eye - start;
         let back = Ray {
             origin: start,
             direction: way.normalize(),

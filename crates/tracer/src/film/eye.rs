@@ -1,10 +1,21 @@
 //! The camera and all poses, at the time of one sample after the other.
 
 use crate::film::canvas::Canvas;
+use crate::film::sampler::Sampler;
+use crate::geometry::ray::Ray;
 use crate::motion::camera::View;
+use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;
 use crate::scene::Scene;
 use crate::stage::Stage;
+
+/// A ray of the camera.
+#[derive(Clone, Copy)]
+pub(crate) struct EyeRay {
+    pub ray: Ray,
+    /// Point of the lens that it comes from.
+    pub from: LensPoint,
+}
 
 /// The camera and all poses of one thread.
 pub(crate) struct Eye<'a> {
@@ -33,8 +44,16 @@ impl<'a> Eye<'a> {
         }
     }
 
+    /// Moves everything to `time`; returns the ray of a sample through a place of the picture.
+    pub fn ray_at(&mut self, time: f64, place: [f64; 2], sampler: &Sampler) -> EyeRay {
+        let lens = self.scene.camera.lens;
+        let from = lens.map_or(LensPoint::CENTRE, |lens| lens.point(sampler.lens()));
+        let ray = self.view_at(time).ray_through(place, from);
+        EyeRay { ray, from }
+    }
+
     /// Moves everything to `time`; returns the camera's view.
-    pub fn view_at(&mut self, time: f64) -> &View {
+    fn view_at(&mut self, time: f64) -> &View {
         self.poses.at(time);
         if self.moves {
             self.view = self.scene.camera.view(time, self.size[0], self.size[1]);

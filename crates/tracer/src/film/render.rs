@@ -167,8 +167,8 @@ impl<'a> Film<'a> {
         sampler: &Sampler,
         sample: &mut FilmSample,
     ) {
-        let [x, y] = self.canvas.place(pixel, within);
-        let ray = eye.view_at(time).ray(x, y);
+        let own = eye.ray_at(time, self.canvas.place(pixel, within), sampler);
+        let ray = own.ray;
         let stage = self.integrator.stage;
         let then = &mut eye.instant;
         let shades_again =
@@ -181,7 +181,7 @@ impl<'a> Film<'a> {
             sample.bounces += bounces;
             let hit = layer.stop.map(|stop| stop.hit);
             let point = self.instant.as_ref().map(|instant| {
-                let point = instant.look_back(stage, (poses, then), &ray, hit.as_ref());
+                let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
                 if let (Some(shift), Some(stop)) = (&mut sample.shift, layer.stop) {
                     let path = (radiance, bounces);
                     let own = instant.shift(&self.integrator, then, (&point, stop), path, sampler);

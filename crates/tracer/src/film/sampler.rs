@@ -8,6 +8,8 @@ pub const MOST_SAMPLES: u32 = 1 << 16;
 const SETS_PER_BOUNCE: u32 = 3;
 /// Bounces that share the camera's sequence.
 const JOINT_BOUNCES: u32 = 2;
+/// Number of the lens' set, which no bounce has.
+const LENS_SET: u32 = u32::MAX;
 
 /// Independent streams of random numbers, so that no two renders of a scene share their noise.
 #[derive(Clone, Copy)]
@@ -20,6 +22,8 @@ pub(crate) enum Stream {
     /// Pilots of frames and of truths.
     FramePilot,
     TruthPilot,
+    /// A pass of depth of field.
+    Defocus,
 }
 
 /// The random numbers of one sample of one pixel.
@@ -39,6 +43,7 @@ pub(crate) fn pixel_seed(seed: u64, stream: Stream, pixel: u32, replicate: u32) 
         Stream::Support => u64::MAX,
         Stream::TruthPilot => u64::MAX - 1,
         Stream::FramePilot => u64::MAX - 2,
+        Stream::Defocus => u64::MAX - 3,
     };
     let pixel_hash = mix64(mix64(mix64(seed) ^ stream) ^ u64::from(pixel));
     mix32((pixel_hash as u32).wrapping_add(replicate))
@@ -58,6 +63,13 @@ impl Sampler {
     /// Numbers for the place in the pixel (x, y) and in the shutter interval, stratified together; one is spare.
     pub fn camera(&self) -> [f64; 4] {
         draw(self.index, 0, self.seed)
+    }
+
+    /// Numbers for the point of the lens, stratified together. They change no others, so that a pinhole's samples are what they are
+    /// without them.
+    pub fn lens(&self) -> [f64; 2] {
+        let [u, v, ..] = self.shuffled_set(LENS_SET);
+        [u, v]
     }
 
     /// Numbers for the next direction (two), roulette, and the choice of an emitter.
@@ -91,6 +103,11 @@ impl Sampler {
         if depth < JOINT_BOUNCES {
             return draw(self.index, set, self.seed);
         }
+        self.shuffled_set(set)
+    }
+
+    /// The sequence's first four dimensions, with a seed of the set's own.
+    fn shuffled_set(&self, set: u32) -> [f64; 4] {
         let seed = mix32(self.seed ^ mix32(set));
         draw(self.index, 0, seed)
     }

@@ -16,6 +16,8 @@ use crate::progress::Meter;
 const SAMPLES: u32 = 64;
 /// Rays per pixel where they and those of all eight neighbours met the same.
 const FIRST_SAMPLES: u32 = 16;
+/// Factor on both for a camera with a lens, which spreads what is seen over more pixels and covers less of each.
+const LENS_FACTOR: u32 = 4;
 /// Seed, the same for all renders, so that regions do not depend on the seed of a truth.
 const SEED: u64 = 0;
 
@@ -42,9 +44,14 @@ pub(crate) fn trace_supports(
         unknowable: false,
         is_mixed: false,
     };
+    let factor = match film.integrator.stage.scene.camera.lens {
+        Some(_) => LENS_FACTOR,
+        None => 1,
+    };
+    let [few, all] = [FIRST_SAMPLES, SAMPLES].map(|samples| factor * samples);
     let pixels = film.canvas.pixels();
     let nothing = vec![vec![unseen; film.times.len()]; pixels.len()];
-    let first = probe_pixels(film, &nothing, 0..FIRST_SAMPLES, |_, _| true, meter)?;
+    let first = probe_pixels(film, &nothing, 0..few, |_, _| true, meter)?;
     let raster = |number: usize, pixels: &[Vec<PixelProbe>]| Raster {
         width: film.canvas.columns(),
         height: film.canvas.rows(),
@@ -54,7 +61,7 @@ pub(crate) fn trace_supports(
         .map(|number| find_plain(&raster(number, &first)))
         .collect();
     let is_mixed = |pixel: u32, number: usize| !plain[number].pixels[pixel as usize];
-    let whole = probe_pixels(film, &first, FIRST_SAMPLES..SAMPLES, is_mixed, meter)?;
+    let whole = probe_pixels(film, &first, few..all, is_mixed, meter)?;
     Ok((moving.iter().enumerate())
         .map(|(number, moving)| assemble_support(&raster(number, &whole), moving))
         .collect())
@@ -134,19 +141,20 @@ fn probe_once(
     let [left, top] = film.canvas.corner(pixel);
     let row = pixel / film.canvas.columns();
     let seed = pixel_seed(SEED, Stream::Support, film.canvas.seed_number(pixel), 0);
-    let [x, y, part, _] = Sampler::new(seed, index).camera();
+    let sampler = Sampler::new(seed, index);
+    let [x, y, part, _] = sampler.camera();
     let mut probed_at = None;
     // Objects, and whether the instant hides the point that was seen of each.
     let mut found: Vec<(usize, bool)> = Vec::new();
     for (times, probe) in due {
         let time = times.at(part, row, film.canvas.height);
         if probed_at != Some(time) {
-            let ray = eye.view_at(time).ray(left + x, top + y);
+            let own = eye.ray_at(time, [left + x, top + y], &sampler);
             let then = &mut eye.instant;
             found.clear();
-            visit_layers(stage, &mut eye.poses, &ray, |poses, layer| {
+            visit_layers(stage, &mut eye.poses, &own.ray, |poses, layer| {
                 let hit = layer.stop.map(|stop| stop.hit);
-                let point = instant.look_back(stage, (poses, then), &ray, hit.as_ref());
+                let point = instant.look_back(stage, (poses, then), &own, hit.as_ref());
                 found.push((hit.map_or(0, |hit| hit.object + 1), !point.is_shown));
             });
             probed_at = Some(time);

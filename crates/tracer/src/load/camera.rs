@@ -6,6 +6,7 @@ use toml::Spanned;
 use super::document::Document;
 use super::error::SceneError;
 use super::keyed_motion::{Pose, build_motion, read_interpolation};
+use super::lens::read_lens;
 use super::rotation::Rotation;
 use super::schema::{CameraTable, RotationTable};
 use crate::limits::NARROWEST_VIEW;
@@ -93,6 +94,7 @@ pub(super) fn read_camera(
     Ok(Camera {
         motion,
         vertical_fov: fields_of_view,
+        lens: read_lens(document, table)?,
     })
 }
 

@@ -11,6 +11,7 @@ mod files;
 mod finish;
 mod key_shapes;
 mod keyed_motion;
+mod lens;
 mod light;
 mod listing;
 mod material;

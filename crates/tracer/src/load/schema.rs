@@ -62,6 +62,8 @@ pub(super) struct CameraTable {
     pub(super) up: Option<Spanned<[f64; 3]>>,
     pub(super) rotation: Option<Spanned<RotationTable>>,
     pub(super) vertical_fov: Option<Spanned<f64>>,
+    pub(super) aperture: Option<Spanned<f64>>,
+    pub(super) focus: Option<Spanned<f64>>,
     pub(super) keys: Option<Spanned<Vec<CameraKeyTable>>>,
     pub(super) interpolation: Option<Spanned<String>>,
 }

@@ -1,11 +1,12 @@
-//! The camera at one time: rays through pixels, and projection back to them.
+//! The camera at one time: rays through pixels and its lens, and projection back to them.
 
 use frame::CameraPose;
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 
 use crate::geometry::ray::Ray;
 use crate::motion::curve::{Cubic, Keyed};
-use crate::scene::Camera;
+use crate::motion::lens::LensPoint;
+use crate::scene::{Camera, Lens};
 
 /// A camera at one time, with a picture size.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +18,8 @@ pub struct View {
     focal: f64,
     /// Half the picture's width and height in pixels.
     half: [f64; 2],
+    /// Lens; none for a pinhole.
+    lens: Option<Lens>,
 }
 
 impl Camera {
@@ -65,12 +68,13 @@ impl Camera {
             to_camera: to_world.inverse(),
             focal: half[1] / (0.5 * self.vertical_fov_at(time)).tan(),
             half,
+            lens: self.lens,
         }
     }
 }
 
 impl View {
-    /// The ray through a point of the picture, in pixels from the top left.
+    /// The ray through a point of the picture, in pixels from the top left, and the centre of the lens.
     pub fn ray(&self, x: f64, y: f64) -> Ray {
         let direction = DVec3::new(x - self.half[0], self.half[1] - y, -self.focal);
         Ray {
@@ -79,14 +83,68 @@ impl View {
         }
     }
 
-    /// Projects a point of the world to pixels from the top left; none behind the camera.
+    /// The ray through a point of the picture, in pixels from the top left, and a point of the lens. All rays through one point of
+    /// the picture meet at the focus.
+    pub(crate) fn ray_through(&self, place: [f64; 2], from: LensPoint) -> Ray {
+        let Some(lens) = self.lens else {
+            return self.ray(place[0], place[1]);
+        };
+        let [x, y] = [place[0] - self.half[0], self.half[1] - place[1]];
+        let sharp = DVec3::new(x, y, -self.focal) * (lens.focus / self.focal);
+        let start = from.0.extend(0.0);
+        Ray {
+            origin: self.to_world.transform_point3(start),
+            direction: self.to_world.transform_vector3(sharp - start).normalize(),
+        }
+    }
+
+    /// A point of the lens in the world.
+    pub(crate) fn eye(&self, from: LensPoint) -> DVec3 {
+        match self.lens {
+            None => self.to_world.translation,
+            Some(_) => self.to_world.transform_point3(from.0.extend(0.0)),
+        }
+    }
+
+    /// Projects a point of the world to pixels from the top left, through the centre of the lens; none behind the camera.
     pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
         self.project_local(self.to_camera.transform_point3(point))
     }
 
-    /// Projects a point at infinity to pixels from the top left; none behind the camera.
+    /// Projects a point at infinity to pixels from the top left, through the centre of the lens; none behind the camera.
     pub fn project_direction(&self, direction: DVec3) -> Option<[f64; 2]> {
         self.project_local(self.to_camera.transform_vector3(direction))
+    }
+
+    /// Projects a point of the world through a point of the lens: the place whose ray through that point meets it.
+    pub(crate) fn project_through(&self, point: DVec3, from: LensPoint) -> Option<DVec2> {
+        let place = self.project(point)?;
+        Some(self.shifted(place, from, || 1.0 / self.depth(point)))
+    }
+
+    /// Projects a point at infinity through a point of the lens.
+    pub(crate) fn project_direction_through(
+        &self,
+        direction: DVec3,
+        from: LensPoint,
+    ) -> Option<DVec2> {
+        let place = self.project_direction(direction)?;
+        Some(self.shifted(place, from, || 0.0))
+    }
+
+    /// Moves a place that was seen through the lens' centre to where another point of the lens sees it, by the inverse of its depth.
+    fn shifted(
+        &self,
+        place: [f64; 2],
+        from: LensPoint,
+        inverse_depth: impl FnOnce() -> f64,
+    ) -> DVec2 {
+        let place = DVec2::from(place);
+        let Some(lens) = self.lens else {
+            return place;
+        };
+        let shift = self.focal * (1.0 / lens.focus - inverse_depth()) * from.0;
+        place + DVec2::new(shift.x, -shift.y)
     }
 
     /// The homography from this view's picture to `other`'s. Its three rows act on (x, y, 1, 1 / depth), in pixels and

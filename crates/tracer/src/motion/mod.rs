@@ -4,6 +4,7 @@ pub(crate) mod camera;
 pub(crate) mod curve;
 pub(crate) mod extent;
 pub(crate) mod keys;
+pub(crate) mod lens;
 pub(crate) mod moving;
 pub(crate) mod pose;
 pub(crate) mod poses;

@@ -220,6 +220,7 @@ mod tests {
                         .collect(),
                 },
                 vertical_fov: vec![(0.0, 1.0)],
+                lens: None,
             },
             meshes: vec![Mesh {
                 path: PathBuf::new(),
