@@ -58,17 +58,16 @@ impl DepthOfField {
         Ok(monitor.watch(&label, |watch| trace_frame(seen, &settings, watch))?)
     }
 
-    /// Prepares the pass behind a filter; none where the filter comes last.
+    /// Prepares the pass behind a filter; none where the filter comes last. [`DepthOfField::check`] has passed the scene.
     ///
     /// # Errors
-    /// The scene has no lens or cannot be rendered, or the monitor interrupts.
+    /// The scene cannot be rendered, or the monitor interrupts.
     pub(crate) fn prepare_pass(
         self,
         frame: &Frame,
         scene: &Scene,
         monitor: Monitor,
     ) -> Result<Option<Defocus>, Error> {
-        self.check(scene)?;
         if self == Self::Before {
             return Ok(None);
         }
