@@ -1,6 +1,7 @@
 //! Packs of truths: archives that come from other people.
 
 use std::fs;
+use std::path::Path;
 
 use serde_json::Value;
 use suite::{Manifest, PACK_FORMAT, Pack, PackedFile};
@@ -11,8 +12,16 @@ use crate::seeds::Seed;
 use crate::target::{Shape, Target};
 use crate::tokens;
 
+/// Where the files of a pack lie.
+const PATHS: [&str; 3] = [
+    "plate/frame.exr",
+    "plate/truth_centred.exr",
+    "plate/truth_centred/replicate_000.exr",
+];
+/// Paths that would leave the folder. Each stands in place of the first one.
+const OUTSIDE: [&str; 3] = ["../outside.exr", "../../outside.exr", "a/../../outside.exr"];
 /// What the files of a pack hold. No pack is read as pictures here.
-const CONTENTS: [&[u8]; 3] = [b"a frame", b"a replicate", b"a truth"];
+const CONTENTS: [&[u8]; 3] = [b"a frame", b"a truth", b"a replicate"];
 
 /// The manifest of a pack. The files in its archive have the names that the manifest gives them, whatever these are.
 pub static MANIFEST: Target = Target {
@@ -21,7 +30,12 @@ pub static MANIFEST: Target = Target {
     batch: 250,
     shape: Shape::Text,
     tokens: tokens::JSON,
-    seeds: |_| vec![Seed::Bytes(manifest()), Seed::Made(huge::deep_json)],
+    seeds: |_| {
+        let mut seeds = vec![Seed::Bytes(manifest(PATHS)), Seed::Made(huge::deep_json)];
+        let outside = OUTSIDE.map(|path| Seed::Bytes(manifest([path, PATHS[1], PATHS[2]])));
+        seeds.extend(outside);
+        seeds
+    },
     run: |place, input| unpack(place, &pack_up(input)),
 };
 
@@ -32,11 +46,11 @@ pub static ARCHIVE: Target = Target {
     batch: 250,
     shape: Shape::Bytes,
     tokens: &["ustar", "../../canary.txt", "/dev/null", "5", "2"],
-    seeds: |_| vec![Seed::Bytes(pack_up(&manifest()))],
+    seeds: |_| vec![Seed::Bytes(pack_up(&manifest(PATHS)))],
     run: unpack,
 };
 
-/// Compresses an archive, reads it, and unpacks it as a run does.
+/// Compresses an archive, reads it, and unpacks it as a run does. Panics if anything lies outside of the folder then.
 fn unpack(place: &mut Place, archive: &[u8]) {
     let path = place.write("pack.tar.zst", zstd::encode_all(archive, 1).unwrap());
     let folder = place.folder.join("out");
@@ -47,15 +61,23 @@ fn unpack(place: &mut Place, archive: &[u8]) {
         drop(pack.unpack(&folder, |_| true));
     }
     fs::remove_dir_all(folder).unwrap();
+    assert_eq!(list(&place.folder), ["pack.tar.zst"]);
+    assert_eq!(list(place.folder.parent().unwrap()), ["canary.txt", "case"]);
 }
 
-fn manifest() -> Vec<u8> {
-    let paths = [
-        "plate/frame.exr",
-        "plate/truth_centred/replicate_000.exr",
-        "plate/truth_centred.exr",
-    ];
-    let mut files: Vec<PackedFile> = (paths.iter().zip(CONTENTS))
+/// Lists the names in a folder, sorted.
+fn list(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+/// Makes a manifest of files at these paths.
+fn manifest(paths: [&str; 3]) -> Vec<u8> {
+    let files = (paths.iter().zip(CONTENTS))
         .map(|(path, content)| PackedFile {
             path: (*path).to_owned(),
             bytes: content.len() as u64,
@@ -67,7 +89,6 @@ fn manifest() -> Vec<u8> {
             samples_per_pixel: 16,
         })
         .collect();
-    files.sort_by(|one, other| one.path.cmp(&other.path));
     let manifest = Manifest {
         format: PACK_FORMAT,
         program: "shuttertruth".to_owned(),
