@@ -144,7 +144,7 @@ fn rates_are_kept_and_stay_in_the_run() {
     let compared = bench.execute(&["compare", "first", "out", "--html", "compared.html"]);
     let compared = compared.split_whitespace().collect::<Vec<_>>().join(" ");
     for part in [
-        "nothing changed of: identity:default, identity:default 24fps, identity:default 144fps",
+        "nothing changed of: identity:default 24fps, identity:default, identity:default 144fps",
         "0 worse, 0 better, 0 within margin, 0 within noise",
     ] {
         assert!(compared.contains(part), "{compared}");
