@@ -283,7 +283,28 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     let reached = bench.shuttertruth(&render("out", &["--replicates", "2", "--noise", &words]));
     assert_done(&reached);
     assert!(floor(&stdout(&reached)) <= target, "{}", stdout(&reached));
-    assert!(!stdout(&reached).contains(": 2 replicates"));
+    let replicates = |text: &str, alignment: &str| -> u32 {
+        let after = text.split(&format!("{alignment}: ")).nth(1).unwrap();
+        after.split(' ').next().unwrap().parse().unwrap()
+    };
+    let count = replicates(&stdout(&reached), "trailing");
+    // Half the noise takes four times the replicates, and the floor is an estimate.
+    assert!((6..=14).contains(&count), "{}", stdout(&reached));
+
+    // Each truth has the bytes that a render of its number of replicates has. The same command again says the same.
+    let both = ["--alignments", "trailing,centred"];
+    let until = [&both[..], &["--replicates", "2", "--noise", &words]].concat();
+    let text = stdout(&bench.shuttertruth(&render("both", &until)));
+    for alignment in ["trailing", "centred"] {
+        let count = replicates(&text, alignment).to_string();
+        let alone = ["--replicates", &count, "--alignments", alignment];
+        assert_done(&bench.shuttertruth(&render(alignment, &alone)));
+        let truth = format!("plate/truth_{alignment}.exr");
+        let [one, other] =
+            ["both", alignment].map(|out| fs::read(bench.path(out).join(&truth)).unwrap());
+        assert!(one == other, "{truth} differs");
+    }
+    assert_eq!(stdout(&bench.shuttertruth(&render("both", &until))), text);
 
     let more = split("--replicates 2 --noise 1e-9 --most-replicates 5");
     let short = bench.shuttertruth(&render("short", &more));

@@ -122,7 +122,8 @@ impl Truth {
         };
         let halves = [half(0), half(1)];
         let at_instant = [0, 1].map(|first| {
-            AtInstant::mean((replicates.iter().skip(first).step_by(2)).map(|r| &r.at_instant))
+            let own = replicates.iter().skip(first).step_by(2);
+            AtInstant::mean(own.map(|replicate| &replicate.at_instant)).rounded()
         });
         let count = replicates.len() as u32;
         Ok(Self {
@@ -158,7 +159,7 @@ impl Truth {
 
     /// Averages over all replicates what was seen, as it was at the instant.
     pub fn at_instant_mean(&self) -> AtInstant {
-        AtInstant::mean(&self.at_instant)
+        AtInstant::mean(&self.at_instant).rounded()
     }
 
     /// Averages all replicates.

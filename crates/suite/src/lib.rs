@@ -123,7 +123,7 @@ pub use render::merge::{MOST_PART_BYTES, Merged, merge};
 pub use render::scatter_oracle::scatter_oracle;
 pub use render::settings::{MOST_REPLICATES, SIDES};
 pub use render::shared::render_shared;
-pub use render::truths::{deciding_floor, render_part, render_truth, render_truth_until};
+pub use render::truths::{deciding_floor, render_part, render_truth, render_truths_until};
 pub use results::{RESULTS_FORMAT, ResultCost, ResultScores, Results};
 pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
 pub use run::earlier::{EarlierCases, find_newer_sizes, folder_for_size};

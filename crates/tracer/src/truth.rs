@@ -181,7 +181,7 @@ impl<'a> TruthTracer<'a> {
         let canvas = self.canvas();
         let settings = &self.settings;
         let picture = assemble_picture(tile, means);
-        let at_instant = assemble_at_instant(tile, instant_means);
+        let at_instant = assemble_at_instant(tile, instant_means).rounded();
         check_picture(scene, &picture)?;
         check_at_instant(scene, &at_instant)?;
         let samples = self.samples.get().expect("the replicate was traced by it");

@@ -6,8 +6,8 @@ use std::fs;
 use std::path::Path;
 
 use frame::{
-    Accumulation, Alignment, Channel, ExrFile, FileError, Frame, Ladder, Samples, Truth, read_exr,
-    rung_file, write_atomically, write_exr,
+    Accumulation, Alignment, AtInstant, Channel, ExrFile, FileError, Frame, Ladder, Samples, Truth,
+    read_exr, rung_file, write_atomically, write_exr,
 };
 
 use made::{HEIGHT, WIDTH, a_frame, a_truth, image, objects, picture, plane, profiles, provenance};
@@ -24,6 +24,46 @@ fn every_shutter_comes_back_bit_for_bit() {
         truth.write(&path).unwrap();
         assert_eq!(Truth::read(&path).unwrap(), truth);
     }
+}
+
+#[test]
+fn halves_come_back_bit_for_bit_from_a_smaller_file_and_larger_numbers_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("truth.exr");
+    let exact = a_truth();
+    let short = Truth {
+        at_instant: exact.at_instant.clone().map(AtInstant::rounded),
+        ..exact.clone()
+    };
+    assert_ne!(short, exact);
+    let written = |truth: &Truth| {
+        truth.write(&path).unwrap();
+        assert_eq!(Truth::read(&path).unwrap(), *truth);
+        fs::metadata(&path).unwrap().len()
+    };
+    // The made-up numbers have every magnitude. Those beyond any half stay what they are.
+    let offsets = |truth: &Truth| truth.at_instant[0].offset.pixels.clone();
+    let large = |offset: &[f32; 2]| offset.iter().all(|axis| axis.abs() > 65_520.0);
+    let mut pairs = offsets(&exact).into_iter().zip(offsets(&short));
+    let (exact_offset, kept) = pairs
+        .find(|(exact, _)| large(exact))
+        .expect("some are large");
+    assert_eq!(exact_offset, kept);
+    written(&short);
+
+    let mut small = short;
+    for at_instant in &mut small.at_instant {
+        let noise = at_instant
+            .unknowable
+            .map(|value| (value.to_bits() % 4001) as f32 / 100.0 - 20.0);
+        at_instant.offset = noise.map(|value| [*value, 0.3 - *value]);
+        at_instant.spread = noise.map(|value| [*value, 2.0 * *value, 3.0 * *value]);
+    }
+    let long = written(&small);
+    small.at_instant = small.at_instant.map(AtInstant::rounded);
+    // Offsets are 15 of some 60 channels.
+    let short = written(&small);
+    assert!(short < long - long / 10, "{short} {long}");
 }
 
 #[test]

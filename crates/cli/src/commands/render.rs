@@ -3,7 +3,7 @@
 use frame::Truth;
 use suite::{
     Error, LadderFiles, MOST_REPLICATES, Sharing, claim, deciding_floor, estimate_render_seconds,
-    printable_path, render_frame, render_part, render_shared, render_truth, render_truth_until,
+    printable_path, render_frame, render_part, render_shared, render_truth, render_truths_until,
     scene_folder,
 };
 use tracer::{RenderSettings, Scene};
@@ -106,22 +106,27 @@ fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<Stri
     let (out, monitor) = (&args.scenes.out, make_monitor());
     let _claim = claim(out, [scene], Sharing::Together)?;
     render_frame(scene, &settings, out, monitor)?;
-    render_shared(scene, &settings, &args.alignments, 0..count, out, monitor)?;
+    let truths: Vec<(Truth, bool)> = match args.noise {
+        None => {
+            render_shared(scene, &settings, &args.alignments, 0..count, out, monitor)?;
+            (args.alignments.iter())
+                .map(|&alignment| {
+                    let truth = render_truth(scene, &settings, alignment, out, monitor)?;
+                    Ok((truth, true))
+                })
+                .collect::<Result<_, Error>>()?
+        }
+        Some(target) => {
+            let until = (target, args.most_replicates);
+            render_truths_until(scene, &settings, &args.alignments, until, out, monitor)?
+        }
+    };
     let mut noisy = Vec::new();
     let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
-    for &alignment in &args.alignments {
-        let truth = match args.noise {
-            None => render_truth(scene, &settings, alignment, out, monitor)?,
-            Some(target) => {
-                let most = args.most_replicates;
-                let (truth, reached) =
-                    render_truth_until(scene, &settings, alignment, (target, most), out, monitor)?;
-                if !reached {
-                    noisy.push(too_noisy_line(&truth, target, most));
-                }
-                truth
-            }
-        };
+    for (truth, is_quiet_enough) in truths {
+        if let (Some(target), false) = (args.noise, is_quiet_enough) {
+            noisy.push(too_noisy_line(&truth, target, args.most_replicates));
+        }
         if args.ladders {
             let settings = settings.with_replicates(truth.provenance.replicates);
             LadderFiles::new(scene, &settings, &truth, out).ensure(monitor)?;

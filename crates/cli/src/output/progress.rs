@@ -252,7 +252,7 @@ pub fn clock_text(time: Duration) -> String {
 /// Progress as lines of a log.
 struct Lines {
     label: String,
-    began: Instant,
+    began: Mutex<Instant>,
     last: Mutex<Instant>,
     /// Steps within, where their times are expected.
     steps: OnceLock<Steps>,
@@ -276,7 +276,7 @@ impl Lines {
     fn new(label: &str, now: Instant) -> Self {
         Self {
             label: printable(label).into_owned(),
-            began: now,
+            began: Mutex::new(now),
             last: Mutex::new(now),
             steps: OnceLock::new(),
         }
@@ -284,12 +284,17 @@ impl Lines {
 
     /// Makes a line, `fan trailing, replicate 3: 40 %, 1:30 left`; none where the last line is recent.
     fn line(&self, progress: Progress, now: Instant) -> Option<String> {
+        let mut began = self.began.lock().ok()?;
+        if progress.done == 0 && self.steps.get().is_none() {
+            // What comes before the first part, such as a pilot, says nothing about the rest.
+            *began = now;
+        }
         let mut last = self.last.lock().ok()?;
         if now.duration_since(*last) < BETWEEN_LINES || progress.total == 0 {
             return None;
         }
         *last = now;
-        let elapsed = now.duration_since(self.began);
+        let elapsed = now.duration_since(*began);
         let (part, left) = match self.steps.get() {
             Some(steps) => {
                 let part = steps.part(progress.done as usize, 0.0);
@@ -360,8 +365,8 @@ mod tests {
         assert_eq!(at(29, 10), None);
         assert_eq!(at(30, 0).unwrap(), "fan: 0 %");
         assert_eq!(at(59, 40), None);
-        // A quarter in 100 s: three more are left.
-        assert_eq!(at(100, 50).unwrap(), "fan: 25 %, 5:00 left");
+        // A quarter in the 70 s since nothing was done: three more are left.
+        assert_eq!(at(100, 50).unwrap(), "fan: 25 %, 3:30 left");
         assert_eq!(at(101, 60), None);
     }
 }

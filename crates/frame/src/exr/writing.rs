@@ -28,9 +28,25 @@ pub fn write_exr(path: &Path, file: &ExrFile) -> Result<(), FileError> {
     write_encoded(path, file.clone(), quick, FlatSamples::F32)
 }
 
-/// Writes as [`write_exr`] does, smaller (ZIP16) and slower: for files that are made once, or that repeat themselves.
+/// Writes as [`write_exr`] does, smaller (ZIP16) and slower: for files that are made once, or that repeat themselves. A channel all of
+/// whose floats are halves is written as halves, such as a mask.
 pub(crate) fn write_small_exr(path: &Path, file: ExrFile) -> Result<(), FileError> {
-    write_encoded(path, file, Encoding::SMALL_LOSSLESS, FlatSamples::F32)
+    write_encoded(path, file, Encoding::SMALL_LOSSLESS, shorten)
+}
+
+/// Makes halves of floats that lose nothing by it.
+fn shorten(floats: Vec<f32>) -> FlatSamples {
+    let halves: Option<Vec<f16>> = floats.iter().map(|value| to_half(*value)).collect();
+    match halves {
+        Some(halves) => FlatSamples::F16(halves),
+        None => FlatSamples::F32(floats),
+    }
+}
+
+/// Returns the half that is equal to a float, bit for bit once it is widened; none where there is no such half.
+fn to_half(value: f32) -> Option<f16> {
+    let half = f16::from_f32(value);
+    (half.to_f32().to_bits() == value.to_bits()).then_some(half)
 }
 
 /// Writes floats rounded to halves (ZIP16), which is not lossless: for maps that people look at. What lies beyond the largest half

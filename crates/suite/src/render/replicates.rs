@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Replicate, read_attribute, truth_hash};
+use frame::{Alignment, Replicate, Truth, read_attribute, truth_hash};
 use tracer::{RenderSettings, Scene, TruthTracer};
 
 use crate::{Error, Monitor};
@@ -71,6 +71,12 @@ impl ReplicateFiles {
     pub(super) fn has_truth(&self, replicates: u32) -> bool {
         let found = read_attribute(&self.truth_path(), "content_hash");
         found == Some(truth_hash(&self.hash, replicates))
+    }
+
+    /// Reads the truth of this many of these replicates; none where the file is missing, broken or made from other inputs.
+    pub(super) fn read_truth(&self, replicates: u32) -> Option<Truth> {
+        let found = (self.has_truth(replicates)).then(|| Truth::read(&self.truth_path()))?;
+        found.ok()
     }
 
     /// Reads a replicate; none where it is missing, broken or made from other inputs.

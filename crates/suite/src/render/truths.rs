@@ -8,6 +8,8 @@ use tracer::{RenderSettings, Scene};
 
 use super::memory::check_memory;
 use super::replicates::ReplicateFiles;
+use super::settings::MOST_REPLICATES;
+use super::shared::SharedReplicates;
 use crate::folder::scene_folder::{refuse_scene, scene_folder};
 use crate::{Error, Monitor};
 
@@ -21,48 +23,81 @@ pub fn render_truth(
     monitor: Monitor,
 ) -> Result<Truth, Error> {
     let files = ReplicateFiles::new(scene_folder(out, scene), scene, settings, alignment);
-    let expected = tracer::truth_hash(scene, settings, alignment);
-    if let Ok(found) = Truth::read(&files.truth_path())
-        && found.provenance.content_hash == expected
-    {
-        return Ok(found);
+    if let Some(kept) = files.read_truth(settings.replicates) {
+        return Ok(kept);
     }
-    settings.check_truth(scene, alignment)?;
-    check_memory(scene, settings, settings.replicates)?;
-    let all = 0..settings.replicates;
-    let replicates = files.read_or_render(scene, settings, all, monitor)?;
-    let truth = Truth::of(&replicates)?;
-    // Writing takes as much memory again as they do.
-    drop(replicates);
+    let truth = average_replicates(scene, settings, &files, monitor)?;
     truth.write(&files.truth_path())?;
     Ok(truth)
 }
 
-/// Adds replicates in pairs until the noise floor reaches `target` where anything moves (everywhere if nothing does), or there
-/// are `most`; returns the truth, and true if it reached the target.
+/// Averages the replicates of a truth, and renders those that are missing.
+fn average_replicates(
+    scene: &Scene,
+    settings: &RenderSettings,
+    files: &ReplicateFiles,
+    monitor: Monitor,
+) -> Result<Truth, Error> {
+    settings.check_truth(scene, files.alignment)?;
+    check_memory(scene, settings, settings.replicates)?;
+    let all = 0..settings.replicates;
+    let replicates = files.read_or_render(scene, settings, all, monitor)?;
+    Ok(Truth::of(&replicates)?)
+}
+
+/// Renders replicates of each truth until its noise floor reaches `target` where anything moves (everywhere if nothing does), or
+/// there are `most`; returns the truths in the order of the alignments, each with true if it reached the target. A truth is written
+/// when it ends.
 ///
 /// The floor that ends the render is measured on the same halves that the truth keeps: where the render ends early because
 /// they happened to agree, the floor reads a little low.
-pub fn render_truth_until(
+pub fn render_truths_until(
     scene: &Scene,
     settings: &RenderSettings,
-    alignment: Alignment,
+    alignments: &[Alignment],
     (target, most): (f64, u32),
     out: &Path,
     monitor: Monitor,
-) -> Result<(Truth, bool), Error> {
+) -> Result<Vec<(Truth, bool)>, Error> {
     let mut settings = *settings;
-    loop {
-        let truth = render_truth(scene, &settings, alignment, out, monitor)?;
-        let (_, floor) = deciding_floor(&truth);
-        if floor <= target {
-            return Ok((truth, true));
+    let mut shared = SharedReplicates::new(scene, &settings, out);
+    let mut truths: Vec<(Truth, bool)> = Vec::new();
+    let mut open = alignments.to_vec();
+    while !open.is_empty() {
+        let (count, mut next) = (settings.replicates, settings.replicates + 2);
+        shared.render(&open, 0..count, monitor)?;
+        for alignment in std::mem::take(&mut open) {
+            let files = ReplicateFiles::new(scene_folder(out, scene), scene, &settings, alignment);
+            let kept = files.read_truth(count);
+            let is_kept = kept.is_some();
+            let truth = match kept {
+                Some(truth) => truth,
+                None => average_replicates(scene, &settings, &files, monitor)?,
+            };
+            let (_, floor) = deciding_floor(&truth);
+            if floor > target && count + 2 <= most {
+                next = next.max(predict_replicates(count, floor / target));
+                open.push(alignment);
+                continue;
+            }
+            if !is_kept {
+                truth.write(&files.truth_path())?;
+            }
+            truths.push((truth, floor <= target));
         }
-        if settings.replicates + 2 > most {
-            return Ok((truth, false));
-        }
-        settings = settings.with_replicates(settings.replicates + 2);
+        settings = settings.with_replicates(next.min(most - most % 2));
     }
+    let place = |truth: &Truth| alignments.iter().position(|own| *own == truth.alignment);
+    truths.sort_by_key(|(truth, _)| place(truth));
+    Ok(truths)
+}
+
+/// Predicts the even number of replicates that have a noise lower by `factor` than this many: noise falls with the root of their
+/// number.
+fn predict_replicates(replicates: u32, factor: f64) -> u32 {
+    let pairs = 0.5 * f64::from(replicates) * factor.powi(2);
+    // No more than there may ever be.
+    2 * pairs.ceil().min(f64::from(MOST_REPLICATES)) as u32
 }
 
 /// Returns the noise floor that a target is compared with: that of the moving region, or of the whole picture where nothing
