@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use metrics::{BoundMetric, Metric};
-use suite::{Case, Error, Level, Outcome, Run, SceneBounds, judge_scores};
+use suite::{Case, Error, Level, Outcome, Run, SceneBounds, default_metrics, judge_scores};
 use tests::limits::calibrate_scene;
 use tracer::Scene;
 
@@ -28,7 +28,7 @@ pub struct SceneLimits {
 }
 
 /// Finds the limits of a filter preset on every scene: those of bounds.toml if any of them is required at this size, or else those
-/// that `calibrate` proposes for the same metrics.
+/// that `calibrate` proposes.
 pub fn find_limits(
     bench: &Bench,
     subject: &Subject,
@@ -43,10 +43,8 @@ pub fn find_limits(
         let deciding = match are_shipped {
             true => shipped.clone(),
             false => {
-                let named = bounded
-                    .keys()
-                    .map(|name| name.parse().expect("it was read"));
-                let metrics: Vec<BoundMetric> = named.collect();
+                let sound = &subject.sound;
+                let metrics = default_metrics(shipped, &sound.filter.name, &sound.preset);
                 let runs = measure_sound_runs(bench, subject, scene, journal)?;
                 calibrate_scene(&runs, &metrics, &scene.name)
             }

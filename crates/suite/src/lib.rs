@@ -75,7 +75,7 @@ pub use judge::bounds::{
     read_bounds_beside_scenes, read_bounds_file, require_bounds, size_for_bounds,
     sized_bounds_file,
 };
-pub use judge::calibrate::{Calibration, Proposal, Sample, calibrate};
+pub use judge::calibrate::{Calibration, Proposal, Sample, calibrate, default_metrics};
 pub use judge::check::{CHECK_FORMAT, Check, check};
 pub use judge::decision::Decision;
 pub use judge::{

@@ -24,3 +24,27 @@ fn calibrated_limits_pass_the_filter_and_fail_a_worse_one() {
     let worse = [&fine[..], &["--set", "velocity_gather.samples=2"]].concat();
     assert_ends(&bench.check(&worse), 1, &["BROKEN flip_moving"]);
 }
+
+#[test]
+fn limits_are_for_bounded_metrics_and_those_that_notice_changes_of_a_kernel_unless_named() {
+    let bench = make_bounded(0.9, "required");
+    let words = split(
+        "calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters velocity_gather:fine",
+    );
+    assert_done(&bench.shuttertruth(&words));
+    let proposed = fs::read_to_string(bench.path("calibrated/plate.bounds.toml")).unwrap();
+    let names: Vec<&str> = (proposed.lines())
+        .filter_map(|line| line.split_once(" = { limit"))
+        .map(|(name, _)| name)
+        .collect();
+    for name in [
+        "flip_moving",
+        "deficit",
+        "gather_spread",
+        "label_tv_p95",
+        "static_contamination",
+    ] {
+        assert!(names.contains(&name), "{name}: {names:?}");
+    }
+    assert!(!names.contains(&"psnr_moving"), "{names:?}");
+}

@@ -27,7 +27,7 @@ pub struct CalibrateArgs {
         value_name = "ADAPTERS"
     )]
     pub adapters: Vec<String>,
-    /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and with --frames all of sequences].
+    /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination; with --frames all of sequences too].
     #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = BoundMetric::from_str)]
     pub metrics: Vec<BoundMetric>,
 }

@@ -23,7 +23,7 @@ pub struct PlanArgs {
     /// Plan `calibrate --runs K`, instead of `run`.
     #[arg(help_heading = "Jobs", long, value_name = "K", value_parser = parse_runs, conflicts_with_all = ["frames", "fps", "intervals", "common", "adapter"])]
     pub runs: Option<u32>,
-    /// Metrics of the calibration, separated by commas [default: those that have bounds].
+    /// Metrics of the calibration, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination].
     #[arg(help_heading = "Jobs", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::from_str, requires = "runs")]
     pub metrics: Vec<Metric>,
     /// Folder for the truths and the parts of all jobs [default: parts in --out].

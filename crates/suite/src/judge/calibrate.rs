@@ -1,6 +1,6 @@
 //! Limits that follow from the scores of several runs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use metrics::{BoundMetric, Ideal, Interval, Measured, Metric, PERFECT_JOD, Score, SequenceMetric};
@@ -16,6 +16,14 @@ const DEVIATIONS: f64 = 3.0;
 const LEAST_PART: f64 = 0.05;
 /// Factor above the strictest limit that the truth's noise carries, since that scatters too.
 const ABOVE_STRICTEST: f64 = 1.2;
+
+/// Metrics that notice small changes of a kernel. No bound asks them of every filter: what a good one scores differs from scene to scene.
+const NOTICING: [&str; 4] = [
+    "static_contamination",
+    "gather_spread",
+    "deficit",
+    "label_tv_p95",
+];
 
 /// Smallest limit on an error, by its unit: a tenth of a pixel, half a hundredth of anything else. If a score is 0 in every run,
 /// its spread says nothing, and another adapter need not agree to the last bit.
@@ -55,8 +63,8 @@ pub struct Proposal {
     pub why: String,
 }
 
-/// Gathers the scores that have a bound from several runs of the same scenes, size, frames and filters, and all scores of sequences;
-/// those of `metrics` alone if any are given.
+/// Gathers scores from several runs of the same scenes, size, frames and filters: those of `metrics`, or [`default_metrics`] and all
+/// scores of sequences if none are given.
 pub fn calibrate<'a>(
     runs: &[Run],
     bounds: impl Fn(&Case) -> &'a SceneBounds,
@@ -76,9 +84,9 @@ pub fn calibrate<'a>(
         if case.is_reference || case.input.change().is_some() {
             continue;
         }
-        let bounded = bounds(case).of(&case.filter, &case.preset);
+        let of_frames = default_metrics(bounds(case), &case.filter, &case.preset);
         let wanted = |metric: BoundMetric| match (metrics.is_empty(), metric) {
-            (true, BoundMetric::Frame(_)) => bounded.contains_key(&metric.name()),
+            (true, BoundMetric::Frame(_)) => of_frames.contains(&metric),
             (true, BoundMetric::Sequence(_)) => true,
             (false, _) => metrics.contains(&metric),
         };
@@ -106,6 +114,15 @@ pub fn calibrate<'a>(
         }
     }
     calibration
+}
+
+/// Lists the metrics that a filter preset gets limits on if none are named: those that have bounds in the scene, and those that notice
+/// changes of a kernel which these let pass.
+pub fn default_metrics(bounds: &SceneBounds, filter: &str, preset: &str) -> Vec<BoundMetric> {
+    let bounded = bounds.of(filter, preset).into_keys();
+    let names: BTreeSet<String> = bounded.chain(NOTICING.map(str::to_owned)).collect();
+    let metric = |name: &String| name.parse().expect("bounds are on metrics");
+    names.iter().map(metric).collect()
 }
 
 /// Proposes the limit that follows from the scores of one metric. It is the worst value that any interval reaches, since a check
