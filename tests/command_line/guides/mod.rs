@@ -16,7 +16,11 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 44] = [
+const NOT_RUN: [(&str, &str); 45] = [
+    (
+        "shuttertruth render --scenes railing --size 1920x1080 --alignments trailing,centred --noise 0.01 --samples-per-pixel 64 --replicates 2 --out out",
+        "takes minutes; a test renders both truths of a plate to a noise",
+    ),
     (
         "shuttertruth run --scenes railing@unlit,fan@unlit,crossing@unlit,pan_sky@unlit --filter bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --samples-per-pixel 64 --out out/rates --frame-rate 24,60,144 --shutter-time 1/120,1/48 --shutter-rule in_frames,in_time,in_time_capped,share_falls",
         "renders truths of nine rates and shutters; a test does so on a plate",
