@@ -46,8 +46,8 @@ impl AtInstant {
     /// noise. That takes a third off the files of truths and replicates. What is larger than any half stays as it is.
     pub fn rounded(self) -> AtInstant {
         AtInstant {
-            offset: self.offset.map(|offset| offset.map(round_to_half)),
-            spread: self.spread.map(|spread| spread.map(round_to_half)),
+            offset: self.offset.map(|offset| offset.map(nearest_half)),
+            spread: self.spread.map(|spread| spread.map(nearest_half)),
             ..self
         }
     }
@@ -95,7 +95,8 @@ impl AtInstant {
     }
 }
 
-fn round_to_half(value: f32) -> f32 {
+/// Returns the nearest half; a value that is larger than any stays as it is.
+fn nearest_half(value: f32) -> f32 {
     let half = f16::from_f32(value);
     if half.is_finite() {
         half.to_f32()

@@ -142,7 +142,7 @@ fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
     );
     assert_done(&bench.shuttertruth(&words));
     let proposed = fs::read_to_string(bench.path("calibrated/plate.bounds.toml")).unwrap();
-    // Nothing is bounded yet: all eight scores of sequences.
+    // Nothing is bounded yet: all eight scores of sequences, and four of single frames.
     assert_eq!(proposed.matches(", frames = 2, ").count(), 8, "{proposed}");
     assert!(
         proposed.contains(", frames = 2, fps = 60.0, size = [64, 32]"),
@@ -162,7 +162,7 @@ fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
         "--frames",
         "2",
     ];
-    assert_ends(&bench.check(&fine), 0, &["7 required bounds: 7 kept"]);
+    assert_ends(&bench.check(&fine), 0, &["11 required bounds: 11 kept"]);
     let worse = [&fine[..], &["--set", "velocity_gather.samples=2"]].concat();
     assert_ends(&bench.check(&worse), 1, &["BROKEN error over 2 frames"]);
 }
