@@ -51,19 +51,19 @@ fn halves_come_back_bit_for_bit_from_a_smaller_file_and_larger_numbers_too() {
     assert_eq!(exact_offset, kept);
     written(&short);
 
+    let noise = |value: f32| (value.to_bits() % 4001) as f32 / 100.0 - 20.0;
     let mut small = short;
     for at_instant in &mut small.at_instant {
-        let noise = at_instant
-            .unknowable
-            .map(|value| (value.to_bits() % 4001) as f32 / 100.0 - 20.0);
-        at_instant.offset = noise.map(|value| [*value, 0.3 - *value]);
-        at_instant.spread = noise.map(|value| [*value, 2.0 * *value, 3.0 * *value]);
+        let [x, y] = [&at_instant.unknowable, &at_instant.placed];
+        at_instant.offset = x.zip(y, |x, y| [noise(*x), noise(*y)]);
+        at_instant.spread = at_instant.frozen.map(|pixel| pixel.map(noise));
     }
     let long = written(&small);
     small.at_instant = small.at_instant.map(AtInstant::rounded);
-    // Offsets are 15 of some 60 channels.
     let short = written(&small);
-    assert!(short < long - long / 10, "{short} {long}");
+    // Five channels of each half and of their mean lose two bytes a pixel, some of which deflate had saved.
+    let lost = 15 * 2 * u64::from(WIDTH * HEIGHT);
+    assert!(long - short > lost / 2, "{short} {long}");
 }
 
 #[test]
