@@ -21,7 +21,7 @@ pub struct AtInstant {
     /// to get means over that fraction.
     pub placed: Plane,
     /// Offset from the pixel's centre to the visible point's place at the instant, in pixels, +x right, +y down; zero for a point
-    /// without a place. The files of renders hold halves: see [`AtInstant::rounded`].
+    /// without a place. A replicate holds halves: see [`AtInstant::rounded`].
     pub offset: Vectors,
     /// Products xx, xy and yy of that offset, in square pixels; likewise.
     pub spread: Raster<[f32; 3]>,
@@ -42,8 +42,9 @@ impl AtInstant {
         }
     }
 
-    /// Rounds offsets and their products to halves, which have 11 significant bits: by at most 1 part in 4096, far less than their
-    /// noise. That takes a third off the files of truths and replicates. What is larger than any half stays as it is.
+    /// Rounds offsets and their products to halves, which have 11 significant bits: by at most 1 part in 4096, far less than the noise
+    /// of a replicate. That takes a third off its file. What is larger than any half stays as it is. Means of replicates are not
+    /// rounded.
     pub fn rounded(self) -> AtInstant {
         AtInstant {
             offset: self.offset.map(|offset| offset.map(nearest_half)),

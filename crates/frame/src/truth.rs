@@ -122,8 +122,7 @@ impl Truth {
         };
         let halves = [half(0), half(1)];
         let at_instant = [0, 1].map(|first| {
-            let own = replicates.iter().skip(first).step_by(2);
-            AtInstant::mean(own.map(|replicate| &replicate.at_instant)).rounded()
+            AtInstant::mean((replicates.iter().skip(first).step_by(2)).map(|r| &r.at_instant))
         });
         let count = replicates.len() as u32;
         Ok(Self {
@@ -159,7 +158,7 @@ impl Truth {
 
     /// Averages over all replicates what was seen, as it was at the instant.
     pub fn at_instant_mean(&self) -> AtInstant {
-        AtInstant::mean(&self.at_instant).rounded()
+        AtInstant::mean(&self.at_instant)
     }
 
     /// Averages all replicates.

@@ -140,3 +140,21 @@ pub fn render_part(
     let files = ReplicateFiles::new(folder, scene, settings, alignment);
     (files.read_or_render(scene, settings, indices, monitor)).map(drop)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_the_noise_takes_four_times_the_replicates() {
+        for (replicates, factor, predicted) in
+            [(2, 2.0, 8), (8, 1.01, 10), (6, 1.5, 14), (2, 1e9, 4096)]
+        {
+            assert_eq!(
+                predict_replicates(replicates, factor),
+                predicted,
+                "{replicates} {factor}"
+            );
+        }
+    }
+}
