@@ -1,6 +1,6 @@
 //! Truths and accumulations: stillness, length and side of a smear, independent halves, sub-frames.
 
-use frame::{Alignment, FAR_DEPTH, Frame, Truth};
+use frame::{Alignment, FAR_DEPTH, Frame, Replicate, Truth};
 use glam::{DVec3, Vec3};
 use tests::shapes::*;
 use tests::statistics::{
@@ -8,7 +8,8 @@ use tests::statistics::{
 };
 use tests::unwatched;
 use tracer::{
-    Background, Motion, Parent, RenderSettings, Scene, Sun, trace_frame, trace_ladder, trace_truth,
+    Background, Motion, Parent, RenderSettings, Scene, Sun, TruthTracer, trace_frame, trace_ladder,
+    trace_truth,
 };
 
 const WIDTH: u32 = 48;
@@ -218,6 +219,23 @@ fn halves_are_independent() {
             // About 400 noisy pixels: the correlation of unrelated numbers has a sigma of 0.05.
             assert!(correlation.abs() < 0.2, "sets {a} and {b}: {correlation}");
         }
+    }
+}
+
+#[test]
+fn offsets_of_replicates_are_halves_and_those_of_their_mean_are_not() {
+    let scene = slab_scene(SPEED);
+    let settings = render_settings(1.0);
+    let tracer = TruthTracer::new(&scene, &settings, &[Alignment::Trailing]).expect("allowed");
+    let trace = |index| tracer.trace(index, &unwatched).expect("allowed").remove(0);
+    let replicates: Vec<Replicate> = (0..settings.replicates).map(trace).collect();
+    for replicate in &replicates {
+        let at_instant = &replicate.at_instant;
+        assert_eq!(at_instant.clone().rounded(), *at_instant);
+    }
+    let truth = Truth::of(&replicates).expect("they are whole");
+    for at_instant in [&truth.at_instant[0], &truth.at_instant_mean()] {
+        assert_ne!(at_instant.clone().rounded(), *at_instant);
     }
 }
 

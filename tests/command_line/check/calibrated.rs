@@ -37,14 +37,18 @@ fn limits_are_for_bounded_metrics_and_those_that_notice_changes_of_a_kernel_unle
         .filter_map(|line| line.split_once(" = { limit"))
         .map(|(name, _)| name)
         .collect();
-    for name in [
-        "flip_moving",
+    let noticing = [
         "deficit",
         "gather_spread",
         "label_tv_p95",
         "static_contamination",
-    ] {
-        assert!(names.contains(&name), "{name}: {names:?}");
+    ];
+    let help = stdout(&bench.shuttertruth(&["calibrate", "--help"]));
+    for name in noticing {
+        assert!(help.contains(name), "{name}: {help}");
     }
-    assert!(!names.contains(&"psnr_moving"), "{names:?}");
+    assert_eq!(names.len(), 1 + noticing.len(), "{names:?}");
+    for name in noticing.iter().chain(&["flip_moving"]) {
+        assert!(names.contains(name), "{name}: {names:?}");
+    }
 }

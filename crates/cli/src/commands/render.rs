@@ -106,32 +106,42 @@ fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<Stri
     let (out, monitor) = (&args.scenes.out, make_monitor());
     let _claim = claim(out, [scene], Sharing::Together)?;
     render_frame(scene, &settings, out, monitor)?;
-    let truths: Vec<(Truth, bool)> = match args.noise {
-        None => {
-            render_shared(scene, &settings, &args.alignments, 0..count, out, monitor)?;
-            (args.alignments.iter())
-                .map(|&alignment| {
-                    let truth = render_truth(scene, &settings, alignment, out, monitor)?;
-                    Ok((truth, true))
-                })
-                .collect::<Result<_, Error>>()?
-        }
-        Some(target) => {
-            let until = (target, args.most_replicates);
-            render_truths_until(scene, &settings, &args.alignments, until, out, monitor)?
-        }
-    };
     let mut noisy = Vec::new();
     let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
-    for (truth, is_quiet_enough) in truths {
-        if let (Some(target), false) = (args.noise, is_quiet_enough) {
-            noisy.push(too_noisy_line(&truth, target, args.most_replicates));
-        }
+    let mut ended = |truth: &Truth| {
         if args.ladders {
             let settings = settings.with_replicates(truth.provenance.replicates);
-            LadderFiles::new(scene, &settings, &truth, out).ensure(monitor)?;
+            LadderFiles::new(scene, &settings, truth, out).ensure(monitor)?;
         }
-        report += &floors_line(&truth);
+        report += &floors_line(truth);
+        Ok(())
+    };
+    match args.noise {
+        None => {
+            render_shared(scene, &settings, &args.alignments, 0..count, out, monitor)?;
+            for &alignment in &args.alignments {
+                ended(&render_truth(scene, &settings, alignment, out, monitor)?)?;
+            }
+        }
+        Some(target) => {
+            let most = args.most_replicates;
+            let until = (target, most);
+            let alignments = &args.alignments;
+            render_truths_until(
+                scene,
+                &settings,
+                alignments,
+                until,
+                out,
+                monitor,
+                |truth, reached| {
+                    if !reached {
+                        noisy.push(too_noisy_line(truth, target, most));
+                    }
+                    ended(truth)
+                },
+            )?;
+        }
     }
     print(&report)?;
     Ok(noisy)

@@ -252,10 +252,17 @@ pub fn clock_text(time: Duration) -> String {
 /// Progress as lines of a log.
 struct Lines {
     label: String,
-    began: Mutex<Instant>,
-    last: Mutex<Instant>,
+    times: Mutex<LineTimes>,
     /// Steps within, where their times are expected.
     steps: OnceLock<Steps>,
+}
+
+/// Times of a log.
+struct LineTimes {
+    /// End of what says nothing about the rest, such as a pilot.
+    began: Instant,
+    /// The last line.
+    last: Instant,
 }
 
 impl Step for Lines {
@@ -276,25 +283,25 @@ impl Lines {
     fn new(label: &str, now: Instant) -> Self {
         Self {
             label: printable(label).into_owned(),
-            began: Mutex::new(now),
-            last: Mutex::new(now),
+            times: Mutex::new(LineTimes {
+                began: now,
+                last: now,
+            }),
             steps: OnceLock::new(),
         }
     }
 
     /// Makes a line, `fan trailing, replicate 3: 40 %, 1:30 left`; none where the last line is recent.
     fn line(&self, progress: Progress, now: Instant) -> Option<String> {
-        let mut began = self.began.lock().ok()?;
+        let mut times = self.times.lock().ok()?;
         if progress.done == 0 && self.steps.get().is_none() {
-            // What comes before the first part, such as a pilot, says nothing about the rest.
-            *began = now;
+            times.began = now;
         }
-        let mut last = self.last.lock().ok()?;
-        if now.duration_since(*last) < BETWEEN_LINES || progress.total == 0 {
+        if now.duration_since(times.last) < BETWEEN_LINES || progress.total == 0 {
             return None;
         }
-        *last = now;
-        let elapsed = now.duration_since(*began);
+        times.last = now;
+        let elapsed = now.duration_since(times.began);
         let (part, left) = match self.steps.get() {
             Some(steps) => {
                 let part = steps.part(progress.done as usize, 0.0);

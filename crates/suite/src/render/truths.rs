@@ -46,8 +46,8 @@ fn average_replicates(
 }
 
 /// Renders replicates of each truth until its noise floor reaches `target` where anything moves (everywhere if nothing does), or
-/// there are `most`; returns the truths in the order of the alignments, each with true if it reached the target. A truth is written
-/// when it ends.
+/// there are `most`. Writes each truth when it ends, and hands it to `ended`, with true if it reached the target: truths of large
+/// pictures are too large to be held together.
 ///
 /// The floor that ends the render is measured on the same halves that the truth keeps: where the render ends early because
 /// they happened to agree, the floor reads a little low.
@@ -58,21 +58,22 @@ pub fn render_truths_until(
     (target, most): (f64, u32),
     out: &Path,
     monitor: Monitor,
-) -> Result<Vec<(Truth, bool)>, Error> {
+    mut ended: impl FnMut(&Truth, bool) -> Result<(), Error>,
+) -> Result<(), Error> {
     let mut settings = *settings;
     let mut shared = SharedReplicates::new(scene, &settings, out);
-    let mut truths: Vec<(Truth, bool)> = Vec::new();
     let mut open = alignments.to_vec();
     while !open.is_empty() {
         let (count, mut next) = (settings.replicates, settings.replicates + 2);
         shared.render(&open, 0..count, monitor)?;
         for alignment in std::mem::take(&mut open) {
             let files = ReplicateFiles::new(scene_folder(out, scene), scene, &settings, alignment);
-            let kept = files.read_truth(count);
-            let is_kept = kept.is_some();
-            let truth = match kept {
-                Some(truth) => truth,
-                None => average_replicates(scene, &settings, &files, monitor)?,
+            let (truth, is_kept) = match files.read_truth(count) {
+                Some(kept) => (kept, true),
+                None => (
+                    average_replicates(scene, &settings, &files, monitor)?,
+                    false,
+                ),
             };
             let (_, floor) = deciding_floor(&truth);
             if floor > target && count + 2 <= most {
@@ -83,13 +84,11 @@ pub fn render_truths_until(
             if !is_kept {
                 truth.write(&files.truth_path())?;
             }
-            truths.push((truth, floor <= target));
+            ended(&truth, floor <= target)?;
         }
         settings = settings.with_replicates(next.min(most - most % 2));
     }
-    let place = |truth: &Truth| alignments.iter().position(|own| *own == truth.alignment);
-    truths.sort_by_key(|(truth, _)| place(truth));
-    Ok(truths)
+    Ok(())
 }
 
 /// Predicts the even number of replicates that have a noise lower by `factor` than this many: noise falls with the root of their
