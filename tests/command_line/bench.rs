@@ -233,9 +233,14 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
 
 /// Presses Ctrl-C for a process.
 pub fn press_ctrl_c(child: &Child) {
+    send(child, "INT");
+}
+
+/// Sends a signal to a process.
+pub fn send(child: &Child, signal: &str) {
     let mut kill = Command::new("kill");
-    let status = kill.args(["-INT", &child.id().to_string()]).status();
-    assert!(status.unwrap().success());
+    let status = kill.args([&format!("-{signal}"), &child.id().to_string()]);
+    assert!(status.status().unwrap().success());
 }
 
 /// Makes a FIFO.

@@ -1,13 +1,13 @@
 //! Filters that are programs.
 
 use std::fs;
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
 use tests::filter_folder::{write_manifest, write_program, write_script};
 
-use crate::bench::{Bench, assert_done, assert_refused, press_ctrl_c, split, stderr, stdout};
+use crate::bench::{Bench, assert_done, assert_refused, send, split, stderr, stdout};
 
 fn write_lines(bench: &Bench, name: &str, more: &str) {
     write_manifest(&bench.path(name), name, more);
@@ -290,19 +290,52 @@ fn a_program_past_its_time_limit_is_stopped_with_its_children() {
 }
 
 #[test]
-fn ctrl_c_stops_a_program() {
+fn a_signal_that_ends_the_program_ends_the_filter_too() {
     let bench = Bench::new();
     render(&bench);
     write_blur(&bench, "slow", SLEEPERS, "");
-    let mut child = bench.command(&blur("./slow")).spawn().unwrap();
+    for (signal, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
+        let _ = fs::remove_file(bench.path("slow/pid"));
+        let mut child = bench.command(&blur("./slow")).spawn().unwrap();
+        wait_for_pid(&bench, &mut child);
+        send(&child, signal);
+        assert_eq!(child.wait().unwrap().code(), Some(code), "{signal}");
+        assert_ended(&bench);
+        assert!(!bench.path("b.exr").exists());
+    }
+}
+
+#[test]
+fn a_closed_terminal_does_not_end_what_nohup_started() {
+    let bench = Bench::new();
+    render(&bench);
+    write_blur(&bench, "slow", SLEEPERS, "");
+    let command = bench.command(&blur("./slow"));
+    let mut nohup = Command::new("nohup");
+    nohup.arg(command.get_program()).args(command.get_args());
+    nohup.current_dir(command.get_current_dir().unwrap());
+    nohup.envs(
+        command
+            .get_envs()
+            .filter_map(|(key, value)| Some((key, value?))),
+    );
+    let mut child = nohup.stdout(Stdio::null()).spawn().unwrap();
+    wait_for_pid(&bench, &mut child);
+    send(&child, "HUP");
+    // Longer than the work under way may take to end.
+    std::thread::sleep(Duration::from_secs(2));
+    assert!(child.try_wait().unwrap().is_none(), "SIGHUP ended it");
+    send(&child, "TERM");
+    assert_eq!(child.wait().unwrap().code(), Some(143));
+    assert_ended(&bench);
+}
+
+/// Waits until the filter `slow` runs.
+fn wait_for_pid(bench: &Bench, child: &mut Child) {
     while !bench.path("slow/pid").exists() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         std::thread::sleep(Duration::from_millis(10));
     }
-    press_ctrl_c(&child);
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert_ended(&bench);
-    assert!(!bench.path("b.exr").exists());
 }
 
 #[test]

@@ -17,8 +17,8 @@ use suite::Error;
 
 use commands::Ending;
 use environment::set_environment;
+use output::interrupts::{INTERRUPTED_TEXT, catch_interrupts, interrupted_code};
 use output::print::{print_error, print_failure};
-use output::progress::{INTERRUPTED_CODE, INTERRUPTED_TEXT, catch_interrupts};
 use output::verbosity::set_output;
 
 pub use output::annotations::{annotations, summary};
@@ -62,10 +62,10 @@ fn parse_arguments() -> Result<arguments::Cli, clap::Error> {
 }
 
 /// Chooses the exit code: 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than asked for
-/// or than a check needs, 130 after Ctrl-C.
+/// or than a check needs, 128 and the number of the signal after one.
 fn exit_code(error: &Error) -> u8 {
     match error {
-        error if error.is_interruption() => INTERRUPTED_CODE,
+        error if error.is_interruption() => interrupted_code(),
         Error::Filter(FilterError::NoAdapter) => 3,
         Error::Broken(_) => 1,
         Error::TooNoisy(_) | Error::Inconclusive(_) => 4,

@@ -1,7 +1,7 @@
 //! A finding in words: its status, its score and the way out.
 
-use metrics::Interval;
-use suite::{Finding, Length, Level, MOST_SAMPLES, Outcome, number};
+use metrics::{Ideal, Interval};
+use suite::{Finding, Length, Level, MOST_SAMPLES, Outcome, badness_within, number};
 
 /// Status of a score against its bound, told by colour, sign and word: never by the colour alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,19 +45,30 @@ pub fn finding_status(finding: &Finding) -> &'static str {
     }
 }
 
-/// Writes the score beside its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`.
+/// Writes the score beside its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`. Of a score whose
+/// limit is on its distance from an ideal, it writes the distance: `extent 0.0385 from 1 (95 % CI 0.0354 to 0.0416); limit 0.0400`.
 pub fn finding_score(finding: &Finding) -> String {
+    let ideal = finding.bound_metric().ideal();
+    let limited = |value: f64| match ideal {
+        Ideal::Target(target) => {
+            format!("{} from {target}", finding.with_unit(ideal.badness(value)))
+        }
+        _ => finding.with_unit(value),
+    };
     let mut text = finding.metric.clone();
     text.extend(length_text(finding).map(|length| format!(" over {length}")));
     if let Some(value) = finding.value {
         let estimate = finding.interval.map_or(value, |own| own.center());
-        text += &format!(" {}", finding.with_unit(estimate));
+        text += &format!(" {}", limited(estimate));
     }
     if let Some(interval) = &finding.interval {
-        let [low, high] = [interval.low, interval.high].map(number);
-        text += &format!(" (95 % CI {low} to {high})");
+        let (low, high) = match ideal {
+            Ideal::Target(_) => badness_within(ideal, interval),
+            _ => (interval.low, interval.high),
+        };
+        text += &format!(" (95 % CI {} to {})", number(low), number(high));
         if let Some(measured) = finding.value.filter(|value| !interval.holds(*value)) {
-            text += &format!(", measured {}", finding.with_unit(measured));
+            text += &format!(", measured {}", limited(measured));
         }
     }
     text += &format!("; limit {}", number(finding.limit));
@@ -65,6 +76,15 @@ pub fn finding_score(finding: &Finding) -> String {
         text += &format!(", floor {}", number(floor));
     }
     text
+}
+
+/// Writes the limit of a score that stands beside it: `0.0500`, or `0.0400 from 1` for a limit on the distance from an ideal.
+pub fn limit_text(finding: &Finding) -> String {
+    let limit = number(finding.limit);
+    match finding.bound_metric().ideal() {
+        Ideal::Target(target) => format!("{limit} from {target}"),
+        _ => limit,
+    }
 }
 
 /// Writes the length of the sequence that the limit holds for, `4 frames` or `4 frames at 60 per second`; none for a score of a
@@ -136,5 +156,22 @@ mod tests {
             text(0.053_64),
             "95 % CI 0.05198 to 0.05332, measured 0.05364"
         );
+    }
+
+    #[test]
+    fn a_distance_is_printed_beside_a_limit_on_a_distance() {
+        let finding: Finding = serde_json::from_value(serde_json::json!({
+            "kind": "kept", "level": "required", "scene": "fan", "filter": "kino:default",
+            "metric": "extent", "unit": "", "value": 0.9615,
+            "interval": {"low": 0.9584, "high": 0.9646, "standard_error": 0.001},
+            "limit": 0.04, "floor": null, "strictest": null, "why": "", "place": "", "reason": null,
+            "settled_by": null, "worst": null, "resembles": null, "pictures": "",
+        }))
+        .unwrap();
+        assert_eq!(
+            finding_score(&finding),
+            "extent 0.03850 from 1 (95 % CI 0.03540 to 0.04160); limit 0.04000"
+        );
+        assert_eq!(limit_text(&finding), "0.04000 from 1");
     }
 }

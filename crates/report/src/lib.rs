@@ -40,7 +40,7 @@ pub use ask::{ASK_PAGE, write_ask_folder};
 pub use case_strip::write_case_strip;
 pub use comparison::{ChangeCells, compare_page};
 pub use finding_text::{
-    finding_line, finding_score, finding_status, length_text, way_out, worst_frame_text,
+    finding_line, finding_score, finding_status, length_text, limit_text, way_out, worst_frame_text,
 };
 pub use gallery::write_gallery;
 pub use overview::costs::read_bench;

@@ -55,6 +55,12 @@ fn nothing_outside_of_the_folder_is_included() {
         ),
         (
             "blur.comp",
+            format!("{glsl}#define U \"\\\"/*\"\n#include \"{secret}\"\n"),
+            4,
+            outside,
+        ),
+        (
+            "blur.comp",
             format!("{glsl}#include \"linked/secret.txt\"\n"),
             3,
             outside,
@@ -104,4 +110,51 @@ fn nothing_outside_of_the_folder_is_included() {
             "{said}"
         );
     }
+}
+
+/// A compiler looks for a file in the folders of all files that are being included.
+#[test]
+fn no_folder_of_an_includer_leads_outside() {
+    let bench = Bench::new();
+    fs::write(bench.path("secret.txt"), "the secret\n").unwrap();
+    let folder = bench.path("translated");
+    fs::create_dir_all(folder.join("p/q/r/s")).unwrap();
+    write_pass(&bench, "p/q/blur.comp", "");
+    for (file, includes) in [
+        ("p/q/blur.comp", "../../top.h"),
+        ("top.h", "p/q/r/s/deep.h"),
+        // From p/q/r/s and from p/q it stays within, from the folder of top.h it does not.
+        ("p/q/r/s/deep.h", "../../secret.txt"),
+    ] {
+        let text = format!("#include \"{includes}\"\n");
+        fs::write(folder.join(file), text).unwrap();
+    }
+    fs::create_dir_all(bench.path("bin")).unwrap();
+    write_script(
+        &bench.path("bin/glslangValidator"),
+        "echo the secret; exit 1",
+    );
+    let said = stderr(&list(&bench));
+    let parts = [
+        "translated/p/q/r/s/deep.h:1: ",
+        "outside of the filter's folder",
+    ];
+    tests::text::assert_contains(&said, &parts);
+    assert!(!said.contains("the secret"), "{said}");
+}
+
+/// A shader, too, is a file of the folder.
+#[test]
+fn a_shader_is_no_link_out_of_the_folder() {
+    let bench = Bench::new();
+    let secret = bench.path("secret.comp");
+    fs::write(&secret, "the secret\n").unwrap();
+    write_pass(&bench, "blur.comp", "");
+    let shader = bench.path("translated/blur.comp");
+    _ = fs::remove_file(&shader);
+    std::os::unix::fs::symlink(&secret, &shader).unwrap();
+    let said = stderr(&list(&bench));
+    let parts = ["translated/blur.comp: is a link to a file outside of the filter's folder"];
+    tests::text::assert_contains(&said, &parts);
+    assert!(!said.contains("the secret"), "{said}");
 }

@@ -23,7 +23,7 @@ const INTRODUCTION: &str = "\
 | 2 | usage or bad input; bounds that are wrong, missing, or stricter than the noise of the truth can carry |
 | 3 | no adapter |
 | 4 | too noisy: `check` cannot decide, or `render` did not reach `--noise` |
-| 130 | interrupted |
+| 130, 143, 129 | interrupted by SIGINT (Ctrl-C), SIGTERM or SIGHUP; the same command goes on from there |
 ";
 
 /// The page as the help has it.

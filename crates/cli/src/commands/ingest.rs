@@ -104,8 +104,7 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
         let change = if gain > 1.0 { "brighter" } else { "darker" };
         let _ = writeln!(
             text,
-            "FOUND: the engine's blur makes the picture {change}, {gain:.4} times the mean of what it blurs; its weights should \
-             add up to 1"
+            "FOUND: the engine's blur makes the picture {change}, {gain:.4} times where nothing moves; its weights should add up to 1"
         );
     }
     let _ = writeln!(text, "written: {folder}");

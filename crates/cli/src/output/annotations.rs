@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use report::{finding_line, length_text, way_out};
+use report::{finding_line, length_text, limit_text, way_out};
 use suite::{Check, Decision, Finding, number, printable};
 
 use crate::tables::check::{comparison_line, count_lines, verdict_word};
@@ -93,7 +93,7 @@ fn summary_row(finding: &Finding) -> String {
         metric_cell(finding),
         or_none(finding.value.map(|value| finding.with_unit(value))),
         or_none(interval),
-        number(finding.limit),
+        limit_text(finding),
         or_none(finding.floor.map(number)),
         or_none(match (&finding.worst, finding.worst_frame) {
             (Some(worst), _) => Some(format!("({}, {})", worst.x, worst.y)),

@@ -3,6 +3,7 @@
 pub mod annotations;
 pub mod colors;
 pub mod count;
+pub mod interrupts;
 pub mod junit;
 pub mod print;
 pub mod progress;

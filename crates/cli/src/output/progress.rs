@@ -1,4 +1,4 @@
-//! Progress with the remaining time on standard error, and Ctrl-C.
+//! Progress with the remaining time on standard error.
 
 use std::fmt;
 use std::io::IsTerminal;
@@ -12,43 +12,15 @@ use tracer::Progress;
 
 use suite::{Monitor, Step, printable};
 
+use super::interrupts::was_interrupted;
 use super::print::print_error;
 use super::verbosity::is_quiet;
 
 /// Time between two lines of a log, where no terminal shows a bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
-
 /// All bars on the screen: one per step under way.
 static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
-
-/// Time that work has to end by itself after Ctrl-C.
-const GRACE: Duration = Duration::from_millis(1500);
-
-/// Exit code after Ctrl-C.
-pub const INTERRUPTED_CODE: u8 = 130;
-
-/// Words after Ctrl-C.
-pub const INTERRUPTED_TEXT: &str =
-    "interrupted; files that are whole stay, and the same command goes on from there";
-
-/// Makes Ctrl-C end the work under way. Work that does not ask ends with the process a moment later. No file is left half
-/// written: files are renamed into place when they are whole.
-pub fn catch_interrupts() {
-    // A handler that cannot be set leaves Ctrl-C as it is.
-    let _ = ctrlc::set_handler(|| {
-        INTERRUPTED.store(true, Ordering::Relaxed);
-        std::thread::sleep(GRACE);
-        print_error(INTERRUPTED_TEXT);
-        std::process::exit(INTERRUPTED_CODE.into());
-    });
-}
-
-/// Tells whether Ctrl-C was pressed.
-pub fn was_interrupted() -> bool {
-    INTERRUPTED.load(Ordering::Relaxed)
-}
 
 /// Makes the monitor of a command: a bar on a terminal, lines in a log, nothing with --quiet. It ends work after Ctrl-C.
 pub fn make_monitor() -> Monitor {

@@ -8,7 +8,7 @@ use frame::{FileError, read_bounded};
 use include_dir::{Dir, include_dir};
 
 use crate::shader::Shader;
-use crate::translate::{MAX_SHADER_BYTES, Translated, translate};
+use crate::translate::{MAX_SHADER_BYTES, Translated, stays_below, translate};
 use crate::{Filter, FilterError, manifest};
 use agreement::check_agreement;
 
@@ -26,7 +26,13 @@ impl Filter {
     pub fn load(folder: &Path) -> Result<Self, FilterError> {
         let path = folder.join("filter.toml");
         let manifest = as_text(&path, read_bytes(&path, MAX_MANIFEST_BYTES)?)?;
-        parse_filter(folder, &manifest, read_bytes)
+        parse_filter(folder, &manifest, |path, limit| {
+            if path.exists() && !stays_below(folder, path) {
+                let reason = "is a link to a file outside of the filter's folder; copy the file in its place";
+                return Err(refuse(path, reason.to_owned()));
+            }
+            read_bytes(path, limit)
+        })
     }
 
     /// Loads a filter that the program brings along.

@@ -12,11 +12,11 @@ pub(super) struct Include {
 /// Words of Slang before the path of a module.
 const IMPORTS: [&str; 4] = ["import", "__import", "__include", "implementing"];
 
-/// Lists the files that a text names, as a preprocessor sees them: without comments, and with lines joined that end with `\`.
+/// Lists the files that a text without comments names, as a preprocessor sees them: with lines joined that end with `\`.
 pub(super) fn list_includes(text: &str) -> Vec<Include> {
     let mut includes = Vec::new();
     for (line, text) in list_lines(text) {
-        let text = text.trim();
+        let text = text.trim_start_matches('\u{feff}').trim();
         match text.strip_prefix('#').or_else(|| text.strip_prefix("%:")) {
             Some(directive) => includes
                 .extend(read_directive(directive.trim_start()).map(|path| Include { line, path })),
@@ -55,65 +55,77 @@ fn list_imports(text: &str) -> impl Iterator<Item = String> {
 /// Lists the lines of a text without comments, each with its number. A line that ends with `\` goes on in the next one, and so does
 /// a word of Slang for modules.
 fn list_lines(text: &str) -> Vec<(usize, String)> {
-    let text = text.replace("\r\n", "\n").replace('\r', "\n");
-    let mut lines = vec![(1, String::new())];
-    let mut number = 1;
-    let mut rest = text.chars().peekable();
-    let mut in_quotes = false;
-    while let Some(c) = rest.next() {
-        let next = rest.peek().copied();
-        let line = &mut lines.last_mut().expect("there is a line").1;
-        match (c, next) {
-            ('\\', Some('\n')) => {
-                rest.next();
-                number += 1;
-            }
-            ('\n', _) => {
-                number += 1;
-                in_quotes = false;
-                let goes_on = IMPORTS.iter().any(|word| line.trim_end().ends_with(word));
-                match goes_on && !line.trim_start().starts_with('#') {
-                    true => line.push(' '),
-                    false => lines.push((number, String::new())),
-                }
-            }
-            ('/', Some('/')) if !in_quotes => {
-                while let Some(c) = rest.next_if(|c| *c != '\n') {
-                    // A comment goes on as well.
-                    if c == '\\' && rest.next_if_eq(&'\n').is_some() {
-                        number += 1;
-                    }
-                }
-            }
-            ('/', Some('*')) if !in_quotes => {
-                rest.next();
-                let mut last = ' ';
-                for c in rest.by_ref() {
-                    number += usize::from(c == '\n');
-                    if (last, c) == ('*', '/') {
-                        break;
-                    }
-                    last = c;
-                }
-                line.push(' ');
-            }
-            _ => {
-                in_quotes ^= c == '"';
-                line.push(c);
-            }
+    let mut lines: Vec<(usize, String)> = Vec::new();
+    let mut goes_on = false;
+    for (index, part) in text.split('\n').enumerate() {
+        let (part, is_spliced) = match part.strip_suffix('\\') {
+            Some(part) => (part, true),
+            None => (part, false),
+        };
+        match lines.last_mut() {
+            Some((_, line)) if goes_on => line.push_str(part),
+            _ => lines.push((index + 1, part.to_owned())),
+        }
+        let line = &lines.last().expect("there is a line").1;
+        let names_module = IMPORTS.iter().any(|word| line.trim_end().ends_with(word));
+        goes_on = is_spliced || (names_module && !line.trim_start().starts_with('#'));
+        if goes_on && !is_spliced {
+            lines.last_mut().expect("there is a line").1.push(' ');
         }
     }
     lines
 }
 
+/// Removes the comments of a text, and keeps its lines. A compiler that reads the result sees what [`list_includes`] saw, even
+/// where the two disagree about what is a comment.
+pub(super) fn remove_comments(text: &str) -> String {
+    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    let mut plain = String::with_capacity(text.len());
+    let mut rest = text.chars().peekable();
+    let mut in_quotes = false;
+    while let Some(c) = rest.next() {
+        match (c, rest.peek().copied()) {
+            ('/', Some('/')) if !in_quotes => {
+                let mut last = ' ';
+                // A comment goes on behind `\`.
+                while let Some(c) = rest.next_if(|c| *c != '\n' || last == '\\') {
+                    plain.extend((c == '\n').then_some(c));
+                    last = c;
+                }
+            }
+            ('/', Some('*')) if !in_quotes => {
+                rest.next();
+                plain.push(' ');
+                let mut last = ' ';
+                for c in rest.by_ref() {
+                    plain.extend((c == '\n').then_some(c));
+                    if (last, c) == ('*', '/') {
+                        break;
+                    }
+                    last = c;
+                }
+            }
+            ('\\', Some(escaped)) if in_quotes => {
+                rest.next();
+                plain.extend([c, escaped]);
+            }
+            _ => {
+                in_quotes = c != '\n' && in_quotes ^ (c == '"');
+                plain.push(c);
+            }
+        }
+    }
+    plain
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Include, list_includes};
+    use super::{Include, list_includes, remove_comments};
 
     #[test]
     fn includes_are_found_however_they_are_written() {
         type Found<'a> = &'a [(usize, Option<&'a str>)];
-        let cases: [(&str, Found); 13] = [
+        let cases: [(&str, Found); 16] = [
             ("#include \"a.h\"", &[(1, Some("a.h"))]),
             ("\n  #  include <b/c.h> // why", &[(2, Some("b/c.h"))]),
             (
@@ -142,6 +154,16 @@ mod tests {
             ),
             ("float important = 1; string s = \"import\";", &[]),
             ("#define A \"//\"\n#include \"b.h\"", &[(2, Some("b.h"))]),
+            // An escaped quote does not end the text in quotes.
+            (
+                "#define A \"\\\"/*\"\n#include \"b.h\"\n/**/",
+                &[(2, Some("b.h"))],
+            ),
+            ("\u{feff}#include \"b.h\"", &[(1, Some("b.h"))]),
+            (
+                "/\\\n/ #include \"a.h\"\n#include \"b.h\"",
+                &[(3, Some("b.h"))],
+            ),
         ];
         for (text, expected) in cases {
             let expected: Vec<Include> = (expected.iter())
@@ -150,7 +172,7 @@ mod tests {
                     path: path.map(str::to_owned),
                 })
                 .collect();
-            assert_eq!(list_includes(text), expected, "{text}");
+            assert_eq!(list_includes(&remove_comments(text)), expected, "{text}");
         }
     }
 }

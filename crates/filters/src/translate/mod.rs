@@ -34,6 +34,7 @@ use bind::{bind, check_places};
 use module::{OpenModule, compile_shader, read};
 
 pub(crate) use language::Language;
+pub(crate) use sources::stays_below;
 
 /// Largest shader that is read, in bytes.
 pub(crate) const MAX_SHADER_BYTES: u64 = compiler::MAX_MODULE_BYTES;

@@ -7,7 +7,7 @@ use frame::read_bounded;
 
 use super::Language;
 use super::compiler::MAX_MODULE_BYTES;
-use super::includes::list_includes;
+use super::includes::{list_includes, remove_comments};
 use super::packages::name_packages;
 use crate::FilterError;
 
@@ -50,7 +50,12 @@ impl Sources {
         collector.texts.insert(file.clone(), text.to_owned());
         match language {
             Language::Wesl => name_packages(&base, &mut collector.texts),
-            _ => collector.add_included(&base)?,
+            _ => {
+                for text in collector.texts.values_mut() {
+                    *text = remove_comments(text);
+                }
+                collector.add_included(&base)?;
+            }
         }
         Ok(Self {
             shader: file,
@@ -82,13 +87,10 @@ impl Collector<'_> {
     /// Adds every file that a known one includes, until there is nothing new.
     fn add_included(&mut self, base: &Path) -> Result<(), FilterError> {
         let mut waiting: Vec<PathBuf> = self.texts.keys().cloned().collect();
+        let mut not_beside = Vec::new();
         while let Some(file) = waiting.pop() {
             for include in list_includes(&self.texts[&file]) {
-                let refuse = |reason: String| FilterError::Folder {
-                    path: self.folder.join(&file),
-                    line: Some(include.line),
-                    reason,
-                };
+                let refuse = |reason: String| self.refuse_line(&file, include.line, reason);
                 let Some(path) = &include.path else {
                     return Err(refuse(
                         "#include names its file by a macro; allowed: the path itself, in quotes"
@@ -96,26 +98,52 @@ impl Collector<'_> {
                     ));
                 };
                 let found = self.find(&file, base, path).map_err(refuse)?;
+                let beside = join(folder_of(&file), path);
+                if found.is_none() || found != beside {
+                    not_beside.push((file.clone(), include.line, path.clone()));
+                }
                 if let Some(found) = found.filter(|found| !self.texts.contains_key(found)) {
                     self.read(&found)?;
+                    let text = &self.texts[&found];
+                    self.texts.insert(found.clone(), remove_comments(text));
                     waiting.push(found);
                 }
+            }
+        }
+        self.check_other_folders(&not_beside)
+    }
+
+    /// Refuses a path that leads out of the filter's folder from any folder of the shader. A compiler looks in the folders of all
+    /// files that are being included for what is not beside the file that names it.
+    fn check_other_folders(&self, paths: &[(PathBuf, usize, String)]) -> Result<(), FilterError> {
+        for (file, line, path) in paths {
+            if (self.texts.keys()).any(|other| join(folder_of(other), path).is_none()) {
+                return Err(self.refuse_line(file, *line, self.leads_out(path)));
             }
         }
         Ok(())
     }
 
+    fn leads_out(&self, path: &str) -> String {
+        format!(
+            "includes \"{path}\", which lies outside of the filter's folder {}; copy the file into the folder and name the copy",
+            self.folder.display()
+        )
+    }
+
+    fn refuse_line(&self, file: &Path, line: usize, reason: String) -> FilterError {
+        FilterError::Folder {
+            path: self.folder.join(file),
+            line: Some(line),
+            reason,
+        }
+    }
+
     /// Finds an included file beside the one that includes it, or beside the shader; none where neither is there, which the
     /// compiler says.
     fn find(&self, by: &Path, base: &Path, path: &str) -> Result<Option<PathBuf>, String> {
-        let leads_out = || {
-            format!(
-                "includes \"{path}\", which lies outside of the filter's folder {}; copy the file into the folder and name \
-                 the copy",
-                self.folder.display()
-            )
-        };
-        let own = by.parent().unwrap_or(Path::new(""));
+        let leads_out = || self.leads_out(path);
+        let own = folder_of(by);
         for from in [own, base] {
             let place = join(from, path).ok_or_else(leads_out)?;
             let candidate = self.folder.join(&place);
@@ -205,8 +233,12 @@ fn join(from: &Path, path: &str) -> Option<PathBuf> {
     Some(joined)
 }
 
+fn folder_of(file: &Path) -> &Path {
+    file.parent().unwrap_or(Path::new(""))
+}
+
 /// Returns true for a file that lies in a folder once links are followed.
-fn stays_below(folder: &Path, file: &Path) -> bool {
+pub(crate) fn stays_below(folder: &Path, file: &Path) -> bool {
     match (folder.canonicalize(), file.canonicalize()) {
         (Ok(folder), Ok(file)) => file.starts_with(folder),
         _ => false,

@@ -6,7 +6,7 @@ use metrics::BoundMetric;
 use super::case_view::CaseView;
 use super::evidence::Evidence;
 use crate::filter_id::case_anchor;
-use crate::finding_text::{Status, finding_line, way_out, worst_frame_text};
+use crate::finding_text::{Status, finding_line, limit_text, way_out, worst_frame_text};
 use crate::numbers::counted;
 use crate::sequence::SEQUENCES_PAGE;
 use suite::Level;
@@ -151,7 +151,7 @@ fn facts(finding: &Finding) -> Markup {
             @if let Some(own) = &finding.interval {
                 div { dt { "95 % CI" } dd { (number(own.low)) " to " (number(own.high)) ", against a truth without noise" } }
             }
-            div { dt { "limit" } dd { (number(finding.limit)) ", " (finding.place) ": " (finding.why) } }
+            div { dt { "limit" } dd { (limit_text(finding)) ", " (finding.place) ": " (finding.why) } }
             @if let Some(floor) = finding.floor {
                 div { dt { "noise floor" } dd { (number(floor)) } }
             }

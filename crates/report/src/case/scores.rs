@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use metrics::{Group, Interval, Measured, Metric};
 
 use super::case_view::CaseView;
-use crate::finding_text::{Status, interval_text};
+use crate::finding_text::{Status, interval_text, limit_text};
 use suite::Case;
 use suite::{Level, number};
 
@@ -75,7 +75,7 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
                         data-label=[status.map(|_| "limit")] {
                         @if let (Some(finding), Some(status)) = (finding, status) {
                             span.sign aria-hidden="true" { (status.sign) }
-                            (number(finding.limit))
+                            (limit_text(finding))
                             @if required { span.unseen { ", " (status.word) } } @else { span.note { " target" } }
                         }
                     }

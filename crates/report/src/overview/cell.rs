@@ -5,8 +5,8 @@ use metrics::{Ideal, Measured};
 
 use crate::case::case_view::CaseView;
 use crate::filter_id::case_anchor;
-use crate::finding_text::{Status, interval_text};
-use suite::{Finding, Headline, Level, Outcome, number};
+use crate::finding_text::{Status, interval_text, limit_text};
+use suite::{Finding, Headline, Level, Outcome};
 
 /// Least badness that a colour tells from another one, where scores have a logarithmic scale.
 const LEAST: f64 = 1e-3;
@@ -70,7 +70,7 @@ pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
                     span.unseen { ", " (interval_text(interval, value)) }
                 }
                 @if let Some((finding, status)) = judged {
-                    span.unseen { ", " (status.word) ", required limit " (number(finding.limit)) }
+                    span.unseen { ", " (status.word) ", required limit " (limit_text(finding)) }
                 }
             }
         }

@@ -2,10 +2,10 @@
 
 use maud::{Markup, html};
 use metrics::{Measured, SequenceMetric};
-use suite::{Finding, Level, RankedSequence, Run, Sequence, number, rank_sequences_on};
+use suite::{Finding, Level, RankedSequence, Run, Sequence, rank_sequences_on};
 
 use super::ranking::{metric_heads, rank_text};
-use crate::finding_text::Status;
+use crate::finding_text::{Status, limit_text};
 
 /// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
 pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
@@ -90,7 +90,7 @@ fn cell(own: &Sequence, metric: SequenceMetric, finding: Option<&Finding>) -> Ma
     let status = finding.and_then(|own| Status::of(own.outcome));
     let required = finding.is_some_and(|own| own.level == Level::Required);
     let mut title = score_title(score);
-    title.extend(finding.map(|own| format!(", limit {}: {}", number(own.limit), own.place)));
+    title.extend(finding.map(|own| format!(", limit {}: {}", limit_text(own), own.place)));
     html! {
         td title=(title) class=[status.filter(|_| required).map(|status| status.word)] {
             @if let Some(status) = status {

@@ -70,6 +70,13 @@ impl CaptureDescription {
                 self.engine
             ));
         }
+        // Its first word becomes a folder.
+        if !self.engine.trim().starts_with(char::is_alphanumeric) {
+            return Err(format!(
+                "engine = {:?}; allowed: a name that begins with a letter or a digit",
+                self.engine
+            ));
+        }
         if let Some(scene) = (self.scene.as_ref()).filter(|scene| !is_scene_name(scene)) {
             return Err(format!(
                 "scene = {scene:?}; allowed: the name of a scene of the suite, such as railing or railing@fast"

@@ -27,8 +27,8 @@ pub struct Ingested {
     pub scene: EngineScene,
     /// The truth; none where the capture has no sub-frames.
     pub truth: Option<Truth>,
-    /// Mean radiance of the engine's blurred picture over that of the truth, or of the frame where there is no truth. 1 for a blur that
-    /// neither adds nor takes light; none without a picture, or of black.
+    /// Radiance of the engine's blurred picture over that of the truth, or of the frame if there is no truth: the median over pixels
+    /// where nothing moves. 1 for a blur that neither adds nor takes light; none without a picture, or if no lit pixel is still.
     pub gain: Option<f64>,
 }
 
@@ -99,15 +99,26 @@ pub fn ingest(
     let unblurred = truth
         .as_ref()
         .map_or_else(|| frame.color.clone(), |truth| truth.mean().color);
-    let gain = (capture.blurred.as_ref())
-        .map(|picture| mean_radiance(picture) / mean_radiance(&unblurred))
-        .filter(|gain| gain.is_finite());
+    let still = match &truth {
+        Some(truth) => truth.support.moving.map(|moves| !moves),
+        None => frame.velocity.map(|velocity| *velocity == [0.0, 0.0]),
+    };
+    let gain =
+        (capture.blurred.as_ref()).and_then(|picture| median_ratio(picture, &unblurred, &still));
     Ok(Ingested { scene, truth, gain })
 }
 
-fn mean_radiance(picture: &Image) -> f64 {
-    let values = picture.pixels.iter().flatten();
-    values.map(|value| f64::from(*value)).sum::<f64>() / picture.pixels.len() as f64
+/// Returns the median of the ratios of two pictures' radiance over some pixels; none where the second one is black.
+fn median_ratio(picture: &Image, other: &Image, chosen: &Raster<bool>) -> Option<f64> {
+    let radiance = |pixel: &[f32; 3]| pixel.iter().map(|value| f64::from(*value)).sum::<f64>();
+    let pairs = picture.pixels.iter().zip(&other.pixels);
+    let mut ratios: Vec<f64> = (pairs.zip(&chosen.pixels))
+        .filter(|((_, other), chosen)| **chosen && radiance(other) > 0.0)
+        .map(|((own, other), _)| radiance(own) / radiance(other))
+        .collect();
+    let middle = ratios.len() / 2;
+    ratios.sort_by(f64::total_cmp);
+    ratios.get(middle).copied()
 }
 
 /// Refuses a folder that holds another frame, as a run leaves it for a scene.
@@ -244,4 +255,24 @@ fn hash_capture(capture: &Capture) -> Result<String, Error> {
         hasher.update(&bytes);
     }
     Ok(hasher.finalize().to_hex().to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gain_is_that_of_still_pixels() {
+        let other = Raster::from_fn(4, 1, |x, _| [x as f32; 3]);
+        // The black pixel has no ratio, and the last one moves.
+        let picture = Raster::from_fn(4, 1, |x, _| {
+            [if x == 3 { 90.0 } else { 1.25 * x as f32 }; 3]
+        });
+        let still = Raster::from_fn(4, 1, |x, _| x < 3);
+        assert_eq!(median_ratio(&picture, &other, &still), Some(1.25));
+        assert_eq!(
+            median_ratio(&picture, &other, &Raster::filled(4, 1, false)),
+            None
+        );
+    }
 }

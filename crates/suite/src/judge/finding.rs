@@ -168,6 +168,11 @@ impl Finding {
         self.frames.is_some()
     }
 
+    /// Returns the metric whose score it is about.
+    pub fn bound_metric(&self) -> BoundMetric {
+        self.metric.parse().expect("a judged score is a metric's")
+    }
+
     /// Returns the decision that follows from this finding alone.
     pub fn decision(&self) -> Decision {
         match (self.outcome, self.level) {

@@ -24,7 +24,7 @@ pub use evidence::add_evidence;
 pub use finding::{Finding, MOST_SAMPLES, number};
 pub use judged_score::{JudgedScore, judge_scores, judge_sequence};
 pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
-pub use outcome::Outcome;
+pub use outcome::{Outcome, badness_within};
 pub use worst::{BLOCK, CROP, Worst, worst_block};
 
 /// The bounds of a run's scenes, by the names that its cases give them.

@@ -82,7 +82,30 @@ pub fn badness_within(ideal: Ideal, interval: &Interval) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use metrics::Score;
+
     use super::*;
+
+    #[test]
+    fn the_whole_interval_decides_and_the_value_does_not() {
+        let measured = Measured::Score(Score {
+            value: 0.12,
+            floor: 0.01,
+        });
+        let judge = |low, high| {
+            let interval = Interval {
+                low,
+                high,
+                standard_error: 0.01,
+            };
+            let metric = "flip_moving".parse().unwrap();
+            judge_score(metric, &measured, Some(Some(&interval)), 0.1)
+        };
+        // The value is above the limit each time: noise raises it.
+        assert_eq!(judge(0.08, 0.1), Outcome::Kept);
+        assert_eq!(judge(0.09, 0.11), Outcome::Inconclusive);
+        assert_eq!(judge(0.11, 0.13), Outcome::Broken);
+    }
 
     #[test]
     fn an_interval_is_as_bad_as_its_ends() {

@@ -203,3 +203,33 @@ fn are_tied(a: &Entry, b: &Entry) -> bool {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn on_one_scene_filters_tie_within_the_noise_floor() {
+        let score = |name: &str, value: f64| RankedScore {
+            scene: "fan".to_owned(),
+            filter: name.to_owned(),
+            name: format!("{name}:default"),
+            alignment: "centred".to_owned(),
+            value,
+            floor: 0.01,
+        };
+        let scores = [score("a", 0.1), score("b", 0.109), score("c", 0.111)];
+        let ranks = |scores: &[RankedScore]| -> Vec<(usize, bool)> {
+            let ranked = rank_by_score(scores, false);
+            ranked[0]
+                .iter()
+                .map(|own| (own.rank, own.is_tied))
+                .collect()
+        };
+        assert_eq!(ranks(&scores[..2]), [(1, true), (1, true)]);
+        assert_eq!(
+            ranks(&[scores[0].clone(), scores[2].clone()]),
+            [(1, false), (2, false)]
+        );
+    }
+}

@@ -20,7 +20,8 @@ pub(super) fn find_difference(found: &ExrFile, tile: Tile, made: &ExrFile) -> Op
     find_attribute(found, made).or_else(|| find_sample(found, tile, made))
 }
 
-fn find_attribute(found: &ExrFile, made: &ExrFile) -> Option<String> {
+/// Compares the attributes of a file with those that were made for it; says which one differs first.
+pub(super) fn find_attribute(found: &ExrFile, made: &ExrFile) -> Option<String> {
     let own = |file: &ExrFile| -> BTreeMap<String, String> {
         let attributes = file.attributes.iter();
         attributes

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Frame, Replicate, Tile, Truth, read_attribute, read_exr};
+use frame::{Alignment, Frame, Replicate, Tile, Truth, read_exr};
 use tracer::{RenderSettings, Scene};
 
 use super::difference::find_difference;
@@ -20,7 +20,7 @@ pub struct Verified {
     pub tiles: Vec<(PathBuf, Tile)>,
     /// Truths that are the mean of their replicates.
     pub truths: usize,
-    /// Truths that engines drew, which nothing can trace again.
+    /// Truths of scenes that only engines can draw: nothing can trace them again.
     pub drawn: usize,
     /// Files that hold something else than this program makes, and what to do.
     pub differences: Vec<String>,
@@ -44,17 +44,12 @@ pub fn verify_scene(
         verification,
         monitor,
     };
-    let is_drawn = |path: &Path| read_attribute(path, "engine").is_some();
     let frame = kept.folder.join("frame.exr");
-    if frame.exists() && !is_drawn(&frame) {
+    if frame.exists() {
         verified.note(verify_frame(&work, &frame))?;
     }
     for &alignment in &kept.alignments {
         let truth = kept.folder.join(format!("truth_{alignment}.exr"));
-        if is_drawn(&truth) {
-            verified.drawn += 1;
-            continue;
-        }
         if verified.note(verify_truth(&work, &truth, alignment))? {
             verified.truths += 1;
         }

@@ -50,8 +50,13 @@ pub(super) fn trace_replicate_tiles(
         );
         let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(index, tile, watch))?;
         let path = files.path(index);
-        work.compare(&path, tile, &made[0].to_exr())?;
+        let mut made = made[0].to_exr();
+        work.compare(&path, tile, &made)?;
         tiles.push((work.shown(&path), tile));
+        for index in (0..settings.replicates).filter(|_| tiles.len() == 1) {
+            made.set("replicate", index);
+            work.compare_attributes(&files.path(index), &made)?;
+        }
     }
     Ok(tiles)
 }
@@ -79,8 +84,13 @@ pub(super) fn trace_rung_tiles(
         );
         let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(rung, tile, watch))?;
         let path = folder.join(rung_file(rung));
-        work.compare(&path, tile, &made.into_exr())?;
+        let mut made = made.into_exr();
+        work.compare(&path, tile, &made)?;
         tiles.push((work.shown(&path), tile));
+        for rung in LADDER.iter().filter(|_| tiles.len() == 1) {
+            made.set("subframes", rung);
+            work.compare_attributes(&folder.join(rung_file(*rung)), &made)?;
+        }
     }
     Ok(tiles)
 }

@@ -6,7 +6,7 @@ use frame::{ExrFile, Tile, read_exr};
 use tracer::Scene;
 
 use super::chance::Chance;
-use super::difference::find_difference;
+use super::difference::{find_attribute, find_difference};
 use super::listing::KeptScene;
 use crate::{Error, Monitor};
 
@@ -51,6 +51,18 @@ impl Work<'_> {
                 tile.height,
                 tile.x,
                 tile.y,
+                self.way_out()
+            ))),
+        }
+    }
+
+    /// Refuses a file with other attributes than were made for it. A tile is traced in a few files; attributes are compared in all.
+    pub fn compare_attributes(&self, path: &Path, made: &ExrFile) -> Result<(), Error> {
+        match find_attribute(&read_exr(path)?, made) {
+            None => Ok(()),
+            Some(difference) => Err(Error::Broken(format!(
+                "{}: {difference}; {}",
+                self.shown(path).display(),
                 self.way_out()
             ))),
         }
