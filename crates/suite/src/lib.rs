@@ -142,7 +142,7 @@ pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
-pub use stats::ranking::{MOST_RANKED, RankedFilter, list_summarized, rank_for_summary};
+pub use stats::ranking::{MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary};
 pub use stats::scene_mean::{FEWEST_SCENES, SceneMean};
 pub use stats::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use tune::{

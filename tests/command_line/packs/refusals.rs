@@ -7,7 +7,7 @@ use suite::Manifest;
 use tar::EntryType;
 
 use super::{Packed, QUICK, compress, entries, packed, run, write};
-use crate::bench::{Bench, assert_refused, quick_command, split};
+use crate::bench::{Bench, assert_refused, make_fifo, quick_command, split};
 
 #[track_caller]
 fn refuse_to_pack(bench: &Bench, words: &[&str], parts: &[&str]) {
@@ -288,4 +288,14 @@ fn a_check_refuses_a_pack_that_git_tracks() {
     git(&["add", "truths.tar.zst"]);
     let parts = ["truths.tar.zst is tracked by git", "--truths"];
     assert_refused(&check(), 2, &parts);
+}
+
+#[test]
+fn truths_that_are_neither_a_folder_nor_a_file_are_refused() {
+    let bench = Bench::new();
+    make_fifo(&bench.path("pipe"));
+    let words = "run --filter identity --truths pipe --out fresh";
+    let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
+    let parts = ["--truths pipe: is neither a folder nor a regular file"];
+    assert_refused(&output, 2, &parts);
 }

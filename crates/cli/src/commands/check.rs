@@ -7,7 +7,7 @@ use frame::FileError;
 use suite::{
     BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence,
     bound_subframes, check, check_lengths, check_names, compare_with_baseline, is_of_subframes,
-    judge, open_gpu, refuse_tracked, require_bounds, size_for_bounds,
+    judge, open_gpu, printable_path, refuse_tracked, require_bounds, size_for_bounds,
 };
 use tracer::Location;
 
@@ -67,8 +67,15 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
             let theirs = adapter_text(&baseline.adapter);
             format!("the baseline is of another class of adapter: {theirs}\n")
         });
+        let measured = match &args.run {
+            Some(path) => format!(
+                "nothing was measured or verified now: the scores are those that {} has\n",
+                printable_path(path)
+            ),
+            None => String::new(),
+        };
         print(&format!(
-            "{text}{note}{pages}adapter: {adapter}\n{}",
+            "{text}{note}{pages}adapter: {adapter}\n{measured}{}",
             verdict_text(&checked)
         ))?;
     }

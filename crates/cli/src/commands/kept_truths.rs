@@ -18,9 +18,13 @@ pub fn check_truths(truths: &Path) -> Result<(), Error> {
         true => Pack::open(truths).map(drop),
         false if truths.is_dir() => Ok(()),
         false => Err(Error::Usage(format!(
-            "--truths {}: there is no such folder or file; allowed: a folder into which `shuttertruth render --ladders` or `run` \
+            "--truths {}: {}; allowed: a folder into which `shuttertruth render --ladders` or `run` \
              wrote, or a pack",
-            truths.display()
+            truths.display(),
+            match truths.exists() {
+                true => "is neither a folder nor a regular file",
+                false => "there is no such folder or file",
+            }
         ))),
     }
 }

@@ -1,6 +1,8 @@
 //! Summary of a run: the ranking of its filters, and the references beside them.
 
-use suite::{Case, Headline, MOST_RANKED, RankedFilter, list_summarized, rank_for_summary};
+use suite::{
+    Case, Headline, MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
+};
 
 use tracer::FrameRate;
 
@@ -157,7 +159,7 @@ fn mean_flip<'a>(cases: impl Iterator<Item = &'a Case>) -> String {
 fn notes(groups: &[Vec<RankedFilter>]) -> String {
     let mut notes = "FLIP where anything moves; lower is better.".to_owned();
     if groups.iter().flatten().any(|ranked| ranked.is_tied) {
-        notes += " Filters with one rank (=) are too close to tell apart.";
+        notes += &format!(" {RANK_RULE}");
     }
     if groups.len() > 1 {
         notes += " Compare filters of one shutter only; --table has skill, which compares all.";

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use suite::{
-    Error, FEWEST_SCENES, Headline, RankedFilter, ResultCost, Results, SizeComparison,
+    Error, FEWEST_SCENES, Headline, RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison,
     compare_with_last,
 };
 use tracer::{Family, Location, list_scenes};
@@ -23,7 +23,7 @@ const FAMILIES: [Family; 7] = [
 
 /// Makes the page of files of results: one part per size, the one with most scenes first, with its sealed variants beside it.
 pub fn results_page(all: &[Results]) -> Result<String, Error> {
-    let mut page = HEAD.to_owned();
+    let mut page = HEAD.replace("{RANK_RULE}", RANK_RULE);
     let pages = main_results(all).map_or_else(Vec::new, list_filters);
     for catalogue in sort_catalogues(all) {
         push_size(&mut page, catalogue, sealed_of(all, catalogue), &pages)?;
@@ -64,7 +64,7 @@ page from the files beside it. Nothing is entered by hand. To enter a filter, ad
     cargo run -p cli --example results -- out/results_320x180/run.json
 
 - Compare filters of one shutter only.
-- Filters with one rank (=) are too close to tell apart: the 95 % CI of the mean difference over scenes holds 0.
+- {RANK_RULE} Filters that share a rank (=) may differ, and filters of neighbouring ranks may not.
 - *Sealed* are the same scenes with speeds, directions, places, times and colours that follow from a number, as in `fan@seal1`. A preset
   that was fitted to the catalogue falls there. Scores differ from the catalogue's because speeds do: compare the ranks.
 - *Time* is that of `shuttertruth bench` at this size, divided by that of `jump_flood:paper` in the same round; a bench.json beside a

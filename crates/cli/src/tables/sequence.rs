@@ -2,7 +2,8 @@
 
 use metrics::{SequenceMetric, SequenceScores};
 use suite::{
-    RANKED_BY, RankedSequence, Run, Sequence, printable, rank_sequences, rank_sequences_on,
+    RANK_RULE, RANKED_BY, RankedSequence, Run, Sequence, printable, rank_sequences,
+    rank_sequences_on,
 };
 
 use super::columns::{bracket_name, legend_text, list_once, number_table, row_style};
@@ -76,7 +77,7 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
                      the change along the motion; both as roots, in thousandths of display white, lower is better."
         .to_owned();
     if groups.iter().flatten().any(|own| own.ranked.is_tied) {
-        notes += " Filters with one rank (=) are too close to tell apart.";
+        notes += &format!(" {RANK_RULE}");
     }
     notes += " --table shows each scene.";
     format!("\n{}{}", table.text(), legend_text(&notes))
@@ -137,9 +138,7 @@ fn sequence_table(run: &Run, scenes: &[&str]) -> String {
             }
         }
     }
-    let legend = format!(
-        "Sequences, ranked by JOD: {KEY} Filters with one rank (=) are too close to tell apart."
-    );
+    let legend = format!("Sequences, ranked by JOD: {KEY} {RANK_RULE}");
     format!("\n{}{}", table.text(), legend_text(&legend))
 }
 

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 use metrics::SequenceMetric;
-use suite::{RANKED_BY, RankedFilter, RankedSequence, Run, SceneMean, rank_sequences};
+use suite::{RANK_RULE, RANKED_BY, RankedFilter, RankedSequence, Run, SceneMean, rank_sequences};
 
 /// Makes a table per shutter; nothing where the run has one scene, whose own table is ranked.
 pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
@@ -16,7 +16,7 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
             h2 { "Ranking" }
             p.note {
                 "Means over " (scenes) " scenes, ranked by " (RANKED_BY.row().name) ": " (RANKED_BY.row().meaning) ". Grey: 95 % CI over the scenes."
-                @if is_tied { " Filters with one rank (=) are too close to tell apart." }
+                @if is_tied { " " (RANK_RULE) }
             }
             @for group in &groups {
                 h3 { (group[0].ranked.alignment) " shutter" @if let Some(rate) = group[0].ranked.rate { ", " (rate.text()) } }

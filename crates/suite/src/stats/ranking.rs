@@ -16,7 +16,7 @@ pub struct RankedFilter {
     pub alignment: String,
     /// Frame rate of the scenes; none for that of their files.
     pub rate: Option<FrameRate>,
-    /// Rank among the filters of its shutter, from 1; filters that are too close to tell apart share one.
+    /// 1 plus the number of filters of its shutter that are better, by more than the 95 % CI of the difference.
     pub rank: usize,
     /// True if another filter shares the rank.
     pub is_tied: bool,
@@ -53,6 +53,9 @@ struct Entry {
     ranked: RankedFilter,
     scores: Vec<RankedScore>,
 }
+
+/// What a rank says, for readers.
+pub const RANK_RULE: &str = "Rank: 1 plus the number of filters that are better by more than the 95 % CI of the difference.";
 
 /// Upper limit on presets that a summary ranks one by one.
 pub const MOST_RANKED: usize = 16;
@@ -97,8 +100,9 @@ impl RankedScore {
 /// Ranks filters of one shutter and frame rate among each other, the best first: one group per shutter and rate. With `best_presets`, the best preset stands
 /// for its filter.
 ///
-/// Two filters tie where the mean difference over their common scenes is not told from 0: its 95 % CI holds 0. On a single
-/// scene they tie within the noise floor.
+/// A filter's rank is 1 plus the number of filters that are better than it. One filter is better than another if its mean is lower and
+/// the 95 % CI of the mean difference over their common scenes excludes 0; on a single scene, if the difference exceeds the noise
+/// floor. This relation is not transitive: filters that share a rank may differ, and filters of neighbouring ranks may not.
 pub(crate) fn rank_by_score(scores: &[RankedScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for score in scores {
@@ -149,17 +153,17 @@ fn rank_group(mut group: Vec<Entry>, best_presets: bool) -> Vec<RankedFilter> {
     if best_presets {
         group = keep_best_presets(group);
     }
-    // The first of the entries that share the current rank.
-    let mut leader = 0;
-    for index in 0..group.len() {
-        if index > 0 && are_tied(&group[leader], &group[index]) {
-            group[leader].ranked.is_tied = true;
-            group[index].ranked.is_tied = true;
-        } else {
-            leader = index;
-        }
-        group[index].ranked.rank = leader + 1;
+    let is_better =
+        |own: &Entry, other: &Entry| own.ranked.mean < other.ranked.mean && !are_tied(own, other);
+    let ranks: Vec<usize> = (group.iter())
+        .map(|own| 1 + group.iter().filter(|other| is_better(other, own)).count())
+        .collect();
+    for (entry, rank) in group.iter_mut().zip(&ranks) {
+        entry.ranked.rank = *rank;
+        entry.ranked.is_tied = ranks.iter().filter(|other| *other == rank).count() > 1;
     }
+    // A filter with few or uneven scenes may tie with more than the one before it.
+    group.sort_by_key(|entry| entry.ranked.rank);
     group.into_iter().map(|entry| entry.ranked).collect()
 }
 
@@ -209,15 +213,44 @@ mod tests {
     use super::*;
 
     #[test]
-    fn on_one_scene_filters_tie_within_the_noise_floor() {
-        let score = |name: &str, value: f64| RankedScore {
+    fn a_rank_counts_the_filters_that_are_better_and_not_those_before_it() {
+        let scores: Vec<RankedScore> = [
+            ("a", [0.10, 0.20, 0.30]),
+            // Better than c on every scene by about as much, and not told from a.
+            ("b", [0.15, 0.21, 0.28]),
+            ("c", [0.17, 0.23, 0.302]),
+        ]
+        .into_iter()
+        .flat_map(|(name, values)| {
+            (["fan", "flag", "creep"].into_iter().zip(values)).map(move |(scene, value)| {
+                RankedScore {
+                    scene: scene.to_owned(),
+                    ..score(name, value)
+                }
+            })
+        })
+        .collect();
+        let ranked = &rank_by_score(&scores, false)[0];
+        let ranks: Vec<_> = (ranked.iter())
+            .map(|own| (own.filter.as_str(), own.rank, own.is_tied))
+            .collect();
+        // c is not told from a, and b is better: one filter, although two stand before it.
+        assert_eq!(ranks, [("a", 1, true), ("b", 1, true), ("c", 2, false)]);
+    }
+
+    fn score(name: &str, value: f64) -> RankedScore {
+        RankedScore {
             scene: "fan".to_owned(),
             filter: name.to_owned(),
             name: format!("{name}:default"),
             alignment: "centred".to_owned(),
             value,
             floor: 0.01,
-        };
+        }
+    }
+
+    #[test]
+    fn on_one_scene_filters_tie_within_the_noise_floor() {
         let scores = [score("a", 0.1), score("b", 0.109), score("c", 0.111)];
         let ranks = |scores: &[RankedScore]| -> Vec<(usize, bool)> {
             let ranked = rank_by_score(scores, false);
