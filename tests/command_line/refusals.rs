@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use tests::filter_folder::one_kernel_without_parameters;
+
 use crate::bench::{
     Bench, OBJ, SCENE, assert_done, assert_refused, files_below, press_ctrl_c, split,
 };
@@ -220,4 +222,34 @@ fn ctrl_c_leaves_no_partial_file() {
     // Empty; the next process locks it.
     left.retain(|path| !path.ends_with(".shuttertruth.lock"));
     assert!(left.is_empty(), "left behind: {left:?}");
+}
+
+#[test]
+fn names_that_no_folder_can_have_are_refused_before_anything_is_rendered() {
+    let bench = Bench::new();
+    let long = "n".repeat(250);
+    let (manifest, kernels) = (
+        "summary = \"It copies.\"\nalignment = \"trailing\"\n[[pass]]\nentry = \"work\"\n",
+        one_kernel_without_parameters("textureStore(output, pixel, textureLoad(color, pixel, 0));"),
+    );
+    bench.write_filter(&long, &format!("name = \"{long}\"\n{manifest}"), &kernels);
+    bench.copy_scene(&long, |text| text.replace("-1.6", "-0.8"));
+    let filter = format!("./{long}");
+    for words in [
+        &["run", "--filter", &filter, "--scenes", "plate"][..],
+        &["run", "--filter", "identity", "--scenes", &long],
+        &["check", "--filter", "identity", "--scenes", &long],
+        &["render", "--scenes", &long],
+    ] {
+        bench.write_bound(1.0);
+        bench.copy_bound(&long);
+        let output = bench.outside_ci(words);
+        let parts = [
+            "folder \"nnnnnn",
+            "allowed: up to 240",
+            "give them shorter ones",
+        ];
+        assert_refused(&output, 2, &parts);
+        assert!(!bench.path("out").exists(), "{words:?}");
+    }
 }

@@ -11,7 +11,7 @@ use crate::fixture;
 use crate::targets::Service;
 
 /// Content of a file beside the folder of a case, which no case may change.
-const CANARY: &str = "this file belongs to nobody's run";
+pub const CANARY: &str = "this file belongs to nobody's run";
 
 /// Temporary folder, and values that stay from case to case.
 pub struct Place {

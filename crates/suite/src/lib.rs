@@ -156,6 +156,7 @@ pub use tune::{
 };
 
 pub use verify::chance::TILE_SIDE;
+pub use verify::difference::TRAVERSALS;
 pub use verify::kept_scene::{Verified, verify_scene};
 pub use verify::listing::{KeptScene, list_kept_scenes};
 pub use verify::work::Verification;

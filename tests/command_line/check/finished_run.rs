@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::{IDENTITY, assert_ends, bound, make_bounded};
-use crate::bench::assert_refused;
+use crate::bench::{assert_refused, stderr};
 
 #[test]
 fn a_finished_run_is_judged_without_an_adapter() {
@@ -17,6 +17,12 @@ fn a_finished_run_is_judged_without_an_adapter() {
     let note = "nothing was measured or verified now: the scores are those that out/run.json has\n";
     assert!(judged.contains(note), "{judged}");
     assert_eq!(judged.replace(note, ""), made);
+    let json = judge(&["out/run.json", "--json"]);
+    let said = stderr(&json)
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
+    assert!(said.contains(note.trim_end()), "{said}");
     // Evidence takes a while, so only who asks for it gets it.
     let plain = assert_ends(&judge(&["out"]), 1, &["BROKEN flip_moving"]);
     assert!(!plain.contains("worst at"), "{plain}");

@@ -3,8 +3,8 @@
 use std::fs;
 use std::process::Output;
 
-use super::{IDENTITY, assert_ends, json, make_bounded};
-use crate::bench::{Bench, quick_command};
+use super::{IDENTITY, assert_ends, bound, json, make_bounded};
+use crate::bench::{Bench, files_below, quick_command};
 
 #[test]
 fn junit_has_a_case_for_every_bound() {
@@ -124,4 +124,52 @@ fn json_holds_the_same_verdict() {
     }
     assert_eq!(finding["worst"]["map"], "flip");
     assert_eq!(finding["resembles"]["decoy"], "no_blur");
+}
+
+/// The identity leaves a silhouette as short as the object: far below the ideal of 1.
+#[test]
+fn a_limit_on_a_distance_stands_beside_a_distance() {
+    let bench = make_bounded(0.2, "required");
+    bench.write("bounds.toml", &bound("extent", 0.01, "required"));
+    let files = ["--junit", "junit.xml", "--github", "--filters", "identity"];
+    let mut command = bench.command(&[&quick_command("check", "64")[..], &files].concat());
+    command.env("GITHUB_STEP_SUMMARY", bench.path("summary.md"));
+    let text = assert_ends(&command.output().unwrap(), 1, &["BROKEN extent"]);
+    let finding = &bench.read_findings()[0];
+    let interval = finding.interval.unwrap();
+    // The estimate is the middle of the interval.
+    let apart = (1.0 - interval.center()).abs();
+    assert!(apart > 0.01 && interval.high < 1.0, "{finding:?}");
+    let ends = [1.0 - interval.high, 1.0 - interval.low].map(suite::number);
+    let line = format!(
+        "BROKEN extent {} from 1 (95 % CI {} to {})",
+        suite::number(apart),
+        ends[0],
+        ends[1]
+    );
+    let limit = "; limit 0.01000, floor ";
+    let annotation = text.lines().find(|line| line.starts_with("::error"));
+    let junit = fs::read_to_string(bench.path("junit.xml")).unwrap();
+    let one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for (name, found) in [
+        ("terminal", one_line.as_str()),
+        ("annotation", &annotation.unwrap().replace("%25", "%")),
+        ("JUnit", &junit),
+    ] {
+        assert!(
+            found.contains(&line) && found.contains(limit),
+            "{name}: {line}\n{found}"
+        );
+    }
+    // Tables have the score itself, and say what its limit is on.
+    let summary = fs::read_to_string(bench.path("summary.md")).unwrap();
+    assert!(summary.contains("| 0.01000 from 1 |"), "{summary}");
+    let pages = files_below(&bench.path("out"));
+    let pages = pages
+        .iter()
+        .filter(|path| path.extension().is_some_and(|end| end == "html"));
+    let pages: String = pages
+        .map(|page| fs::read_to_string(page).unwrap())
+        .collect();
+    assert!(pages.contains("0.01000 from 1"), "no page says it");
 }

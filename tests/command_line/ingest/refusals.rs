@@ -82,6 +82,13 @@ fn folders_that_are_no_captures_are_refused() {
             ["capture.toml: engine = \"\"", "allowed: a name"],
         ),
         (
+            "engine = \"..\"",
+            [
+                "capture.toml: engine = \"..\"",
+                "begins with a letter or a digit",
+            ],
+        ),
+        (
             "name = 1",
             ["capture.toml:1: unknown field `name`", "`engine`"],
         ),

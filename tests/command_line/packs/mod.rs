@@ -1,5 +1,6 @@
 //! Packs of kept truths: made of a run, taken by another, refused where they are not what they say, and verified.
 
+mod forgeries;
 mod refusals;
 mod round_trip;
 mod verification;
@@ -9,6 +10,7 @@ use std::io::Write;
 use std::path::Path;
 
 use frame::{Replicate, Truth};
+use suite::Manifest;
 
 use crate::bench::{Bench, split};
 
@@ -73,6 +75,13 @@ fn write(pack: &Path, entries: &[Packed]) {
     compress(pack, &archive.into_inner().unwrap());
 }
 
+/// Changes the manifest of a pack that was taken apart.
+fn change_manifest(entries: &mut [Packed], change: impl FnOnce(&mut Manifest)) {
+    let mut manifest: Manifest = serde_json::from_slice(&entries[0].bytes).unwrap();
+    change(&mut manifest);
+    entries[0].bytes = serde_json::to_vec(&manifest).unwrap();
+}
+
 fn compress(pack: &Path, bytes: &[u8]) {
     let mut encoder = zstd::Encoder::new(fs::File::create(pack).unwrap(), 1).unwrap();
     encoder.write_all(bytes).unwrap();
@@ -92,10 +101,14 @@ fn forge(bench: &Bench, out: &str, file: &str, pixel: usize) {
 /// Makes the truth of the replicates that lie beside it.
 fn renew_truth(bench: &Bench, out: &str) {
     let folder = bench.path(out).join("plate");
-    let replicates: Vec<Replicate> = (0..REPLICATES)
-        .map(|index| folder.join(format!("truth_trailing/replicate_{index:03}.exr")))
-        .map(|path| Replicate::read(&path).unwrap())
+    let replicates: Vec<Replicate> = replicate_files()
+        .map(|file| Replicate::read(&folder.join(file)).unwrap())
         .collect();
     let truth = Truth::of(&replicates).unwrap();
     truth.write(&folder.join("truth_trailing.exr")).unwrap();
+}
+
+/// Lists the files of the truth's replicates in the folder of their scene.
+fn replicate_files() -> impl Iterator<Item = String> {
+    (0..REPLICATES).map(|index| format!("truth_trailing/replicate_{index:03}.exr"))
 }

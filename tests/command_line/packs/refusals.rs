@@ -6,7 +6,7 @@ use std::process::Command;
 use suite::Manifest;
 use tar::EntryType;
 
-use super::{Packed, QUICK, compress, entries, packed, run, write};
+use super::{Packed, QUICK, change_manifest, compress, entries, packed, run, write};
 use crate::bench::{Bench, assert_refused, make_fifo, quick_command, split};
 
 #[track_caller]
@@ -113,12 +113,6 @@ impl Parts {
     }
 }
 
-fn change_manifest(entries: &mut [Packed], change: impl FnOnce(&mut Manifest)) {
-    let mut manifest: Manifest = serde_json::from_slice(&entries[0].bytes).unwrap();
-    change(&mut manifest);
-    entries[0].bytes = serde_json::to_vec(&manifest).unwrap();
-}
-
 #[test]
 fn an_archive_that_differs_from_its_manifest_is_refused() {
     let parts = Parts::new();
@@ -201,6 +195,24 @@ fn manifests_that_promise_too_much_are_refused() {
     parts.refuse_manifest(
         |manifest| manifest.files[3] = manifest.files[2].clone(),
         &["twice"],
+    );
+    let file = |number: usize, bytes: u64| suite::PackedFile {
+        path: format!("s{number:06}/frame.exr"),
+        bytes,
+        blake3: blake3::hash(b"").to_hex().to_string(),
+        content_hash: "0".repeat(64),
+        scene: "s".to_owned(),
+        width: 16,
+        height: 16,
+        samples_per_pixel: 16,
+    };
+    // A folder and a file for each would take half a minute.
+    parts.refuse_manifest(
+        |manifest| manifest.files = (0..200_000).map(|number| file(number, 0)).collect(),
+        &[
+            "names 200000 files in an archive of",
+            "one for each 64 bytes",
+        ],
     );
     parts.refuse_manifest(
         |manifest| manifest.files[3].bytes = 1 << 40,

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use frame::{read_exr, write_exr};
+use suite::TRAVERSALS;
 use tests::text::assert_contains;
 
 use super::{QUICK, entries, packed, run};
@@ -27,13 +28,15 @@ fn rendered(bench: &Bench, out: &str) -> BTreeMap<String, Vec<u8>> {
         .collect()
 }
 
-/// Writes into every rendered file that it was traced by instructions that no machine has. Nothing depends on them, and what is rendered
-/// anew names others.
+/// Writes into every rendered file that it was traced by the instructions of another machine. Nothing depends on them, and what is
+/// rendered anew names others.
 fn mark(bench: &Bench, out: &str) {
     for name in rendered(bench, out).into_keys() {
         let path = bench.path(out).join(name);
         let mut file = read_exr(&path).unwrap();
-        file.set("traversal", "marked");
+        let own = file.get::<String>("traversal").unwrap();
+        let other = TRAVERSALS.into_iter().find(|word| *word != own);
+        file.set("traversal", other.unwrap());
         write_exr(&path, &file).unwrap();
     }
 }
@@ -199,4 +202,24 @@ fn plans_and_calibrations_take_packs() {
     ];
     assert_contains(&stderr(&output), &parts);
     assert!(stdout(&output).contains("seeds/plate.bounds.toml"));
+}
+
+#[test]
+fn a_pack_removes_what_a_killed_one_left_and_nothing_else() {
+    let bench = packed();
+    let there = |name: &str| bench.path(name).exists();
+    for name in [
+        ".shuttertruth-killed.tmp",
+        ".shuttertruth-notes",
+        "kept.tmp",
+    ] {
+        fs::write(bench.path(name), "").unwrap();
+    }
+    bench.execute(&["pack"]);
+    assert!(!there(".shuttertruth-killed.tmp"));
+    assert!(there(".shuttertruth-notes") && there("kept.tmp"));
+    fs::create_dir(bench.path("below")).unwrap();
+    fs::write(bench.path("below/.shuttertruth-killed.tmp"), "").unwrap();
+    bench.execute(&["pack", "--out", "below/truths.tar.zst"]);
+    assert!(!there("below/.shuttertruth-killed.tmp"));
 }

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use frame::{Frame, Ladder, Replicate};
 use serde_json::Value;
-use suite::{Monitor, Verification};
 
 use super::{QUICK, REPLICATES, forge, packed, renew_truth, run};
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
@@ -234,83 +233,4 @@ fn what_holds_no_truth_is_refused() {
         "{}",
         stderr(&output)
     );
-}
-
-#[test]
-fn a_truth_of_an_engine_is_no_success() {
-    let bench = Bench::two_scenes();
-    run(&bench, "identity", &[]);
-    let (own, drawn) = (bench.path("out/slow"), bench.path("out/slow@engine"));
-    fs::rename(own, &drawn).unwrap();
-    for file in ["frame.exr", "truth_trailing.exr"] {
-        mark_drawn(&drawn.join(file));
-    }
-    let parts = ["1 truth of an engine cannot be traced again", "--scenes"];
-    assert_refused(&bench.shuttertruth(&["verify"]), 2, &parts);
-    bench.execute(&["verify", "--scenes", "plate"]);
-}
-
-/// A scene of this program is traced, whatever its files say.
-#[test]
-fn a_file_that_says_that_an_engine_drew_it_is_traced() {
-    let bench = packed();
-    for file in ["truth_trailing.exr", "frame.exr"] {
-        let path = bench.path("out/plate").join(file);
-        let honest = fs::read(&path).unwrap();
-        mark_drawn(&path);
-        bench.execute(&["pack", "--out", "forged.tar.zst"]);
-        let parts = [file, "attribute engine holds \"another\""];
-        let verified = bench.shuttertruth(&["verify", "forged.tar.zst"]);
-        assert_refused(&verified, 1, &parts);
-        let words = "run --filter identity --truths forged.tar.zst --out fresh";
-        let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
-        assert_refused(&output, 2, &parts);
-        assert!(!bench.path("fresh/plate").exists());
-        fs::write(&path, honest).unwrap();
-    }
-}
-
-/// Changes one attribute after another in all kept files, with right checksums.
-#[test]
-fn every_changed_attribute_is_found() {
-    let bench = packed();
-    let folder = bench.path("out/plate");
-    let scene = tracer::load_scene(bench.path("scenes/plate"), None).unwrap();
-    let kept = &suite::list_kept_scenes(&bench.path("out"), Path::new("out")).unwrap()[0];
-    let verification = Verification { seed: 5, tiles: 1 };
-    let differences = || {
-        let verified = suite::verify_scene(&scene, kept, &verification, Monitor::SILENT);
-        // Settings that no truth can have are an error instead.
-        verified.map_or_else(|error| vec![error.to_string()], |own| own.differences)
-    };
-    assert_eq!(differences(), Vec::<String>::new());
-    let replicates =
-        (0..REPLICATES).map(|index| format!("truth_trailing/replicate_{index:03}.exr"));
-    let rungs = ["n1", "n16", "n64"].map(|rung| format!("ladder_trailing/{rung}.exr"));
-    let whole = ["frame.exr", "truth_trailing.exr"].map(str::to_owned);
-    for file in whole.into_iter().chain(replicates).chain(rungs) {
-        let path = folder.join(&file);
-        let honest = frame::read_exr(&path).unwrap();
-        // Whatever instructions traced a file, its pixels are the same; the checksum is that of the pixels.
-        let free = ["traversal", "checksum"];
-        let mut names: Vec<&str> = honest.attributes.keys().map(String::as_str).collect();
-        names.retain(|name| !free.contains(name));
-        for name in names.into_iter().chain(["engine"]) {
-            let mut forged = honest.clone();
-            let value = forged.attributes.get(name).map_or("0", String::as_str);
-            let value = format!("{value}1");
-            forged.set(name, value);
-            frame::write_exr(&path, &forged).unwrap();
-            let found = differences();
-            assert_eq!(found.len(), 1, "{file}: {name} was changed: {found:?}");
-        }
-        frame::write_exr(&path, &honest).unwrap();
-    }
-}
-
-/// Makes a file say that an engine drew it.
-fn mark_drawn(path: &Path) {
-    let mut file = frame::read_exr(path).unwrap();
-    file.set("engine", "another");
-    frame::write_exr(path, &file).unwrap();
 }

@@ -142,6 +142,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
             "Nobody has answered yet",
         ],
     );
+    finish_half_a_page(&bench);
     let ask = |more: &[&'static str]| [&["ask", "out", "--out", "new"][..], more].concat();
     for (words, parts) in [
         (
@@ -277,4 +278,25 @@ fn answers_become_a_scale_beside_the_scores_of_the_run() {
     ] {
         assert!(words.contains(part), "\"{part}\" is missing from:\n{table}");
     }
+}
+
+/// Makes a page where a killed process had begun another one.
+fn finish_half_a_page(bench: &Bench) {
+    let half = bench.path("half");
+    fs::create_dir_all(half.join("pictures")).unwrap();
+    fs::write(half.join("pictures/99_0.png"), "of another study").unwrap();
+    fs::write(half.join(".shuttertruth-killed.tmp"), "").unwrap();
+    let ask = ["ask", "out", "--out", "half"];
+    let parts = ["half: holds 1 files or folders", "a new folder"];
+    assert_refused(&bench.shuttertruth(&ask), 2, &parts);
+    fs::write(half.join(".shuttertruth.unfinished"), "").unwrap();
+    bench.execute(&ask);
+    let names = |folder: &str| -> Vec<std::path::PathBuf> {
+        let root = bench.path(folder);
+        let files = files_below(&root).into_iter();
+        files
+            .map(|file| file.strip_prefix(&root).unwrap().to_owned())
+            .collect()
+    };
+    assert_eq!(names("half"), names("page"));
 }

@@ -183,22 +183,42 @@ fn what_holds_no_run_is_refused() {
 fn nothing_behind_a_link_is_taken() {
     let bench = two_parts();
     fs::write(bench.path("secret"), "mine").unwrap();
-    for (link, target) in [
-        ("slow/slow/frame.png", "secret"),
-        ("slow/slow/ladder_trailing", "plate"),
-    ] {
+    let link = |link: &str, target: &str| {
         let path = bench.path(link);
         match path.is_dir() {
             true => fs::remove_dir_all(&path).unwrap(),
             false => fs::remove_file(&path).unwrap(),
         }
         std::os::unix::fs::symlink(bench.path(target), path).unwrap();
+    };
+    link("slow/slow/ladder_trailing", "plate");
+    bench.execute(&["merge", "plate", "slow", "--out", "without"]);
+    assert!(!bench.path("without/slow/ladder_trailing").exists());
+    link("slow/slow/frame.png", "secret");
+    let found = ["no part holds slow/frame.png, or it is a link"];
+    refused(&bench, &["plate", "slow"], &found);
+    assert!(!bench.path("whole").exists());
+}
+
+#[test]
+fn parts_without_all_of_their_pictures_are_refused() {
+    let bench = two_parts();
+    for file in [
+        "slow/identity_default/output.exr",
+        "slow/identity_trailing/flip.png",
+        "slow/truth_trailing.exr",
+        "slow/velocity.png",
+    ] {
+        let path = bench.path("slow").join(file);
+        let whole = fs::read(&path).unwrap();
+        fs::remove_file(&path).unwrap();
+        let found = [
+            &*format!("slow/run.json: no part holds {file}"),
+            "measure that case again",
+        ];
+        refused(&bench, &["plate", "slow"], &found);
+        assert!(!bench.path("whole").exists());
+        fs::write(&path, whole).unwrap();
     }
     bench.execute(&["merge", "plate", "slow", "--out", "whole"]);
-    for link in ["frame.png", "ladder_trailing"] {
-        assert!(
-            !bench.path("whole/slow").join(link).exists(),
-            "{link} was followed"
-        );
-    }
 }

@@ -2,9 +2,11 @@
 
 mod answers;
 mod bounds;
+mod capture;
 mod command_line;
 mod exr;
 mod filter;
+mod includes;
 mod kernels;
 mod pack;
 mod planted;
@@ -15,6 +17,7 @@ mod serve;
 mod sky;
 mod spirv;
 mod tuning;
+mod verify;
 
 pub use planted::PLANTED;
 pub use serve::Service;
@@ -22,7 +25,7 @@ pub use serve::Service;
 use crate::target::Target;
 
 /// All targets.
-pub static ALL: [&Target; 29] = [
+pub static ALL: [&Target; 33] = [
     &scene::SCENE,
     &scene::OBJ,
     &scene::MTL,
@@ -34,10 +37,14 @@ pub static ALL: [&Target; 29] = [
     &exr::EXR,
     &exr::MERGE,
     &exr::PICTURE,
+    &verify::TARGET,
+    &capture::CAPTURE,
+    &capture::INGESTED,
     &filter::MANIFEST,
     &filter::WGSL,
     &kernels::TARGET,
     &spirv::TARGET,
+    &includes::TARGET,
     &run_json::RUN,
     &run_json::BASELINE,
     &run_json::BENCH,

@@ -31,8 +31,12 @@ pub static MANIFEST: Target = Target {
     shape: Shape::Text,
     tokens: tokens::JSON,
     seeds: |_| {
-        let mut seeds = vec![Seed::Bytes(manifest(PATHS)), Seed::Made(huge::deep_json)];
-        let outside = OUTSIDE.map(|path| Seed::Bytes(manifest([path, PATHS[1], PATHS[2]])));
+        let mut seeds = vec![
+            Seed::Bytes(manifest(&PATHS)),
+            Seed::Made(huge::deep_json),
+            Seed::Made(empty_files),
+        ];
+        let outside = OUTSIDE.map(|path| Seed::Bytes(manifest(&[path, PATHS[1], PATHS[2]])));
         seeds.extend(outside);
         seeds
     },
@@ -46,7 +50,7 @@ pub static ARCHIVE: Target = Target {
     batch: 250,
     shape: Shape::Bytes,
     tokens: &["ustar", "../../canary.txt", "/dev/null", "5", "2"],
-    seeds: |_| vec![Seed::Bytes(pack_up(&manifest(PATHS)))],
+    seeds: |_| vec![Seed::Bytes(pack_up(&manifest(&PATHS)))],
     run: unpack,
 };
 
@@ -75,9 +79,19 @@ fn list(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Makes a manifest of files at these paths.
-fn manifest(paths: [&str; 3]) -> Vec<u8> {
-    let files = (paths.iter().zip(CONTENTS))
+/// Makes a manifest of more files than a run has, all of them empty.
+fn empty_files() -> Vec<u8> {
+    let paths: Vec<String> = (0..100_000)
+        .map(|at| format!("s{at:06}/frame.exr"))
+        .collect();
+    let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+    manifest(&paths)
+}
+
+/// Makes a manifest of files at these paths; those without a content of their own are empty.
+fn manifest(paths: &[&str]) -> Vec<u8> {
+    let contents = CONTENTS.into_iter().chain(std::iter::repeat(&b""[..]));
+    let files = (paths.iter().zip(contents))
         .map(|(path, content)| PackedFile {
             path: (*path).to_owned(),
             bytes: content.len() as u64,

@@ -22,7 +22,7 @@ use super::run_plan::{
 use crate::arguments::CheckArgs;
 use crate::output::annotations::{annotations, summary};
 use crate::output::junit::junit;
-use crate::output::print::{print, print_json};
+use crate::output::print::{print, print_json, print_note};
 use crate::output::verbosity::is_verbose;
 use crate::tables::adapter::adapter_text;
 use crate::tables::check::{check_text, verdict_text};
@@ -53,11 +53,19 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     if let Some(path) = &args.junit {
         frame::write_atomically(path, junit(&checked).as_bytes())?;
     }
+    let measured = args.run.as_ref().map(|path| {
+        format!(
+            "nothing was measured or verified now: the scores are those that {} has",
+            printable_path(path)
+        )
+    });
     if let Some(path) = &summary_file {
-        append(path, &summary(&checked))?;
+        let measured = measured.iter().map(|text| format!("\n{text}\n"));
+        append(path, &(summary(&checked) + &measured.collect::<String>()))?;
     }
     if args.json {
         print_json(&checked)?;
+        measured.iter().for_each(|text| print_note(text));
     } else {
         let text = check_text(&checked, &folder, is_verbose());
         let adapter = adapter_text(&run.adapter);
@@ -67,13 +75,7 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
             let theirs = adapter_text(&baseline.adapter);
             format!("the baseline is of another class of adapter: {theirs}\n")
         });
-        let measured = match &args.run {
-            Some(path) => format!(
-                "nothing was measured or verified now: the scores are those that {} has\n",
-                printable_path(path)
-            ),
-            None => String::new(),
-        };
+        let measured = measured.map_or(String::new(), |text| text + "\n");
         print(&format!(
             "{text}{note}{pages}adapter: {adapter}\n{measured}{}",
             verdict_text(&checked)

@@ -34,13 +34,6 @@ pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
     for name in &chosen {
         verified.add(verify_named(args, name, &kept, &verification)?);
     }
-    if verified.drawn > 0 && verified.differences.is_empty() {
-        return Err(Error::Usage(format!(
-            "{}: {} cannot be traced again: only that engine can draw them; name the scenes of this program with --scenes",
-            args.truths.display(),
-            count_text(verified.drawn, "truth of an engine", "truths of engines")
-        )));
-    }
     let result = match verified.differences.as_slice() {
         [] => Ok(()),
         differences => Err(Error::Broken(differences.join("\n"))),
@@ -86,15 +79,13 @@ fn verify_named(
 ) -> Result<Verified, Error> {
     let mut verified = Verified::default();
     let own: Vec<&KeptScene> = kept.iter().filter(|kept| kept.scene == name).collect();
-    let choices = match select_scenes(&args.scenes_dir, &[name.to_owned()]) {
-        Ok(choices) => choices,
-        // What the file says counts only where no scene of that name can be traced.
-        Err(_) if own.iter().all(|kept| kept.is_drawn()) => {
-            verified.drawn = own.len();
-            return Ok(verified);
-        }
-        Err(error) => return Err(error),
-    };
+    let choices = select_scenes(&args.scenes_dir, &[name.to_owned()]).map_err(|error| {
+        Error::Usage(format!(
+            "{}: cannot be traced again: {error}; truths of an engine only that engine can draw again: name the scenes to verify with \
+             --scenes",
+            args.truths.join(name).display()
+        ))
+    })?;
     for kept in own {
         let scene = choices[0].scene.at_frame(kept.frame);
         let found = verify_scene(&scene, kept, verification, make_monitor())?;
@@ -121,8 +112,6 @@ struct Json<'a> {
     seed: u64,
     /// Truths that are equal to the mean of their replicates.
     truths: usize,
-    /// Truths of engines, which are not verified.
-    drawn: usize,
     /// Tiles that are equal.
     tiles: Vec<JsonTile<'a>>,
     /// What differs, and what to do.
@@ -151,7 +140,6 @@ impl<'a> Json<'a> {
         Self {
             seed: verification.seed,
             truths: verified.truths,
-            drawn: verified.drawn,
             tiles: verified.tiles.iter().map(tile).collect(),
             differences: &verified.differences,
         }

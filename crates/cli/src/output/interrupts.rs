@@ -1,67 +1,62 @@
 //! Signals that end the program: Ctrl-C, a request to end, a terminal that closes.
 
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock};
 use std::time::Duration;
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag::register_usize;
 
 use super::print::print_error;
 
 /// Number of the signal that arrived; 0 before one does.
-static SIGNAL: AtomicU8 = AtomicU8::new(0);
-
-/// Number of SIGINT, which Ctrl-C sends.
-const INTERRUPT: u8 = 2;
+static SIGNAL: LazyLock<Arc<AtomicUsize>> = LazyLock::new(Arc::default);
 
 /// Time that work has to end by itself after a signal.
 const GRACE: Duration = Duration::from_millis(1500);
+
+/// Time between two looks for a signal.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// Words after a signal.
 pub const INTERRUPTED_TEXT: &str =
     "interrupted; files that are whole stay, and the same command goes on from there";
 
 /// Makes SIGINT, SIGTERM and SIGHUP end the work under way. Work that does not ask ends with the process a moment later. No file is
-/// left half written: files are renamed into place when they are whole. A SIGHUP that is ignored at the start stays ignored, so that
-/// `nohup` works.
-#[cfg(unix)]
+/// left half written: files are renamed into place when they are whole.
 pub fn catch_interrupts() {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-
-    let mut caught = vec![SIGINT, SIGTERM];
-    if !is_ignored(SIGHUP) {
-        caught.push(SIGHUP);
+    for signal in caught_signals() {
+        // A signal that cannot be caught ends the process at once.
+        let _ = register_usize(signal, Arc::clone(&SIGNAL), signal as usize);
     }
-    // Signals that cannot be caught end the process at once.
-    let Ok(mut signals) = signal_hook::iterator::Signals::new(caught) else {
-        return;
-    };
-    std::thread::spawn(move || {
-        if let Some(signal) = signals.forever().next() {
-            end(signal as u8);
+    std::thread::spawn(|| {
+        while !was_interrupted() {
+            std::thread::sleep(BETWEEN_LOOKS);
         }
+        std::thread::sleep(GRACE);
+        print_error(INTERRUPTED_TEXT);
+        std::process::exit(interrupted_code().into());
     });
 }
 
-/// Makes Ctrl-C end the work under way.
-#[cfg(not(unix))]
-pub fn catch_interrupts() {
-    // A handler that cannot be set leaves Ctrl-C as it is.
-    let _ = ctrlc::set_handler(|| end(INTERRUPT));
+/// Lists the signals that end the program. A SIGHUP that is ignored at the start stays ignored, so that `nohup` works.
+fn caught_signals() -> Vec<i32> {
+    let mut signals = vec![SIGINT, SIGTERM];
+    #[cfg(unix)]
+    {
+        use signal_hook::consts::SIGHUP;
+        signals.extend((!is_ignored(SIGHUP)).then_some(SIGHUP));
+    }
+    signals
 }
 
-/// Returns true if the process ignores a signal, or if the system does not say so.
+/// Returns true if the process ignores a signal, or if the system does not say so, as only Linux does.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
     mask.is_none_or(|mask| mask >> (signal - 1) & 1 == 1)
-}
-
-/// Asks work to end, and ends the process if it does not.
-fn end(signal: u8) {
-    SIGNAL.store(signal, Ordering::Relaxed);
-    std::thread::sleep(GRACE);
-    print_error(INTERRUPTED_TEXT);
-    std::process::exit(interrupted_code().into());
 }
 
 /// Returns true after a signal that ends the program.
@@ -71,8 +66,9 @@ pub fn was_interrupted() -> bool {
 
 /// Returns the exit code after a signal, as shells have it: 128 and the number of the signal.
 pub fn interrupted_code() -> u8 {
-    match SIGNAL.load(Ordering::Relaxed) {
-        0 => 128 + INTERRUPT,
-        signal => 128 + signal,
-    }
+    let signal = match SIGNAL.load(Ordering::Relaxed) {
+        0 => SIGINT as usize,
+        signal => signal,
+    };
+    128 + signal as u8
 }

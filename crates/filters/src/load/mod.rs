@@ -24,15 +24,17 @@ impl Filter {
     /// Reads and checks a filter folder: `filter.toml` and, unless it is a command, the WGSL file that it names. Both are
     /// regular files of at most [`MAX_MANIFEST_BYTES`] and [`MAX_KERNEL_BYTES`].
     pub fn load(folder: &Path) -> Result<Self, FilterError> {
-        let path = folder.join("filter.toml");
-        let manifest = as_text(&path, read_bytes(&path, MAX_MANIFEST_BYTES)?)?;
-        parse_filter(folder, &manifest, |path, limit| {
-            if path.exists() && !stays_below(folder, path) {
+        let read = |path: &Path, limit| {
+            // Of a device, a FIFO or a folder, its own refusal says more.
+            if path.is_file() && !stays_below(folder, path) {
                 let reason = "is a link to a file outside of the filter's folder; copy the file in its place";
                 return Err(refuse(path, reason.to_owned()));
             }
             read_bytes(path, limit)
-        })
+        };
+        let path = folder.join("filter.toml");
+        let manifest = as_text(&path, read(&path, MAX_MANIFEST_BYTES)?)?;
+        parse_filter(folder, &manifest, read)
     }
 
     /// Loads a filter that the program brings along.

@@ -1,21 +1,41 @@
 //! Thread with a large stack, for code of others that recurses.
 
-use std::{any::Any, thread};
+use std::any::Any;
+use std::sync::Once;
+use std::{panic, thread};
 
 /// Bytes of stack for reading and compiling kernels. Naga takes less than 2 KB per level of
 /// [`MAX_NESTING`](super::MAX_NESTING), and less than 1 KB per declaration that refers to another one.
 const STACK_BYTES: usize = 64 << 20;
 
-/// Does the work on a thread with a large stack. Fails if no thread can be started or the work panics, and says why.
+/// Name of such threads.
+const NAME: &str = "kernels";
+
+/// Does the work on a thread with a large stack. Fails if no thread can be started or the work panics, and says why. Such a panic is
+/// printed by nobody else: it becomes an error.
 pub(crate) fn run_on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, String> {
+    keep_panics_unprinted();
     thread::scope(|scope| {
         let thread = thread::Builder::new()
-            .name("kernels".into())
+            .name(NAME.into())
             .stack_size(STACK_BYTES)
             .spawn_scoped(scope, work)
             .map_err(|error| format!("no thread could be started: {error}"))?;
         thread.join().map_err(|panic| message_of(&*panic))
     })
+}
+
+/// Leaves panics of such threads out of what the program prints.
+fn keep_panics_unprinted() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let print = panic::take_hook();
+        panic::set_hook(Box::new(move |panic| {
+            if thread::current().name() != Some(NAME) {
+                print(panic);
+            }
+        }));
+    });
 }
 
 /// Returns the message of a panic.

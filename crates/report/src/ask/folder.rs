@@ -1,8 +1,9 @@
 //! Folder of a page that asks people: the page and its pictures.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use frame::{read_bounded, write_atomically};
+use frame::{FileError, read_bounded, remove_leftovers, write_atomically};
 use suite::{ClipFiles, Error, Question, Study};
 
 use super::page::ask_page;
@@ -10,8 +11,11 @@ use super::page::ask_page;
 /// Name of the page in its folder.
 pub const ASK_PAGE: &str = "index.html";
 
-/// Writes the page of a study and copies of its pictures into a folder that is new or empty. Names of pictures tell no filter. Returns
-/// the path of the page, which comes last.
+/// Name of the file that stands in the folder until the page is whole.
+const UNFINISHED: &str = ".shuttertruth.unfinished";
+
+/// Writes the page of a study and copies of its pictures into a folder that is new or empty, or that a killed process was writing. Names of
+/// pictures tell no filter. Returns the path of the page, which comes last.
 ///
 /// # Errors
 /// The folder holds files, or a picture cannot be copied.
@@ -21,24 +25,42 @@ pub fn write_ask_folder(
     questions: &[Question],
     out: &Path,
 ) -> Result<PathBuf, Error> {
-    refuse_full(out)?;
+    remove_leftovers(out);
+    let (pictures, unfinished) = (out.join("pictures"), out.join(UNFINISHED));
+    match unfinished.is_file() {
+        true => remove_pictures(&pictures)?,
+        false => refuse_full(out)?,
+    }
+    write_atomically(&unfinished, b"")?;
     for (number, files) in clips.iter().enumerate() {
         for (frame, file) in files.iter().enumerate() {
-            let picture = out.join("pictures").join(format!("{number}_{frame}.png"));
+            let picture = pictures.join(format!("{number}_{frame}.png"));
             write_atomically(&picture, &read_bounded(file, study.most_picture_bytes())?)?;
         }
     }
     let page = out.join(ASK_PAGE);
     write_atomically(&page, ask_page(study, questions).as_bytes())?;
+    std::fs::remove_file(&unfinished)
+        .map_err(|source| FileError::io(&unfinished, "remove", source))?;
     Ok(page)
+}
+
+/// Removes the pictures of a page that was not finished: those of another study would lie beside the new ones.
+fn remove_pictures(folder: &Path) -> Result<(), Error> {
+    match std::fs::remove_dir_all(folder) {
+        Err(source) if source.kind() != ErrorKind::NotFound => {
+            Err(FileError::io(folder, "remove", source).into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Refuses a folder with files: pictures of another page would lie beside the new ones.
 fn refuse_full(out: &Path) -> Result<(), Error> {
     let entries = match std::fs::read_dir(out) {
         Ok(entries) => entries,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
-        Err(source) => return Err(frame::FileError::io(out, "write", source).into()),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        Err(source) => return Err(FileError::io(out, "write", source).into()),
     };
     match entries.count() {
         0 => Ok(()),

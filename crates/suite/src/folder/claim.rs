@@ -7,7 +7,7 @@ use std::path::Path;
 use frame::{FileError, remove_leftovers};
 use tracer::Scene;
 
-use super::scene_folder::{refuse_scene, scene_folder};
+use super::scene_folder::{refuse_long_names, refuse_scene, scene_folder};
 use crate::Error;
 
 /// Name of the empty file that is locked; it stays in a folder that was claimed once.
@@ -29,16 +29,16 @@ pub struct Claim {
     _lock: Option<File>,
 }
 
-/// Claims `out`, and makes it if it does not exist. Refuses a folder that holds one of the scenes, and one that another
-/// process has claimed. A process that is alone removes what killed ones left half written.
+/// Claims `out`, and makes it if it does not exist. Refuses a folder that holds one of the scenes, one that another
+/// process has claimed, and scenes whose names no folder can have. A process that is alone removes what killed ones left half written.
 pub fn claim<'a>(
     out: &Path,
     scenes: impl IntoIterator<Item = &'a Scene>,
     sharing: Sharing,
 ) -> Result<Claim, Error> {
-    let folders: Vec<_> = (scenes.into_iter())
-        .map(|scene| scene_folder(out, scene))
-        .collect();
+    let folders = (scenes.into_iter())
+        .map(|scene| refuse_long_names(Path::new(&scene.name)).map(|()| scene_folder(out, scene)))
+        .collect::<Result<Vec<_>, _>>()?;
     for folder in &folders {
         refuse_scene(folder)?;
     }

@@ -17,7 +17,7 @@ use super::objects::{draw_coverage, name_objects};
 use crate::capture::folder::Capture;
 use crate::colors::velocity_wheel;
 use crate::folder::claim::{Sharing, claim};
-use crate::folder::scene_folder::refuse_scene;
+use crate::folder::scene_folder::{refuse_long_names, refuse_scene};
 use crate::render::ladders::ladder_folder;
 use crate::{Error, PROGRAM};
 
@@ -160,10 +160,12 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<String, Error> {
     let folder = out.file_name().and_then(|name| name.to_str());
     let is_plain = |name: &&str| !name.contains('@') && name_in_one_word(name) == **name;
     match folder.filter(is_plain) {
-        Some(folder) => Ok(format!(
-            "{folder}@{}",
-            name_in_one_word(engine_name(&capture.description.engine))
-        )),
+        Some(folder) => {
+            let engine = name_in_one_word(engine_name(&capture.description.engine));
+            let name = format!("{folder}@{engine}");
+            refuse_long_names(Path::new(&name))?;
+            Ok(name)
+        }
         None => Err(Error::Usage(format!(
             "--out {}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
             out.display()

@@ -80,8 +80,11 @@ impl EngineScene {
         if let Err(reason) = found.alignment.parse::<Alignment>() {
             return refuse(reason);
         }
-        if !crate::run::file::is_below(Path::new(&found.name)) {
-            return refuse(format!("name \"{}\" is no name of a folder", found.name));
+        if !is_engine_scene(&found.name) {
+            return refuse(format!(
+                "name \"{}\"; allowed: names of a folder and of an engine, such as railing@three.js_0.187.0",
+                found.name
+            ));
         }
         Ok(Self {
             folder: folder.to_owned(),
@@ -226,9 +229,35 @@ pub(super) fn name_in_one_word(text: &str) -> String {
     letters.collect()
 }
 
+/// Tells whether a text can be the name of an engine's scene: the folder of the scene has this name, and the folder of the engine's picture
+/// in it that of the engine.
+fn is_engine_scene(name: &str) -> bool {
+    let is_word = |word: &str| !word.is_empty() && name_in_one_word(word) == word;
+    name.split_once('@').is_some_and(|(folder, engine)| {
+        is_word(folder) && is_word(engine) && !engine.starts_with('.')
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_that_lead_elsewhere_are_no_engine_scenes() {
+        for (name, allowed) in [
+            ("railing@three.js_0.187.0", true),
+            ("plate@..", false),
+            ("plate@.", false),
+            ("plate@", false),
+            ("@engine", false),
+            ("plate", false),
+            ("../plate@engine", false),
+            ("plate/0001@engine", false),
+            ("plate@a@b", false),
+        ] {
+            assert_eq!(is_engine_scene(name), allowed, "{name}");
+        }
+    }
 
     #[test]
     fn an_engine_is_named_in_one_word() {

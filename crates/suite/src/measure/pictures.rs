@@ -12,13 +12,28 @@ use crate::colors::{magma, velocity_wheel};
 use crate::render::ladders::{LADDER, ladder_folder};
 use crate::run::error_maps::KEPT_MAPS;
 
+/// Files of a frame, in the folder of its scene.
+pub(crate) const FRAME_FILES: [&str; 3] = ["frame.exr", "frame.png", "velocity.png"];
+/// Files of a case, in its folder.
+pub(crate) const CASE_FILES: [&str; 6] = [
+    "output.png",
+    "flip.png",
+    "label_tv.png",
+    "bleed.png",
+    "output.exr",
+    "errors.exr",
+];
+
+/// Names the picture of a truth and its file, in the folder of its scene.
+pub(crate) fn truth_files(alignment: &str) -> [String; 2] {
+    ["png", "exr"].map(|ending| format!("truth_{alignment}.{ending}"))
+}
+
 /// Writes a frame's PNGs beside its EXR file; returns the names of all.
 pub fn write_frame(folder: &Path, frame: &Frame) -> Result<Vec<String>, FileError> {
     write_display_png(&folder.join("frame.png"), &frame.color, frame.display)?;
     write_png(&folder.join("velocity.png"), &velocity_wheel(frame))?;
-    Ok(["frame.exr", "frame.png", "velocity.png"]
-        .map(str::to_owned)
-        .into())
+    Ok(FRAME_FILES.map(str::to_owned).into())
 }
 
 /// Writes a truth's PNG beside its EXR file and those of its ladder, if it has one; returns the names of all.
@@ -28,9 +43,9 @@ pub fn write_truth(
     display: Display,
 ) -> Result<Vec<String>, FileError> {
     let alignment = truth.alignment;
-    let picture = format!("truth_{alignment}.png");
-    write_display_png(&folder.join(&picture), &truth.mean().color, display)?;
-    let mut files = vec![picture, format!("truth_{alignment}.exr")];
+    let files = truth_files(alignment.name());
+    write_display_png(&folder.join(&files[0]), &truth.mean().color, display)?;
+    let mut files = Vec::from(files);
     let ladder = ladder_folder(alignment);
     let rungs = LADDER.map(|rung| format!("{ladder}/{}", rung_file(rung)));
     files.extend(rungs.into_iter().filter(|rung| folder.join(rung).exists()));
@@ -47,26 +62,18 @@ pub fn write_case(
     ended: fn(&'static str),
 ) -> Result<Vec<String>, FileError> {
     let maps = &measurement.maps;
-    let displayed = [
-        (
-            "output.png",
-            display_srgb(&output.color, frame.display.stops),
-        ),
-        ("flip.png", magma(&maps.flip)),
-        ("label_tv.png", magma(&maps.label_total_variation)),
-        ("bleed.png", magma(&maps.bleed)),
-    ];
-    for (name, picture) in &displayed {
-        write_png(&folder.join(name), picture)?;
-    }
+    let [output_png, flip, label_tv, bleed, output_exr, errors] =
+        CASE_FILES.map(|name| folder.join(name));
+    write_display_png(&output_png, &output.color, frame.display)?;
+    write_png(&flip, &magma(&maps.flip))?;
+    write_png(&label_tv, &magma(&maps.label_total_variation))?;
+    write_png(&bleed, &magma(&maps.bleed))?;
     ended("PNG files");
     let file = output_file(&frame.objects, output, dilated_velocity);
-    write_exr(&folder.join("output.exr"), &file)?;
-    write_half_exr(&folder.join("errors.exr"), errors_file(measurement))?;
+    write_exr(&output_exr, &file)?;
+    write_half_exr(&errors, errors_file(measurement))?;
     ended("OpenEXR files");
-    let names = displayed.iter().map(|(name, _)| *name);
-    let names = names.chain(["output.exr", "errors.exr"]);
-    Ok(names.map(str::to_owned).collect())
+    Ok(CASE_FILES.map(str::to_owned).into())
 }
 
 fn output_file(

@@ -6,9 +6,11 @@ use frame::Alignment;
 use tracer::{RenderSettings, Scene};
 
 use super::part::Part;
+use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
+use crate::folder::scene_folder::refuse_long_names;
 use crate::ingest::engine_scene::EngineScene;
 use crate::render::settings::frame_settings;
 use crate::run::sequence::{Frames, MOST_FRAMES};
@@ -67,9 +69,14 @@ impl RunPlan {
         own.expect("it is a filter of the plan").scaled_to(width)
     }
 
-    /// Refuses settings with which a scene cannot be rendered, before anything is.
+    /// Refuses settings with which a scene cannot be rendered, and names that no folder can have, before anything is rendered.
     pub fn check(&self) -> Result<(), Error> {
         self.check_frames()?;
+        for scene in self.all_scenes() {
+            for case in PlannedCase::all(self, &self.filters, scene) {
+                refuse_long_names(&case.folder(scene))?;
+            }
+        }
         for scene in &self.scenes {
             for frame in 0..self.frames.count {
                 let scene = &scene.at_frame(frame);

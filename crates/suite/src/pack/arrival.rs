@@ -124,15 +124,10 @@ fn verify_arrivals(
             file.name()
         )));
     }
-    let folder = scene_folder(&arrivals, scene);
-    let has = |alignment: &Alignment| folder.join(format!("truth_{alignment}.exr")).exists();
-    let kept = KeptScene {
-        scene: scene.name.clone(),
-        frame: scene.frame,
-        alignments: plan.alignments().into_iter().filter(has).collect(),
-        shown: scene_folder(&pack.path, scene),
-        folder,
-    };
+    let [folder, shown] = [&arrivals, &pack.path].map(|root| scene_folder(root, scene));
+    // All that was unpacked is verified, whether or not a truth came along: a run makes truths of replicates.
+    let kept = KeptScene::find(&scene.name, scene.frame, (&folder, &shown));
+    let kept = kept.expect("a file of it was unpacked");
     verify_scene(scene, &kept, verification, plan.monitor)
 }
 

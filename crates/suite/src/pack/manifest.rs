@@ -2,10 +2,14 @@
 
 use std::path::{Component, Path};
 
+use frame::{Alignment, rung_file};
 use serde::{Deserialize, Serialize};
 
 use crate::folder::placed_file::MOST_TAKEN_BYTES;
 use crate::json::strings::check_strings;
+use crate::render::ladders::{LADDER, ladder_folder};
+use crate::render::replicates::replicate_index;
+use crate::render::settings::MOST_REPLICATES;
 
 /// Version of the layout of a pack; it rises when a reader of the old one would misread the new one.
 pub const PACK_FORMAT: u32 = 1;
@@ -15,6 +19,9 @@ pub(super) const MANIFEST: &str = "manifest.json";
 pub const MOST_MANIFEST_BYTES: u64 = 1 << 26;
 /// Upper limit on the bytes of all files of a pack, relative to those of the archive. Kept files are compressed already.
 pub const LARGEST_PACK_RATIO: u64 = 64;
+
+/// Least bytes of an archive for each of its files: its hash and its checksum alone take as many.
+pub const LEAST_BYTES_PER_FILE: u64 = 64;
 
 /// What a pack holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -66,6 +73,13 @@ impl Manifest {
     fn check(&self, archive: u64) -> Result<(), String> {
         if self.files.is_empty() {
             return Err(format!("{MANIFEST} names no file; a pack holds truths"));
+        }
+        let most = archive / LEAST_BYTES_PER_FILE;
+        if self.files.len() as u64 > most {
+            return Err(format!(
+                "{MANIFEST} names {} files in an archive of {archive} bytes; allowed: up to {most}, one for each {LEAST_BYTES_PER_FILE} bytes",
+                self.files.len()
+            ));
         }
         for file in &self.files {
             check_path(&file.path)?;
@@ -139,12 +153,35 @@ fn check_path(path: &str) -> Result<(), String> {
         })
         .collect::<Option<Vec<_>>>()
         .is_some_and(|parts| parts.join("/") == path);
-    let is_file = path.ends_with(".exr") && path.contains('/') && !path.contains(['\\', ':']);
-    match is_plain && is_file {
+    match is_plain && !path.contains(['\\', ':']) && is_render(path) {
         true => Ok(()),
         false => Err(format!(
-            "{MANIFEST} names \"{path}\"; allowed: OpenEXR files in folders of scenes, such as fan/frame.exr"
+            "{MANIFEST} names \"{path}\"; allowed: what a run renders, such as fan/frame.exr or fan/0001/truth_trailing.exr"
         )),
+    }
+}
+
+/// Tells whether a path is that of a frame, a truth, a replicate or a rung: nothing else would be verified.
+fn is_render(path: &str) -> bool {
+    let parts: Vec<&str> = path.split('/').collect();
+    let below = match parts.as_slice() {
+        [_scene, frame, below @ ..] if frame.parse::<u32>().is_ok() => below,
+        [_scene, below @ ..] => below,
+        [] => return false,
+    };
+    match below {
+        ["frame.exr"] => true,
+        [file] => (Alignment::ALL.iter()).any(|own| *file == format!("truth_{own}.exr")),
+        [folder, file] => Alignment::ALL.iter().any(|own| match *folder {
+            _ if *folder == ladder_folder(*own) => {
+                LADDER.iter().any(|rung| *file == rung_file(*rung))
+            }
+            _ => {
+                *folder == format!("truth_{own}")
+                    && replicate_index(file).is_some_and(|index| index < MOST_REPLICATES)
+            }
+        }),
+        _ => false,
     }
 }
 
@@ -171,18 +208,34 @@ mod tests {
         }
     }
 
+    #[test]
+    fn more_files_than_an_archive_has_room_for_are_refused() {
+        let file = |index: u32| format!("fan/truth_centred/replicate_{index:03}.exr");
+        let paths: Vec<String> = (0..16).map(file).collect();
+        let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+        let refusal = parse(&manifest(&paths)).unwrap_err();
+        let found = "16 files in an archive of 1000 bytes; allowed: up to 15";
+        assert!(refusal.contains(found), "{refusal}");
+        assert!(parse(&manifest(&paths[1..])).is_ok());
+    }
+
     fn parse(manifest: &Manifest) -> Result<Manifest, String> {
         Manifest::parse(&serde_json::to_vec(manifest).unwrap(), 1000)
     }
 
     #[test]
     fn a_manifest_is_read_as_it_was_written() {
-        let whole = manifest(&["fan/frame.exr", "fan/truth_trailing/replicate_000.exr"]);
+        let whole = manifest(&[
+            "fan/0001/ladder_centred/n64.exr",
+            "fan/frame.exr",
+            "fan/truth_trailing.exr",
+            "fan/truth_trailing/replicate_000.exr",
+        ]);
         assert_eq!(parse(&whole), Ok(whole));
     }
 
     #[test]
-    fn paths_that_leave_the_folder_are_refused() {
+    fn paths_that_leave_the_folder_and_files_that_no_run_renders_are_refused() {
         for path in [
             "../frame.exr",
             "fan/../../frame.exr",
@@ -195,24 +248,31 @@ mod tests {
             "fan/\\frame.exr",
             "frame.exr",
             "fan/frame.json",
+            "fan/other.exr",
+            "fan/0001/0002/frame.exr",
+            "fan/truth_sideways.exr",
+            "fan/truth_trailing/replicate_1.exr",
+            "fan/truth_trailing/frame.exr",
+            "fan/ladder_trailing/n3.exr",
             "",
         ] {
             let refusal = parse(&manifest(&[path])).unwrap_err();
-            assert!(refusal.contains("allowed: OpenEXR files"), "{refusal}");
+            assert!(refusal.contains("allowed: what a run renders"), "{refusal}");
         }
     }
 
     #[test]
     fn twins_and_another_order_are_refused() {
         let refusal = |paths: &[&str]| parse(&manifest(paths)).unwrap_err();
-        assert!(refusal(&["a/f.exr", "a/f.exr"]).contains("names a/f.exr twice"));
-        assert!(refusal(&["b/f.exr", "a/f.exr"]).contains("the order of paths"));
+        let [a, b] = ["a/frame.exr", "b/frame.exr"];
+        assert!(refusal(&[a, a]).contains("names a/frame.exr twice"));
+        assert!(refusal(&[b, a]).contains("the order of paths"));
         assert!(refusal(&[]).contains("names no file"));
     }
 
     #[test]
     fn sizes_that_no_archive_of_its_size_holds_are_refused() {
-        let mut large = manifest(&["a/f.exr"]);
+        let mut large = manifest(&["a/frame.exr"]);
         large.files[0].bytes = LARGEST_PACK_RATIO * 1000 + LARGEST_PACK_RATIO;
         assert!(parse(&large).unwrap_err().contains("in an archive of 1000"));
         large.files[0].bytes = MOST_TAKEN_BYTES + 1;

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use frame::{FileError, read_bounded, write_streamed};
+use frame::{FileError, read_bounded, remove_leftovers, write_streamed};
 use tar::{Builder, EntryType, Header};
 
 use super::contents::list_contents;
@@ -30,6 +30,12 @@ pub fn write_pack(
     monitor: Monitor,
 ) -> Result<Manifest, Error> {
     let mut files = list_contents(run, folder, scenes)?;
+    // A killed process may have left a part of a pack.
+    remove_leftovers(
+        pack.parent()
+            .filter(|parent| **parent != *"")
+            .unwrap_or(Path::new(".")),
+    );
     let total = 2 * files.len() as u64;
     monitor.watch("packing", |watch| {
         let advance = |done: usize| {

@@ -6,11 +6,15 @@ use std::path::{Path, PathBuf};
 
 use frame::FileError;
 use serde::Serialize;
+use serde_json::Value;
 
 use super::header::JournalHeader;
 use super::trial::Trial;
 use crate::Error;
 use crate::json::file::read_text;
+
+/// Characters of a setting that an error shows.
+const MOST_SHOWN: usize = 80;
 
 /// A journal that can be appended to.
 pub struct Journal {
@@ -101,20 +105,83 @@ pub fn journal_error(path: &Path, index: usize, reason: &str) -> Error {
     ))
 }
 
-/// Refuses a header that differs from the expected one, and names the first field that does.
+/// Refuses a header that differs from the expected one; names the first setting that does, and how to go on with the journal.
 fn check_header(path: &Path, line: &str, expected: &JournalHeader) -> Result<(), Error> {
-    let found: serde_json::Value = serde_json::from_str(line)
+    let found: Value = serde_json::from_str(line)
         .map_err(|error| journal_error(path, 0, &format!("is no journal of a tuning: {error}")))?;
     let expected = serde_json::to_value(expected).expect("a header is plain data");
     let fields = expected.as_object().expect("a header is a table");
-    for (name, expected) in fields {
-        let found = &found[name];
-        if found != expected {
-            let reason = format!(
-                "it was begun with another {name}: found {found}, this command has {expected}"
-            );
-            return Err(journal_error(path, 0, &reason));
+    let mut names: Vec<&String> = fields.keys().collect();
+    // The points that the search begins with follow from all else.
+    names.sort_by_key(|name| *name == "design");
+    let Some(name) = names.into_iter().find(|name| found[*name] != fields[*name]) else {
+        return Ok(());
+    };
+    let (found, expected) = first_difference(&found[name], &fields[name]);
+    let way_out = match name.as_str() {
+        "seed" => format!("; to go on with it, give --search-seed {found}"),
+        _ => "; to go on with it, run the command that began it".to_owned(),
+    };
+    let reason = format!(
+        "it was begun with another {name}: found {found}, this command has {expected}{way_out}"
+    );
+    Err(journal_error(path, 0, &reason))
+}
+
+/// Finds the first part of two values that differs, as short texts.
+fn first_difference(found: &Value, expected: &Value) -> (String, String) {
+    match (found, expected) {
+        (Value::Array(one), Value::Array(other)) if one.len() == other.len() => {
+            let mut pairs = one.iter().zip(other);
+            let pair = pairs.find(|(one, other)| one != other);
+            pair.map_or_else(Default::default, |(one, other)| {
+                first_difference(one, other)
+            })
         }
+        (Value::Object(one), Value::Object(other)) if one.keys().eq(other.keys()) => {
+            let mut pairs = one.iter().zip(other.values());
+            let Some(((name, one), other)) = pairs.find(|((_, one), other)| one != other) else {
+                return Default::default();
+            };
+            let (one, other) = first_difference(one, other);
+            (format!("{name} {one}"), format!("{name} {other}"))
+        }
+        _ => (short_text(found), short_text(expected)),
     }
-    Ok(())
+}
+
+/// Writes a value, or as much of it as a line has room for.
+fn short_text(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(MOST_SHOWN) {
+        None => text,
+        Some((end, _)) => format!("{}...", &text[..end]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn the_first_difference_is_short_and_names_its_place() {
+        let texts = |found, expected| first_difference(&found, &expected);
+        let pair = |one: &str, other: &str| (one.to_owned(), other.to_owned());
+        assert_eq!(texts(json!(1), json!(2)), pair("1", "2"));
+        assert_eq!(
+            texts(
+                json!([[0.1, 0.2], [0.3, 0.4]]),
+                json!([[0.1, 0.2], [0.3, 0.5]])
+            ),
+            pair("0.4", "0.5")
+        );
+        assert_eq!(
+            texts(json!({"a": 1, "taps": 2}), json!({"a": 1, "taps": 3})),
+            pair("taps 2", "taps 3")
+        );
+        let (found, _) = texts(json!(vec![1; 5000]), json!([]));
+        assert!(found.ends_with("...") && found.len() < 100, "{found}");
+    }
 }

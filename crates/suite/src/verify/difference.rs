@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use frame::{Channel, ExrFile, Samples, Tile};
 
-/// Attributes that say how a file was made, and not what it holds.
-const OF_THE_MACHINE: [&str; 2] = ["traversal", "checksum"];
+/// Attribute that says how rays were traced, and not what the file holds.
+const TRAVERSAL: &str = "traversal";
+/// Values of that attribute, as `tracer::Stage` has them.
+pub const TRAVERSALS: [&str; 2] = ["avx2", "portable"];
 
 /// Compares a tile of a file with what was made for it, bit by bit; says what differs first, and none if nothing does. Attributes are
 /// compared as well.
@@ -23,13 +25,16 @@ pub(super) fn find_difference(found: &ExrFile, tile: Tile, made: &ExrFile) -> Op
 /// Compares the attributes of a file with those that were made for it; says which one differs first.
 pub(super) fn find_attribute(found: &ExrFile, made: &ExrFile) -> Option<String> {
     let own = |file: &ExrFile| -> BTreeMap<String, String> {
-        let attributes = file.attributes.iter();
+        let mut attributes = file.attributes.clone();
+        // Written with the file; readers compare it with the content.
+        attributes.remove("checksum");
         attributes
-            .filter(|(name, _)| !OF_THE_MACHINE.contains(&name.as_str()))
-            .map(|(name, value)| (name.clone(), value.clone()))
-            .collect()
     };
-    let (found, made) = (own(found), own(made));
+    let (found, mut made) = (own(found), own(made));
+    // Another machine has other instructions, which trace the same bits.
+    if let Some(word) = (found.get(TRAVERSAL)).filter(|word| TRAVERSALS.contains(&word.as_str())) {
+        made.insert(TRAVERSAL.to_owned(), word.clone());
+    }
     let names = found.keys().chain(made.keys());
     let name = names
         .into_iter()
@@ -167,6 +172,12 @@ mod tests {
         let mut other = found.clone();
         other.set("traversal", "portable");
         assert_eq!(find_difference(&other, TILE, &made), None);
+        other.set("traversal", "none");
+        let text = find_difference(&other, TILE, &made).unwrap();
+        assert!(
+            text.contains("attribute traversal holds \"none\""),
+            "{text}"
+        );
         let mut other = found.clone();
         other.push_plane("more", &Raster::filled(4, 3, 0.0));
         let text = find_difference(&other, TILE, &made).unwrap();

@@ -2,15 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Frame, Replicate, Tile, Truth, read_exr};
+use frame::{Alignment, Frame, Replicate, Shutter, Tile, Truth, read_exr};
 use tracer::{RenderSettings, Scene};
 
 use super::difference::find_difference;
 use super::listing::KeptScene;
 use super::tiles::{trace_frame_tiles, trace_replicate_tiles, trace_rung_tiles};
 use super::work::{Verification, Work};
+use crate::render::ladders::ladder_folder;
 use crate::render::memory::check_memory;
-use crate::render::replicates::ReplicateFiles;
+use crate::render::replicates::{
+    ReplicateFiles, list_replicates, replicate_file, replicates_folder,
+};
 use crate::{Error, Monitor};
 
 /// The outcome of a verification.
@@ -20,14 +23,13 @@ pub struct Verified {
     pub tiles: Vec<(PathBuf, Tile)>,
     /// Truths that are the mean of their replicates.
     pub truths: usize,
-    /// Truths of scenes that only engines can draw: nothing can trace them again.
-    pub drawn: usize,
     /// Files that hold something else than this program makes, and what to do.
     pub differences: Vec<String>,
 }
 
 /// Traces tiles of a scene's kept frame, of a replicate of each kept truth and of a rung of its ladder again, and compares them with the
-/// files byte for byte. Compares every truth with the mean of its replicates. `scene` is that of the frame that `kept` names.
+/// files byte for byte. Compares every truth with the mean of its replicates, and verifies replicates without a truth as well. `scene` is
+/// that of the frame that `kept` names: nothing that a file says keeps it from being traced.
 ///
 /// # Errors
 /// The scene cannot be rendered, or the caller interrupts. Differences are no error.
@@ -50,8 +52,12 @@ pub fn verify_scene(
     }
     for &alignment in &kept.alignments {
         let truth = kept.folder.join(format!("truth_{alignment}.exr"));
-        if verified.note(verify_truth(&work, &truth, alignment))? {
-            verified.truths += 1;
+        match truth.exists() {
+            true => {
+                let is_equal = verified.note(verify_truth(&work, &truth, alignment))?;
+                verified.truths += usize::from(is_equal);
+            }
+            false => drop(verified.note(verify_part(&work, alignment))?),
         }
     }
     Ok(verified)
@@ -62,7 +68,6 @@ impl Verified {
     pub fn add(&mut self, other: Self) {
         self.tiles.extend(other.tiles);
         self.truths += other.truths;
-        self.drawn += other.drawn;
         self.differences.extend(other.differences);
     }
 
@@ -103,24 +108,18 @@ fn verify_frame(work: &Work, path: &Path) -> Result<Vec<(PathBuf, Tile)>, Error>
     trace_frame_tiles(work, path, &settings, &frame)
 }
 
-/// Verifies a truth, one of its replicates and a rung of its ladder.
+/// Verifies a truth, its replicates and a rung of its ladder.
 fn verify_truth(
     work: &Work,
     path: &Path,
     alignment: Alignment,
 ) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let truth = Truth::read(path)?;
-    let (width, height) = truth.size();
     let provenance = &truth.provenance;
     let settings = RenderSettings {
-        width,
-        height,
         samples_per_pixel: provenance.samples_per_pixel,
         replicates: provenance.replicates,
-        seed: provenance.seed,
-        // That of the shutter, bit for bit: an interval has it whole or in halves.
-        exposure: Some(truth.shutter.close - truth.shutter.open),
-        ..RenderSettings::default()
+        ..picture_settings(provenance.seed, truth.size(), truth.shutter)
     };
     settings.check_truth(work.scene, alignment)?;
     let own = tracer::truth_hash(work.scene, &settings, alignment);
@@ -129,9 +128,59 @@ fn verify_truth(
     let folder = work.kept.folder.clone();
     let files = ReplicateFiles::new(folder, work.scene, &settings, alignment);
     expect_mean(work, path, &truth, &files)?;
-    let mut tiles = trace_replicate_tiles(work, &settings, &files)?;
+    // A run that asks for more replicates takes those beyond the truth's as well.
+    let mut indices = files.list_kept()?;
+    indices.extend(0..settings.replicates);
+    let mut tiles = trace_replicate_tiles(work, &settings, &files, &indices)?;
     tiles.extend(trace_rung_tiles(work, &settings, &truth)?);
     Ok(tiles)
+}
+
+/// Verifies replicates that have no truth beside them, as a part of a render has. A ladder goes with a truth.
+fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>, Error> {
+    let ladder = work.kept.folder.join(ladder_folder(alignment));
+    if ladder.exists() {
+        return Err(Error::Broken(format!(
+            "{}: there is no truth_{alignment}.exr beside it, without which a ladder cannot be traced again; render {} again",
+            work.shown(&ladder).display(),
+            work.scene.name
+        )));
+    }
+    let folder = &work.kept.folder;
+    let Some(first) = list_replicates(folder, alignment)?.pop_first() else {
+        return Ok(Vec::new());
+    };
+    let path = replicates_folder(folder, alignment).join(replicate_file(first));
+    let replicate = Replicate::read(&path)?;
+    let (color, provenance) = (&replicate.picture.color, &replicate.provenance);
+    let settings = RenderSettings {
+        // Those of the smallest truth that it can be a part of.
+        samples_per_pixel: provenance.samples_per_pixel.saturating_mul(2),
+        replicates: 2,
+        ..picture_settings(
+            provenance.seed,
+            (color.width, color.height),
+            replicate.shutter,
+        )
+    };
+    settings.check_truth(work.scene, alignment)?;
+    check_memory(work.scene, &settings, settings.replicates)?;
+    let files = ReplicateFiles::new(folder.clone(), work.scene, &settings, alignment);
+    work.expect_hash(&path, &provenance.content_hash, &files.hash)?;
+    let indices = files.list_kept()?;
+    trace_replicate_tiles(work, &settings, &files, &indices)
+}
+
+/// Returns the settings of a truth of this size and shutter, but for its samples.
+fn picture_settings(seed: u64, (width, height): (u32, u32), shutter: Shutter) -> RenderSettings {
+    RenderSettings {
+        width,
+        height,
+        seed,
+        // That of the shutter, bit for bit: an interval has it whole or in halves.
+        exposure: Some(shutter.close - shutter.open),
+        ..RenderSettings::default()
+    }
 }
 
 /// Refuses a truth that is not the mean of its replicates.

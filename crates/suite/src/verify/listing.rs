@@ -1,12 +1,14 @@
-//! The kept truths of a folder.
+//! The kept renders of a folder.
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, read_attribute};
+use frame::{Alignment, FileError};
 
 use crate::Error;
+use crate::render::ladders::ladder_folder;
+use crate::render::replicates::replicates_folder;
 
-/// The kept truths of one scene, or of a later frame of it.
+/// The kept frame, truths, replicates and ladders of one scene, or of a later frame of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeptScene {
     /// Name of the scene, with its variant.
@@ -17,15 +19,15 @@ pub struct KeptScene {
     pub folder: PathBuf,
     /// Name of this folder in messages: that in a pack, for files that were unpacked somewhere.
     pub shown: PathBuf,
-    /// Alignments of its truths.
+    /// Alignments of which a truth, replicates or a ladder lie there.
     pub alignments: Vec<Alignment>,
 }
 
-/// Lists the kept truths below a folder, which has the layout of a run's: `fan/truth_trailing.exr`, `fan/0001/truth_trailing.exr`.
+/// Lists the kept scenes below a folder, which has the layout of a run's: `fan/truth_trailing.exr`, `fan/0001/truth_trailing.exr`.
 /// Looks nowhere else, and follows no links. Messages name files below `shown`.
 ///
 /// # Errors
-/// The folder cannot be read, or holds no truth.
+/// The folder cannot be read, or holds no frame and no truth.
 pub fn list_kept_scenes(root: &Path, shown: &Path) -> Result<Vec<KeptScene>, Error> {
     let mut kept = Vec::new();
     for (scene, folder) in list_folders(root)? {
@@ -52,18 +54,15 @@ pub fn list_kept_scenes(root: &Path, shown: &Path) -> Result<Vec<KeptScene>, Err
 }
 
 impl KeptScene {
-    /// Tells whether engines drew all of its truths, which nothing here can trace again.
-    pub fn is_drawn(&self) -> bool {
-        self.alignments.iter().all(|alignment| {
-            let truth = self.folder.join(format!("truth_{alignment}.exr"));
-            read_attribute(&truth, "engine").is_some()
-        })
-    }
-
-    fn find(scene: &str, frame: u32, (folder, shown): (&Path, &Path)) -> Option<Self> {
-        let has = |alignment: &Alignment| folder.join(format!("truth_{alignment}.exr")).is_file();
+    /// Finds what is kept in the folder of a scene; none where nothing of a render lies there.
+    pub(crate) fn find(scene: &str, frame: u32, (folder, shown): (&Path, &Path)) -> Option<Self> {
+        let has = |alignment: &Alignment| {
+            folder.join(format!("truth_{alignment}.exr")).is_file()
+                || replicates_folder(folder, *alignment).is_dir()
+                || folder.join(ladder_folder(*alignment)).is_dir()
+        };
         let alignments: Vec<Alignment> = Alignment::ALL.into_iter().filter(has).collect();
-        (!alignments.is_empty()).then(|| Self {
+        (!alignments.is_empty() || folder.join("frame.exr").is_file()).then(|| Self {
             scene: scene.to_owned(),
             frame,
             folder: folder.to_owned(),

@@ -1,5 +1,6 @@
 //! Tiles of kept files, chosen at random and traced again.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use frame::{Frame, Tile, Truth, rung_file};
@@ -32,17 +33,19 @@ pub(super) fn trace_frame_tiles(
     Ok(tiles)
 }
 
-/// Traces tiles of random replicates of a truth again.
+/// Traces tiles of random ones among some replicates again, and compares the attributes of all of them.
 pub(super) fn trace_replicate_tiles(
     work: &Work,
     settings: &RenderSettings,
     files: &ReplicateFiles,
+    indices: &BTreeSet<u32>,
 ) -> Result<Vec<(PathBuf, Tile)>, Error> {
+    let indices: Vec<u32> = indices.iter().copied().collect();
     let tracer = TruthTracer::new(work.scene, settings, &[files.alignment])?;
     let mut chance = work.chance(&format!("truth_{}", files.alignment));
     let mut tiles = Vec::new();
     for _ in 0..work.verification.tiles {
-        let index = chance.below(settings.replicates);
+        let index = indices[chance.below(indices.len() as u32) as usize];
         let tile = chance.tile(settings.width, settings.height);
         let label = format!(
             "verifying {}, {} replicate {index}",
@@ -53,9 +56,9 @@ pub(super) fn trace_replicate_tiles(
         let mut made = made[0].to_exr();
         work.compare(&path, tile, &made)?;
         tiles.push((work.shown(&path), tile));
-        for index in (0..settings.replicates).filter(|_| tiles.len() == 1) {
+        for index in indices.iter().filter(|_| tiles.len() == 1) {
             made.set("replicate", index);
-            work.compare_attributes(&files.path(index), &made)?;
+            work.compare_attributes(&files.path(*index), &made)?;
         }
     }
     Ok(tiles)

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{ExrFile, Tile, read_exr};
+use frame::{ExrFile, FileError, Tile, read_exr};
 use tracer::Scene;
 
 use super::chance::Chance;
@@ -42,7 +42,7 @@ impl Work<'_> {
 
     /// Refuses a file that does not hold in a tile what was made for it.
     pub fn compare(&self, path: &Path, tile: Tile, made: &ExrFile) -> Result<(), Error> {
-        match find_difference(&read_exr(path)?, tile, made) {
+        match find_difference(&read_like(path, made)?, tile, made) {
             None => Ok(()),
             Some(difference) => Err(Error::Broken(format!(
                 "{}: {difference}, tracing the tile of {}x{} pixels at ({}, {}) again; {}",
@@ -58,7 +58,7 @@ impl Work<'_> {
 
     /// Refuses a file with other attributes than were made for it. A tile is traced in a few files; attributes are compared in all.
     pub fn compare_attributes(&self, path: &Path, made: &ExrFile) -> Result<(), Error> {
-        match find_attribute(&read_exr(path)?, made) {
+        match find_attribute(&read_like(path, made)?, made) {
             None => Ok(()),
             Some(difference) => Err(Error::Broken(format!(
                 "{}: {difference}; {}",
@@ -88,4 +88,11 @@ impl Work<'_> {
         let name = format!("{} {name}", self.scene.name);
         Chance::new(self.verification.seed, &name)
     }
+}
+
+/// Reads a file of the kind that was made, whose checksum is right.
+fn read_like(path: &Path, made: &ExrFile) -> Result<ExrFile, FileError> {
+    let file = read_exr(path)?;
+    file.expect_kind(&made.get::<String>("kind")?)?;
+    Ok(file)
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use super::{list, load, write_mine};
-use crate::bench::{assert_done, assert_refused, make_fifo, stderr};
+use crate::bench::{Bench, assert_done, assert_refused, make_fifo, stderr};
 
 #[test]
 fn deep_kernels_load_or_are_refused_with_their_line() {
@@ -66,6 +66,11 @@ fn irregular_and_large_files_are_refused() {
         {
             std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
             assert_refused(&list(&bench), 2, &[file, "is a device"]);
+            fs::remove_file(&path).unwrap();
+            fs::write(bench.path("secret"), "the secret").unwrap();
+            std::os::unix::fs::symlink("../secret", &path).unwrap();
+            let parts = [file, "is a link to a file outside of the filter's folder"];
+            assert_refused(&list(&bench), 2, &parts);
             fs::remove_file(&path).unwrap();
             make_fifo(&path);
             assert_refused(&list(&bench), 2, &[file, "is a FIFO"]);
@@ -165,4 +170,27 @@ fn values_out_of_range_are_refused_before_a_run() {
         assert_refused(&output, 2, parts);
         assert!(!bench.path("out").exists());
     }
+}
+
+/// Binds what the module of the fuzzer's corpus declares.
+const MODULE: &str = "name = \"module\"\nsummary = \"A damaged module.\"\nalignment = \"centred\"\n\n[[pass]]\nshader = \"module.spv\"\n";
+
+#[test]
+fn a_panic_of_naga_is_one_error_and_no_backtrace() {
+    let bench = Bench::new();
+    let folder = bench.path("module");
+    fs::create_dir(&folder).unwrap();
+    fs::write(folder.join("filter.toml"), MODULE).unwrap();
+    let damaged = tests::root().join("tests/fuzz/corpus/spirv/panic");
+    fs::copy(damaged, folder.join("module.spv")).unwrap();
+    let mut command = bench.command(&["list", "--filter", "module"]);
+    let output = command.env("RUST_BACKTRACE", "1").output().unwrap();
+    let parts = ["error: ./module/module.spv: naga, which translates it, fails on it: called"];
+    assert_refused(&output, 2, &parts);
+    let said = stderr(&output);
+    assert!(said.starts_with("error: "), "{said}");
+    assert!(
+        !said.contains("panicked") && !said.contains("backtrace"),
+        "{said}"
+    );
 }

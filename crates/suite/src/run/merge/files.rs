@@ -9,13 +9,16 @@ use frame::{Alignment, FileError, read_bounded};
 use super::run_part::RunPart;
 use crate::Error;
 use crate::folder::placed_file::{MOST_TAKEN_BYTES, is_one_file, place_file};
+use crate::measure::pictures::{CASE_FILES, FRAME_FILES, truth_files};
 use crate::render::ladders::ladder_folder;
 use crate::render::replicates::replicates_folder;
+use crate::run::Run;
 
 /// The source of each file, by its path below the parts.
 pub(super) type Files = BTreeMap<PathBuf, PathBuf>;
 
-/// Lists the files of all cases and their scenes. A file that two parts hold must be the same in both. Follows no links.
+/// Lists the files of all cases and their scenes. A file that two parts hold must be the same in both, and no picture may be missing from
+/// all. Follows no links.
 pub(super) fn gather_files(parts: &[RunPart]) -> Result<Files, Error> {
     let mut files = Files::new();
     for part in parts {
@@ -32,7 +35,39 @@ pub(super) fn gather_files(parts: &[RunPart]) -> Result<Files, Error> {
             }
         }
     }
+    parts
+        .iter()
+        .try_for_each(|part| check_pictures(part, &files))?;
     Ok(files)
+}
+
+/// Refuses a part with a case whose pictures, or those of its scene, no part holds.
+fn check_pictures(part: &RunPart, files: &Files) -> Result<(), Error> {
+    for (scene, case, alignment) in list_cases(&part.run) {
+        let own = CASE_FILES.iter().map(|name| case.join(name));
+        let of_scene = FRAME_FILES.iter().map(|name| scene.join(name));
+        let of_truth = truth_files(alignment).map(|name| scene.join(name));
+        let mut all = own.chain(of_scene).chain(of_truth);
+        if let Some(missing) = all.find(|below| !files.contains_key(below)) {
+            return Err(Error::Usage(format!(
+                "{}: no part holds {}, or it is a link; copy the folders of runs as a whole, or measure that case again",
+                part.file(),
+                missing.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Lists the cases of a run, and of all frames of its sequences, each as the folder of its scene, its own folder, and its shutter.
+fn list_cases(run: &Run) -> impl Iterator<Item = (&Path, &Path, &str)> {
+    let cases =
+        (run.cases.iter()).map(|case| (Path::new(&case.scene), &*case.folder, &*case.alignment));
+    let frames = run.sequences.iter().flat_map(|sequence| {
+        let frames = sequence.frames.iter();
+        frames.map(|frame| (&*frame.scene, &*frame.folder, &*sequence.alignment))
+    });
+    cases.chain(frames)
 }
 
 /// Places all files below a folder.
@@ -45,20 +80,13 @@ pub(super) fn place_files(files: &Files, out: &Path) -> Result<(), Error> {
 
 /// Lists the folders of a run's cases, of its scenes, and of their replicates and ladders, relative to `run.json`.
 fn list_folders(part: &RunPart) -> BTreeSet<PathBuf> {
-    let run = &part.run;
-    let frames = run.sequences.iter().flat_map(|sequence| &sequence.frames);
     let mut folders: BTreeSet<PathBuf> = BTreeSet::new();
-    let own = run
-        .cases
-        .iter()
-        .map(|case| (PathBuf::from(&case.scene), case.folder.clone()));
-    for (scene, case) in own.chain(frames.map(|frame| (frame.scene.clone(), frame.folder.clone())))
-    {
+    for (scene, case, _) in list_cases(&part.run) {
         for alignment in Alignment::ALL {
-            folders.insert(replicates_folder(&scene, alignment));
+            folders.insert(replicates_folder(scene, alignment));
             folders.insert(scene.join(ladder_folder(alignment)));
         }
-        folders.extend([scene, case]);
+        folders.extend([scene, case].map(Path::to_owned));
     }
     folders
 }
