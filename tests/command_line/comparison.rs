@@ -1,6 +1,7 @@
 //! Measurements beside the filters' own scores: references, a common shutter, noise, coarser frames.
 
-use suite::{Case, DepthFormat, Overall, Run, VelocityFormat};
+use frame::{Frame, Ladder, Picture, Truth};
+use suite::{Case, DepthFormat, FinishedPicture, Overall, Run, VelocityFormat};
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 
@@ -19,7 +20,8 @@ fn flip(case: &Case) -> f64 {
 #[test]
 fn filters_of_two_alignments_share_a_common_shutter() {
     let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy"]));
+    let output = bench.run(&["--filters", "velocity_gather:fine,bevy"]);
+    assert_done(&output);
     let run = bench.read_run();
     assert_eq!(run.common_alignment, "centred");
     for case in &run.cases {
@@ -33,21 +35,61 @@ fn filters_of_two_alignments_share_a_common_shutter() {
     assert_eq!(many[0].alignment, "trailing");
     let late = many[0].common.flip.value().unwrap();
     assert!(late > 4.0 * flip(many[0]), "{late}");
-    // The identity and the one-frame oracle exist for every alignment: skill is measured between them.
-    for alignment in ["trailing", "centred"] {
-        for (bar, expected) in [("identity", 0.0), ("scatter_oracle", 1.0)] {
-            let mut found = run.cases.iter();
-            let found = found.find(|case| case.name() == bar && case.alignment == alignment);
-            let skill = found.unwrap().scores.get("skill_flip".parse().unwrap());
-            assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
-        }
+    let find = |bar: &str, alignment: &str| {
+        let mut found = run.cases.iter();
+        found.find(|case| case.name() == bar && case.alignment == alignment)
+    };
+    // Skill is measured from a sharp picture of the shutter's middle to the one-frame oracle.
+    for (bar, alignment, expected) in [
+        ("accumulate:1", "trailing", 0.0),
+        ("identity", "centred", 0.0),
+        ("scatter_oracle", "trailing", 1.0),
+        ("scatter_oracle", "centred", 1.0),
+    ] {
+        let found = find(bar, alignment).unwrap();
+        let skill = found.scores.get("skill_flip".parse().unwrap());
+        assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
     }
+    assert!(find("accumulate:1", "centred").is_none());
+    // The lag of the frame has a row of its own.
+    let lag = flip(find("identity", "trailing").unwrap())
+        - flip(find("accumulate:1", "trailing").unwrap());
+    assert!(lag > 0.05, "{lag}");
+    let text = stdout(&output);
+    let row = text.lines().find(|line| line.contains("lag of the frame"));
+    let cells: Vec<&str> = row.expect(&text).split_whitespace().skip(4).collect();
+    assert_eq!(cells, [format!("{lag:.3}").as_str(), "-"]);
 
     // A narrower run keeps the cases of the wider one, and so their common shutter.
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
     assert_eq!(bench.read_run().common_alignment, "centred");
     assert_done(&bench.run(&["--filters", "velocity_gather:fine", "--no-cache"]));
     assert_eq!(bench.read_run().common_alignment, "trailing");
+}
+
+#[test]
+fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
+    let bench = Bench::new();
+    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy"]));
+    let frame = Frame::read(&bench.path("out/plate/frame.exr")).unwrap();
+    for alignment in ["trailing", "centred"] {
+        let path = |name: &str| bench.path(&format!("out/plate/{name}"));
+        let truth = Truth::read(&path(&format!("truth_{alignment}.exr"))).unwrap();
+        let ladder = Ladder::read_rung(&path(&format!("ladder_{alignment}/n1.exr")), 1).unwrap();
+        let sharp = Picture::mean(&ladder.rungs[0].halves);
+        let finished = FinishedPicture {
+            color: sharp.color,
+            mattes: Some(sharp.coverage),
+            display_referred: false,
+            notes: Vec::new(),
+        };
+        let scored = suite::score(&finished, &frame, &truth, Some(&ladder)).unwrap();
+        for metric in ["skill_flip", "skill_mse", "skill_label_tv"] {
+            let skill = scored.scores.get(metric.parse().unwrap()).value().unwrap();
+            // The frame and the sub-frame have different noise, of 16 samples.
+            assert!(skill.abs() < 0.03, "{metric}, {alignment}: {skill}");
+        }
+    }
 }
 
 #[test]

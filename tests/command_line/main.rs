@@ -111,6 +111,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
     let expected = [
         (true, "identity"),
         (true, "scatter_oracle"),
+        (true, "accumulate:1"),
         (true, "accumulate:4"),
         (true, "accumulate:8"),
         (true, "accumulate:16"),

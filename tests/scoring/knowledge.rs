@@ -1,4 +1,4 @@
-//! Scores of what one frame knows, probes of a filter's taps, and skill over doing nothing.
+//! Scores of what one frame knows, probes of a filter's taps, and skill over no blur.
 
 use frame::{Frame, Image, Picture, Raster, Region, Truth};
 use metrics::{Measured, Probes, Reference, Scores, regions};
@@ -107,13 +107,6 @@ fn a_change_at_still_pixels_is_contamination() {
 
 const SKILLS: [&str; 3] = ["skill_mse", "skill_flip", "skill_label_tv"];
 
-fn instant(frame: &Frame) -> Picture {
-    Picture {
-        color: frame.color.clone(),
-        coverage: frame.coverage.clone(),
-    }
-}
-
 /// Mixes two pictures, `part` of the way to the second.
 fn mix(first: &Picture, second: &Picture, part: f32) -> Picture {
     let mixed = |a: f32, b: f32| (1.0 - part) * a + part * b;
@@ -128,11 +121,12 @@ fn mix(first: &Picture, second: &Picture, part: f32) -> Picture {
 }
 
 #[test]
-fn skill_is_the_share_of_the_way_from_doing_nothing_to_the_one_frame_oracle() {
+fn skill_is_the_share_of_the_way_from_a_sharp_picture_to_the_one_frame_oracle() {
     let (frame, truth) = frame_and_truth();
-    let nothing = instant(&frame);
+    let nothing = frame.picture();
     let oracle = mix(&nothing, &truth.mean(), 0.75);
-    let reference = make_reference(&frame, &truth).with_best(&oracle).unwrap();
+    let reference = make_reference(&frame, &truth);
+    let reference = reference.with_ends(&nothing, &oracle).unwrap();
     let scores_of = |picture: &Picture| reference.measure(picture).unwrap().scores;
     for (picture, expected) in [(&nothing, 0.0), (&oracle, 1.0)] {
         let scores = scores_of(picture);
@@ -148,8 +142,8 @@ fn skill_is_the_share_of_the_way_from_doing_nothing_to_the_one_frame_oracle() {
     let half = scores_of(&mix(&nothing, &truth.mean(), 0.5));
     assert!((find_value(&half, "skill_label_tv") - 0.5 / 0.75).abs() < 1e-5);
     assert!((find_value(&half, "skill_mse") - 0.75 / (1.0 - 1.0 / 16.0)).abs() < 1e-5);
-    // The truth is better than any one-frame oracle. A negative with mover and background exchanged is worse than doing
-    // nothing.
+    // The truth is better than any one-frame oracle. A negative with mover and background exchanged is worse than
+    // none.
     let worse = Picture {
         color: (frame.color).map(|color| color.map(|part| (1.0 - part).max(0.0))),
         coverage: frame.coverage.iter().rev().cloned().collect(),
@@ -161,18 +155,21 @@ fn skill_is_the_share_of_the_way_from_doing_nothing_to_the_one_frame_oracle() {
 }
 
 #[test]
-fn skill_needs_an_oracle_that_beats_doing_nothing() {
+fn skill_needs_an_oracle_that_beats_no_blur() {
     let (frame, truth) = frame_and_truth();
-    let nothing = instant(&frame);
+    let nothing = frame.picture();
     let reason = |scores: &Scores, name: &str| match scores.get(name.parse().unwrap()) {
         Measured::NotApplicable { reason } => reason,
         Measured::Score(score) => panic!("{name}: {score:?}"),
     };
     let unknown = measure_scores(&frame, &truth, &truth.mean());
-    let reference = make_reference(&frame, &truth).with_best(&nothing).unwrap();
+    let reference = make_reference(&frame, &truth);
+    let reference = reference.with_ends(&nothing, &nothing).unwrap();
     let equal = reference.measure(&truth.mean()).unwrap().scores;
     for name in SKILLS {
-        assert!(reason(&unknown, name).contains("no picture of the one-frame oracle was given"));
+        assert!(
+            reason(&unknown, name).contains("no sharp picture of the shutter's middle was given")
+        );
         assert!(reason(&equal, name).contains("no more than the truth's noise makes"));
     }
 }

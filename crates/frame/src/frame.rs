@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::exr::{Channel, ExrFile, Samples, read_exr, write_exr};
 use crate::picture::coverage_name;
 use crate::{
-    Alignment, Camera, Display, FileError, FrameOptions, Image, Plane, Provenance, Raster,
+    Alignment, Camera, Display, FileError, FrameOptions, Image, Picture, Plane, Provenance, Raster,
     Reprojection, Vectors,
 };
 
@@ -72,6 +72,14 @@ impl Frame {
                 .collect(),
             samples: self.samples.as_ref().map(|plane| plane.cropped(band)),
             ..*self
+        }
+    }
+
+    /// Copies colour and coverage: the picture of a filter that does nothing.
+    pub fn picture(&self) -> Picture {
+        Picture {
+            color: self.color.clone(),
+            coverage: self.coverage.clone(),
         }
     }
 

@@ -34,7 +34,7 @@ pub struct Scores {
     pub objects: Vec<ObjectScores>,
     /// Scores of probes.
     pub probes: ProbeScores,
-    /// Share of the way from doing nothing to the one-frame oracle.
+    /// Share of the way from no blur to the one-frame oracle.
     pub skill: SkillScores,
     /// Equivalent sub-frames.
     pub equivalent_subframes: EquivalentScores,

@@ -63,7 +63,7 @@ fn find_entries(run: &Run) -> Vec<Entry<'_>> {
         .collect()
 }
 
-/// Ranks the filters of one scene by skill; by FLIP against the common shutter where the oracle is no better than doing nothing,
+/// Ranks the filters of one scene by skill; by FLIP against the common shutter where the oracle is no better than no blur,
 /// so that there is no skill. None where nothing moves.
 fn find_entry<'a>(cases: &[&'a Case]) -> Option<Entry<'a>> {
     let skills = cases.iter().map(|case| Headline::SKILL.estimate(case));
@@ -83,7 +83,7 @@ fn introduction(run: &Run) -> String {
     format!(
         "# Gallery\n\n![The truths of all scenes]({SHEET})\n\nBelow, each scene has five pictures: the frame of one instant; the truth and the \
          output of the best filter; the truth and the output of the worst filter. Two truths differ where the filters declare two \
-         shutters. Best and worst are by skill, the share of the way from doing nothing (0) to the one-frame oracle (1). Where no skill \
+         shutters. Best and worst are by skill, the share of the way from no blur (0) to the one-frame oracle (1). Where no skill \
          applies, FLIP* decides: FLIP against one shutter for all filters. The filter that does nothing takes no part.\n\n{}x{} pixels, {} samples per pixel. Made from\n\n    {}\n\nby `shuttertruth report --gallery`.\n",
         run.render.width,
         run.render.height,

@@ -140,6 +140,7 @@ pub use score::scores::{Scored, missing_scores, score};
 pub use score::sequence::{ScoredSequence, SequenceTruth, file_at_frame, score_sequence};
 pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
+pub use stats::lag::{lag_text, mean_lag};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
 pub use stats::ranking::{MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary};

@@ -25,7 +25,8 @@ pub struct ScoreArgs {
     /// TOML file with a table [convention] that says which colour the picture has [default: scene-linear].
     #[arg(long, value_name = "FILE")]
     pub convention: Option<PathBuf>,
-    /// The folder ladder_<alignment> of `run` [default: no equivalent sub-frames].
+    /// The folder ladder_<alignment> of `run` [default: no equivalent sub-frames, and no skill
+    /// unless the shutter is centred].
     #[arg(long, value_name = "FOLDER")]
     pub ladder: Option<PathBuf>,
     /// Score a sequence of N consecutive frames. Later frames and truths lie in numbered folders beside the first ones, as `run` and

@@ -2,9 +2,9 @@
 
 use frame::Truth;
 use suite::{
-    Error, LadderFiles, MOST_REPLICATES, Sharing, claim, deciding_floor, estimate_render_seconds,
-    printable_path, render_frame, render_part, render_shared, render_truth, render_truths_until,
-    scene_folder,
+    Error, LADDER, LadderFiles, MOST_REPLICATES, Sharing, claim, deciding_floor,
+    estimate_render_seconds, printable_path, render_frame, render_part, render_shared,
+    render_truth, render_truths_until, scene_folder,
 };
 use tracer::{RenderSettings, Scene};
 
@@ -111,7 +111,7 @@ fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<Stri
     let mut ended = |truth: &Truth| {
         if args.ladders {
             let settings = settings.with_replicates(truth.provenance.replicates);
-            LadderFiles::new(scene, &settings, truth, out).ensure(monitor)?;
+            LadderFiles::new(scene, &settings, truth, out).ensure(&LADDER, monitor)?;
         }
         report += &floors_line(truth);
         Ok(())

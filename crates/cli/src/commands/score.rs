@@ -74,7 +74,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     for (reason, metrics) in missing_scores(scores) {
         let names: Vec<String> = metrics.iter().map(|metric| metric.name()).collect();
         let way_out = match args.ladder {
-            None if metrics.contains(&Metric::SUBFRAMES) => {
+            None if names_ladder(&metrics) && reason.contains("ladder") => {
                 "; give one with --ladder: `run` writes it beside the truth"
             }
             _ => "",
@@ -82,6 +82,11 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
         text += &format!("not available: {}: {reason}{way_out}\n", names.join(", "));
     }
     text
+}
+
+/// Tells whether any of the scores needs a ladder.
+fn names_ladder(metrics: &[Metric]) -> bool {
+    (metrics.iter()).any(|metric| matches!(metric, Metric::Equivalent(_) | Metric::Skill(_)))
 }
 
 fn scores_json(

@@ -1,7 +1,7 @@
 //! Table of a run: one row per case.
 
 use metrics::Scores;
-use suite::{Case, Headline, Run, printable};
+use suite::{Case, Headline, Run, lag_text, printable};
 
 use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::Table;
@@ -37,12 +37,13 @@ pub fn run_table(run: &Run) -> String {
         "FLIP* is against the {} shutter. {KEY}",
         run.common_alignment
     );
-    table.text() + &legend_text(&legend) + &means_table(&run.overall)
+    let lag = lag_text(&run.cases).map_or(String::new(), |lag| legend_text(&lag));
+    table.text() + &legend_text(&legend) + &lag + &means_table(&run.overall)
 }
 
 /// Meaning of titles and marks.
-const KEY: &str = "Skill by FLIP: 0 is [identity], 1 is [scatter_oracle]. Bleed: the largest of beside, ahead (>) and behind \
-                   (<); grow, loss and bleed in pixels.";
+const KEY: &str = "Skill by FLIP: 0 is a sharp picture of the shutter's middle, [identity] if centred, else [accumulate:1]; 1 is \
+                   [scatter_oracle]. Bleed: the largest of beside, ahead (>) and behind (<); grow, loss and bleed in pixels.";
 
 /// Makes the table of one picture's scores, in the manner of [`run_table`].
 pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {

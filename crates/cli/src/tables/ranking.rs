@@ -1,7 +1,8 @@
 //! Summary of a run: the ranking of its filters, and the references beside them.
 
 use suite::{
-    Case, Headline, MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
+    Case, Headline, MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag,
+    rank_for_summary,
 };
 
 use tracer::FrameRate;
@@ -109,7 +110,11 @@ fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
     vec![rank_text(ranked), number(ranked.mean), interval, worst]
 }
 
-/// Makes the table of references: one row each, one column per shutter.
+/// Name of the row of the frame's lag.
+const LAG: &str = "lag of the frame";
+
+/// Makes the table of references: one row each, one column per shutter. The last row is the lag of the frame behind or before the
+/// shutter's middle.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
     let names: Vec<String> = references().map(Case::name).collect();
@@ -134,19 +139,28 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
         .chain(columns.iter().map(|_| Align::Right))
         .collect();
     let mut table = Table::new(&titles, &align);
-    for name in names {
-        let mean = |(alignment, rate): &(&str, Option<FrameRate>)| {
-            let of_shutter = |case: &&Case| case.alignment == *alignment && case.rate == *rate;
-            let own = references().filter(of_shutter);
-            mean_flip(own.filter(|case| case.name() == name))
-        };
-        let cells = std::iter::once(format!("    {name}")).chain(shutters.iter().map(mean));
+    let of_shutter = |(alignment, rate): &(&str, Option<FrameRate>)| -> Vec<&Case> {
+        let is_own = |case: &&Case| case.alignment == *alignment && case.rate == *rate;
+        references().filter(is_own).collect()
+    };
+    let of_shutters: Vec<Vec<&Case>> = shutters.iter().map(of_shutter).collect();
+    let mut push = |name: &str, cells: Vec<String>| {
+        let cells = std::iter::once(format!("    {name}")).chain(cells);
         table.push_styled(cells.collect(), faint);
+    };
+    for name in names {
+        let mean = |own: &Vec<&Case>| mean_flip(own.iter().filter(|case| case.name() == name));
+        push(name, of_shutters.iter().map(mean).collect());
+    }
+    let lags: Vec<Option<f64>> = of_shutters.iter().map(|own| mean_lag(own)).collect();
+    if lags.iter().any(Option::is_some) {
+        let text = |lag: &Option<f64>| lag.map_or("-".to_owned(), |lag| Headline::FLIP.number(lag));
+        push(LAG, lags.iter().map(text).collect());
     }
     table.text()
 }
 
-fn mean_flip<'a>(cases: impl Iterator<Item = &'a Case>) -> String {
+fn mean_flip<'a>(cases: impl Iterator<Item = &'a &'a Case>) -> String {
     let values: Vec<f64> = cases
         .filter_map(|case| Headline::FLIP.estimate(case))
         .collect();

@@ -55,8 +55,8 @@ pub fn means_table(overall: &[Overall]) -> String {
         text += "\n";
         text += &by_skill.text();
         text += &legend_text(
-            "Skill is by FLIP, by MSE and by label TV: the share of the way from [identity], 0, to [scatter_oracle], 1; below 0 \
-             is worse than doing nothing.",
+            "Skill is by FLIP, by MSE and by label TV: the share of the way from a sharp picture of the shutter's middle, 0 \
+             ([identity] if centred, else [accumulate:1]), to [scatter_oracle], 1.",
         );
         text += &fewer_scenes_note(overall);
     }

@@ -27,7 +27,7 @@ pub enum Metric {
     Frozen(FrozenMetric),
     /// A score of pictures of ones and coordinates: `unity`.
     Probe(ProbeMetric),
-    /// Share of the way from doing nothing to the one-frame oracle: `skill_flip`.
+    /// Share of the way from no blur to the one-frame oracle: `skill_flip`.
     Skill(SkillMetric),
     /// Equivalent sub-frames: `n_eq`.
     Equivalent(EquivalentMetric),

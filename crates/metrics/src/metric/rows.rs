@@ -328,16 +328,16 @@ metrics! {
 }
 
 metrics! {
-    /// Share of the way from doing nothing to the one-frame oracle, over the moving region.
+    /// Share of the way from no blur to the one-frame oracle, over the moving region.
     enum SkillMetric;
-    /// Share of the way from doing nothing to the one-frame oracle, by errors over the moving region: 0 is as good as doing
-    /// nothing, 1 as good as the oracle; below 0 is worse than doing nothing.
+    /// Share of the way from no blur to the one-frame oracle, by errors over the moving region: 0 is as good as a sharp picture of
+    /// the shutter's middle, 1 as good as the oracle; below 0 is worse than no blur.
     struct SkillScores of Measured {}
 
     /// By unbiased squared error of colour.
     Mse => mse {
         name: "skill_mse", unit: "", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::SquaredError,
-        meaning: "share of the way from no blur, 0, to the one-frame oracle, 1, by squared error",
+        meaning: "share of the way from a sharp picture of the shutter's middle, 0, to the one-frame oracle, 1, by squared error",
         is_percentile: false,
         report_only: Some(
             "a grey ghost over everything has skill; bound the error itself, or n_eq",
@@ -347,7 +347,7 @@ metrics! {
     /// By mean LDR-FLIP.
     Flip => flip {
         name: "skill_flip", unit: "", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::Flip,
-        meaning: "share of the way from no blur, 0, to the one-frame oracle, 1, by visible difference",
+        meaning: "share of the way from a sharp picture of the shutter's middle, 0, to the one-frame oracle, 1, by visible difference",
         is_percentile: false,
         report_only: Some(
             "a grey ghost over everything has skill; bound the error itself, or n_eq",
@@ -357,7 +357,7 @@ metrics! {
     /// By mean label total variation.
     LabelTotalVariation => label_total_variation {
         name: "skill_label_tv", unit: "", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::LabelTotalVariation,
-        meaning: "share of the way from no blur, 0, to the one-frame oracle, 1, by share given to the wrong object",
+        meaning: "share of the way from a sharp picture of the shutter's middle, 0, to the one-frame oracle, 1, by share given to the wrong object",
         is_percentile: false,
         report_only: Some(
             "a grey ghost over everything has skill; bound the error itself, or n_eq",

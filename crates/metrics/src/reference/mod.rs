@@ -52,8 +52,8 @@ pub struct Reference<'a> {
     noise: [Option<Pooled>; Region::ALL.len()],
     /// The instant: the picture of a filter that does nothing.
     instant: Image,
-    /// The two pictures that skill lies between.
-    ends: Ends,
+    /// The two pictures that skill lies between; none until they are given.
+    ends: Option<Ends>,
     /// Pixels whose SSIM window lies in the picture.
     windows: Raster<bool>,
     frozen: FrozenReference,
@@ -75,10 +75,7 @@ impl<'a> Reference<'a> {
     ) -> Result<Self, MeasureError> {
         check_viewing(viewing)?;
         check_agreement(frame, truth)?;
-        let instant = Picture {
-            color: frame.color.clone(),
-            coverage: frame.coverage.clone(),
-        };
+        let instant = frame.picture();
         check_picture(&instant, truth, "the frame")?;
         check_brightness(&instant, viewing, "the frame")?;
         for (half, name) in truth.halves.iter().zip(["A", "B"]) {
@@ -89,21 +86,14 @@ impl<'a> Reference<'a> {
         let mean = truth.mean();
         let masks = regions(truth);
         let windows = mark_whole_windows(truth.size());
-        let halves = truth.halves.each_ref().map(|half| &half.color);
         let seen = SeenTruth::new(&mean.color, viewing);
-        let map = |picture: &Picture, halves| {
-            let displayed = Displayed::new(&picture.color, viewing);
-            ErrorMaps::new((picture, &displayed), halves, &mean, &seen, |_| ())
-        };
-        let noise = map(&truth.halves[0], [&mean.color; 2]);
-        let instant_errors = map(&instant, halves);
+        let half = &truth.halves[0];
+        let displayed = Displayed::new(&half.color, viewing);
+        let noise = ErrorMaps::new((half, &displayed), [&mean.color; 2], &mean, &seen, |_| ());
         let at_instant = truth.at_instant_mean();
         let mut reference = Self {
             noise: Pooled::of_noise(&noise, &masks, &windows),
-            ends: Ends {
-                nothing: Pooled::new(&instant_errors, &masks, Region::Moving, &windows),
-                best: None,
-            },
+            ends: None,
             windows,
             frozen: FrozenReference::new(truth, &at_instant.frozen, &masks, viewing),
             origins: OriginReference::new(truth, &at_instant, &masks),
@@ -145,12 +135,21 @@ impl<'a> Reference<'a> {
         Ok(())
     }
 
-    /// Adds the picture of the one-frame oracle, the best that one frame can give: it has a skill of 1. Without it skill does not
-    /// apply.
-    pub fn with_best(mut self, best: &Picture) -> Result<Self, MeasureError> {
+    /// Adds the pictures that skill lies between. `sharp` shows the instant in the middle of the shutter and has a skill of 0; `best`
+    /// is that of the one-frame oracle, the best that one frame can give, and has 1. Without them skill does not apply.
+    pub fn with_ends(mut self, sharp: &Picture, best: &Picture) -> Result<Self, MeasureError> {
+        check_picture(
+            sharp,
+            self.truth,
+            "the sharp picture of the shutter's middle",
+        )?;
         check_picture(best, self.truth, "the one-frame oracle")?;
-        let errors = self.map_errors(best, &self.display(best), |_| ());
-        self.ends.best = Pooled::new(&errors, &self.regions, Region::Moving, &self.windows);
+        let pool = |picture: &Picture| {
+            let errors = self.map_errors(picture, &self.display(picture), |_| ());
+            Pooled::new(&errors, &self.regions, Region::Moving, &self.windows)
+        };
+        let ends = pool(sharp).zip(pool(best));
+        self.ends = ends.map(|(sharp, best)| Ends { sharp, best });
         Ok(self)
     }
 
@@ -209,7 +208,7 @@ impl<'a> Reference<'a> {
                 label_total_variation: score_labels(moving),
                 objects,
                 probes: ProbeScores::not_applicable("no probes were run through the filter"),
-                skill: score_skill(moving, &self.ends),
+                skill: score_skill(moving, self.ends.as_ref()),
                 equivalent_subframes: self.score_equivalents(moving),
             },
             maps: errors.into_maps(

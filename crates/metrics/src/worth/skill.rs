@@ -1,23 +1,27 @@
-//! Skill: the share of the way from doing nothing to the best that one frame can give.
+//! Skill: the share of the way from no blur to the best that one frame can give.
 
 use crate::picture::pooled::Pooled;
 use crate::picture::scores::Found;
 use crate::{Measured, SkillScores};
 
+const NO_ENDS: &str =
+    "no sharp picture of the shutter's middle was given: the ladder's rung of 1 sub-frame is one";
+
 /// Errors over the moving region of the two pictures that skill lies between.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends {
-    /// Errors of the instant, which is the picture of no blur: skill 0.
-    pub nothing: Option<Pooled>,
-    /// Errors of the one-frame oracle: skill 1; `None` if no such picture was given.
-    pub best: Option<Pooled>,
+    /// Errors of the sharp picture of the shutter's middle: skill 0.
+    pub sharp: Pooled,
+    /// Errors of the one-frame oracle: skill 1.
+    pub best: Pooled,
 }
 
-/// Scores skill by each of its errors. `moving` is the picture that is scored.
-pub fn score_skill(moving: &Found, ends: &Ends) -> SkillScores {
-    let score = |error: fn(&Pooled) -> f64| match moving {
-        Ok((own, noise)) => measure_skill(error, own, noise, ends),
-        Err(reason) => Measured::not_applicable(*reason),
+/// Scores skill by each of its errors. `moving` is the picture that is scored; `ends` are missing if their pictures were not given.
+pub fn score_skill(moving: &Found, ends: Option<&Ends>) -> SkillScores {
+    let score = |error: fn(&Pooled) -> f64| match (moving, ends) {
+        (Ok((own, noise)), Some(ends)) => measure_skill(error, own, noise, ends),
+        (Ok(_), None) => Measured::not_applicable(NO_ENDS),
+        (Err(reason), _) => Measured::not_applicable(*reason),
     };
     SkillScores {
         mse: score(|pooled| pooled.mse),
@@ -29,17 +33,14 @@ pub fn score_skill(moving: &Found, ends: &Ends) -> SkillScores {
 /// Divides the error that the picture takes away by what the one-frame oracle takes away. The floor is the skill of a picture
 /// without error: the highest that the truth's noise can vouch for.
 fn measure_skill(error: fn(&Pooled) -> f64, own: &Pooled, noise: &Pooled, ends: &Ends) -> Measured {
-    let (Some(nothing), Some(best)) = (&ends.nothing, &ends.best) else {
-        return Measured::not_applicable("no picture of the one-frame oracle was given");
-    };
-    let [nothing, best, own, noise] = [nothing, best, own, noise].map(error);
-    let way = nothing - best;
+    let [sharp, best, own, noise] = [&ends.sharp, &ends.best, own, noise].map(error);
+    let way = sharp - best;
     // A shorter way is one that the truth's noise could have made.
     if way <= noise {
         return Measured::not_applicable(format!(
-            "the one-frame oracle takes {way:.1e} of the error of doing nothing away, which is no more than the truth's noise \
+            "the one-frame oracle takes {way:.1e} of the error of no blur away, which is no more than the truth's noise \
              makes, {noise:.1e}"
         ));
     }
-    Measured::score((nothing - own) / way, (nothing - noise) / way)
+    Measured::score((sharp - own) / way, (sharp - noise) / way)
 }

@@ -20,7 +20,7 @@ use costs::costs;
 use headlines::{TABLE_SCORES, TableScore};
 use score_table::score_table;
 use sequences::sequence_winners;
-use suite::{Bench, Finding, Headline, Level, Outcome, RankedFilter, rank_for_summary};
+use suite::{Bench, Finding, Headline, Level, Outcome, RankedFilter, lag_text, rank_for_summary};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
 pub fn overview(
@@ -193,7 +193,10 @@ fn panel(
     let first = score.headline == TABLE_SCORES[0].headline;
     let none = vec![String::new(); thumbnails.len()];
     let content = html! {
-        p.meaning { strong { (score.title) } ": " (score.meaning()) "; " (score.better()) "." }
+        p.meaning {
+            strong { (score.title) } ": " (score.meaning()) "; " (score.better()) "."
+            @if let Some(lag) = lag_text(&table.run.cases).filter(|_| score.headline == Headline::SKILL) { " " (lag) }
+        }
         (score_table(table, views, if first { thumbnails } else { &none }, score, bench))
     };
     html! {

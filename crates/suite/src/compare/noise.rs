@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Frame, Picture, Replicate, Truth, read_exr};
+use frame::{Alignment, FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr, rung_file};
 use metrics::{
     ImageMetric, Interval, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores,
     SkillMetric, jackknife,
@@ -12,6 +12,7 @@ use tracer::{Progress, TraceError, Watch};
 use super::change::{Change, Uncertainty};
 use super::pairing::Pair;
 use super::side::Side;
+use crate::render::ladders::{SHARP, ladder_folder, sharp_picture};
 use crate::render::replicates::replicates_folder;
 use crate::render::scatter_oracle::make_oracle;
 use crate::stats::headline::Headline;
@@ -80,6 +81,8 @@ pub fn measure_changes(
 /// A truth as a whole and without each pair of its replicates, with the frame of its scene.
 struct TruthParts {
     frame: Frame,
+    /// Sharp picture of the shutter's middle; none if its file is missing.
+    sharp: Option<Picture>,
     /// Picture that the one-frame oracle makes of the frame.
     oracle: Picture,
     whole: Truth,
@@ -121,9 +124,14 @@ impl TruthParts {
         let replicates: Vec<Replicate> =
             (replicates.iter().map(|path| Replicate::read(path))).collect::<Result<_, _>>()?;
         let frame = Frame::read(&frame)?;
+        let oracle = make_oracle(&frame, &whole);
+        let frame = frame.cropped();
+        let rung = folder.join(ladder_folder(alignment)).join(rung_file(SHARP));
+        let read = || Ok::<_, FileError>(Ladder::read_rung(&rung, SHARP)?.rungs.remove(0));
         Ok(Some(Self {
-            oracle: make_oracle(&frame, &whole),
-            frame: frame.cropped(),
+            sharp: sharp_picture(&frame, &whole, read).ok(),
+            oracle,
+            frame,
             without: truths_without_pairs(&replicates)?,
             whole,
         }))
@@ -141,21 +149,19 @@ impl TruthParts {
         let [first, second] = files.map(|file| read_picture(&file, &self.whole.objects));
         let (first, second) = (first?, second?);
         let viewing = self.frame.display.into();
-        let whole =
-            Reference::new(&self.frame, &self.whole, None, &viewing)?.with_best(&self.oracle)?;
-        let scores = |reference: &Reference| -> Result<[Scores; 2], Error> {
+        let scores = |truth: &Truth| -> Result<[Scores; 2], Error> {
+            let mut reference = Reference::new(&self.frame, truth, None, &viewing)?;
+            if let Some(sharp) = &self.sharp {
+                reference = reference.with_ends(sharp, &self.oracle)?;
+            }
             Ok([
                 reference.measure(&first)?.scores,
                 reference.measure(&second)?.scores,
             ])
         };
-        let without = self.without.iter().map(|part| {
-            let part = Reference::new(&self.frame, part, None, &viewing)?;
-            scores(&part.with_best(&self.oracle)?)
-        });
         Ok(Some(PairedScores {
-            whole: scores(&whole)?,
-            without: without.collect::<Result<_, Error>>()?,
+            whole: scores(&self.whole)?,
+            without: (self.without.iter().map(scores)).collect::<Result<_, Error>>()?,
         }))
     }
 }

@@ -79,7 +79,7 @@ impl CaseContext<'_> {
     /// Makes the picture, measures it, and writes it with its error maps; returns the names of the files as well.
     pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
         let measured = match planned.source {
-            PictureSource::Identity => self.measure_reference(self.identity())?,
+            PictureSource::Identity => self.measure_reference(self.frame.cropped().picture())?,
             PictureSource::ScatterOracle => {
                 self.measure_reference(self.references.oracle.clone())?
             }
@@ -91,15 +91,6 @@ impl CaseContext<'_> {
             PictureSource::Engine(scene) => self.measure_engine(scene)?,
         };
         self.write(planned, measured)
-    }
-
-    /// Returns the frame as it is.
-    fn identity(&self) -> Picture {
-        let frame = self.frame.cropped();
-        Picture {
-            color: frame.color,
-            coverage: frame.coverage,
-        }
     }
 
     fn measure_reference(&self, picture: Picture) -> Result<MeasuredPicture, Error> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::FilterError;
-use frame::{Alignment, Frame, Ladder, Truth};
+use frame::{Accumulation, Alignment, Frame, Ladder, Truth};
 use metrics::{ColorReference, Reference};
 use tracer::{Defocus, Progress, Scene, Watch};
 
@@ -18,7 +18,7 @@ use crate::Error;
 use crate::cache::record::write_record;
 use crate::filter::depth_of_field::DepthOfField;
 use crate::filter::input_format::InputFormat;
-use crate::render::ladders::LadderFiles;
+use crate::render::ladders::{LadderFiles, SHARP, needed_rungs};
 use crate::render::truths::{render_replicates, render_truth};
 use crate::run::case::Case;
 use crate::run::failure::Failure;
@@ -74,6 +74,7 @@ impl SceneContext<'_> {
             let references = TruthReferences::new(
                 frame,
                 &truth,
+                || self.read_sharp(&truth),
                 self.read_rungs(&truth),
                 &without_pairs,
                 &viewing,
@@ -169,15 +170,20 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Renders those rungs of the ladder of a truth that are missing, if the plan asks for ladders; an engine's are copied with its
-    /// truth.
+    /// Renders those rungs of the ladder of a truth that the plan needs and are missing; an engine's are copied with its truth.
     pub(super) fn ensure_ladder(&self, truth: &Truth) -> Result<(), Error> {
         match self.scene {
-            RunScene::Traced(scene) if self.plan.ladders => {
-                self.ladder(scene, truth).ensure(self.plan.monitor)
+            RunScene::Traced(scene) => {
+                let rungs = needed_rungs(truth.alignment, self.plan.ladders);
+                self.ladder(scene, truth).ensure(rungs, self.plan.monitor)
             }
-            _ => Ok(()),
+            RunScene::Drawn(_) => Ok(()),
         }
+    }
+
+    /// Reads the rung that is the sharp picture of the shutter's middle, or renders it.
+    fn read_sharp(&self, truth: &Truth) -> Result<Accumulation, Error> {
+        Ok(self.read_rung(truth, SHARP)?.rungs.remove(0))
     }
 
     /// Reads the rungs of the ladder of a truth, one after another.

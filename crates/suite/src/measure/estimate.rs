@@ -11,12 +11,13 @@ use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
+use crate::render::ladders::{LADDER, needed_rungs};
 use crate::render::settings::frame_settings;
 
 /// Time in seconds from which a first slice is measured; shorter work is over before that pays.
 const WORTH_A_SLICE: f64 = 3.0;
 /// Time of a ladder, relative to its truth's samples: the mean of five scenes. It is about the pixels near motion alone.
-pub(super) const LADDER: f64 = 0.4;
+const WHOLE_LADDER: f64 = 0.4;
 /// Time to run a filter and measure its picture, whatever its size, in seconds. This number and the next ones were measured with
 /// llvmpipe on two cores of a server.
 const SECONDS_PER_CASE: f64 = 0.035;
@@ -130,9 +131,13 @@ fn estimate_with(
             _ => Some(costs(scene, renders)),
         };
         last.clone_from(&costs);
+        let rungs: Vec<usize> = (plan.alignments().into_iter())
+            .map(|alignment| needed_rungs(alignment, plan.ladders).len())
+            .collect();
+        let missing = (frame, &truths[..], &rungs[..]);
         estimate
             .steps
-            .push(step_seconds(plan, costs.as_ref(), (frame, &truths), due));
+            .push(step_seconds(plan, costs.as_ref(), missing, due));
         if due > 0 {
             let truths = truths.iter().filter(|missing| **missing).count();
             estimate.disk += count_bytes(&plan.render, (frame, truths), due);
@@ -202,6 +207,15 @@ pub(super) fn truth_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64
     costs.scene + count_pixels(render) * costs.support + count_samples(render) * costs.truth
 }
 
+/// Estimates the seconds that it takes to render some rungs of a ladder.
+pub(super) fn ladder_seconds(render: &RenderSettings, costs: &RenderCosts, rungs: usize) -> f64 {
+    let part = WHOLE_LADDER * rungs as f64 / LADDER.len() as f64;
+    match rungs {
+        0 => 0.0,
+        _ => costs.scene + part * count_samples(render) * costs.truth,
+    }
+}
+
 /// Counts truths by their cost: two that overlap share the samples of half their time.
 pub(super) fn shared_truths(truths: usize) -> f64 {
     match truths {
@@ -210,27 +224,27 @@ pub(super) fn shared_truths(truths: usize) -> f64 {
     }
 }
 
-/// Estimates every step of a scene, in the order of [`SceneContext::measure_cases`]; no time for those that are not due.
+/// Estimates every step of a scene, in the order of [`SceneContext::measure_cases`]; no time for those that are not due. `rungs` are
+/// the numbers of rungs that the ladders of the truths need.
 fn step_seconds(
     plan: &RunPlan,
     costs: Option<&SceneCosts>,
-    (frame, truths): (bool, &[bool]),
+    (frame, truths, rungs): (bool, &[bool], &[usize]),
     due: usize,
 ) -> Vec<f64> {
     let render = &plan.render;
-    let of_costs = |is_due: bool, seconds: fn(&RenderSettings, &RenderCosts) -> f64| {
+    let of_costs = |is_due: bool, seconds: &dyn Fn(&RenderSettings, &RenderCosts) -> f64| {
         let costs = costs.filter(|_| is_due);
         costs.map_or(0.0, |costs| seconds(render, &costs.render))
     };
-    let mut steps = vec![of_costs(frame, frame_seconds)];
+    let mut steps = vec![of_costs(frame, &frame_seconds)];
     let missing = truths.iter().filter(|missing| **missing).count();
     let share = shared_truths(missing) / missing.max(1) as f64;
-    for missing in truths {
-        let replicate = share * of_costs(*missing, truth_seconds) / f64::from(render.replicates);
+    for (missing, rungs) in truths.iter().zip(rungs) {
+        let replicate = share * of_costs(*missing, &truth_seconds) / f64::from(render.replicates);
         steps.extend((0..render.replicates).map(|_| replicate));
-        steps.push(of_costs(*missing && plan.ladders, |render, costs| {
-            costs.scene + LADDER * count_samples(render) * costs.truth
-        }));
+        let ladder = |render: &_, costs: &_| ladder_seconds(render, costs, *rungs);
+        steps.push(of_costs(*missing, &ladder));
     }
     let intervals = match plan.intervals {
         true => INTERVALS,

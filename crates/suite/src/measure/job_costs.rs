@@ -1,12 +1,13 @@
 //! Costs of the jobs that a run can be split into: the renders of a scene, and some of its cases.
 
 use super::estimate::{
-    INTERVALS, LADDER, SECONDS_PER_REPORT_PIXEL, count_pixels, count_samples, frame_seconds,
+    INTERVALS, SECONDS_PER_REPORT_PIXEL, count_pixels, frame_seconds, ladder_seconds,
     shared_truths, truth_seconds, usual_case_seconds,
 };
 use super::first_slice::RenderCosts;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
+use crate::render::ladders::needed_rungs;
 
 /// Cores that the usual time of a case was measured on, all of which the software adapter takes.
 const CASE_CORES: f64 = 2.0;
@@ -58,13 +59,13 @@ pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let truths = plan.alignments().len();
     let threads = rayon::current_num_threads() as f64;
     let usual = RenderCosts::usual();
-    let ladder = match plan.ladders {
-        true => LADDER * count_samples(render) * usual.truth + usual.scene,
-        false => 0.0,
-    };
+    let ladders = plan.alignments().into_iter().map(|alignment| {
+        let rungs = needed_rungs(alignment, plan.ladders).len();
+        ladder_seconds(render, &usual, rungs)
+    });
     let renders = frame_seconds(render, &usual)
         + shared_truths(truths) * truth_seconds(render, &usual)
-        + truths as f64 * ladder;
+        + ladders.sum::<f64>();
     let case = CASE_CORES * usual_case_seconds(count_pixels(render));
     let intervals = if plan.intervals { INTERVALS } else { 1.0 };
     let all = plan.all_scenes().into_iter();

@@ -37,7 +37,8 @@ pub struct RunPlan {
     /// True if the scores of filters get intervals, by which bounds are judged. Takes a few more measurements of every picture.
     pub intervals: bool,
     /// True if the ladder of every truth is rendered: for equivalent sub-frames, and for the accumulations among the references. It
-    /// takes about as long as half of its truth. What an engine drew has its ladder without that.
+    /// takes about as long as half of its truth. What an engine drew has its ladder without that, and every trailing or leading truth
+    /// the one rung that is the sharp picture of its shutter's middle.
     pub ladders: bool,
     /// True if frames, truths and cases that lie in `out` are removed and made anew.
     pub no_cache: bool,

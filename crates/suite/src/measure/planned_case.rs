@@ -45,16 +45,12 @@ impl<'a> PlannedCase<'a> {
     pub fn all(plan: &'a RunPlan, filters: &'a [FilterChoice], scene: RunScene<'a>) -> Vec<Self> {
         debug_assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
         let alignments = scene.alignments(plan.alignments());
-        let accumulations = scene.accumulations(&SUBFRAMES, plan.ladders);
         let references = alignments.iter().flat_map(|alignment| {
+            let accumulations = scene.accumulations(&SUBFRAMES, *alignment, plan.ladders);
+            let accumulations = accumulations.into_iter().map(PictureSource::Accumulation);
             [PictureSource::Identity, PictureSource::ScatterOracle]
                 .into_iter()
-                .chain(
-                    accumulations
-                        .iter()
-                        .copied()
-                        .map(PictureSource::Accumulation),
-                )
+                .chain(accumulations)
                 .map(|source| Self {
                     alignment: *alignment,
                     source,

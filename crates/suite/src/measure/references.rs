@@ -1,10 +1,11 @@
 //! Truths, prepared for measuring many pictures against them.
 
-use frame::{Frame, Ladder, Picture, Truth};
+use frame::{Accumulation, Frame, Ladder, Picture, Truth};
 use metrics::{Reference, Viewing};
 use tracer::Scene;
 
 use crate::Error;
+use crate::render::ladders::sharp_picture;
 use crate::render::scatter_oracle::make_oracle;
 
 /// The truth of one shutter, with everything that pictures are measured against.
@@ -19,11 +20,12 @@ pub(crate) struct TruthReferences<'a> {
 
 impl<'a> TruthReferences<'a> {
     /// Prepares the truth, and the same truth without each pair of its replicates. The rungs of the ladder come one after another,
-    /// since all of them take more memory than all else. `ended` hears of the end of each part of measuring a picture against the
-    /// truth.
+    /// since all of them take more memory than all else; `read_sharp` reads the one that is the sharp picture of the shutter's middle.
+    /// `ended` hears of the end of each part of measuring a picture against the truth.
     pub fn new(
         frame: &Frame,
         truth: &'a Truth,
+        read_sharp: impl FnOnce() -> Result<Accumulation, Error>,
         rungs: impl Iterator<Item = Result<Ladder, Error>>,
         without_pairs: &'a [Truth],
         viewing: &Viewing,
@@ -31,8 +33,10 @@ impl<'a> TruthReferences<'a> {
     ) -> Result<Self, Error> {
         let oracle = make_oracle(frame, truth);
         let frame = frame.cropped();
-        let reference =
-            |truth: &'a Truth| Reference::new(&frame, truth, None, viewing)?.with_best(&oracle);
+        let sharp = sharp_picture(&frame, truth, read_sharp)?;
+        let reference = |truth: &'a Truth| {
+            Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)
+        };
         let mut own = reference(truth)?.with_listener(ended);
         let mut without_pairs: Vec<Reference> = (without_pairs.iter())
             .map(reference)

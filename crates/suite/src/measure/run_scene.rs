@@ -7,7 +7,7 @@ use tracer::{Family, RenderSettings, Scene};
 
 use crate::Error;
 use crate::ingest::engine_scene::EngineScene;
-use crate::render::ladders::LADDER;
+use crate::render::ladders::{LADDER, SHARP, needed_rungs};
 use crate::render::memory::{check_measuring_memory, measuring_memory};
 use crate::render::settings::frame_settings;
 use crate::run::case::Drawn;
@@ -94,11 +94,20 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Lists the accumulations that its truth can be compared with, among those of a plan that asks for rendered ladders or not.
-    pub fn accumulations(self, planned: &[u32], ladders: bool) -> Vec<u32> {
+    /// Lists the accumulations that the truth of an alignment can be compared with: the sharp picture of the shutter's middle,
+    /// unless the frame is that, then those of a plan that asks for rendered ladders or not.
+    pub fn accumulations(self, planned: &[u32], alignment: Alignment, ladders: bool) -> Vec<u32> {
         let rungs = self.rungs(ladders);
-        let there = planned.iter().filter(|count| rungs.contains(count));
-        there.copied().collect()
+        let sharp = [SHARP].into_iter();
+        sharp
+            .filter(|rung| needed_rungs(alignment, false).contains(rung))
+            .chain(
+                planned
+                    .iter()
+                    .copied()
+                    .filter(|count| rungs.contains(count)),
+            )
+            .collect()
     }
 
     /// Returns the content hash of the truth of one alignment.

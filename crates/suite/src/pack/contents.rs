@@ -8,7 +8,7 @@ use frame::{Alignment, ExrFile, read_exr_header, rung_file, truth_hash};
 
 use super::manifest::PackedFile;
 use crate::Error;
-use crate::render::ladders::{LADDER, ladder_folder};
+use crate::render::ladders::{ladder_folder, needed_rungs};
 use crate::render::replicates::replicates_folder;
 use crate::run::Run;
 use crate::run::case::ACCUMULATE;
@@ -19,12 +19,12 @@ struct KeptScene {
     folder: PathBuf,
     /// Alignments of its truths, each with the `truth_hash` of the cases that were measured against it; none where no case was.
     truths: BTreeMap<Alignment, Option<String>>,
-    /// Alignments that the run has accumulations of: those whose ladder was rendered.
+    /// Alignments that the run has accumulations of several sub-frames of: those whose whole ladder was rendered.
     ladders: BTreeSet<Alignment>,
 }
 
-/// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. A check has no ladders. Sizes and hashes of bytes are not
-/// known yet.
+/// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. A check has the sharp rungs of ladders
+/// alone. Sizes and hashes of bytes are not known yet.
 ///
 /// # Errors
 /// A file is missing, or is another one than the run was measured with.
@@ -92,11 +92,12 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
     }
 }
 
-/// Tells whether a run compares with accumulations in a scene, for one alignment.
+/// Tells whether a run compares with accumulations of several sub-frames in a scene, for one alignment.
 fn has_accumulation(run: &Run, scene: &str, alignment: Alignment) -> bool {
     (run.cases.iter()).any(|case| {
         case.is_reference
             && case.filter == ACCUMULATE
+            && !case.is_sharp()
             && case.scene == scene
             && case.alignment == alignment.name()
     })
@@ -127,12 +128,9 @@ fn add_scene(
         }
         files.push(truth);
         let mut ladder: Option<String> = None;
-        let rungs = LADDER
-            .into_iter()
-            .filter(|_| scene.ladders.contains(alignment));
-        for rung in rungs {
+        for rung in needed_rungs(*alignment, scene.ladders.contains(alignment)) {
             let below = scene.folder.join(ladder_folder(*alignment));
-            let rung = found(&below.join(rung_file(rung)))?;
+            let rung = found(&below.join(rung_file(*rung)))?;
             let hash = ladder.get_or_insert_with(|| rung.content_hash.clone());
             if *hash != rung.content_hash {
                 return Err(other_file(root, &rung, hash));

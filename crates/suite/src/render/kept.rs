@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use frame::{Alignment, read_attribute, rung_file};
 use tracer::{RenderSettings, Scene};
 
-use super::ladders::{LADDER, ladder_folder, ladder_hash};
+use super::ladders::{ladder_folder, ladder_hash, needed_rungs};
 use super::replicates::ReplicateFiles;
 use super::settings::frame_settings;
 use crate::Error;
@@ -22,7 +22,8 @@ pub(crate) struct RenderFile {
     pub hash: String,
 }
 
-/// Lists the frame of a scene, and its truths with their replicates, and with their ladders if they are asked for.
+/// Lists the frame of a scene, and its truths with their replicates, and with the rungs of their ladders that measuring needs: all
+/// if ladders are asked for.
 pub(crate) fn list_render_files(
     scene: &Scene,
     settings: &RenderSettings,
@@ -44,19 +45,18 @@ pub(crate) fn list_render_files(
             below: replicates.path(index),
             hash: replicates.hash.clone(),
         }));
-        if ladders {
-            let hash = ladder_hash(scene, settings, alignment);
-            files.extend(LADDER.iter().map(|rung| RenderFile {
-                below: (folder.join(ladder_folder(alignment))).join(rung_file(*rung)),
-                hash: hash.clone(),
-            }));
-        }
+        let hash = ladder_hash(scene, settings, alignment);
+        let rungs = needed_rungs(alignment, ladders).iter();
+        files.extend(rungs.map(|rung| RenderFile {
+            below: (folder.join(ladder_folder(alignment))).join(rung_file(*rung)),
+            hash: hash.clone(),
+        }));
     }
     files
 }
 
 /// Tells whether the folder `truths` has the frame of a scene, and each of its truths with its last replicate, or the last rung of its
-/// ladder if the plan asks for ladders.
+/// ladder if the plan needs one.
 pub(crate) fn find_kept(
     scene: &Scene,
     RunPlan {

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Ladder, Truth, read_attribute, rung_file};
+use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth, read_attribute, rung_file};
 use tracer::{LadderTracer, RenderSettings, Scene};
 
 use crate::folder::scene_folder::scene_folder;
@@ -11,6 +11,32 @@ use crate::{Error, Monitor};
 
 /// Sub-frame counts of the ladder that N_eq is read from.
 pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
+
+/// The rung that is the sharp picture of a shutter's middle.
+pub(crate) const SHARP: u32 = LADDER[0];
+
+/// Lists the rungs that measuring against a truth needs: all if ladders are asked for. Otherwise the sharp picture of the shutter's
+/// middle, which skill is counted from, unless the frame is that.
+pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32] {
+    match (ladders, alignment) {
+        (true, _) => &LADDER,
+        (false, Alignment::Centred) => &[],
+        (false, _) => &LADDER[..1],
+    }
+}
+
+/// Returns the sharp picture of the middle of a truth's shutter: the frame if its instant lies there, or else the rung [`SHARP`],
+/// which `read` reads. `frame` has no guard band.
+pub(crate) fn sharp_picture<E>(
+    frame: &Frame,
+    truth: &Truth,
+    read: impl FnOnce() -> Result<Accumulation, E>,
+) -> Result<Picture, E> {
+    match truth.alignment {
+        Alignment::Centred => Ok(frame.picture()),
+        _ => Ok(Picture::mean(&read()?.halves)),
+    }
+}
 
 /// Names the folder of the rungs of a ladder in the folder of its scene.
 pub(crate) fn ladder_folder(alignment: Alignment) -> String {
@@ -43,12 +69,12 @@ impl<'a> LadderFiles<'a> {
         }
     }
 
-    /// Renders the rungs and writes them, but for those whose files of the same inputs are there.
-    pub fn ensure(&self, monitor: Monitor) -> Result<(), Error> {
-        for subframes in LADDER {
-            let found = read_attribute(&self.path(subframes), "content_hash");
+    /// Renders some of the rungs and writes them, but for those whose files of the same inputs are there.
+    pub fn ensure(&self, rungs: &[u32], monitor: Monitor) -> Result<(), Error> {
+        for subframes in rungs {
+            let found = read_attribute(&self.path(*subframes), "content_hash");
             if found.as_ref() != Some(&self.hash) {
-                self.render(subframes, monitor)?;
+                self.render(*subframes, monitor)?;
             }
         }
         Ok(())

@@ -16,7 +16,7 @@ use crate::stats::ranking::{RankedFilter, RankedScore, rank_by_score};
 use crate::{Case, Error, Headline, InputFormat, Run};
 
 /// Version of the layout of a file of results.
-pub const RESULTS_FORMAT: u32 = 1;
+pub const RESULTS_FORMAT: u32 = 2;
 
 /// Significant digits of a kept score.
 const DIGITS: usize = 5;

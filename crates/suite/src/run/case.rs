@@ -11,6 +11,7 @@ use tracer::{Family, FrameRate};
 use crate::InputFormat;
 use crate::filter::choice::overrides_text;
 use crate::ingest::engine_scene::engine_name;
+use crate::render::ladders::SHARP;
 
 /// Confidence intervals of scores, by the names of their metrics.
 pub type Intervals = BTreeMap<String, Interval>;
@@ -106,6 +107,11 @@ impl Case {
     /// Names the case as tables and folders do: `jump_flood:paper`, followed by what is not as usual.
     pub fn name(&self) -> String {
         self.name_with(&overrides_text(&self.overrides))
+    }
+
+    /// Tells whether it is the reference that is a sharp picture of the shutter's middle, where the frame is not that.
+    pub fn is_sharp(&self) -> bool {
+        self.is_reference && self.filter == ACCUMULATE && self.preset == SHARP.to_string()
     }
 
     /// Names the case without its overrides, so that runs with and without them compare.

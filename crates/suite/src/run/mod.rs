@@ -21,7 +21,7 @@ use self::overall::Overall;
 use self::sequence::{Frames, Sequence};
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
-pub const FORMAT: u32 = 5;
+pub const FORMAT: u32 = 6;
 
 /// A finished run: `run.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]

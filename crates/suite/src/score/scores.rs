@@ -4,6 +4,7 @@ use frame::{Frame, Image, Ladder, Picture, Truth, display_srgb, scene_linear};
 use metrics::{ImageScores, MeasureError, Measured, Metric, Reference, Scores};
 
 use super::finished_picture::FinishedPicture;
+use crate::render::ladders::{SHARP, sharp_picture};
 use crate::render::scatter_oracle::make_oracle;
 
 const NO_MATTES: &str = "the picture has no mattes, channels coverage.<object> that say which share of a pixel it gives \
@@ -27,8 +28,17 @@ pub fn score(
 ) -> Result<Scored, MeasureError> {
     let oracle = make_oracle(frame, truth);
     let frame = frame.cropped();
-    let reference =
-        Reference::new(&frame, truth, ladder, &frame.display.into())?.with_best(&oracle)?;
+    let mut reference = Reference::new(&frame, truth, ladder, &frame.display.into())?;
+    let sharp = || {
+        let mut rungs = ladder.iter().flat_map(|ladder| &ladder.rungs);
+        rungs
+            .find(|rung| rung.subframes == SHARP)
+            .cloned()
+            .ok_or(())
+    };
+    if let Ok(sharp) = sharp_picture(&frame, truth, sharp) {
+        reference = reference.with_ends(&sharp, &oracle)?;
+    }
     // No colour's score looks at mattes, and those of mattes are taken out below.
     let mattes = finished.mattes.as_ref().unwrap_or(&frame.coverage);
     let measure = |color: Image| {

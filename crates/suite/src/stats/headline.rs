@@ -159,19 +159,21 @@ impl Headline {
     }
 
     /// Returns the weight of the case's scene in a mean over scenes: for a skill what the one-frame oracle takes away from the
-    /// error of doing nothing, and 1 for any other score. None where `cases`, those of its run, lack the reference pictures.
+    /// error of no blur, and 1 for any other score. None where `cases`, those of its run, lack the reference pictures.
     pub fn weight(self, case: &Case, cases: &[Case]) -> Option<f64> {
         let Self::Metric(Metric::Skill(skill)) = self else {
             return Some(1.0);
         };
-        let error = |reference: &str| {
+        let error = |is_wanted: fn(&Case) -> bool| {
             let own = cases.iter().find(|own| {
-                (own.is_reference && own.filter == reference)
+                (own.is_reference && is_wanted(own))
                     && (&own.scene, &own.alignment) == (&case.scene, &case.alignment)
             });
             own?.scores.get(skill.error()).value()
         };
-        Some(error(IDENTITY)? - error(SCATTER_ORACLE)?)
+        // The frame is the sharp picture if its instant is the middle of the shutter.
+        let sharp = error(Case::is_sharp).or_else(|| error(|own| own.filter == IDENTITY));
+        Some(sharp? - error(|own| own.filter == SCATTER_ORACLE)?)
     }
 }
 

@@ -3,6 +3,7 @@
 pub mod bradley_terry;
 pub mod headline;
 pub mod intervals;
+pub mod lag;
 pub mod overall;
 pub mod paired_counts;
 pub mod preference_scale;

@@ -64,7 +64,7 @@ pub(super) fn trace_replicate_tiles(
     Ok(tiles)
 }
 
-/// Traces tiles of random rungs of a truth's ladder again; none where no ladder is kept.
+/// Traces tiles of random rungs of a truth's ladder again, among those that are kept.
 pub(super) fn trace_rung_tiles(
     work: &Work,
     settings: &RenderSettings,
@@ -72,14 +72,16 @@ pub(super) fn trace_rung_tiles(
 ) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let name = ladder_folder(truth.alignment);
     let folder = work.kept.folder.join(&name);
-    if !folder.exists() {
+    let kept = |rung: &u32| folder.join(rung_file(*rung)).exists();
+    let rungs: Vec<u32> = LADDER.into_iter().filter(kept).collect();
+    if rungs.is_empty() {
         return Ok(Vec::new());
     }
     let tracer = LadderTracer::new(work.scene, settings, truth, &LADDER)?;
     let mut chance = work.chance(&name);
     let mut tiles = Vec::new();
     for _ in 0..work.verification.tiles {
-        let rung = LADDER[chance.below(LADDER.len() as u32) as usize];
+        let rung = rungs[chance.below(rungs.len() as u32) as usize];
         let tile = chance.tile(settings.width, settings.height);
         let label = format!(
             "verifying {}, {rung} sub-frames, {}",
@@ -90,7 +92,7 @@ pub(super) fn trace_rung_tiles(
         let mut made = made.into_exr();
         work.compare(&path, tile, &made)?;
         tiles.push((work.shown(&path), tile));
-        for rung in LADDER.iter().filter(|_| tiles.len() == 1) {
+        for rung in rungs.iter().filter(|_| tiles.len() == 1) {
             made.set("subframes", rung);
             work.compare_attributes(&folder.join(rung_file(*rung)), &made)?;
         }
