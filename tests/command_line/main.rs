@@ -22,6 +22,7 @@ mod gallery;
 #[cfg(unix)]
 mod growth;
 mod guides;
+mod half_floats;
 mod hostile;
 mod import;
 mod ingest;

@@ -145,10 +145,11 @@ impl Scores {
                 Measured::NotApplicable { reason } => Some(format!("{}: {reason}", scores.object)),
             })
             .collect();
-        if self.objects.is_empty()
-            && let Measured::NotApplicable { reason } = &self.label_total_variation.mean
-        {
-            Measured::not_applicable(reason.as_str())
+        // One reason took all of them out.
+        let label = &self.label_total_variation.mean;
+        let mut objects = self.objects.iter();
+        if label.value().is_none() && objects.all(|scores| scores.get(object) == label) {
+            label.clone()
         } else if reasons.is_empty() {
             Measured::not_applicable(if moves {
                 "no object moves on screen"

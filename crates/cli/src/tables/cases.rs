@@ -5,6 +5,7 @@ use suite::{Case, Headline, Run, lag_text, printable};
 
 use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::Table;
+use super::missing::Missing;
 use super::scene_means::means_table;
 use crate::output::colors;
 
@@ -18,17 +19,25 @@ const CASE_COLUMNS: [Column; 7] = [
     ("N_eq", Headline::SUBFRAMES),
 ];
 
-/// Makes the table of a run: its cases, and means over the scenes. A score that does not apply is `n/a`.
+/// Title of FLIP against the shutter that all cases are compared with.
+const COMMON_FLIP: &str = "FLIP*";
+
+/// Makes the table of a run: its cases, and means over the scenes. A score that does not apply is `n/a`, and a note says why.
 pub fn run_table(run: &Run) -> String {
-    let mut table = case_table("scene / filter", &["noise", "FLIP*"]);
+    let mut table = case_table("scene / filter", &["noise", COMMON_FLIP]);
+    let mut missing = Missing::default();
     for scene in list_once(run.cases.iter().map(|case| case.scene.as_str())) {
         let of_scene = || run.cases.iter().filter(|case| case.scene == scene);
         for alignment in list_once(of_scene().map(|case| case.alignment.as_str())) {
             table.push_text(&colors::heading(&format!("{scene}, {alignment} shutter")));
             for case in of_scene().filter(|case| case.alignment == alignment) {
-                let mut cells =
-                    case_cells(&bracket_name(&case.name(), case.is_reference), &case.scores);
+                let row = bracket_name(&case.name(), case.is_reference);
+                let mut cells = case_cells(&row, &case.scores);
                 cells.extend([noise_cell(case), Headline::CommonFlip.text(case)]);
+                let columns = CASE_COLUMNS.into_iter();
+                for (title, headline) in columns.chain([(COMMON_FLIP, Headline::CommonFlip)]) {
+                    missing.note(title, &headline.measured(case), [scene, &row]);
+                }
                 table.push_styled(cells, row_style(case.is_reference));
             }
         }
@@ -38,7 +47,14 @@ pub fn run_table(run: &Run) -> String {
         run.common_alignment
     );
     let lag = lag_text(&run.cases).map_or(String::new(), |lag| legend_text(&lag));
-    table.text() + &legend_text(&legend) + &lag + &means_table(&run.overall)
+    [
+        table.text(),
+        legend_text(&legend),
+        lag,
+        missing.text(),
+        means_table(&run.overall),
+    ]
+    .concat()
 }
 
 /// Meaning of titles and marks.

@@ -13,6 +13,7 @@ pub mod input_forms;
 pub mod jobs;
 pub mod layout;
 pub mod listing;
+pub mod missing;
 pub mod preferences;
 pub mod ranking;
 pub mod results_filter_page;

@@ -25,6 +25,7 @@ mod trial;
 mod uniforms;
 mod uploaded_input;
 mod waiting;
+mod wide_colors;
 
 pub use adapter::list_adapters;
 pub use blur::Blur;

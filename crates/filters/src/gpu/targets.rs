@@ -86,7 +86,7 @@ fn describe_targets<'f>(
 }
 
 /// Finds the format of the output: that in which a shader stores it, or that of the convention for render targets.
-fn output_format(filter: &Filter) -> Format {
+pub(super) fn output_format(filter: &Filter) -> Format {
     let variables = filter.shaders.iter().flat_map(|shader| &shader.variables);
     let stored = variables.filter(|variable| variable.resource == "output");
     let mut stored = stored.filter_map(|variable| match variable.role {

@@ -50,6 +50,18 @@ pub(crate) enum Code {
     Module(Box<Module>),
 }
 
+impl Code {
+    /// Returns the kernels as a module of their own.
+    pub fn to_module(&self) -> Module {
+        match self {
+            Self::Wgsl(text) => {
+                front::wgsl::parse_str(text).expect("the kernels were parsed when loaded")
+            }
+            Self::Module(module) => (**module).clone(),
+        }
+    }
+}
+
 impl Default for Code {
     fn default() -> Self {
         Self::Wgsl(String::new())

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use wgpu::naga::{
     AddressSpace, AtomicFunction, BinaryOperator, Block, EntryPoint, Expression, Function,
     FunctionArgument, FunctionResult, GlobalVariable, Handle, Literal, MemoryDecorations, Module,
-    Range, ResourceBinding, Scalar, Span, Statement, StorageAccess, Type, TypeInner, front,
+    Range, ResourceBinding, Scalar, Span, Statement, StorageAccess, Type, TypeInner,
 };
 
 use super::declarations::Code;
@@ -17,12 +17,7 @@ pub(crate) fn count_loop_iterations(
     binding: u32,
     least: u32,
 ) -> wgpu::ShaderSource<'static> {
-    let mut module = match code {
-        Code::Wgsl(text) => {
-            front::wgsl::parse_str(text).expect("the kernels were parsed when loaded")
-        }
-        Code::Module(module) => (**module).clone(),
-    };
+    let mut module = code.to_module();
     let counter = Counter::declare(&mut module, binding);
     let functions = module.functions.iter_mut().map(|(_, function)| function);
     let entries = module.entry_points.iter_mut();

@@ -9,6 +9,7 @@ mod noise;
 mod resource_usage;
 mod source;
 mod stack;
+mod storage_formats;
 mod texel;
 mod uniform;
 mod variable;

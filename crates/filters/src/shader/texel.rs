@@ -1,6 +1,7 @@
 //! Texels of textures, as filter.toml and kernels declare them.
 
 use serde::{Deserialize, Serialize};
+use wgpu::naga::StorageFormat;
 
 /// Texel format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -89,6 +90,33 @@ impl Format {
             | Self::Rg11b10Ufloat => 4,
             Self::Rg32Float | Self::Rgba16Float => 8,
             Self::Rgba32Float => 16,
+        }
+    }
+
+    /// Returns the format of a storage texture.
+    pub(crate) fn stored(self) -> StorageFormat {
+        match self {
+            Self::R32Uint => StorageFormat::R32Uint,
+            Self::R32Float => StorageFormat::R32Float,
+            Self::Rg32Float => StorageFormat::Rg32Float,
+            Self::Rgba32Float => StorageFormat::Rgba32Float,
+            Self::R16Float => StorageFormat::R16Float,
+            Self::Rg16Float => StorageFormat::Rg16Float,
+            Self::Rgba16Float => StorageFormat::Rgba16Float,
+            Self::R8Unorm => StorageFormat::R8Unorm,
+            Self::Rgba8Unorm => StorageFormat::Rgba8Unorm,
+            Self::Rgb10a2Unorm => StorageFormat::Rgb10a2Unorm,
+            Self::Rg11b10Ufloat => StorageFormat::Rg11b10Ufloat,
+        }
+    }
+
+    /// Returns the format of as many floats of 32 bits; formats of other numbers than floats stay.
+    pub(crate) fn widened(self) -> Self {
+        match self {
+            Self::R16Float => Self::R32Float,
+            Self::Rg16Float => Self::Rg32Float,
+            Self::Rgba16Float | Self::Rg11b10Ufloat => Self::Rgba32Float,
+            _ => self,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use wgpu::naga::{
     AddressSpace, GlobalVariable, Handle, ImageClass, ImageDimension, Module, ScalarKind,
-    StorageAccess, StorageFormat, TypeInner,
+    StorageAccess, TypeInner,
 };
 
 use super::source::Source;
@@ -111,21 +111,10 @@ pub(crate) fn find_image_role(class: ImageClass) -> Option<Role> {
             multi: false,
         } => Some(Role::Read(Texel::Uint)),
         ImageClass::Storage { format, access } if access == StorageAccess::STORE => {
-            let format = match format {
-                StorageFormat::R32Uint => Format::R32Uint,
-                StorageFormat::R32Float => Format::R32Float,
-                StorageFormat::Rg32Float => Format::Rg32Float,
-                StorageFormat::Rgba32Float => Format::Rgba32Float,
-                StorageFormat::R16Float => Format::R16Float,
-                StorageFormat::Rg16Float => Format::Rg16Float,
-                StorageFormat::Rgba16Float => Format::Rgba16Float,
-                StorageFormat::R8Unorm => Format::R8Unorm,
-                StorageFormat::Rgba8Unorm => Format::Rgba8Unorm,
-                StorageFormat::Rgb10a2Unorm => Format::Rgb10a2Unorm,
-                StorageFormat::Rg11b10Ufloat => Format::Rg11b10Ufloat,
-                _ => return None,
-            };
-            Some(Role::Write(format))
+            let mut known = Format::ALL.into_iter();
+            known
+                .find(|known| known.stored() == format)
+                .map(Role::Write)
         }
         _ => None,
     }

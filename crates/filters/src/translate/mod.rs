@@ -102,7 +102,11 @@ pub(crate) fn specialise(
     let specialised = guard(&made.path, || {
         let constants = list_constants(filter, shader, settings);
         let open = read(filter, shader, &made.path, compiled, &constants)?;
-        bind(filter, shader, &made.path, open, &constants)
+        let bound = bind(filter, shader, &made.path, open, &constants)?;
+        let kept = |name: &str, format| made.stored_format(name).unwrap_or(format);
+        Ok(bound
+            .store_as(&kept)
+            .expect("it stored so with other constants"))
     })?;
     Ok(Shader {
         compiled: made.compiled.clone(),

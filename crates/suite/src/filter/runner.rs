@@ -60,6 +60,18 @@ impl<'g> Runner<'g> {
         })
     }
 
+    /// Makes a filter ready whose colours are rounded nowhere that the suite chooses the format, for numbers that are no colours; none
+    /// where [`Runner::new`] makes that already, and where the adapter cannot.
+    pub fn with_wide_colors(
+        gpu: Option<&'g Gpu>,
+        choice: &FilterChoice,
+        (width, height): (u32, u32),
+    ) -> Option<Self> {
+        let (gpu, wide) = (gpu?, choice.filter.widen_colors()?);
+        let blur = Blur::new(gpu, &wide, &choice.settings, width, height);
+        Some(Self::Kernels(Box::new(blur.ok()?)))
+    }
+
     /// Makes a program ready.
     pub fn command(
         filter: &Filter,

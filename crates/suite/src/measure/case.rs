@@ -140,8 +140,10 @@ impl CaseContext<'_> {
         let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
         let ended = self.plan.monitor.ended;
         ended("filter made ready");
+        let mut wide = Runner::with_wide_colors(self.gpu, choice, frame.size());
         let mut output = blur_with_probes(
             &mut runner,
+            wide.as_mut(),
             frame,
             (before, self.scene.frame_index()),
             picture,
@@ -315,9 +317,15 @@ fn measure_output(
 fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Measurement) {
     let scores = &mut measurement.scores;
     if output.nonlinearity > MOST_NONLINEARITY {
+        let found = match output.is_rounded {
+            true => {
+                "the filter writes 16-bit floats, whose rounding hides what it gathers; let it write 32-bit floats"
+            }
+            false => "the filter's weights depend on colour",
+        };
         let reason = format!(
-            "the filter's weights depend on colour: the blur of a mixture differs from the mixture of the blurs by {:.4} \
-             of what the blur changes, {MOST_NONLINEARITY} at most allow to tell what it gathers",
+            "{found}: the blur of a mixture differs from the mixture of the blurs by {:.4} of what the blur changes; \
+             allowed: at most {MOST_NONLINEARITY}",
             output.nonlinearity
         );
         scores.take_out_mattes(&reason);

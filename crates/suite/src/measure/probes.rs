@@ -16,14 +16,18 @@ pub(crate) struct FilterOutput {
     /// Difference between the blur of a mixture and the mixture of the blurs, relative to what the blur changes (root mean
     /// square): 0 for a filter whose weights do not depend on colour.
     pub nonlinearity: f64,
+    /// True if the probes came out as 16-bit floats.
+    pub is_rounded: bool,
 }
 
 /// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
-/// probes, and on a mixture of colour and probe, with the noise of one frame. `before` is the frame before, for filters with history; each of
+/// probes, and on a mixture of colour and probe, with the noise of one frame. All but the picture comes from `wide`, the filter with
+/// colours of 32 bits, if there is one. `before` is the frame before, for filters with history; each of
 /// its pictures takes the place of that of the frame. The output is upscaled to `picture` where the frame shows it smaller. `ended`
 /// hears of the end of each part.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
+    wide: Option<&mut Runner>,
     frame: &Frame,
     (before, frame_index): (&Frame, u32),
     picture: [u32; 2],
@@ -44,27 +48,46 @@ pub(crate) fn blur_with_probes(
     let mut colors_before = vec![&before.color, &probes[0], &probes[1], &mixture_before];
     colors_before.extend(&mattes_before);
     ended("mattes and probes");
-    let now = Input {
-        frame_index,
-        ..input(frame, &colors)
+    let run = |runner: &mut Runner, count: usize| {
+        let now = Input {
+            frame_index,
+            ..input(frame, &colors[..count])
+        };
+        let outputs = runner.run_after(&now, &input(before, &colors_before[..count]))?;
+        Ok::<_, FilterError>(crop_all(outputs, frame.guard_band))
     };
-    let outputs = runner.run_after(&now, &input(before, &colors_before))?;
+    let (color, outputs) = match wide {
+        None => (None, run(runner, colors.len())?),
+        Some(wide) => {
+            let color = run(runner, 1)?.remove(0);
+            (Some(color), run(wide, colors.len())?)
+        }
+    };
     ended("kernels: colour, probes, mattes");
-    let outputs = crop_all(outputs, frame.guard_band);
     let nonlinearity = nonlinearity(
         &mixture.cropped(frame.guard_band),
         &outputs[3],
         &mix(&outputs[0], &outputs[1]),
     );
+    let is_rounded = outputs[1..3].iter().all(has_half_floats);
     let outputs = upscale_all(outputs, picture);
+    let color = color.map(|color| upscale_all(vec![color], picture).remove(0));
     Ok(FilterOutput {
         nonlinearity,
+        is_rounded,
         probes: Probes::of([&outputs[1], &outputs[2]]),
         picture: Picture {
-            color: outputs[0].clone(),
+            color: color.unwrap_or_else(|| outputs[0].clone()),
             coverage: unpack(&outputs[4..], frame.coverage.len()),
         },
     })
+}
+
+/// Returns true if 16-bit floats hold all values.
+fn has_half_floats(image: &Image) -> bool {
+    // The last 13 of the 23 bits of a mantissa.
+    let is_half = |value: &f32| value.to_bits() & 0x1fff == 0;
+    image.pixels.iter().flatten().all(is_half)
 }
 
 /// Mixes half of one and a hundredth of the other, whose values are some hundred times as large.

@@ -86,11 +86,6 @@ pub fn missing_scores(scores: &Scores) -> Vec<(String, Vec<Metric>)> {
         let Measured::NotApplicable { reason } = scores.get(metric) else {
             continue;
         };
-        // Objects give their reasons one by one.
-        let reason = match reason.contains(NO_MATTES) {
-            true => NO_MATTES.to_owned(),
-            false => reason,
-        };
         match missing.iter_mut().find(|(known, _)| *known == reason) {
             Some((_, metrics)) => metrics.push(metric),
             None => missing.push((reason, vec![metric])),

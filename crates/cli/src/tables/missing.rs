@@ -1,0 +1,78 @@
+//! Notes below a table that say why scores are `n/a`.
+
+use metrics::Measured;
+use suite::printable;
+
+use super::columns::legend_text;
+
+/// Scores that a table lacks, by their reasons.
+#[derive(Default)]
+pub struct Missing(Vec<Reason>);
+
+/// A reason, and the scores and rows that it takes out.
+struct Reason {
+    text: String,
+    titles: Vec<&'static str>,
+    /// Headings of the rows.
+    groups: Vec<String>,
+    rows: Vec<String>,
+}
+
+/// Rows that a note names; more are counted.
+const MOST_NAMED: usize = 3;
+
+impl Missing {
+    /// Adds a score of a row below a heading, if it does not apply.
+    pub fn note(&mut self, title: &'static str, measured: &Measured, [group, row]: [&str; 2]) {
+        let Measured::NotApplicable { reason } = measured else {
+            return;
+        };
+        let known = self.0.iter().position(|known| known.text == *reason);
+        let index = known.unwrap_or_else(|| {
+            self.0.push(Reason {
+                text: reason.clone(),
+                titles: Vec::new(),
+                groups: Vec::new(),
+                rows: Vec::new(),
+            });
+            self.0.len() - 1
+        });
+        let known = &mut self.0[index];
+        if !known.titles.contains(&title) {
+            known.titles.push(title);
+        }
+        for (names, name) in [(&mut known.groups, group), (&mut known.rows, row)] {
+            if !names.iter().any(|own| own == name) {
+                names.push(name.to_owned());
+            }
+        }
+    }
+
+    /// Makes one note for each reason: `grow, loss n/a on fan: no object translates`.
+    pub fn text(&self) -> String {
+        let note = |reason: &Reason| {
+            let place = match reason.rows.len() {
+                0..=MOST_NAMED => format!("{} on {}", reason.rows.join(", "), list(&reason.groups)),
+                rows => format!("{rows} rows on {}", list(&reason.groups)),
+            };
+            let text = format!(
+                "n/a: {} of {place}: {}",
+                reason.titles.join(", "),
+                reason.text
+            );
+            legend_text(&printable(&text))
+        };
+        self.0.iter().map(note).collect()
+    }
+}
+
+fn list(names: &[String]) -> String {
+    match names.len() {
+        0..=MOST_NAMED => names.join(", "),
+        count => format!(
+            "{} and {} more",
+            names[..MOST_NAMED].join(", "),
+            count - MOST_NAMED
+        ),
+    }
+}

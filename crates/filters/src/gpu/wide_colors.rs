@@ -1,0 +1,53 @@
+//! Filters whose colours keep 32 bits, for numbers that a format would round.
+
+use std::collections::BTreeSet;
+
+use super::dependence::find_color_dependent;
+use super::targets::output_format;
+use crate::filter::History;
+use crate::{Filter, Format};
+
+impl Filter {
+    /// Returns the filter with 32-bit floats for the colour, the output, and the textures of floats that depend on colour. Velocity,
+    /// depth and what is made of them alone keep their formats, and so the weights stay as they are. None if all of that has 32
+    /// bits already, and if a shader cannot store it so.
+    pub fn widen_colors(&self) -> Option<Self> {
+        let colored = self.list_colored();
+        let widen = |name: &str, format: Format| match colored.contains(name) {
+            true => format.widened(),
+            false => format,
+        };
+        let mut wide = self.clone();
+        wide.convention.color_format = None;
+        wide.convention.output_format = None;
+        for texture in &mut wide.textures {
+            texture.format = widen(&texture.name, texture.format);
+        }
+        for shader in &mut wide.shaders {
+            *shader = shader.store_as(&widen)?;
+        }
+        let formats = |filter: &Self| {
+            let declared = filter.textures.iter().map(|texture| texture.format);
+            let builtin = [
+                filter.convention.input_format("color"),
+                output_format(filter),
+            ];
+            builtin.into_iter().chain(declared).collect::<Vec<_>>()
+        };
+        (formats(self) != formats(&wide)).then_some(wide)
+    }
+
+    /// Lists the textures that hold what depends on colour.
+    fn list_colored(&self) -> BTreeSet<String> {
+        let dependent = self.passes.iter().zip(find_color_dependent(self));
+        let written = dependent
+            .filter(|(_, depends)| *depends)
+            .flat_map(|(pass, _)| self.entry_point(pass).writes.iter().cloned());
+        let builtin = ["color", History::Color.texture(), "output"];
+        builtin
+            .into_iter()
+            .map(str::to_owned)
+            .chain(written)
+            .collect()
+    }
+}
