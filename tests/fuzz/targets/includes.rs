@@ -20,8 +20,10 @@ pub static TARGET: Target = Target {
     },
     run: |place, input| {
         place.write("filter/filter.toml", MANIFEST);
+        // Compilers work on copies, from where a path that begins at the root leads there.
         let canary = place.folder.with_file_name("canary.txt");
-        let text = String::from_utf8_lossy(input).replace(OUTSIDE, &canary.to_string_lossy());
+        let outside = format!("{}{}", "../".repeat(12), canary.display());
+        let text = String::from_utf8_lossy(input).replace("@canary@", &outside);
         let mut parts = text.split("//// ");
         place.write("filter/blur.comp", parts.next().unwrap_or_default());
         for name in FILES {
@@ -44,9 +46,6 @@ pub static TARGET: Target = Target {
     },
 };
 
-/// Stands for the absolute path of a file outside of the folder: compilers work on copies, from where a relative path leads elsewhere.
-const OUTSIDE: &str = "@canary@";
-
 /// Files beside the shader.
 const FILES: [&str; 3] = ["top.h", "p/near.h", "p/q/deep.h"];
 
@@ -59,7 +58,7 @@ const TOKENS: &[&str] = &[
     "#define U \"//\"",
     "\"@canary@\"",
     "\"../../canary.txt\"",
-    "\"../../../../../../../..@canary@\"",
+    "\"/@canary@\"",
     "<@canary@>",
     "\"p/near.h\"",
     "\"p/q/deep.h\"",
@@ -84,5 +83,5 @@ const SEEDS: [&str; 6] = [
     "#version 450\n#extension GL_GOOGLE_include_directive : require\n#define U '\"'\n#include \"@canary@\"\n#define V '\"'\n",
     "#version 450\n#extension GL_GOOGLE_include_directive : require\n/* \" */ #include \"@canary@\" // \"\nvoid main() {}\n",
     "#version 450\n#extension GL_GOOGLE_include_directive : require\n#inc\\\nlude \"@canary@\"\nvoid main() {}\n",
-    "#version 450\n#extension GL_GOOGLE_include_directive : require\n#include \"p/q/deep.h\"\nvoid main() {}\n//// top.h\n#include \"@canary@\"\n//// p/q/deep.h\n#include \"../../top.h\"\n#include \"../../../../../../../../..@canary@\"\n",
+    "#version 450\n#extension GL_GOOGLE_include_directive : require\n#include \"p/q/deep.h\"\nvoid main() {}\n//// top.h\n#include \"@canary@\"\n//// p/q/deep.h\n#include \"../../top.h\"\n#include \"@canary@\"\n",
 ];
