@@ -22,7 +22,7 @@ pub(crate) struct RenderFile {
     pub hash: String,
 }
 
-/// Tells whether a file was rendered of these inputs. One that says that an engine drew it was not, whatever hash it has: the scene decides.
+/// Tells whether a file was rendered of these inputs. One that says that an engine drew it was not, whatever hash it has.
 pub(super) fn is_rendered_of(provenance: &Provenance, hash: &str) -> bool {
     provenance.content_hash == hash && provenance.engine.is_none()
 }
