@@ -109,6 +109,6 @@ fn renew_truth(bench: &Bench, out: &str) {
 }
 
 /// Lists the files of the truth's replicates in the folder of their scene.
-fn replicate_files() -> impl Iterator<Item = String> {
+fn replicate_files() -> impl Iterator<Item = String> + Clone {
     (0..REPLICATES).map(|index| format!("truth_trailing/replicate_{index:03}.exr"))
 }

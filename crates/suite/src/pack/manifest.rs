@@ -77,7 +77,8 @@ impl Manifest {
         let most = archive / LEAST_BYTES_PER_FILE;
         if self.files.len() as u64 > most {
             return Err(format!(
-                "{MANIFEST} names {} files in an archive of {archive} bytes; allowed: up to {most}, one for each {LEAST_BYTES_PER_FILE} bytes",
+                "{MANIFEST} names {} files in an archive of {archive} bytes; allowed: up to {most}, one for each \
+                 {LEAST_BYTES_PER_FILE} bytes",
                 self.files.len()
             ));
         }

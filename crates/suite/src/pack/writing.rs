@@ -31,11 +31,8 @@ pub fn write_pack(
 ) -> Result<Manifest, Error> {
     let mut files = list_contents(run, folder, scenes)?;
     // A killed process may have left a part of a pack.
-    remove_leftovers(
-        pack.parent()
-            .filter(|parent| **parent != *"")
-            .unwrap_or(Path::new(".")),
-    );
+    let beside = pack.parent().filter(|parent| **parent != *"");
+    remove_leftovers(beside.unwrap_or(Path::new(".")));
     let total = 2 * files.len() as u64;
     monitor.watch("packing", |watch| {
         let advance = |done: usize| {

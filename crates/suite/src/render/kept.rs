@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, read_attribute, rung_file};
+use frame::{Alignment, Provenance, read_attribute, rung_file};
 use tracer::{RenderSettings, Scene};
 
 use super::ladders::{ladder_folder, ladder_hash, needed_rungs};
@@ -20,6 +20,11 @@ pub(crate) struct RenderFile {
     pub below: PathBuf,
     /// Hash of its inputs.
     pub hash: String,
+}
+
+/// Tells whether a file was rendered of these inputs. One that says that an engine drew it was not, whatever hash it has.
+pub(super) fn is_rendered_of(provenance: &Provenance, hash: &str) -> bool {
+    provenance.content_hash == hash && provenance.engine.is_none()
 }
 
 /// Lists the frame of a scene, and its truths with their replicates, and with the rungs of their ladders that measuring needs: all

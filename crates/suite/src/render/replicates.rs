@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use frame::{Alignment, FileError, Replicate, Truth, read_attribute, truth_hash};
 use tracer::{RenderSettings, Scene, TruthTracer};
 
+use super::kept::is_rendered_of;
 use crate::{Error, Monitor};
 
 /// The place of one truth's replicates, and the hash of their inputs.
@@ -77,13 +78,15 @@ impl ReplicateFiles {
     /// Reads the truth of this many of these replicates; none where the file is missing, broken or made from other inputs.
     pub(super) fn read_truth(&self, replicates: u32) -> Option<Truth> {
         let found = (self.has_truth(replicates)).then(|| Truth::read(&self.truth_path()))?;
-        found.ok()
+        let hash = truth_hash(&self.hash, replicates);
+        (found.ok()).filter(|found| is_rendered_of(&found.provenance, &hash))
     }
 
     /// Reads a replicate; none where it is missing, broken or made from other inputs.
     pub(super) fn read(&self, index: u32) -> Option<Replicate> {
         let found = Replicate::read(&self.path(index)).ok()?;
-        (found.provenance.content_hash == self.hash && found.index == index).then_some(found)
+        let is_own = is_rendered_of(&found.provenance, &self.hash) && found.index == index;
+        is_own.then_some(found)
     }
 
     /// Names the file of a replicate.
