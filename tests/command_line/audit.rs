@@ -13,7 +13,7 @@ fn a_right_capture_passes_and_is_listed_object_by_object() {
     let told = stdout(&output);
     assert_eq!(output.status.code(), Some(0), "{told}{}", stderr(&output));
     assert!(
-        told.contains("PASS: velocity and depth are right"),
+        told.contains("PASS: velocity, depth and colour are right"),
         "{told}"
     );
     for name in [
@@ -90,4 +90,74 @@ fn an_audit_needs_the_scene_and_its_instant() {
     refuse(&["instant = 0.5; allowed for an audit: 0"]);
     fs::remove_file(capture.path("velocity.exr")).unwrap();
     refuse(&["velocity.exr: there is no such file"]);
+}
+
+/// Audits a capture, and returns the exit code and the words of the output.
+fn audit(bench: &Bench) -> (Option<i32>, String) {
+    let output = bench.shuttertruth(&split("audit capture"));
+    let told = stdout(&output);
+    let words: Vec<&str> = told.split_whitespace().collect();
+    (output.status.code(), words.join(" "))
+}
+
+#[test]
+fn a_capture_of_another_frame_is_undecided_with_ids_and_without() {
+    let bench = Bench::new();
+    let capture = Capture::at(&bench, -1.0);
+    for by in ["by their ids", "by their depth"] {
+        let (code, told) = audit(&bench);
+        assert_eq!(code, Some(2), "{told}");
+        for words in [
+            by,
+            "- picture is drawn one frame late; draw the time `instant` of manifest.json",
+            "UNDECIDED: the capture does not show the scene as it is at the instant",
+        ] {
+            assert!(told.contains(words), "{words}: {told}");
+        }
+        let _ = fs::remove_file(capture.path("object.exr"));
+    }
+}
+
+#[test]
+fn an_object_that_is_elsewhere_is_undecided_though_most_pixels_agree() {
+    let bench = Bench::new();
+    // Between two frames, which no cause explains.
+    let capture = Capture::at(&bench, -0.37);
+    for by in ["by its ids", "by its depth"] {
+        let (code, told) = audit(&bench);
+        assert_eq!(code, Some(2), "{told}");
+        for words in [
+            "- picture of `plate` shows other things",
+            by,
+            "needed: 90 %",
+            " plate ",
+        ] {
+            assert!(told.contains(words), "{words}: {told}");
+        }
+        let _ = fs::remove_file(capture.path("object.exr"));
+    }
+    let json = fs::read_to_string(bench.path("out/audit/capture/audit.json")).unwrap();
+    let audit: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(audit["shows_scene"], false);
+    assert!(audit["alike"].as_f64().unwrap() > 0.9, "{json}");
+    assert!(
+        audit["objects"][1]["shown"].as_f64().unwrap() < 0.9,
+        "{json}"
+    );
+}
+
+#[test]
+fn a_black_object_of_an_unlit_scene_fails() {
+    let bench = Bench::new();
+    let capture = Capture::new(&bench);
+    let color = (capture.frame.color).zip(&capture.frame.object_id, |color, id| match id {
+        0 => *color,
+        _ => [0.0; 3],
+    });
+    capture.write_color("color.exr", &color);
+    let (code, told) = audit(&bench);
+    assert_eq!(code, Some(1), "{told}");
+    let words =
+        "- colour of `plate` is (0.000, 0.000, 0.000) in the mean, not (0.700, 0.400, 0.200)";
+    assert!(told.contains(words), "{told}");
 }

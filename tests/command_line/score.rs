@@ -67,7 +67,39 @@ fn score_repeats_the_scores_of_a_run() {
         "{}",
         stdout(&output)
     );
-    assert!(!stdout(&output).contains("mattes"), "{}", stdout(&output));
+    let text = stdout(&output);
+    assert!(!text.contains("has no mattes"), "{text}");
+}
+
+#[test]
+fn mattes_that_a_file_gives_are_said_to_be_given() {
+    let bench = Bench::new();
+    run(&bench, &[]);
+    // A grey picture with the truth's own mattes.
+    let mut file = read_exr(&bench.path(TRUTH[1])).unwrap();
+    file.attributes.clear();
+    let grey = file.color("").unwrap().map(|_| [0.3; 3]);
+    file.channels
+        .retain(|channel| channel.name.starts_with("coverage."));
+    file.push_color("", &grey);
+    write_exr(&bench.path("grey.exr"), &file).unwrap();
+    assert_eq!(
+        scores(&bench, "grey.exr", &[])
+            .get("label_tv".parse().unwrap())
+            .value(),
+        Some(0.0)
+    );
+    let note = "grey.exr: its mattes, channels coverage.<object>, were given with the picture and not measured";
+    let text = stdout(&score(&bench, "grey.exr", &[]));
+    assert!(text.contains(note), "{text}");
+    let notes = |image: &str| {
+        let output = score(&bench, image, &["--json"]);
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        json["notes"].to_string()
+    };
+    assert!(notes("grey.exr").contains("given with the picture and not measured"));
+    without_mattes(&bench, "grey.exr", "bare.exr");
+    assert!(!notes("bare.exr").contains("mattes"));
 }
 
 #[test]

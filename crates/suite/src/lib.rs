@@ -29,7 +29,8 @@ mod tune;
 mod verify;
 
 pub use audit::{
-    CaptureAudit, Cause, Defect, DepthAudit, ObjectAudit, audit_capture, write_audit_picture,
+    Buffer, CaptureAudit, Cause, Defect, DepthAudit, ObjectAudit, ObjectShown, audit_capture,
+    write_audit_picture,
 };
 pub use bench::{
     BASELINE, BENCH_FORMAT, Bench, BenchPlan, CaseCost, GROWTH_FROM, REACHES, ReachCost,

@@ -337,6 +337,14 @@ impl Scene {
         }
     }
 
+    /// Tells whether every surface sends out its own colour alone, whatever light falls on it.
+    pub fn is_unlit(&self) -> bool {
+        self.materials.iter().all(|own| {
+            let is_glass = own.translucency.is_some_and(|own| own.glass.is_some());
+            own.finish == Finish::Diffuse && own.diffuse == Vec3::ZERO && !is_glass
+        })
+    }
+
     /// Takes the camera's lens away: everything is sharp.
     pub fn pinhole(self) -> Self {
         let camera = Camera {

@@ -15,28 +15,33 @@ impl Scene {
     /// Renders of a later frame refuse times at which the scene is not defined; see [`TraceError::Undefined`].
     pub fn at_frame(&self, frame: u32) -> Self {
         assert_eq!(self.frame, 0, "frames are counted from the scene's own");
-        let mut scene = self.clone();
         if frame == 0 {
-            return scene;
+            return self.clone();
         }
-        let later = f64::from(frame);
-        let objects = scene.objects.iter_mut().map(|object| &mut object.motion);
-        for motion in objects.chain([&mut scene.camera.motion]) {
-            for key in &mut motion.keys {
-                key.time -= later;
-            }
-        }
-        for (time, _) in &mut scene.camera.vertical_fov {
-            *time -= later;
-        }
-        for shape in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.shapes) {
-            shape.time -= later;
-        }
+        let mut scene = self.clone().later_by(f64::from(frame));
         scene.frame = frame;
         scene.name = self.name_at_frame(frame);
         let text = format!("{} at frame {frame}", self.hash);
         scene.hash = blake3::hash(text.as_bytes()).to_hex().to_string();
         scene
+    }
+
+    /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its name and its hash stay: nothing that is made
+    /// of it may be kept in files.
+    pub fn later_by(mut self, later: f64) -> Self {
+        let objects = self.objects.iter_mut().map(|object| &mut object.motion);
+        for motion in objects.chain([&mut self.camera.motion]) {
+            for key in &mut motion.keys {
+                key.time -= later;
+            }
+        }
+        for (time, _) in &mut self.camera.vertical_fov {
+            *time -= later;
+        }
+        for shape in self.meshes.iter_mut().flat_map(|mesh| &mut mesh.shapes) {
+            shape.time -= later;
+        }
+        self
     }
 
     /// Names a later frame: `fan/0003`. It is the path of its files as well.

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 
 use frame::{
     Alignment, Channel, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Raster, Samples,
-    VelocityKind, write_exr, write_half_exr,
+    VelocityKind, read_exr, write_exr, write_half_exr,
 };
-use tracer::{RenderSettings, Scene, load_scene, trace_frame};
+use tracer::{RenderSettings, load_scene, trace_frame};
 
 use crate::bench::Bench;
 
@@ -45,9 +45,14 @@ pub struct Capture<'a> {
 impl<'a> Capture<'a> {
     /// Writes the instant: half floats, as most engines have them.
     pub fn new(bench: &'a Bench) -> Self {
+        Self::at(bench, 0.0)
+    }
+
+    /// Writes another time than the instant.
+    pub fn at(bench: &'a Bench, time: f64) -> Self {
         let capture = Self {
             bench,
-            frame: render_instant(bench, 0.0),
+            frame: render_instant(bench, time),
         };
         fs::create_dir(bench.path("capture")).unwrap();
         capture.write("capture.toml", DESCRIPTION);
@@ -125,6 +130,14 @@ impl<'a> Capture<'a> {
         self.write_picture(name, color, None);
     }
 
+    /// Reads colour as [`Capture::write_color`] wrote it.
+    pub fn read_color(&self, name: &str) -> Image {
+        let file = read_exr(&self.path(name)).unwrap();
+        file.color("")
+            .unwrap()
+            .map(|pixel| pixel.map(|value| 0.5 * value))
+    }
+
     /// Writes colour, and the ids of objects as floats, -1 for the background.
     pub fn write_picture(&self, name: &str, color: &Image, ids: Option<&Raster<u32>>) {
         let mut file = ExrFile::new(color.width, color.height);
@@ -139,12 +152,8 @@ impl<'a> Capture<'a> {
 
 /// Renders the plate as it is at a time.
 fn render_instant(bench: &Bench, time: f64) -> Frame {
-    let mut scene: Scene = load_scene(bench.path("scenes/plate"), None).unwrap();
-    for object in &mut scene.objects {
-        for key in &mut object.motion.keys {
-            key.time -= time;
-        }
-    }
+    let scene = load_scene(bench.path("scenes/plate"), None).unwrap();
+    let scene = scene.later_by(time);
     let settings = RenderSettings {
         width: WIDTH,
         height: HEIGHT,

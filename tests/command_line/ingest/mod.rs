@@ -1,6 +1,7 @@
 //! `ingest`: what an engine drew, measured as our own scenes are.
 
 pub mod capture;
+mod picture;
 mod refusals;
 mod use_of_folders;
 

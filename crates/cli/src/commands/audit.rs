@@ -13,7 +13,7 @@ use crate::arguments::AuditArgs;
 use crate::output::print::{print, print_note};
 use crate::tables::audit::audit_table;
 
-/// Compares an engine's velocity and depth with the scene's; fails if anything is wrong.
+/// Compares what an engine drew with the scene; fails if anything is wrong, and decides nothing if the engine shows something else.
 pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     let capture = Capture::read(&args.capture, args.convention.as_deref())?;
     for note in &capture.notes {
@@ -41,11 +41,14 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
         true => print(&format!("{json}\n"))?,
         false => print(&describe(&audit, &out))?,
     }
-    Ok(match audit.findings.len() {
-        0 => Ending::Done,
-        count => Ending::Failed(Error::Broken(format!(
-            "{count} findings in {}",
-            printable_path(&args.capture)
+    let count = audit.findings.len();
+    let place = printable_path(&args.capture);
+    Ok(match (count, audit.shows_scene) {
+        (0, _) => Ending::Done,
+        (_, true) => Ending::Failed(Error::Broken(format!("{count} findings in {place}"))),
+        (_, false) => Ending::Failed(Error::Usage(format!(
+            "{place} does not show {} as it is at the instant",
+            audit.scene
         ))),
     })
 }

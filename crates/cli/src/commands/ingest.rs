@@ -16,6 +16,8 @@ use crate::output::progress::make_monitor;
 const LONG_STEP: f64 = 0.5;
 /// Change of the mean radiance from which it is said.
 const LEAST_GAIN: f64 = 0.01;
+/// Part of the pixels that change without velocity from which it is said: shadows and what comes out of hiding are few.
+const LEAST_RESTLESS: f64 = 0.03;
 
 /// Ingests a capture and prints what came of it, and what its truth can tell.
 pub fn execute(args: &IngestArgs) -> Result<(), Error> {
@@ -90,6 +92,22 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
             floors.join(", ")
         );
     }
+    if let Some(moving) = ingested.moving {
+        let restless = 100.0 * ingested.restless;
+        let _ = writeln!(
+            text,
+            "moving: {:.1} % of the pixels; {restless:.1} % change between sub-frames though no velocity reaches them",
+            100.0 * moving
+        );
+        if ingested.restless > LEAST_RESTLESS {
+            let _ = writeln!(
+                text,
+                "FOUND: the moving region has {restless:.1} % of the pixels too many if nothing moves there, and its scores are diluted; \
+                 draw all sub-frames with one seed, without grain and temporal effects; if things do move there, `audit` says whether \
+                 velocity is right"
+            );
+        }
+    }
     if let Some(truth) = &ingested.truth {
         let objects = match truth.objects.len() {
             1 => "none: the sub-frames have no ids, and there are no scores of objects".to_owned(),
@@ -100,12 +118,22 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     if scene.has_picture {
         let _ = writeln!(text, "picture: the engine's own blur, {folder}/blurred.exr");
     }
-    if let Some(gain) = ingested.gain.filter(|gain| (gain - 1.0).abs() > LEAST_GAIN) {
-        let change = if gain > 1.0 { "brighter" } else { "darker" };
-        let _ = writeln!(
-            text,
-            "FOUND: the engine's blur makes the picture {change}, {gain:.4} times where nothing moves; its weights should add up to 1"
-        );
+    match ingested.gain {
+        Some(gain) if (gain - 1.0).abs() > LEAST_GAIN => {
+            let change = if gain > 1.0 { "brighter" } else { "darker" };
+            let _ = writeln!(
+                text,
+                "FOUND: the engine's blur makes the picture {change}, {gain:.4} times where no velocity reaches; its weights should \
+                 add up to 1"
+            );
+        }
+        None if scene.has_picture => {
+            let _ = writeln!(
+                text,
+                "the gain of the engine's blur is not judged: velocity reaches every lit pixel"
+            );
+        }
+        _ => {}
     }
     let _ = writeln!(text, "written: {folder}");
     let dot = if out.is_relative() { "./" } else { "" };

@@ -1,42 +1,49 @@
 //! Table of an audit.
 
-use suite::CaptureAudit;
+use suite::{CaptureAudit, ObjectAudit, ObjectShown, engine_name};
 
 use super::columns::number_table;
 use crate::output::wrap::push_wrapped;
 
-/// Lists the error of velocity per object, then that of depth, then what is wrong.
+/// Lists, per object, what the engine shows of it and the error of its velocity, then the error of depth, then what is wrong.
 pub fn audit_table(audit: &CaptureAudit) -> String {
     let [width, height] = audit.size;
     let mut table = number_table(&[
-        "velocity, px per frame",
-        "pixels",
-        "speed",
-        "error",
-        "95 %",
-        "worst",
-        "at",
-        "scale",
+        "object", "pixels", "shown", "compared", "speed", "error", "95 %", "worst", "at", "scale",
     ]);
-    for object in &audit.velocity {
-        table.push(vec![
-            object.object.clone(),
-            object.pixels.to_string(),
-            format!("{:.2}", object.speed),
-            format!("{:.3}", object.median),
-            format!("{:.3}", object.p95),
-            format!("{:.3}", object.worst),
-            format!("{},{}", object.worst_at[0], object.worst_at[1]),
-            object
-                .scale
-                .map_or("n/a".to_owned(), |scale| format!("{scale:.3}")),
-        ]);
+    let mut compared = 0;
+    for ObjectShown {
+        object,
+        pixels,
+        shown,
+    } in &audit.objects
+    {
+        let mut row = vec![
+            object.clone(),
+            pixels.to_string(),
+            format!("{:.1} %", 100.0 * shown),
+        ];
+        match audit.velocity.iter().find(|own| own.object == *object) {
+            Some(velocity) => {
+                compared += velocity.pixels;
+                row.extend(list_errors(velocity));
+            }
+            None => row.extend(["0", "n/a", "n/a", "n/a", "n/a", "n/a", "n/a"].map(str::to_owned)),
+        }
+        table.push(row);
     }
+    let pixels = f64::from(width) * f64::from(height);
     let mut text = format!(
-        "{} drawn by {}, {width}x{height}: {:.1} % of the pixels show what the scene shows\n\n",
+        "{} drawn by {}, {width}x{height}: {:.1} % of the pixels show what the scene shows, by {}\nvelocity in pixels per frame, compared at {:.1} % of them\n\n",
         audit.scene,
-        audit.engine,
-        100.0 * audit.alike
+        engine_name(&audit.engine),
+        100.0 * audit.alike,
+        if audit.has_ids {
+            "their ids"
+        } else {
+            "their depth"
+        },
+        100.0 * compared as f64 / pixels,
     );
     text += &table.text();
     let depth = &audit.depth;
@@ -49,9 +56,27 @@ pub fn audit_table(audit: &CaptureAudit) -> String {
     for finding in &audit.findings {
         push_wrapped(&mut text, 2, &format!("- {}", finding.text));
     }
-    text += match audit.findings.is_empty() {
-        true => "PASS: velocity and depth are right\n",
-        false => "FAIL\n",
+    text += match (audit.findings.is_empty(), audit.shows_scene) {
+        (true, _) if audit.compares_color => "PASS: velocity, depth and colour are right\n",
+        (true, _) => "PASS: velocity and depth are right\n",
+        (false, true) => "FAIL\n",
+        (false, false) => {
+            "UNDECIDED: the capture does not show the scene as it is at the instant\n"
+        }
     };
     text
+}
+
+fn list_errors(object: &ObjectAudit) -> [String; 7] {
+    [
+        object.pixels.to_string(),
+        format!("{:.2}", object.speed),
+        format!("{:.3}", object.median),
+        format!("{:.3}", object.p95),
+        format!("{:.3}", object.worst),
+        format!("{},{}", object.worst_at[0], object.worst_at[1]),
+        object
+            .scale
+            .map_or("n/a".to_owned(), |scale| format!("{scale:.3}")),
+    ]
 }

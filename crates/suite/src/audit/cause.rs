@@ -1,8 +1,10 @@
-//! Causes of wrong vectors, in words.
+//! Causes of wrong pictures, in words.
 
 use serde::Serialize;
 
-/// Known cause of a wrong velocity or depth.
+use super::expected_motion::ANIMATION_RATE;
+
+/// Known cause of a wrong picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
@@ -44,6 +46,18 @@ pub enum Cause {
     ClippedAxes(f64),
     /// Steps of that many pixels.
     Steps(f64),
+    /// The motion over a part of a second, not over a frame of the exported animation: its denominator.
+    MotionOver(f64),
+    /// Rows from the bottom.
+    UpsideDown,
+    /// Drawn as the scene was that many frames before the instant.
+    DrawnLate(u32),
+    /// Drawn as the scene is that many frames after the instant.
+    DrawnEarly(u32),
+    /// A factor on radiance.
+    Brightness(f64),
+    /// The mean radiance of an object is the first one, and should be the second one.
+    OtherColor([f64; 3], [f64; 3]),
     /// A factor on depth.
     DepthScale(f64),
     /// The distance along the ray, not along the view axis.
@@ -58,73 +72,15 @@ pub enum Cause {
     Unknown,
 }
 
-/// A defect that was found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Defect {
-    /// Object that has it; none if all do.
-    pub object: Option<String>,
-    /// Its cause.
-    pub cause: Cause,
-    /// Other causes that would look the same in this scene.
-    pub looks_like: Vec<Cause>,
-    /// Part of the pixels that the cause explains.
-    pub explained: f64,
-    /// Part of the object that has the defect; none if all of it has.
-    pub part: Option<f64>,
-    /// The defect in words, and the way out.
-    pub text: String,
-}
-
-impl Defect {
-    /// Words a defect.
-    pub fn new(object: Option<&str>, cause: Cause, looks_like: Vec<Cause>, explained: f64) -> Self {
-        let whose = match object {
-            Some(object) => format!("of `{object}` "),
-            None => String::new(),
-        };
-        let mut text = format!("{} {whose}{}", cause.buffer(), cause.name());
-        if !looks_like.is_empty() {
-            let others: Vec<String> = looks_like.iter().map(|cause| cause.name()).collect();
-            text += &format!(
-                "; in this scene that looks the same as: {}",
-                others.join(", ")
-            );
-        }
-        if let Some(advice) = cause.advice() {
-            text += &format!("; {advice}");
-        }
-        Self {
-            object: object.map(str::to_owned),
-            cause,
-            looks_like,
-            explained,
-            part: None,
-            text,
-        }
-    }
-
-    /// Limits the defect to a part of the object's pixels.
-    pub fn in_part(mut self, part: Option<f64>) -> Self {
-        if let Some(part) = part.filter(|part| *part < 0.995) {
-            self.text += &format!(
-                "; in {:.0} % of its pixels, the others are right",
-                100.0 * part
-            );
-            self.part = Some(part);
-        }
-        self
-    }
-}
-
 impl Cause {
-    fn buffer(self) -> &'static str {
+    /// Turns a vector as a wrong sign or axis does.
+    pub(super) fn turn(self, [x, y]: [f32; 2]) -> [f32; 2] {
         match self {
-            Self::DepthScale(_)
-            | Self::DepthAlongRay
-            | Self::DepthPlanes(_)
-            | Self::DepthOfBackground(_) => "depth",
-            Self::OtherView => "picture",
-            _ => "velocity",
+            Self::WrongSign => [-x, -y],
+            Self::FlippedY => [x, -y],
+            Self::FlippedX => [-x, y],
+            Self::SwappedAxes => [y, x],
+            _ => [x, y],
         }
     }
 
@@ -157,6 +113,18 @@ impl Cause {
             Self::Clipped(limit) => format!("is clipped at {limit:.1} px"),
             Self::ClippedAxes(limit) => format!("is clipped at {limit:.1} px on each axis"),
             Self::Steps(step) => format!("comes in steps of {step:.3} px, as of few bits"),
+            Self::MotionOver(per_second) => format!(
+                "is the motion over 1/{per_second} s, not over a frame, which is 1/{ANIMATION_RATE} s of the exported animation"
+            ),
+            Self::UpsideDown => "has its rows upside down".to_owned(),
+            Self::DrawnLate(count) => format!("is drawn {} late", frames(count)),
+            Self::DrawnEarly(count) => format!("is drawn {} early", frames(count)),
+            Self::Brightness(scale) => format!("is {scale:.3} times as bright"),
+            Self::OtherColor(found, right) => {
+                let [found, right] = [found, right]
+                    .map(|[red, green, blue]| format!("({red:.3}, {green:.3}, {blue:.3})"));
+                format!("is {found} in the mean, not {right}")
+            }
             Self::DepthScale(scale) => format!("is {scale:.4} times as large"),
             Self::DepthAlongRay => {
                 "is the distance along the ray, not along the view axis".to_owned()
@@ -183,7 +151,8 @@ impl Cause {
         )
     }
 
-    fn advice(self) -> Option<String> {
+    /// Says the way out, for one object or for all of the picture.
+    pub(super) fn advice(self, is_of_object: bool) -> Option<String> {
         let key = |text: &str| {
             Some(format!(
                 "if all of it is so, the convention may be wrong: {text}"
@@ -197,15 +166,36 @@ impl Cause {
                 scale
             )),
             Self::ScaleOfAxes(_) => key("another unit in `velocity` may fit: pixels, uv or ndc"),
+            Self::DepthScale(_) if is_of_object => None,
             Self::DepthScale(_) => key("depth is in metres"),
+            Self::Brightness(scale) => key(&format!(
+                "`color_scale` {scale:.3} times what it is would fit"
+            )),
+            Self::OtherColor(..) => {
+                Some("check its materials and textures in the engine".to_owned())
+            }
+            Self::MotionOver(_) => Some(
+                "draw the time `previous` of manifest.json first, then `instant`, and do not play the animation".to_owned(),
+            ),
+            Self::UpsideDown => Some("write the top row first".to_owned()),
+            Self::DrawnLate(_) | Self::DrawnEarly(_) => {
+                Some("draw the time `instant` of manifest.json".to_owned())
+            }
             Self::DepthPlanes(_) => key("give the camera's own `near` and `far`"),
             Self::DepthOfBackground(_) => key(
-                "leave `far` out if the engine's far plane is at infinity, or give the engine's own",
+                "leave `far` out if the engine's far plane is at infinity, or give the engine's own; linear depth of nothing is infinite",
             ),
             Self::OtherView => {
                 Some("check camera, size, time and object ids before the vectors".to_owned())
             }
             _ => None,
         }
+    }
+}
+
+fn frames(count: u32) -> String {
+    match count {
+        1 => "one frame".to_owned(),
+        _ => format!("{count} frames"),
     }
 }

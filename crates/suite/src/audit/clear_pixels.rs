@@ -1,12 +1,9 @@
 //! Pixels whose velocity and depth can be compared: well inside of objects that both pictures show there.
 
-use frame::{Plane, Raster};
+use std::ops::RangeInclusive;
+
+use frame::Raster;
 use tracer::PointLayers;
-
-use super::depth_audit::is_close_depth;
-
-/// Part of the pixels whose depth must agree before depth tells what the engine shows there.
-const LEAST_AGREEING: f64 = 0.7;
 
 /// Pixels of one object that can be compared.
 pub struct ClearPixels {
@@ -16,24 +13,13 @@ pub struct ClearPixels {
     pub pixels: Vec<usize>,
 }
 
-/// Selects per object the pixels whose eight neighbours show the same object. Leaves out those where the engine's ids name another
-/// object; without ids, those where its depth differs, unless that differs nearly everywhere.
+/// Selects per object the pixels whose eight neighbours show the same object, if the engine shows the same there.
 pub fn select_clear_pixels(
     right: &PointLayers,
-    ids: Option<&Raster<u32>>,
-    depth: &Plane,
     objects: usize,
+    is_same: &dyn Fn(usize) -> bool,
 ) -> Vec<ClearPixels> {
     let own = &right.object_id;
-    let same_depth: Vec<bool> = (depth.pixels.iter().zip(&right.depth.pixels))
-        .map(|(found, expected)| is_close_depth(*found, *expected))
-        .collect();
-    let agreeing = same_depth.iter().filter(|is_same| **is_same).count();
-    let depth_tells = agreeing as f64 >= LEAST_AGREEING * same_depth.len() as f64;
-    let is_same = |at: usize| match ids {
-        Some(ids) => ids.pixels[at] == own.pixels[at],
-        None => !depth_tells || same_depth[at],
-    };
     (0..objects as u32)
         .map(|object| ClearPixels {
             object,
@@ -45,12 +31,17 @@ pub fn select_clear_pixels(
 }
 
 /// Tells whether a pixel and its neighbours show the same object.
-fn is_inside(ids: &Raster<u32>, at: usize) -> bool {
-    let (width, height) = (ids.width as usize, ids.height as usize);
-    let (x, y) = (at % width, at / width);
-    let columns = x.saturating_sub(1)..=(x + 1).min(width - 1);
-    columns.into_iter().all(|column| {
-        (y.saturating_sub(1)..=(y + 1).min(height - 1))
-            .all(|row| ids.pixels[row * width + column] == ids.pixels[at])
-    })
+pub fn is_inside(ids: &Raster<u32>, at: usize) -> bool {
+    neighbours(ids, at).all(|place| ids.pixels[place] == ids.pixels[at])
+}
+
+/// Lists a pixel and those around it.
+pub fn neighbours<T>(raster: &Raster<T>, at: usize) -> impl Iterator<Item = usize> {
+    let (width, height) = (raster.width as usize, raster.height as usize);
+    let around = |place: usize, end: usize| -> RangeInclusive<usize> {
+        place.saturating_sub(1)..=(place + 1).min(end - 1)
+    };
+    let columns = around(at % width, width);
+    around(at / width, height)
+        .flat_map(move |row| columns.clone().map(move |column| row * width + column))
 }

@@ -1,15 +1,22 @@
-//! Audit of an engine's velocity and depth against those of the scene that it drew.
+//! Audit of what an engine drew against the scene: velocity, depth, and colour where it does not depend on light.
 
 mod audit_pictures;
 mod capture_audit;
 mod cause;
 mod clear_pixels;
+mod color_audit;
+mod defect;
 mod depth_audit;
 mod expected_motion;
+mod fitted_motion;
+mod shown;
 mod velocity_audit;
+mod views;
 
 pub use audit_pictures::write_audit_picture;
 pub use capture_audit::{CaptureAudit, audit_capture};
-pub use cause::{Cause, Defect};
+pub use cause::Cause;
+pub use defect::{Buffer, Defect};
 pub use depth_audit::DepthAudit;
+pub use shown::ObjectShown;
 pub use velocity_audit::ObjectAudit;

@@ -1,15 +1,19 @@
 //! Audit of velocity: the end-point error per object, and the cause of what is wrong.
 
+use std::borrow::Cow;
+
 use frame::Vectors;
 use serde::Serialize;
 
-use super::cause::{Cause, Defect};
+use super::cause::Cause;
 use super::clear_pixels::ClearPixels;
+use super::defect::{Buffer, Defect, Explanation};
 use super::depth_audit::median;
 use super::expected_motion::ExpectedMotion;
+use super::fitted_motion::{find_offset, fit_candidates};
 
 /// Largest end-point error of a right velocity, in pixels: rounding of half floats, and of an engine's own matrices.
-const TOLERANCE: f64 = 0.1;
+pub(super) const TOLERANCE: f64 = 0.1;
 /// The same as a part of the speed.
 const RELATIVE_TOLERANCE: f64 = 0.01;
 /// Part of the pixels that must be right, or that a cause must explain.
@@ -18,10 +22,13 @@ const LEAST_EXPLAINED: f64 = 0.95;
 const FEWEST_PIXELS: usize = 9;
 /// Part of the pixels by which two causes may differ and still look the same.
 const LOOKS_SAME: f64 = 0.005;
-/// Part of the velocities that a limit must cut before it is called one.
-const LEAST_CUT: f64 = 0.02;
-/// Upper limit on the distinct numbers of a buffer of few bits.
-const MOST_STEPS: usize = 1024;
+/// Signs and axes that may be wrong together with another cause; none first.
+const TURNS: [Option<Cause>; 4] = [
+    None,
+    Some(Cause::WrongSign),
+    Some(Cause::FlippedY),
+    Some(Cause::FlippedX),
+];
 
 /// Agreement of an engine's velocity with the scene's, for one object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -70,25 +77,10 @@ pub fn audit_velocity(
         .iter()
         .flat_map(|region| region.pixels.clone())
         .collect();
-    let right = &expected.right.velocity;
-    let mut fitted = fit_candidates(found, right, &pixels);
-    // Jitter moves the whole picture.
-    fitted.push(find_offset(found, right, &pixels));
-    let candidates = expected.mistaken.iter().chain(&fitted);
-    // One cause for everything, if it leaves what is right as it is.
-    let explains_all = |velocity: &Vectors| {
-        let least = judged
-            .iter()
-            .map(|region| share(found, velocity, &region.pixels));
-        least.fold(1.0, f64::min)
-    };
-    if (wrong.len() > 1 || wrong.len() == judged.len())
-        && let Some((cause, looks_like, explained)) = find_cause(candidates, &explains_all)
-    {
-        return (
-            objects,
-            vec![Defect::new(None, cause, looks_like, explained)],
-        );
+    let is_all = wrong.len() > 1 || wrong.len() == judged.len();
+    if is_all && let Some(found) = explain_all(found, expected, &judged, &pixels) {
+        let defect = Defect::new(Buffer::Velocity, None, found);
+        return (objects, vec![defect]);
     }
     let findings = wrong.iter().map(|region| {
         let name = &names[region.object as usize];
@@ -96,6 +88,28 @@ pub fn audit_velocity(
     });
     let findings = findings.collect();
     (objects, findings)
+}
+
+/// Finds one cause for everything, which leaves what is right as it is; `wrong` are the pixels of objects that are wrong.
+fn explain_all(
+    found: &Vectors,
+    expected: &ExpectedMotion,
+    judged: &[&ClearPixels],
+    wrong: &[usize],
+) -> Option<Explanation> {
+    let right = &expected.right.velocity;
+    TURNS.into_iter().find_map(|turn| {
+        let found = turn_back(found, turn);
+        let mut fitted = fit_candidates(&found, right, wrong);
+        // Jitter moves the whole picture.
+        fitted.push(find_offset(&found, right, wrong));
+        let explains = |velocity: &Vectors| {
+            let shares = judged.iter();
+            let shares = shares.map(|region| share(&found, velocity, &region.pixels));
+            shares.fold(1.0, f64::min)
+        };
+        find_cause(expected.mistaken.iter().chain(&fitted), turn, &explains)
+    })
 }
 
 /// Finds the cause of an object's wrong velocity: one for all of it, or one for the pixels that are wrong.
@@ -109,15 +123,27 @@ fn explain_object(
     let is_wrong = |at: &usize| !is_close(found.pixels[*at], right.pixels[*at]);
     let wrong: Vec<usize> = pixels.iter().copied().filter(is_wrong).collect();
     let part = wrong.len() as f64 / pixels.len() as f64;
-    for (some, part) in [(pixels, None), (&wrong, Some(part))] {
-        let fitted = fit_candidates(found, right, some);
-        let candidates = expected.mistaken.iter().chain(&fitted);
-        let explains = |velocity: &Vectors| share(found, velocity, some);
-        if let Some((cause, looks_like, explained)) = find_cause(candidates, &explains) {
-            return Defect::new(Some(name), cause, looks_like, explained).in_part(part);
+    for turn in TURNS {
+        let found = turn_back(found, turn);
+        for (some, part) in [(pixels, None), (&wrong, Some(part))] {
+            let fitted = fit_candidates(&found, right, some);
+            let candidates = expected.mistaken.iter().chain(&fitted);
+            let explains = |velocity: &Vectors| share(&found, velocity, some);
+            if let Some(cause) = find_cause(candidates, turn, &explains) {
+                return Defect::new(Buffer::Velocity, Some(name), cause).in_part(part);
+            }
         }
     }
-    Defect::new(Some(name), Cause::Unknown, Vec::new(), 0.0).in_part(Some(part))
+    let unknown = Explanation::by(Cause::Unknown, 0.0);
+    Defect::new(Buffer::Velocity, Some(name), unknown).in_part(Some(part))
+}
+
+/// Undoes a wrong sign or axis.
+fn turn_back(found: &Vectors, turn: Option<Cause>) -> Cow<'_, Vectors> {
+    match turn {
+        None => Cow::Borrowed(found),
+        Some(turn) => Cow::Owned(found.map(|it| turn.turn(*it))),
+    }
 }
 
 fn audit_object(
@@ -158,106 +184,14 @@ fn audit_object(
     }
 }
 
-/// Lists causes that have a number, fitted to some pixels, with the velocity that each leads to; the simplest first.
-fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
-    let mut candidates = Vec::new();
-    let fit = |axes: &[usize]| {
-        let product = |a: &Vectors, b: &Vectors| -> f64 {
-            let terms = pixels.iter().flat_map(|at| {
-                axes.iter()
-                    .map(|axis| f64::from(a.pixels[*at][*axis]) * f64::from(b.pixels[*at][*axis]))
-            });
-            terms.sum()
-        };
-        product(found, right) / product(right, right)
-    };
-    let scaled = |scales: [f64; 2]| {
-        right.map(|right| [0, 1].map(|axis| (scales[axis] * f64::from(right[axis])) as f32))
-    };
-    let scale = fit(&[0, 1]);
-    if scale.is_finite() {
-        candidates.push((Cause::Scale(scale), scaled([scale; 2])));
-    }
-    let scales = [fit(&[0]), fit(&[1])];
-    if scales.iter().all(|scale| scale.is_finite()) {
-        candidates.push((Cause::ScaleOfAxes(scales), scaled(scales)));
-    }
-    candidates.extend(list_cut(found, right, pixels));
-    candidates.extend(find_steps(found, right, pixels));
-    candidates
-}
-
-/// Fits one vector that is added to all.
-fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> (Cause, Vectors) {
-    let offset = [0, 1].map(|axis| {
-        let error = |at: &usize| f64::from(found.pixels[*at][axis] - right.pixels[*at][axis]);
-        median(pixels.iter().map(error))
-    });
-    let moved = right.map(|right| [0, 1].map(|axis| right[axis] + offset[axis] as f32));
-    (Cause::Offset(offset), moved)
-}
-
-/// Lists limits on the length and on the axes, where any velocity is cut.
-fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
-    let most = |measure: &dyn Fn([f64; 2]) -> f64| {
-        let all = pixels
-            .iter()
-            .map(|at| measure(found.pixels[*at].map(f64::from)));
-        all.fold(0.0, f64::max)
-    };
-    let largest = |[x, y]: [f64; 2]| f64::max(x.abs(), y.abs());
-    let cut_part = |limit: f64, measure: &dyn Fn([f64; 2]) -> f64| {
-        let beyond = |at: &&usize| measure(right.pixels[**at].map(f64::from)) > limit + TOLERANCE;
-        pixels.iter().filter(beyond).count() as f64 / pixels.len() as f64
-    };
-    let mut list = Vec::new();
-    let limit = most(&length);
-    if limit > TOLERANCE && cut_part(limit, &length) > LEAST_CUT {
-        let cut = right.map(|right| {
-            let own = length(right.map(f64::from)).max(f64::MIN_POSITIVE);
-            right.map(|part| (f64::from(part) * (limit / own).min(1.0)) as f32)
-        });
-        list.push((Cause::Clipped(limit), cut));
-    }
-    let limit = most(&largest);
-    if limit > TOLERANCE && cut_part(limit, &largest) > LEAST_CUT {
-        let cut = right.map(|right| right.map(|part| part.clamp(-limit as f32, limit as f32)));
-        list.push((Cause::ClippedAxes(limit), cut));
-    }
-    list
-}
-
-/// Finds out whether the numbers lie on a grid of few steps, each next to the right number; returns that grid's velocity.
-fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<(Cause, Vectors)> {
-    let count = |vectors: &Vectors, axis: usize| {
-        let mut numbers: Vec<f32> = pixels.iter().map(|at| vectors.pixels[*at][axis]).collect();
-        numbers.sort_by(f32::total_cmp);
-        numbers.dedup();
-        numbers
-    };
-    let gaps = [0, 1].map(|axis| {
-        let (own, exact) = (count(found, axis), count(right, axis));
-        let is_coarse = own.len() >= 2 && own.len() <= MOST_STEPS && exact.len() >= 2 * own.len();
-        is_coarse.then(|| median(own.windows(2).map(|pair| f64::from(pair[1] - pair[0]))))
-    });
-    let step = gaps.into_iter().flatten().reduce(f64::max)?;
-    // Numbers that are nearest on the grid explain themselves.
-    let nearest = found.zip(right, |found, right| {
-        let is_near = |axis: usize| f64::from((found[axis] - right[axis]).abs()) <= 0.6 * step;
-        match is_near(0) && is_near(1) {
-            true => *found,
-            false => *right,
-        }
-    });
-    (step > TOLERANCE).then_some((Cause::Steps(step), nearest))
-}
-
-/// Finds the first cause that explains the most, and those that explain as much.
+/// Finds the first cause that explains the most, and those that explain as much. With a turn it is another cause than a turn.
 fn find_cause<'a>(
     candidates: impl Iterator<Item = &'a (Cause, Vectors)>,
+    turned: Option<Cause>,
     explains: &dyn Fn(&Vectors) -> f64,
-) -> Option<(Cause, Vec<Cause>, f64)> {
+) -> Option<Explanation> {
     let shares: Vec<(Cause, f64)> = candidates
+        .filter(|(cause, _)| turned.is_none() || !TURNS.contains(&Some(*cause)))
         .map(|(cause, velocity)| (*cause, explains(velocity)))
         .collect();
     let most = shares.iter().map(|(_, share)| *share).fold(0.0, f64::max);
@@ -265,7 +199,12 @@ fn find_cause<'a>(
     let (cause, explained) = best.next()?;
     // A fitted number explains what a word explains; that is no other cause.
     let others = best.map(|(cause, _)| cause).filter(|cause| cause.is_word());
-    (explained >= LEAST_EXPLAINED).then(|| (cause, others.collect(), explained))
+    (explained >= LEAST_EXPLAINED).then(|| Explanation {
+        turned,
+        cause,
+        looks_like: others.collect(),
+        explained,
+    })
 }
 
 /// Computes the part of some pixels at which two velocities are the same.
@@ -288,6 +227,6 @@ fn dot(a: [f32; 2], b: [f32; 2]) -> f64 {
     f64::from(a[0]) * f64::from(b[0]) + f64::from(a[1]) * f64::from(b[1])
 }
 
-fn length([x, y]: [f64; 2]) -> f64 {
+pub(super) fn length([x, y]: [f64; 2]) -> f64 {
     x.hypot(y)
 }

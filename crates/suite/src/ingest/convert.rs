@@ -11,8 +11,8 @@ use tracer::Watch;
 use super::engine_scene::{
     BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
 };
-use super::engine_truth::{NOT_TRACED, average_subframes};
-use super::moving::usual_top_speed;
+use super::engine_truth::{NOT_TRACED, average_subframes, part_of};
+use super::moving::{mark_reached, usual_top_speed};
 use super::objects::{draw_coverage, name_objects};
 use crate::capture::folder::Capture;
 use crate::colors::velocity_wheel;
@@ -27,8 +27,12 @@ pub struct Ingested {
     pub scene: EngineScene,
     /// The truth; none where the capture has no sub-frames.
     pub truth: Option<Truth>,
+    /// Part of the pixels where anything moves, by colour or velocity; none without a truth.
+    pub moving: Option<f64>,
+    /// Part of the pixels that change between sub-frames though no velocity reaches them: by noise, shadows, or wrong velocity.
+    pub restless: f64,
     /// Radiance of the engine's blurred picture over that of the truth, or of the frame if there is no truth: the median over pixels
-    /// where nothing moves. 1 for a blur that neither adds nor takes light; none without a picture, or if no lit pixel is still.
+    /// that no velocity reaches. 1 for a blur that neither adds nor takes light; none without a picture, or if no lit pixel is still.
     pub gain: Option<f64>,
 }
 
@@ -55,21 +59,18 @@ pub fn ingest(
         engine: Some(scene.engine.clone()),
     };
     let objects = name_objects(capture, names)?;
+    let (exposure, alignment) = capture.shutter()?;
+    let shutter = alignment.shutter(exposure);
+    let shutter = shutter.expect("the exposure was checked when it was read");
     let made = match capture.subframes.is_empty() {
         true => None,
-        false => {
-            let (exposure, alignment) = capture.shutter()?;
-            let shutter = alignment.shutter(exposure);
-            let shutter = shutter.expect("the exposure was checked when it was read");
-            let shutter = (shutter, alignment);
-            Some(average_subframes(
-                capture,
-                shutter,
-                &objects,
-                &provenance,
-                watch,
-            )?)
-        }
+        false => Some(average_subframes(
+            capture,
+            (shutter, alignment),
+            &objects,
+            &provenance,
+            watch,
+        )?),
     };
     let _claim = claim(out, [], Sharing::Alone)?;
     let show =
@@ -83,6 +84,7 @@ pub fn ingest(
         show("blurred.png", picture)?;
     }
     let mut truth = None;
+    let mut restless = 0.0;
     if let Some(made) = made {
         let alignment = made.truth.alignment;
         let rungs = made.ladder.rungs.iter();
@@ -93,19 +95,25 @@ pub fn ingest(
             .write(&out.join(format!("truth_{alignment}.exr")))?;
         show(&format!("truth_{alignment}.png"), &made.truth.mean().color)?;
         truth = Some(made.truth);
+        restless = made.restless;
     }
     let json = serde_json::to_string_pretty(&scene).expect("a scene is plain data") + "\n";
     frame::write_atomically(&out.join(INGESTED_FILE), json.as_bytes())?;
     let unblurred = truth
         .as_ref()
         .map_or_else(|| frame.color.clone(), |truth| truth.mean().color);
-    let still = match &truth {
-        Some(truth) => truth.support.moving.map(|moves| !moves),
-        None => frame.velocity.map(|velocity| *velocity == [0.0, 0.0]),
-    };
+    // Noise changes colours where nothing moves; it leaves velocity alone.
+    let still = mark_reached(&capture.velocity, shutter).map(|is_reached| !is_reached);
     let gain =
         (capture.blurred.as_ref()).and_then(|picture| median_ratio(picture, &unblurred, &still));
-    Ok(Ingested { scene, truth, gain })
+    let moving = truth.as_ref().map(|truth| part_of(&truth.support.moving));
+    Ok(Ingested {
+        scene,
+        truth,
+        moving,
+        restless,
+        gain,
+    })
 }
 
 /// Returns the median of the ratios of two pictures' radiance over some pixels; none where the second one is black.

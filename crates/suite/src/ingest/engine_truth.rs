@@ -6,7 +6,7 @@ use frame::{
 };
 use tracer::{Progress, TraceError, Watch};
 
-use super::moving::ColorRange;
+use super::moving::{ColorRange, mark_reached};
 use super::objects::draw_coverage;
 use crate::Error;
 use crate::capture::description::CAPTURE_FILE;
@@ -29,6 +29,8 @@ pub(super) const NOT_TRACED: &str = "none";
 pub struct EngineTruth {
     pub truth: Truth,
     pub ladder: Ladder,
+    /// Part of the pixels that change between sub-frames though no velocity reaches them.
+    pub restless: f64,
 }
 
 /// Averages the sub-frames of a capture: the even ones make one half of the truth, the odd ones the other.
@@ -42,7 +44,10 @@ pub fn average_subframes(
     check_count(capture)?;
     let averages = Averages::read(capture, objects.len(), watch)?;
     let halves = averages.halves.each_ref().map(Sum::mean);
-    let moving = averages.range.mark_moving(&capture.velocity, shutter);
+    let changed = averages.range.mark_changed();
+    let reached = mark_reached(&capture.velocity, shutter);
+    let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
+    let moving = changed.zip(&reached, |changed, reached| *changed || *reached);
     let support = Support {
         seen: (Picture::mean(&halves).coverage.iter())
             .map(|coverage| coverage.map(|share| *share > 0.0))
@@ -74,6 +79,7 @@ pub fn average_subframes(
         .collect();
     Ok(EngineTruth {
         truth: Truth::of(&replicates)?,
+        restless: part_of(&restless),
         ladder: Ladder {
             provenance: provenance.clone(),
             shutter,
@@ -114,6 +120,12 @@ fn pick_subframes(rung: u32, count: usize, half: usize) -> Vec<usize> {
         }
     });
     picks.collect()
+}
+
+/// Computes the part of the pixels that are marked.
+pub fn part_of(marks: &Raster<bool>) -> f64 {
+    let marked = marks.pixels.iter().filter(|is_marked| **is_marked);
+    marked.count() as f64 / marks.pixels.len() as f64
 }
 
 /// Tells, per object, whether it is seen where anything moves.

@@ -1,4 +1,4 @@
-//! Pixels where anything moves while an engine's shutter is open, as far as its pictures tell.
+//! Pixels where anything moves while an engine's shutter is open, as far as its colours and its velocity tell.
 
 use frame::{Image, Raster, Shutter, Vectors};
 
@@ -40,30 +40,35 @@ impl ColorRange {
         }
     }
 
-    /// Marks the pixels whose colour changes, and those that the frame's surfaces pass on their way through the shutter.
-    pub fn mark_moving(&self, velocity: &Vectors, shutter: Shutter) -> Raster<bool> {
-        let mut moving = self.least.zip(&self.greatest, |least, greatest| {
+    /// Marks the pixels whose colour changes.
+    pub fn mark_changed(&self) -> Raster<bool> {
+        self.least.zip(&self.greatest, |least, greatest| {
             (0..3).any(|channel| greatest[channel] - least[channel] > LEAST_CHANGE)
-        });
-        let (width, height) = (velocity.width, velocity.height);
-        for (at, motion) in (0_u32..).zip(&velocity.pixels) {
-            let length = motion[0].hypot(motion[1]) * shutter.exposure() as f32;
-            if length < LEAST_MOTION {
-                continue;
-            }
-            // Two steps per pixel miss none; beyond twice the picture nothing is seen.
-            let steps = (2.0 * length.min(2.0 * (width + height) as f32)).ceil() as u32;
-            for step in 0..=steps {
-                let time = shutter.at(f64::from(step) / f64::from(steps)) as f32;
-                let x = ((at % width) as f32 + 0.5 + motion[0] * time).floor();
-                let y = ((at / width) as f32 + 0.5 + motion[1] * time).floor();
-                if x >= 0.0 && y >= 0.0 && x < width as f32 && y < height as f32 {
-                    moving.pixels[y as usize * width as usize + x as usize] = true;
-                }
+        })
+    }
+}
+
+/// Marks the pixels that the frame's surfaces pass on their way through the shutter, as their velocity says.
+pub fn mark_reached(velocity: &Vectors, shutter: Shutter) -> Raster<bool> {
+    let (width, height) = (velocity.width, velocity.height);
+    let mut reached = velocity.map(|_| false);
+    for (at, motion) in (0_u32..).zip(&velocity.pixels) {
+        let length = motion[0].hypot(motion[1]) * shutter.exposure() as f32;
+        if length < LEAST_MOTION {
+            continue;
+        }
+        // Two steps per pixel miss none; beyond twice the picture nothing is seen.
+        let steps = (2.0 * length.min(2.0 * (width + height) as f32)).ceil() as u32;
+        for step in 0..=steps {
+            let time = shutter.at(f64::from(step) / f64::from(steps)) as f32;
+            let x = ((at % width) as f32 + 0.5 + motion[0] * time).floor();
+            let y = ((at / width) as f32 + 0.5 + motion[1] * time).floor();
+            if x >= 0.0 && y >= 0.0 && x < width as f32 && y < height as f32 {
+                reached.pixels[y as usize * width as usize + x as usize] = true;
             }
         }
-        moving
     }
+    reached
 }
 
 /// Encodes radiance about as a display does, without an end at white.
@@ -102,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn what_passes_and_what_changes_moves() {
+    fn what_changes_and_what_velocity_reaches_is_marked() {
         let mut range = ColorRange::new((8, 1), 0.0);
         let color =
             |changed: f32| Raster::from_fn(8, 1, |x, _| [if x == 7 { changed } else { 0.5 }; 3]);
@@ -111,10 +116,11 @@ mod tests {
         // Two pixels to the right per frame, with the shutter open for one frame before the instant.
         let velocity = Raster::from_fn(8, 1, |x, _| [if x == 4 { 2.0 } else { 0.0 }, 0.0]);
         let shutter = Alignment::Trailing.shutter(1.0).unwrap();
-        let moving = range.mark_moving(&velocity, shutter);
-        assert_eq!(
-            moving.pixels,
-            [false, false, true, true, true, false, false, true]
-        );
+        let marks = |marks: Raster<bool>| -> String {
+            let signs = marks.pixels.iter().map(|is| if *is { 'x' } else { '.' });
+            signs.collect()
+        };
+        assert_eq!(marks(range.mark_changed()), ".......x");
+        assert_eq!(marks(mark_reached(&velocity, shutter)), "..xxx...");
     }
 }

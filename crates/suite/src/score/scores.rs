@@ -9,6 +9,8 @@ use crate::render::scatter_oracle::make_oracle;
 
 const NO_MATTES: &str = "the picture has no mattes, channels coverage.<object> that say which share of a pixel it gives \
                          to each object";
+const GIVEN_MATTES: &str = "its mattes, channels coverage.<object>, were given with the picture and not measured: scores of objects judge \
+                            the mattes, whatever the colours show";
 const DISPLAY_REFERRED: &str = "a PNG holds nothing above display white";
 
 /// A finished picture's scores, with notes about them.
@@ -48,8 +50,9 @@ pub fn score(
     };
     let mut scores = measure(finished.color.clone())?;
     let mut notes = finished.notes.clone();
-    if finished.mattes.is_none() {
-        scores.take_out_mattes(NO_MATTES);
+    match finished.mattes {
+        Some(_) => notes.push(GIVEN_MATTES.to_owned()),
+        None => scores.take_out_mattes(NO_MATTES),
     }
     if finished.display_referred {
         for region in [

@@ -17,6 +17,8 @@ pub struct PointMotion {
     pub seen_at: f64,
     /// Time whose motion is taken, in frames.
     pub moved_at: f64,
+    /// Time since the place before, in frames.
+    pub over: f64,
     /// True if the camera stands still.
     pub camera_stands: bool,
     /// Place of the objects one frame earlier.
@@ -28,6 +30,7 @@ impl PointMotion {
     pub const RIGHT: Self = Self {
         seen_at: 0.0,
         moved_at: 0.0,
+        over: 1.0,
         camera_stands: false,
         objects_before: ObjectsBefore::Own,
     };
@@ -120,7 +123,7 @@ impl TrackedPoint {
     ) -> [f64; 2] {
         let now = motion.moved_at;
         let at = |time: f64| self.project(scene, size, time, motion);
-        let frame_difference = || Some(difference(at(now)?, at(now - 1.0)?));
+        let frame_difference = || Some(difference(at(now)?, at(now - motion.over)?));
         let derivative = || {
             let [now, then, before] = [at(now)?, at(now - STEP)?, at(now - 2.0 * STEP)?];
             Some(std::array::from_fn(|axis| {
