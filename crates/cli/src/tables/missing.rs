@@ -55,7 +55,11 @@ impl Missing {
                 0..=MOST_NAMED => format!("{} on {}", reason.rows.join(", "), list(&reason.groups)),
                 rows => format!("{rows} rows on {}", list(&reason.groups)),
             };
-            let text = format!("n/a: {} of {place}: {}", reason.titles.join(", "), reason.text);
+            let text = format!(
+                "n/a: {} of {place}: {}",
+                reason.titles.join(", "),
+                reason.text
+            );
             legend_text(&printable(&text))
         };
         self.0.iter().map(note).collect()
@@ -65,6 +69,10 @@ impl Missing {
 fn list(names: &[String]) -> String {
     match names.len() {
         0..=MOST_NAMED => names.join(", "),
-        count => format!("{} and {} more", names[..MOST_NAMED].join(", "), count - MOST_NAMED),
+        count => format!(
+            "{} and {} more",
+            names[..MOST_NAMED].join(", "),
+            count - MOST_NAMED
+        ),
     }
 }

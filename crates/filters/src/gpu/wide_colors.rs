@@ -28,7 +28,10 @@ impl Filter {
         }
         let formats = |filter: &Self| {
             let declared = filter.textures.iter().map(|texture| texture.format);
-            let builtin = [filter.convention.input_format("color"), output_format(filter)];
+            let builtin = [
+                filter.convention.input_format("color"),
+                output_format(filter),
+            ];
             builtin.into_iter().chain(declared).collect::<Vec<_>>()
         };
         (formats(self) != formats(&wide)).then_some(wide)
@@ -41,6 +44,10 @@ impl Filter {
             .filter(|(_, depends)| *depends)
             .flat_map(|(pass, _)| self.entry_point(pass).writes.iter().cloned());
         let builtin = ["color", History::Color.texture(), "output"];
-        builtin.into_iter().map(str::to_owned).chain(written).collect()
+        builtin
+            .into_iter()
+            .map(str::to_owned)
+            .chain(written)
+            .collect()
     }
 }

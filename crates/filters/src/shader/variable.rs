@@ -112,7 +112,9 @@ pub(crate) fn find_image_role(class: ImageClass) -> Option<Role> {
         } => Some(Role::Read(Texel::Uint)),
         ImageClass::Storage { format, access } if access == StorageAccess::STORE => {
             let mut known = Format::ALL.into_iter();
-            known.find(|known| known.stored() == format).map(Role::Write)
+            known
+                .find(|known| known.stored() == format)
+                .map(Role::Write)
         }
         _ => None,
     }

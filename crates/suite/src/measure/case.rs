@@ -327,7 +327,9 @@ fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Me
     let scores = &mut measurement.scores;
     if output.nonlinearity > MOST_NONLINEARITY {
         let found = match output.is_rounded {
-            true => "the filter writes 16-bit floats, whose rounding hides what it gathers; let it write 32-bit floats",
+            true => {
+                "the filter writes 16-bit floats, whose rounding hides what it gathers; let it write 32-bit floats"
+            }
             false => "the filter's weights depend on colour",
         };
         let reason = format!(
