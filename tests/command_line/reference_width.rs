@@ -194,3 +194,45 @@ fn a_tuned_preset_records_the_width_of_its_tuning() {
     );
     assert!(listed.contains(".radius = 16 pixels"), "{listed}");
 }
+
+/// Scores of filters that are scaled say little about those that are not.
+#[test]
+fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
+    let bench = set_up();
+    let note = |filters: &str, more: &[&str]| {
+        // A page shows the cases of earlier runs, too.
+        _ = fs::remove_dir_all(bench.path("out"));
+        let words = [&["--filters", filters, "--html", "page.html"], more].concat();
+        let output = bench.run(&words);
+        assert_done(&output);
+        let page = fs::read_to_string(bench.path("page.html")).unwrap();
+        let page = page.replace("&quot;", "\"");
+        let squeeze = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let texts = [stdout(&output), page].map(|text| squeeze(&text));
+        let start = "Lengths in pixels are scaled";
+        let found = texts.map(|text| {
+            let note = text.split_once(start)?.1.split_once("--as-written.")?.0;
+            Some(note.to_owned())
+        });
+        assert_eq!(found[0], found[1], "terminal and page");
+        found[0].clone()
+    };
+    let manifest = MANIFEST.replace("reference_width = 256\n", "");
+    bench.write_filter("mine", &manifest, &one_kernel("radius: i32", BODY));
+    let filters = "./mine,mcguire:paper,identity";
+    let says = " to pictures 64 wide for mcguire:paper, and are as written for mine:engine, whose filter.toml names no \
+                reference_width. Give its lengths unit = \"pixels\" and name one, or compare all with ";
+    for more in [&[][..], &["--table"]] {
+        assert_eq!(note(filters, more).as_deref(), Some(says));
+    }
+    assert_eq!(note(filters, &["--as-written"]), None);
+    assert_eq!(note("mcguire:paper,identity", &[]), None);
+    // A width of its own, for all presets.
+    let own = manifest.replacen("[[parameter]]", "reference_width = 256\n\n[[parameter]]", 1);
+    bench.write_filter("mine", &own, &one_kernel("radius: i32", BODY));
+    assert_eq!(note(filters, &[]), None);
+    let cases = bench.read_filter_cases();
+    let case = cases.iter().find(|case| case.filter == "mine").unwrap();
+    assert_eq!(case.parameters["radius"], Value::Integer(4));
+    assert_eq!(case.reference_width, Some(256));
+}

@@ -188,3 +188,23 @@ fn nothing_is_scaled_as_written() {
     assert_eq!(settings.reference_width, None);
     assert_eq!(scale(&filter, &settings, 160), values(20, 1.5, 9));
 }
+
+#[test]
+fn the_width_of_a_filter_holds_for_presets_without_one_of_their_own() {
+    let own = |text: &str| load(&MANIFEST.replacen("[[parameter]]", text, 1));
+    let filter = own("reference_width = 640\n[[parameter]]").unwrap();
+    let widths = filter.presets.iter().map(|preset| preset.reference_width);
+    assert_eq!(widths.collect::<Vec<_>>(), [Some(1920), Some(640)]);
+    let anywhere = filter.settings(Some("anywhere")).unwrap();
+    assert_eq!(scale(&filter, &anywhere, 160), values(5, 0.375, 8));
+    let refused = own("reference_width = 0\n[[parameter]]").unwrap_err();
+    let parts = ["filter.toml:6", "reference_width = 0", "1 pixel or more"];
+    assert_contains(&refused.to_string(), &parts);
+    // A filter without presets has one, with every parameter at its default.
+    let (head, presets) = MANIFEST.split_once("[[preset]]").unwrap();
+    let (_, passes) = presets.split_once("[[pass]]").unwrap();
+    let without = format!("reference_width = 640{head}[[pass]]{passes}");
+    let filter = load(&without).unwrap();
+    let default = filter.settings(None).unwrap();
+    assert_eq!(scale(&filter, &default, 160), values(5, 0.375, 8));
+}

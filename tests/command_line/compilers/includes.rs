@@ -3,9 +3,11 @@
 use std::fs;
 
 use tests::filter_folder::write_script;
+use tests::root;
 
-use super::{list, write_pass};
-use crate::bench::{Bench, stderr};
+use super::installed::find_program;
+use super::{BINDINGS, COPY, list, write_pass};
+use crate::bench::{Bench, assert_done, stderr};
 
 /// What a stranger's shader includes comes from its own folder.
 #[test]
@@ -112,35 +114,135 @@ fn nothing_outside_of_the_folder_is_included() {
     }
 }
 
+/// Puts the real glslangValidator, and nothing else, on the bench's PATH.
+fn install_glslang(bench: &Bench) {
+    let found = find_program("glslangValidator").expect("apt-get install glslang-tools");
+    fs::create_dir_all(bench.path("bin")).unwrap();
+    _ = std::os::unix::fs::symlink(found, bench.path("bin/glslangValidator"));
+}
+
+/// Writes a file that says so if a compiler opens it.
+fn write_secret(bench: &Bench) {
+    fs::write(bench.path("secret.txt"), "#error the_secret\n").unwrap();
+}
+
+const GLSL: &str = "#version 450\n#extension GL_GOOGLE_include_directive : require\n";
+
 /// A compiler looks for a file in the folders of all files that are being included.
 #[test]
 fn no_folder_of_an_includer_leads_outside() {
     let bench = Bench::new();
-    fs::write(bench.path("secret.txt"), "the secret\n").unwrap();
+    write_secret(&bench);
     let folder = bench.path("translated");
     fs::create_dir_all(folder.join("p/q/r/s")).unwrap();
     write_pass(&bench, "p/q/blur.comp", "");
-    for (file, includes) in [
-        ("p/q/blur.comp", "../../top.h"),
-        ("top.h", "p/q/r/s/deep.h"),
+    for (file, head, includes) in [
+        ("p/q/blur.comp", GLSL, "../../top.h"),
+        ("top.h", "", "p/q/r/s/deep.h"),
         // From p/q/r/s and from p/q it stays within, from the folder of top.h it does not.
-        ("p/q/r/s/deep.h", "../../secret.txt"),
+        ("p/q/r/s/deep.h", "", "../../secret.txt"),
     ] {
-        let text = format!("#include \"{includes}\"\n");
+        let text = format!("{head}#include \"{includes}\"\n");
         fs::write(folder.join(file), text).unwrap();
     }
-    fs::create_dir_all(bench.path("bin")).unwrap();
-    write_script(
-        &bench.path("bin/glslangValidator"),
-        "echo the secret; exit 1",
-    );
+    install_glslang(&bench);
     let said = stderr(&list(&bench));
-    let parts = [
-        "translated/p/q/r/s/deep.h:1: ",
-        "outside of the filter's folder",
-    ];
+    let parts = ["deep.h:1", "../../secret.txt", "which is no file of this filter"];
     tests::text::assert_contains(&said, &parts);
-    assert!(!said.contains("the secret"), "{said}");
+    assert!(!said.contains("the_secret"), "{said}");
+}
+
+/// What glslangValidator opened once because the program took it for a comment, for text in quotes or for no directive.
+#[test]
+fn no_directive_is_hidden_from_the_program() {
+    let bench = Bench::new();
+    write_secret(&bench);
+    install_glslang(&bench);
+    let secret = bench.path("secret.txt").display().to_string();
+    let include = format!("#include \"{secret}\"");
+    let texts = [
+        include.clone(),
+        format!("#define U \"\\\"/*\"\n{include}\n"),
+        format!("/\\\n* \" */ {include}\n"),
+        format!("#define U \"/*\n\"*/ {include}\n"),
+        format!("#inc\\\r\nlude \"{secret}\"\n"),
+        format!("#/**/include \"{secret}\"\n"),
+        format!("# include <{secret}>\n"),
+        format!("#define F \"{secret}\"\n#include F\n"),
+        format!("#define F <{secret}>\n#include F\n"),
+        format!(
+            "#line 1 \"{}/x\"\n#include \"secret.txt\"\n",
+            bench.path("").display()
+        ),
+        "#include \"zz/../../secret.txt\"\n".to_owned(),
+    ];
+    for text in texts {
+        _ = fs::remove_dir_all(bench.path("translated"));
+        write_pass(&bench, "blur.comp", "");
+        fs::create_dir_all(bench.path("translated/zz")).unwrap();
+        let shader = format!("{GLSL}{text}\nvoid main() {{}}\n");
+        fs::write(bench.path("translated/blur.comp"), shader).unwrap();
+        let listed = list(&bench);
+        assert_eq!(listed.status.code(), Some(2), "{text}");
+        let said = stderr(&listed);
+        assert!(!said.contains("the_secret"), "{text}: {said}");
+        assert!(said.contains("translated/blur.comp"), "{text}: {said}");
+    }
+}
+
+/// Lines keep their numbers, in the shader and in what it includes.
+#[test]
+fn honest_includes_work_and_errors_name_their_lines() {
+    let bench = Bench::new();
+    install_glslang(&bench);
+    let folder = bench.path("translated");
+    fs::create_dir_all(folder.join("in/lib/deep")).unwrap();
+    write_pass(&bench, "in/blur.comp", BINDINGS);
+    fs::write(folder.join("copy.wgsl"), COPY).unwrap();
+    let fastest = root().join("tests/fixtures/shaders/fastest.comp");
+    let fastest = fs::read_to_string(fastest).unwrap();
+    let (version, body) = fastest.split_once('\n').unwrap();
+    let shader = |body: &str| {
+        format!(
+            "\u{feff}/* Comments, // of both\r\nkinds */ {version}\r\n\
+             #extension GL_GOOGLE_include_directive \\\r\n  : require\r\n\
+             #include \"lib/a.h\" // beside it, and \"twice\"\r\n\
+             #include <lib/../lib/a.h>\r\n\
+             #ifdef UNITY\r\n#include \"UnityCG.cginc\"\r\n#endif\r\n{body}"
+        )
+    };
+    let write = |file: &str, text: &str| fs::write(folder.join("in").join(file), text).unwrap();
+    write("blur.comp", &shader(&body.replace('\n', "\r\n")));
+    // Each includes the other. Only the second of the paths is that of a file, beside the shader.
+    write(
+        "lib/a.h",
+        "#ifndef A_H\n#define A_H\n#include \"deep/b.h\"\nfloat a() { return b(); }\n#endif\n",
+    );
+    write(
+        "lib/deep/b.h",
+        "#ifndef B_H\n#define B_H\n#include \"../a.h\"\n#include \"lib/c.h\"\nfloat b() { return c; }\n#endif\n",
+    );
+    write(
+        "lib/c.h",
+        "#define JOINED(x) \\\n  (x) \\\n\nconst float c = JOINED(1.0);\n",
+    );
+    assert_done(&list(&bench));
+    let breaks = |file: &str, text: &str, line: &str| {
+        let place = folder.join("in").join(file);
+        let honest = fs::read_to_string(&place).unwrap();
+        fs::write(&place, text).unwrap();
+        let said = stderr(&list(&bench));
+        fs::write(&place, honest).unwrap();
+        tests::text::assert_contains(&said, &[line, "broken"]);
+    };
+    // Ten lines before the body: two of the comment, two that are joined, two and three about files, and one that is empty.
+    breaks(
+        "blur.comp",
+        &shader("\r\nbroken;\r\n"),
+        "translated/in/blur.comp:10: ",
+    );
+    let joined = "#define JOINED(x) \\\n  (x) \\\n\nbroken;\n";
+    breaks("lib/c.h", joined, "c.h:4");
 }
 
 /// A shader, too, is a file of the folder.

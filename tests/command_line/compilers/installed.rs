@@ -8,7 +8,7 @@ use tests::root;
 use crate::bench::{Bench, assert_done};
 
 /// Finds a program on the PATH.
-fn find_program(name: &str) -> Option<PathBuf> {
+pub fn find_program(name: &str) -> Option<PathBuf> {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     let mut candidates = std::env::split_paths(&folders).map(|folder| folder.join(name));
     candidates.find(|candidate| candidate.is_file())

@@ -1,6 +1,8 @@
 //! Compilers of shading languages: those that are missing, and what the program makes of those that are there.
 
 #[cfg(unix)]
+mod fallback;
+#[cfg(unix)]
 mod includes;
 #[cfg(unix)]
 mod installed;

@@ -9,6 +9,7 @@ mod mips;
 mod refusals;
 mod resources;
 mod routes;
+mod texture_sizes;
 mod vertex;
 
 use std::fs;

@@ -171,50 +171,6 @@ fn the_pass_that_writes_the_first_broken_value_is_named() {
 }
 
 #[test]
-fn inputs_of_11_bits_and_sides_that_are_rounded_down() {
-    let sides = r"
-@group(0) @binding(0) var color: texture_2d<f32>;
-@group(0) @binding(1) var coarse: texture_2d<f32>;
-@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
-
-@compute @workgroup_size(8, 8)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if all(id.xy < textureDimensions(color)) {
-        let size = vec2<f32>(textureDimensions(coarse));
-        textureStore(output, id.xy, vec4<f32>(size, textureLoad(color, id.xy, 0).z, 1.0));
-    }
-}
-";
-    let clear = r"
-@group(0) @binding(0) var coarse: texture_storage_2d<r32float, write>;
-
-@compute @workgroup_size(8, 8)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    textureStore(coarse, id.xy, vec4<f32>(0.0));
-}
-";
-    // 61 x 43 pixels.
-    for (rounding, size) in [("up", [8.0, 1.0]), ("down", [7.0, 1.0])] {
-        let declarations = format!(
-            "[convention]\ncolor_format = \"rg11b10ufloat\"\n\
-             [[texture]]\nname = \"coarse\"\nformat = \"r32float\"\ndivided_by = [8, 64]\nrounding = \"{rounding}\"\n\
-             [[pass]]\nshader = \"clear.wgsl\"\nover = \"coarse\"\n[[pass]]\nshader = \"sides.wgsl\"\n"
-        );
-        let shown = run(
-            &declarations,
-            &[("clear.wgsl", clear), ("sides.wgsl", sides)],
-        );
-        let (found, color) = (shown.at(3, 5), busy_picture().color.at(3, 5)[2]);
-        assert_eq!(found[..2], size, "{rounding}");
-        assert!(
-            (found[2] / color - 1.0).abs() <= 1.0 / 64.0,
-            "{} for {color}",
-            found[2]
-        );
-    }
-}
-
-#[test]
 fn an_image_that_is_read_and_written_keeps_what_is_not_written() {
     let fill = r"
 @group(0) @binding(0) var state: texture_storage_2d<rgba16float, write>;

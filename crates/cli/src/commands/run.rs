@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use suite::{Error, Level, Part, Run, judge, open_gpu, printable_path, refuse_failures};
+use suite::{Error, Level, Part, Run, judge, open_gpu, printable, printable_path, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
@@ -14,6 +14,7 @@ use crate::output::print::print;
 use crate::output::progress::clock_text;
 use crate::tables::adapter::adapter_text;
 use crate::tables::cases::run_table;
+use crate::tables::columns::legend_text;
 use crate::tables::failures::failures_text;
 use crate::tables::ranking::ranking_text;
 use crate::tables::sequence::sequences_text;
@@ -72,7 +73,10 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
             true => run_table(&run),
             false => ranking_text(&run.cases),
         };
-        let text = scores + &sequences_text(&run, args.table) + &failures_text(&run.failures);
+        let scaling = run.scaling_note();
+        let scaling = scaling.map_or(String::new(), |note| legend_text(&printable(&note)));
+        let text =
+            scores + &scaling + &sequences_text(&run, args.table) + &failures_text(&run.failures);
         print(&(text + &closing_text(&run, &pages, &plan.out, began.elapsed())))?;
     }
     refuse_failures(&run.failures)

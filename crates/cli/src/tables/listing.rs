@@ -97,6 +97,7 @@ pub fn filter_json(filter: &Filter) -> serde_json::Value {
         "alignment": filter.alignment.name(),
         "command": filter.command.as_ref().map(Command::words),
         "environment": filter.command.as_ref().map(|command| &command.environment),
+        "compilers": filter.list_compilers(),
         "parameters": filter.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "presets": filter.presets.iter().map(preset).collect::<Vec<_>>(),
     })
@@ -129,7 +130,11 @@ fn filter_text(filter: &Filter) -> String {
     };
     let command = match &filter.command {
         Some(command) => command_text(command),
-        None => String::new(),
+        None => {
+            let compilers = filter.list_compilers().into_iter();
+            let lines = compilers.map(|line| format!("    {}\n", printable(&line)));
+            lines.collect()
+        }
     };
     format!(
         "  {}  (shutter: {})\n    {}\n    cannot: {}\n{command}{}{}\n",

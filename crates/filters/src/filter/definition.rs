@@ -73,6 +73,20 @@ impl Filter {
         &self.shaders[pass.shader_index]
     }
 
+    /// Says which compiler made the shader of each pass that needs one, and why others failed: `blur.hlsl compiled by slangc`.
+    pub fn list_compilers(&self) -> Vec<String> {
+        let mut listed = Vec::new();
+        for pass in &self.passes {
+            if let (Some(shader), Some(by)) = (&pass.shader, &self.shader(pass).compiled_by) {
+                let line = format!("{} compiled by {by}", shader.file.display());
+                if !listed.contains(&line) {
+                    listed.push(line);
+                }
+            }
+        }
+        listed
+    }
+
     /// Tells whether a shader reads where the camera is, or how it moved.
     pub fn reads_camera(&self) -> bool {
         let CameraUse {

@@ -1,6 +1,6 @@
-//! Arithmetic on values of the frame, of the convention and on parameters, for members of uniform blocks.
+//! Arithmetic on values of the frame, of the convention and on parameters.
 
-/// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `min(.., ..)` and `max(.., ..)`.
+/// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `ceil(..)`, `min(.., ..)` and `max(.., ..)`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expression {
     /// A number.
@@ -11,6 +11,8 @@ pub enum Expression {
     Negative(Box<Expression>),
     /// The largest whole number that is not larger.
     Floor(Box<Expression>),
+    /// The smallest whole number that is not smaller.
+    Ceil(Box<Expression>),
     /// Two operands; `<` is the smaller one, `>` the larger one.
     Binary(char, Box<Expression>, Box<Expression>),
 }
@@ -45,6 +47,7 @@ impl Expression {
             Self::Name(name) => value(name),
             Self::Negative(of) => -of.evaluate(value),
             Self::Floor(of) => of.evaluate(value).floor(),
+            Self::Ceil(of) => of.evaluate(value).ceil(),
             Self::Binary(operator, left, right) => {
                 let (left, right) = (left.evaluate(value), right.evaluate(value));
                 match operator {
@@ -70,7 +73,7 @@ impl Expression {
         match self {
             Self::Number(_) => false,
             Self::Name(name) => is_wanted(name),
-            Self::Negative(of) | Self::Floor(of) => of.reads_any(is_wanted),
+            Self::Negative(of) | Self::Floor(of) | Self::Ceil(of) => of.reads_any(is_wanted),
             Self::Binary(_, left, right) => left.reads_any(is_wanted) || right.reads_any(is_wanted),
         }
     }
@@ -138,8 +141,12 @@ impl Parser<'_> {
             return (number.map(Expression::Number))
                 .map_err(|_| format!("\"{word}\" is no number"));
         }
-        if word == "floor" && self.rest.trim_start().starts_with('(') {
-            return Ok(Expression::Floor(Box::new(self.atom()?)));
+        if matches!(word, "floor" | "ceil") && self.rest.trim_start().starts_with('(') {
+            let inner = Box::new(self.atom()?);
+            return Ok(match word {
+                "floor" => Expression::Floor(inner),
+                _ => Expression::Ceil(inner),
+            });
         }
         if matches!(word, "min" | "max") && self.take(&['(']).is_some() {
             return self.choice(if word == "min" { '<' } else { '>' });
@@ -194,6 +201,8 @@ mod tests {
             ("2 ^ -1", 0.5),
             ("2 * (1 + taps) / 4", 2.5),
             ("floor(width / 20)", 4.0),
+            ("ceil(width / 80) * 8", 16.0),
+            ("ceil(-0.5) + ceil (taps)", 4.0),
             ("max(1, floor(taps / 8)) + min(taps, 2 * 3)", 5.0),
             ("0.5e1 + .5", 5.5),
             ("-view[3] * 2", -8.0),
@@ -208,6 +217,8 @@ mod tests {
             ("", "without a value"),
             ("1 +", "without a value"),
             ("(1", "bracket without"),
+            ("ceil(1", "bracket without"),
+            ("ceil 1", "unknown name \"ceil\""),
             ("max(1)", "without two values"),
             ("min(1, 2", "without two values"),
             ("1 2", "goes on with"),

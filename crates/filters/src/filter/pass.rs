@@ -1,7 +1,7 @@
 //! Passes of a filter, and the textures between them.
 
+use super::expression::Expression;
 use super::pass_shader::PassShader;
-use super::reach::Length;
 use crate::Format;
 
 /// Texture that one pass writes for another.
@@ -11,8 +11,8 @@ pub struct Texture {
     pub name: String,
     /// Numbers per texel.
     pub format: Format,
-    /// Divisors of the image's width and height; `None` for the image's own size.
-    pub divided_by: Option<[Length; 2]>,
+    /// Divisors of the image's width and height, of parameters, `width` and `height`; `None` for the image's own size.
+    pub divided_by: Option<[Expression; 2]>,
     /// Rounding of what they make.
     pub rounding: Rounding,
     /// Mip levels, at most as many as there are halvings down to one texel.

@@ -39,6 +39,8 @@ pub struct PassShader {
     pub constants: Vec<(String, Expression)>,
     /// Conditions of WESL that hold.
     pub conditions: Vec<String>,
+    /// Program that compiles it; the first that can if left out.
+    pub compiler: Option<String>,
 }
 
 impl PassShader {

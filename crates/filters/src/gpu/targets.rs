@@ -7,7 +7,7 @@ use super::place::Place;
 use super::transfer::{Target, count_texels};
 use crate::filter::{INPUTS, Rounding};
 use crate::shader::{EntryPoint, Role, Variable};
-use crate::{Filter, FilterError, Format, Pass, Settings};
+use crate::{Filter, FilterError, Format, Pass, Settings, Texture};
 
 /// Textures by name. One that a pass both reads and writes has two copies; the first is the one to read.
 #[derive(Debug)]
@@ -39,7 +39,7 @@ fn describe_targets<'f>(
     filter: &'f Filter,
     settings: &Settings,
     size: [u32; 2],
-) -> Vec<TargetDescription<'f>> {
+) -> Result<Vec<TargetDescription<'f>>, String> {
     let inputs = INPUTS.map(|name| (name, filter.convention.input_format(name)));
     let before = filter.history.iter().map(|history| {
         let format = filter.convention.input_format(history.input());
@@ -57,9 +57,9 @@ fn describe_targets<'f>(
         copies: 1,
         usage: find_usage(filter, name),
     });
+    let numbers = settings.list_numbers(filter);
     let declared = filter.textures.iter().map(|texture| {
-        let divisors = texture.divided_by.as_ref();
-        let divisors = divisors.map_or([1, 1], |each| each.clone().map(|it| settings.pixels(&it)));
+        let divisors = find_divisors(texture, &numbers, size)?;
         let [width, height] = size;
         let exchanged = filter.passes.iter().any(|pass| {
             let mut names = filter.entry_point(pass).exchanged_textures();
@@ -72,7 +72,7 @@ fn describe_targets<'f>(
                     Rounding::Down => (side / divisor).max(1),
                 }
             });
-        TargetDescription {
+        Ok(TargetDescription {
             name: &texture.name,
             size,
             // The last level has one texel.
@@ -80,9 +80,37 @@ fn describe_targets<'f>(
             format: texture.format,
             copies: if exchanged { 2 } else { 1 },
             usage: find_usage(filter, &texture.name),
-        }
+        })
     });
-    builtin.chain(declared).collect()
+    builtin.map(Ok).chain(declared).collect()
+}
+
+/// Computes what divides a texture's width and height on pictures of a size. `numbers` are the settings by name.
+fn find_divisors(
+    texture: &Texture,
+    numbers: &BTreeMap<String, f64>,
+    size: [u32; 2],
+) -> Result<[u32; 2], String> {
+    let Some(divisors) = &texture.divided_by else {
+        return Ok([1, 1]);
+    };
+    let value = |name: &str| match (numbers.get(name), name) {
+        (Some(number), _) => *number,
+        (None, "width") => f64::from(size[0]),
+        (None, _) => f64::from(size[1]),
+    };
+    let [width, height] = divisors.each_ref().map(|divisor| {
+        let found = divisor.evaluate(&value);
+        let is_allowed = found.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&found);
+        is_allowed.then_some(found as u32).ok_or_else(|| {
+            format!(
+                "divided_by of texture \"{}\" is {found}; allowed: whole numbers from 1; round it with ceil(), and keep it \
+                 above 0 with max()",
+                texture.name
+            )
+        })
+    });
+    Ok([width?, height?])
 }
 
 /// Finds the format of the output: that in which a shader stores it, or that of the convention for render targets.
@@ -136,18 +164,19 @@ impl Targets {
         settings: &Settings,
         size: [u32; 2],
     ) -> Result<Self, FilterError> {
-        let descriptions = describe_targets(filter, settings, size);
+        let refuse = |reason: String| FilterError::Size {
+            filter: filter.name.clone(),
+            width: size[0],
+            height: size[1],
+            reason,
+        };
+        let descriptions = describe_targets(filter, settings, size).map_err(refuse)?;
         let bytes: u64 = (descriptions.iter().map(TargetDescription::bytes)).sum();
         if bytes > MAX_TEXTURE_BYTES {
-            return Err(FilterError::Size {
-                filter: filter.name.clone(),
-                width: size[0],
-                height: size[1],
-                reason: format!(
-                    "its textures take {bytes} bytes; allowed: at most {MAX_TEXTURE_BYTES}; render a smaller frame, or \
-                     declare fewer or smaller textures"
-                ),
-            });
+            return Err(refuse(format!(
+                "its textures take {bytes} bytes; allowed: at most {MAX_TEXTURE_BYTES}; render a smaller frame, or \
+                 declare fewer or smaller textures"
+            )));
         }
         let place = Place {
             filter: &filter.name,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::filter::{INPUTS, Lines, PassShader};
 use crate::shader::{EntryPoint, Role, Shader, Texel, written_texture};
-use crate::{Filter, FilterError, Format, Length, Pass, Repeat, Stage};
+use crate::{Filter, FilterError, Format, Pass, Repeat, Stage};
 
 /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
 /// passes read and write.
@@ -95,8 +95,7 @@ impl Check<'_> {
                 (textures.iter()).flat_map(|texture| texture.divided_by.iter().flatten());
             blocks.any(|block| block.reads(name))
                 || repeats.any(|repeat| matches!(repeat, Repeat::Parameter(known) if known == name))
-                || divisors
-                    .any(|length| matches!(length, Length::Parameter(known) if known == name))
+                || divisors.any(|divisor| divisor.reads(name))
                 || (passes.iter().filter_map(|pass| pass.shader.as_ref()))
                     .flat_map(PassShader::list_expressions)
                     .any(|expression| expression.reads(name))

@@ -3,6 +3,7 @@
 mod bindings;
 mod command;
 mod convention;
+mod divisors;
 mod file;
 mod parameters;
 mod parse;

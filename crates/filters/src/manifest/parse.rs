@@ -31,6 +31,7 @@ struct Manifest {
     alignment: Alignment,
     #[serde(default)]
     mirror_symmetric: bool,
+    reference_width: Option<Spanned<u32>>,
     #[serde(default)]
     parameter: Vec<Spanned<ParameterEntry>>,
     #[serde(default)]
@@ -87,7 +88,12 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     )?;
     Ok(Filter {
         name: name.clone(),
-        presets: read_presets(&file, &manifest.preset, &parameters)?,
+        presets: read_presets(
+            &file,
+            &manifest.preset,
+            &parameters,
+            manifest.reference_width.as_ref(),
+        )?,
         passes: read_passes(&file, &manifest.pass, &textures, &parameters, &convention)?,
         convention,
         history: read_history(&file, &manifest)?,

@@ -23,6 +23,7 @@ pub(super) struct ShaderKeys<'m> {
     pub bindings: &'m [Spanned<BindingEntry>],
     pub constants: &'m BTreeMap<String, NumberEntry>,
     pub conditions: &'m [String],
+    pub compiler: Option<&'m str>,
 }
 
 /// Reads the shader of a pass; none where the pass runs a kernel of the filter's WGSL file.
@@ -42,6 +43,7 @@ pub(super) fn read_shader<T>(
             ("[[pass.binding]]", !keys.bindings.is_empty()),
             ("constants", !keys.constants.is_empty()),
             ("conditions", !keys.conditions.is_empty()),
+            ("compiler", keys.compiler.is_some()),
         ];
         return match given.iter().find(|(_, given)| *given) {
             None => Ok(None),
@@ -64,6 +66,16 @@ pub(super) fn read_shader<T>(
             path.get_ref(),
             language.name()
         )));
+    }
+    if let Some(compiler) = keys
+        .compiler
+        .filter(|it| !language.compilers().contains(it))
+    {
+        let (name, known) = (language.name(), language.compilers().join(", "));
+        return Err(refuse(match known.is_empty() {
+            true => format!("compiler = \"{compiler}\"; {name} needs no compiler; leave it out"),
+            false => format!("compiler = \"{compiler}\"; allowed for {name}: {known}"),
+        }));
     }
     let vertex = read_vertex(file, place, keys, stage, &relative)?;
     let entry = keys.entry.unwrap_or("main");
@@ -101,6 +113,7 @@ pub(super) fn read_shader<T>(
         bindings,
         constants: read_constants(file, place, keys.constants, names)?,
         conditions: keys.conditions.to_vec(),
+        compiler: keys.compiler.map(str::to_owned),
     }))
 }
 

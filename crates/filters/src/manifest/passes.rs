@@ -6,14 +6,13 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::bindings::{BindingEntry, Names, NumberEntry};
+use super::divisors::{DivisorEntry, read_divisors};
 use super::file::{File, IDENTIFIER, is_identifier};
 use super::parameters::check_count;
 use super::pass_shader::{ShaderKeys, read_shader};
-use super::reach_by::{LengthEntry, read_length};
 use crate::filter::{PassShader, Stage};
 use crate::{
-    Convention, FilterError, Format, Holds, Kind, Length, Parameter, Pass, Repeat, Rounding,
-    Texture,
+    Convention, FilterError, Format, Holds, Kind, Parameter, Pass, Repeat, Rounding, Texture,
 };
 
 #[derive(Deserialize)]
@@ -48,16 +47,7 @@ pub(super) struct PassEntry {
     constants: BTreeMap<String, NumberEntry>,
     #[serde(default)]
     conditions: Vec<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "a length is a number of pixels or the name of an integer parameter, or a list of two for width and height"
-)]
-enum DivisorEntry {
-    Both(LengthEntry),
-    Each([LengthEntry; 2]),
+    compiler: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -177,6 +167,7 @@ pub(super) fn read_passes(
             binding,
             constants,
             conditions,
+            compiler,
         } = spanned.get_ref();
         if let Some(entry) = entry {
             file.check_line(spanned, "entry", entry)?;
@@ -192,6 +183,7 @@ pub(super) fn read_passes(
             bindings: binding,
             constants,
             conditions,
+            compiler: compiler.as_deref(),
         };
         let names = Names {
             textures,
@@ -262,19 +254,6 @@ fn name_pass(shader: &PassShader) -> String {
     match (&shader.entry[..], stem) {
         ("main", Some(stem)) => stem.to_owned(),
         (entry, _) => entry.to_owned(),
-    }
-}
-
-fn read_divisors(parameters: &[Parameter], entry: &DivisorEntry) -> Result<[Length; 2], String> {
-    match entry {
-        DivisorEntry::Both(both) => {
-            let length = read_length(parameters, both)?;
-            Ok([length.clone(), length])
-        }
-        DivisorEntry::Each([width, height]) => Ok([
-            read_length(parameters, width)?,
-            read_length(parameters, height)?,
-        ]),
     }
 }
 

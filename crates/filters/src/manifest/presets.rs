@@ -22,12 +22,15 @@ pub(super) struct PresetEntry {
     tuned: Option<TuningRecord>,
 }
 
-/// Reads every preset; a filter without any gets one with every parameter at its default.
+/// Reads every preset; a filter without any gets one with every parameter at its default. `reference_width` is that of the filter,
+/// for presets without one of their own.
 pub(super) fn read_presets(
     file: &File,
     entries: &[Spanned<PresetEntry>],
     parameters: &[Parameter],
+    reference_width: Option<&Spanned<u32>>,
 ) -> Result<Vec<Preset>, FilterError> {
+    let of_filter = read_reference_width(file, "", reference_width, parameters)?;
     let mut presets = Vec::<Preset>::new();
     for spanned in entries {
         let entry = spanned.get_ref();
@@ -69,11 +72,14 @@ pub(super) fn read_presets(
             );
             return Err(file.at(spanned, reason));
         }
+        let named = format!("preset \"{}\": ", entry.name);
+        let own = entry.reference_width.as_ref();
+        let own = read_reference_width(file, &named, own, parameters)?;
         presets.push(Preset {
             name: entry.name.clone(),
             doc,
             source: read_source(file, &entry.name, entry.source.as_ref())?,
-            reference_width: read_reference_width(file, entry, parameters)?,
+            reference_width: own.or(of_filter),
             values,
             tuned: entry.tuned.clone(),
         });
@@ -83,7 +89,7 @@ pub(super) fn read_presets(
             name: "default".into(),
             doc: "Every parameter at its default.".into(),
             source: None,
-            reference_width: None,
+            reference_width: of_filter,
             values: BTreeMap::new(),
             tuned: None,
         });
@@ -91,21 +97,19 @@ pub(super) fn read_presets(
     Ok(presets)
 }
 
-/// Reads the width that a preset was made for; refuses one that changes no parameter.
+/// Reads the width that a filter or a preset was made for, which `named` names; refuses one that changes no parameter.
 fn read_reference_width(
     file: &File,
-    entry: &PresetEntry,
+    named: &str,
+    entry: Option<&Spanned<u32>>,
     parameters: &[Parameter],
 ) -> Result<Option<u32>, FilterError> {
-    let Some(spanned) = &entry.reference_width else {
+    let Some(spanned) = entry else {
         return Ok(None);
     };
     let width = *spanned.get_ref();
-    let refuse = |reason: &str| {
-        let name = &entry.name;
-        let reason = format!("preset \"{name}\": reference_width = {width}{reason}");
-        file.at(spanned, reason)
-    };
+    let refuse =
+        |reason: &str| file.at(spanned, format!("{named}reference_width = {width}{reason}"));
     if width == 0 {
         return Err(refuse("; allowed: 1 pixel or more"));
     }

@@ -54,7 +54,7 @@ pub(super) fn read_reach_by(
 }
 
 /// Reads a length.
-pub(super) fn read_length(parameters: &[Parameter], entry: &LengthEntry) -> Result<Length, String> {
+fn read_length(parameters: &[Parameter], entry: &LengthEntry) -> Result<Length, String> {
     match entry {
         LengthEntry::Pixels(0) => Err("0; allowed: 1 pixel or more".to_owned()),
         LengthEntry::Pixels(pixels) => Ok(Length::Pixels(*pixels)),

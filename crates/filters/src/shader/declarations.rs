@@ -16,6 +16,7 @@ use super::uniform::{Member, find_uniforms};
 use super::variable::{Variable, find_variable};
 use crate::FilterError;
 use crate::printable::escape_controls;
+use crate::translate::CompiledBy;
 
 /// WGSL that is appended to every filter's kernels.
 const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
@@ -39,6 +40,8 @@ pub(crate) struct Shader {
     pub entry_points: Vec<EntryPoint>,
     /// What the compiler of its language made, if parameters set specialisation constants in it.
     pub compiled: Option<Arc<Vec<u8>>>,
+    /// Compiler that made it, if its language needs one.
+    pub compiled_by: Option<CompiledBy>,
 }
 
 /// Kernels in a form that wgpu takes.
@@ -145,6 +148,7 @@ impl Shader {
             variables,
             blocks: Vec::new(),
             compiled: None,
+            compiled_by: None,
             code: Code::Wgsl(source.text),
         })
     }

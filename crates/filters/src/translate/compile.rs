@@ -18,6 +18,9 @@ use crate::printable::escape_controls;
 /// Longest time that a compiler may take.
 const TIME_LIMIT: Duration = Duration::from_secs(60);
 
+/// Most of a compiler's words that are read.
+const MAX_LOG_BYTES: u64 = 1 << 20;
+
 /// Most of a compiler's words that an error shows.
 const MAX_MESSAGE_BYTES: usize = 4096;
 
@@ -27,12 +30,56 @@ type Compiled = (String, BTreeMap<PathBuf, String>);
 /// What this process has compiled.
 static COMPILED: Mutex<BTreeMap<Compiled, Vec<u8>>> = Mutex::new(BTreeMap::new());
 
-/// Compiles a shader with the first compiler of its language that is installed: WESL to WGSL, others to SPIR-V.
+/// Lists the compilers of a pass that are installed, the best first: all of its language, or the one that it chose.
+pub(super) fn list_installed(
+    language: Language,
+    shader: &PassShader,
+    path: &Path,
+) -> Result<Vec<&'static str>, FilterError> {
+    let known = language.compilers().iter().copied();
+    // A vertex stage may have another language.
+    let chosen =
+        (shader.compiler.as_deref()).filter(|chosen| known.clone().any(|it| it == *chosen));
+    let wanted: Vec<&str> = known
+        .filter(|program| chosen.is_none_or(|chosen| chosen == *program))
+        .collect();
+    let installed: Vec<&str> = wanted
+        .iter()
+        .copied()
+        .filter(|it| is_installed(it))
+        .collect();
+    if !installed.is_empty() {
+        return Ok(installed);
+    }
+    let compilers = Compiler::list(language, shader, "");
+    let way_out = compilers
+        .iter()
+        .rev()
+        .find(|it| wanted.contains(&it.program))
+        .map_or("", |it| it.way_out);
+    let (becomes, ending) = match language {
+        Language::Wesl => ("WGSL", "wgsl"),
+        _ => ("SPIR-V", "spv"),
+    };
+    Err(FilterError::Folder {
+        path: path.to_owned(),
+        line: None,
+        reason: format!(
+            "{} needs {} on the PATH, which is not there; {way_out}; or compile it to {becomes} elsewhere and name the \
+             .{ending} file in filter.toml",
+            language.name(),
+            wanted.join(" or "),
+        ),
+    })
+}
+
+/// Compiles a shader with one of its language's compilers: WESL to WGSL, others to SPIR-V.
 pub(super) fn compile(
     folder: &Path,
     text: &str,
     language: Language,
     shader: &PassShader,
+    program: &str,
 ) -> Result<Vec<u8>, FilterError> {
     let path = &folder.join(&shader.file);
     let refuse = |line, reason| FilterError::Folder {
@@ -41,25 +88,8 @@ pub(super) fn compile(
         reason,
     };
     let compilers = Compiler::list(language, shader, text);
-    let installed = compilers.iter().find(|it| is_installed(it.program));
-    let Some(compiler) = installed else {
-        let names: Vec<&str> = compilers.iter().map(|it| it.program).collect();
-        let last = compilers.last().expect("the language has a compiler");
-        let (becomes, ending) = match language {
-            Language::Wesl => ("WGSL", "wgsl"),
-            _ => ("SPIR-V", "spv"),
-        };
-        return Err(refuse(
-            None,
-            format!(
-                "{} needs {} on the PATH, which is not there; {}; or compile it to {becomes} elsewhere and name the \
-                 .{ending} file in filter.toml",
-                language.name(),
-                names.join(" or "),
-                last.way_out
-            ),
-        ));
-    };
+    let compiler = compilers.iter().find(|it| it.program == program);
+    let compiler = compiler.expect("the program is one of the language's");
     let sources = Sources::collect(folder, &shader.file, text, language)?;
     let arguments = compiler.arguments.join(" ");
     let key = (
@@ -156,7 +186,7 @@ fn run(
     if !status.success() || is_empty {
         let mut said = Vec::new();
         let file = std::fs::File::open(&log).map_err(|error| fail("its words are lost", error))?;
-        (file.take(MAX_MESSAGE_BYTES as u64).read_to_end(&mut said))
+        (file.take(MAX_LOG_BYTES).read_to_end(&mut said))
             .map_err(|error| fail("its words are lost", error))?;
         let said = remove_colors(&String::from_utf8_lossy(&said));
         let (line, message) = find_error(&said, &input, &copies, folder);
@@ -192,5 +222,52 @@ fn find_error(said: &str, input: &Path, copies: &Path, folder: &Path) -> (Option
         .filter(|line| !line.is_empty() && *line != name)
         .map(|line| line.replace(&copies.display().to_string(), &folder.display().to_string()));
     let lines: Vec<String> = lines.map(|line| escape_controls(&line)).collect();
-    (line, lines.join("\n"))
+    (line, shorten(lines))
+}
+
+/// Joins what a compiler said. If that is too long, lines with errors come first, and the number of lines that are left out last.
+fn shorten(mut lines: Vec<String>) -> String {
+    let whole = lines.join("\n");
+    if whole.len() <= MAX_MESSAGE_BYTES {
+        return whole;
+    }
+    lines.sort_by_key(|line| !line.to_lowercase().contains("error"));
+    let mut shown = String::new();
+    let mut rest = lines.iter();
+    for line in rest.by_ref() {
+        let room = MAX_MESSAGE_BYTES.saturating_sub(shown.len());
+        if line.len() > room {
+            let ends = line.char_indices().map(|(end, _)| end);
+            let end = ends.take_while(|end| *end <= room).last().unwrap_or(0);
+            shown += &line[..end];
+            break;
+        }
+        shown += line;
+        shown.push('\n');
+    }
+    format!("{}\n... {} more lines", shown.trim_end(), rest.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MAX_MESSAGE_BYTES, shorten};
+
+    #[test]
+    fn errors_come_first_in_what_is_cut() {
+        let notes = |count: usize| (0..count).map(|n| format!("note {n}: ö{}", "-".repeat(50)));
+        let few: Vec<String> = notes(3).chain(["an Error".to_owned()]).collect();
+        assert_eq!(shorten(few.clone()), few.join("\n"));
+        let many: Vec<String> = notes(500)
+            .chain(["E0001: error: no such name".into()])
+            .collect();
+        let said = shorten(many);
+        let start = "E0001: error: no such name\nnote 0: ö---";
+        assert!(said.starts_with(start), "{said}");
+        assert!(said.len() < MAX_MESSAGE_BYTES + 30);
+        assert!(said.ends_with(" more lines"), "{said}");
+        // One line that is too long shows its beginning.
+        let said = shorten(vec!["ä".repeat(5000), "error".repeat(2000)]);
+        assert!(said.starts_with("errorerror"), "{said}");
+        assert!(said.ends_with("errore\n... 1 more lines"), "{said}");
+    }
 }

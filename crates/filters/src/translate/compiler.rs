@@ -34,7 +34,7 @@ impl Compiler {
         }
     }
 
-    /// Returns the compilers of a language, the best first. `text` is that of the shader.
+    /// Returns the compilers of a language, the best first, as `Language::compilers` names them. `text` is that of the shader.
     pub fn list(language: Language, shader: &PassShader, text: &str) -> Vec<Self> {
         let entry = &shader.entry;
         let (short, stage, profile) = match shader.stage {
@@ -61,7 +61,7 @@ impl Compiler {
             // GLSL knows no other entry point than `main`.
             Language::Glsl => vec![Self::new(
                 "glslangValidator",
-                &format!("{{include}} -V --target-env vulkan1.1 -S {short} -o {{out}} {{in}}"),
+                &format!("-V --target-env vulkan1.1 -S {short} -o {{out}} {{in}}"),
                 GLSLANG_WAY_OUT,
             )],
             Language::Slang => vec![slang("slang")],
@@ -70,14 +70,14 @@ impl Compiler {
                 Self::new(
                     "dxc",
                     &format!(
-                        "{{include}} -spirv -fspv-target-env=vulkan1.1 -T {profile} -E {entry} {REGISTERS} -Fo {{out}} {{in}}"
+                        "-spirv -fspv-target-env=vulkan1.1 -T {profile} -E {entry} {REGISTERS} -Fo {{out}} {{in}}"
                     ),
                     "install dxc from https://github.com/microsoft/DirectXShaderCompiler/releases and add it to the PATH",
                 ),
                 Self::new(
                     "glslangValidator",
                     &format!(
-                        "{{include}} -D -V --target-env vulkan1.1 -S {short} -e {entry} --auto-map-bindings \
+                        "-D -V --target-env vulkan1.1 -S {short} -e {entry} --auto-map-bindings \
                          --auto-map-locations {GLSLANG_REGISTERS} -o {{out}} {{in}}"
                     ),
                     GLSLANG_WAY_OUT,

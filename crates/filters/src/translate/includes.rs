@@ -7,22 +7,31 @@ pub(super) struct Include {
     pub line: usize,
     /// The path as it is written; none where a macro stands for it.
     pub path: Option<String>,
+    /// True for a module of Slang.
+    pub is_module: bool,
 }
 
 /// Words of Slang before the path of a module.
-const IMPORTS: [&str; 4] = ["import", "__import", "__include", "implementing"];
+pub(super) const IMPORTS: [&str; 4] = ["import", "__import", "__include", "implementing"];
 
-/// Lists the files that a text without comments names, as a preprocessor sees them: with lines joined that end with `\`.
+/// Lists the files that a plain text names.
 pub(super) fn list_includes(text: &str) -> Vec<Include> {
     let mut includes = Vec::new();
     for (line, text) in list_lines(text) {
-        let text = text.trim_start_matches('\u{feff}').trim();
+        let text = text.trim();
         match text.strip_prefix('#').or_else(|| text.strip_prefix("%:")) {
-            Some(directive) => includes
-                .extend(read_directive(directive.trim_start()).map(|path| Include { line, path })),
+            Some(directive) => {
+                let path = read_directive(directive.trim_start());
+                includes.extend(path.map(|path| Include {
+                    line,
+                    path,
+                    is_module: false,
+                }));
+            }
             None => includes.extend(list_imports(text).map(|path| Include {
                 line,
                 path: Some(path),
+                is_module: true,
             })),
         }
     }
@@ -39,60 +48,87 @@ fn read_directive(directive: &str) -> Option<Option<String>> {
 
 /// Lists paths in quotes that follow a word of Slang for modules.
 fn list_imports(text: &str) -> impl Iterator<Item = String> {
-    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     // Every second piece lies within quotes.
     let pieces: Vec<&str> = text.split('"').collect();
     let pairs = pieces.chunks_exact(2);
-    let named = pairs.filter(move |pair| {
-        let word = pair[0].trim_end();
-        let start = word.trim_end_matches(is_part).len();
-        IMPORTS.contains(&&word[start..])
-    });
+    let named = pairs.filter(|pair| ends_with_import(pair[0]));
     let paths: Vec<String> = named.map(|pair| pair[1].to_owned()).collect();
     paths.into_iter()
 }
 
-/// Lists the lines of a text without comments, each with its number. A line that ends with `\` goes on in the next one, and so does
-/// a word of Slang for modules.
+/// Returns true for text before the path of a module.
+pub(super) fn ends_with_import(text: &str) -> bool {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let text = text.trim_end();
+    let start = text.trim_end_matches(is_part).len();
+    IMPORTS.contains(&&text[start..])
+}
+
+/// Lists the lines of a plain text, each with its number. A word of Slang for modules goes on in the next line.
 fn list_lines(text: &str) -> Vec<(usize, String)> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut goes_on = false;
     for (index, part) in text.split('\n').enumerate() {
-        let (part, is_spliced) = match part.strip_suffix('\\') {
-            Some(part) => (part, true),
-            None => (part, false),
-        };
         match lines.last_mut() {
-            Some((_, line)) if goes_on => line.push_str(part),
+            Some((_, line)) if goes_on => line.extend([" ", part]),
             _ => lines.push((index + 1, part.to_owned())),
         }
         let line = &lines.last().expect("there is a line").1;
         let names_module = IMPORTS.iter().any(|word| line.trim_end().ends_with(word));
-        goes_on = is_spliced || (names_module && !line.trim_start().starts_with('#'));
-        if goes_on && !is_spliced {
-            lines.last_mut().expect("there is a line").1.push(' ');
-        }
+        goes_on = names_module && !line.trim_start().starts_with('#');
     }
     lines
 }
 
-/// Removes the comments of a text, and keeps its lines. A compiler that reads the result sees what [`list_includes`] saw, even
-/// where the two disagree about what is a comment.
-pub(super) fn remove_comments(text: &str) -> String {
-    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+/// Makes the text that a compiler gets, and that [`list_includes`] reads: lines that end with `\` are joined, comments are removed, and
+/// lines keep their numbers. So both see the same, even where they disagree about what is a comment.
+pub(super) fn make_plain(text: &str) -> String {
+    let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n");
+    let text = text.replace(['\u{b}', '\u{c}'], " ");
+    let plain = remove_comments(&join_lines(&text.replace('\r', "\n")));
+    let lines = plain.split('\n').map(drop_file_name);
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Shortens `#line 3 "file"` to `#line 3`: no compiler shall look beside that file.
+fn drop_file_name(line: &str) -> &str {
+    let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
+    let is_number =
+        |rest: &str| rest.starts_with("line") || rest.starts_with(|c: char| c.is_ascii_digit());
+    match (directive.is_some_and(is_number), line.find('"')) {
+        (true, Some(at)) => &line[..at],
+        _ => line,
+    }
+}
+
+/// Joins lines that end with `\`. Empty lines follow, so that the others keep their numbers.
+fn join_lines(text: &str) -> String {
+    let mut joined = String::with_capacity(text.len());
+    let mut due = 0;
+    for line in text.split_inclusive('\n') {
+        match line.strip_suffix("\\\n") {
+            Some(start) => {
+                joined.push_str(start);
+                due += 1;
+            }
+            None => {
+                joined.push_str(line);
+                joined.extend(std::iter::repeat_n('\n', due));
+                due = 0;
+            }
+        }
+    }
+    joined
+}
+
+/// Removes the comments of a text whose lines are joined, and keeps its other lines.
+fn remove_comments(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut rest = text.chars().peekable();
     let mut in_quotes = false;
     while let Some(c) = rest.next() {
         match (c, rest.peek().copied()) {
-            ('/', Some('/')) if !in_quotes => {
-                let mut last = ' ';
-                // A comment goes on behind `\`.
-                while let Some(c) = rest.next_if(|c| *c != '\n' || last == '\\') {
-                    plain.extend((c == '\n').then_some(c));
-                    last = c;
-                }
-            }
+            ('/', Some('/')) if !in_quotes => while rest.next_if(|c| *c != '\n').is_some() {},
             ('/', Some('*')) if !in_quotes => {
                 rest.next();
                 plain.push(' ');
@@ -105,7 +141,7 @@ pub(super) fn remove_comments(text: &str) -> String {
                     last = c;
                 }
             }
-            ('\\', Some(escaped)) if in_quotes => {
+            ('\\', Some(escaped)) if in_quotes && escaped != '\n' => {
                 rest.next();
                 plain.extend([c, escaped]);
             }
@@ -120,7 +156,7 @@ pub(super) fn remove_comments(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Include, list_includes, remove_comments};
+    use super::{list_includes, make_plain};
 
     #[test]
     fn includes_are_found_however_they_are_written() {
@@ -166,13 +202,9 @@ mod tests {
             ),
         ];
         for (text, expected) in cases {
-            let expected: Vec<Include> = (expected.iter())
-                .map(|(line, path)| Include {
-                    line: *line,
-                    path: path.map(str::to_owned),
-                })
-                .collect();
-            assert_eq!(list_includes(&remove_comments(text)), expected, "{text}");
+            let includes = list_includes(&make_plain(text));
+            let found = includes.iter().map(|it| (it.line, it.path.as_deref()));
+            assert_eq!(found.collect::<Vec<_>>(), expected, "{text}");
         }
     }
 }

@@ -4,6 +4,7 @@
 //! panics of the libraries are caught by the caller.
 
 mod bind;
+mod closed;
 mod combined;
 mod compile;
 mod compiler;
@@ -11,6 +12,7 @@ mod constants;
 #[cfg(test)]
 mod deep;
 mod entry;
+mod fallback;
 mod formats;
 mod includes;
 mod language;
@@ -31,8 +33,11 @@ use crate::filter::PassShader;
 use crate::shader::{Shader, run_on_large_stack};
 use crate::{Filter, FilterError, Settings};
 use bind::{bind, check_places};
+use compile::list_installed;
+use fallback::try_each;
 use module::{OpenModule, compile_shader, read};
 
+pub(crate) use fallback::CompiledBy;
 pub(crate) use language::Language;
 pub(crate) use sources::stays_below;
 
@@ -58,34 +63,60 @@ pub(crate) fn translate(
     let vertex = shader.vertex_stage();
     let vertex = vertex.map(|stage| Ok::<_, FilterError>((read_file(&stage.file)?, stage)));
     let vertex = vertex.transpose()?;
-    guard(&path, || {
-        let constants = list_constants(filter, shader, &filter.settings(None)?);
-        let compile = |stage: &PassShader, path: &Path, bytes: &[u8]| {
-            let compiled = compile_shader(filter, stage, path, bytes)?;
-            let open = read(filter, stage, path, &compiled, &constants)?;
-            Ok::<_, FilterError>((compiled, open))
-        };
-        let own = compile(shader, &path, &bytes)?;
-        let vertex = (vertex.as_ref())
-            .map(|((path, bytes), stage)| Ok((compile(stage, path, bytes)?, path, stage)))
-            .transpose()?;
-        let corners = vertex.as_ref().map(|((_, open), ..)| open);
-        let stages: Vec<&OpenModule> = [&own.1].into_iter().chain(corners).collect();
-        check_places(filter, shader, &path, &stages)?;
-        // Kept where a parameter changes the module.
-        let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
-        let bind_stage = |(compiled, open), path: &Path, stage: &PassShader| {
-            let bound = bind(filter, stage, path, open, &constants)?;
-            Ok::<_, FilterError>(Shader {
-                compiled: is_open.then(|| Arc::new(compiled)),
-                ..bound
-            })
-        };
-        let vertex = vertex.map(|(made, path, stage)| bind_stage(made, path, stage));
-        Ok(Translated {
-            vertex: vertex.transpose()?,
-            shader: bind_stage(own, &path, shader)?,
+    let own = (path.as_path(), &bytes[..]);
+    let vertex = vertex.as_ref();
+    let vertex = vertex.map(|((path, bytes), stage)| ((path.as_path(), &bytes[..]), stage));
+    let attempt = |compiler| {
+        guard(&path, || {
+            translate_with(filter, (shader, own), vertex, compiler)
         })
+    };
+    let language = Language::of(&shader.file).map_err(|reason| refuse(&path, reason))?;
+    if language.compilers().is_empty() {
+        return attempt(None);
+    }
+    let installed = list_installed(language, shader, &path)?;
+    let (mut made, compiled_by) = try_each(&installed, |program| attempt(Some(program)))?;
+    made.shader.compiled_by = Some(compiled_by);
+    Ok(made)
+}
+
+/// Path and bytes of a shader.
+type File<'f> = (&'f Path, &'f [u8]);
+
+/// Translates the shaders of a pass by one compiler, if their language needs one.
+fn translate_with(
+    filter: &Filter,
+    (shader, (path, bytes)): (&PassShader, File),
+    vertex: Option<(File, &PassShader)>,
+    compiler: Option<&str>,
+) -> Result<Translated, FilterError> {
+    let constants = list_constants(filter, shader, &filter.settings(None)?);
+    let compile = |stage: &PassShader, (path, bytes): File| {
+        let compiled = compile_shader(filter, stage, path, bytes, compiler)?;
+        let open = read(filter, stage, path, &compiled, &constants)?;
+        Ok::<_, FilterError>((compiled, open))
+    };
+    let own = compile(shader, (path, bytes))?;
+    let vertex = vertex
+        .map(|(file, stage)| Ok((compile(stage, file)?, file.0, stage)))
+        .transpose()?;
+    let corners = vertex.as_ref().map(|((_, open), ..)| open);
+    let stages: Vec<&OpenModule> = [&own.1].into_iter().chain(corners).collect();
+    check_places(filter, shader, path, &stages)?;
+    // Kept where a parameter changes the module.
+    let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
+    let bind_stage = |(compiled, open), path: &Path, stage: &PassShader| {
+        let bound = bind(filter, stage, path, open, &constants)?;
+        Ok::<_, FilterError>(Shader {
+            compiled: is_open.then(|| Arc::new(compiled)),
+            ..bound
+        })
+    };
+    let vertex = vertex.map(|(made, path, stage)| bind_stage(made, path, stage));
+    Ok(Translated {
+        vertex: vertex.transpose()?,
+        shader: bind_stage(own, path, shader)?,
     })
 }
 
@@ -110,6 +141,7 @@ pub(crate) fn specialise(
     })?;
     Ok(Shader {
         compiled: made.compiled.clone(),
+        compiled_by: made.compiled_by.clone(),
         ..specialised
     })
 }

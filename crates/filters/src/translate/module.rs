@@ -6,7 +6,7 @@ use std::path::Path;
 use wgpu::naga::{AddressSpace, Module, ResourceBinding, front};
 
 use super::combined::split_combined_samplers;
-use super::compile::compile;
+use super::compile::{compile, list_installed};
 use super::constants::set_constants;
 use super::formats::give_formats;
 use super::levels::name_levels;
@@ -33,12 +33,14 @@ pub(super) const PUSH_CONSTANTS: ResourceBinding = ResourceBinding {
     binding: 0,
 };
 
-/// Compiles the bytes of a shader to SPIR-V, or to WGSL if it is WESL. SPIR-V and WGSL stay as they are.
+/// Compiles the bytes of a shader to SPIR-V, or to WGSL if it is WESL. SPIR-V and WGSL stay as they are. A language that `compiler`
+/// does not know takes the first of its own.
 pub(super) fn compile_shader(
     filter: &Filter,
     shader: &PassShader,
     path: &Path,
     bytes: &[u8],
+    compiler: Option<&str>,
 ) -> Result<Vec<u8>, FilterError> {
     let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
     if language == Language::Spirv {
@@ -55,13 +57,17 @@ pub(super) fn compile_shader(
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
-    match language {
-        Language::Wgsl | Language::Spirv => Ok(bytes.to_vec()),
-        Language::Glsl => compile(folder, &without_stage_line(text), language, shader),
-        Language::Wesl | Language::Slang | Language::Hlsl => {
-            compile(folder, text, language, shader)
-        }
+    if language == Language::Wgsl {
+        return Ok(bytes.to_vec());
     }
+    let installed = list_installed(language, shader, path)?;
+    let compiler = compiler.filter(|compiler| installed.contains(compiler));
+    let compiler = compiler.unwrap_or(installed[0]);
+    let text = match language {
+        Language::Glsl => without_stage_line(text),
+        _ => text.to_owned(),
+    };
+    compile(folder, &text, language, shader, compiler)
 }
 
 /// Reads a compiled shader. `constants` are values of specialisation constants, which SPIR-V gets here.

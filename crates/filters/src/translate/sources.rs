@@ -6,8 +6,9 @@ use std::path::{Component, Path, PathBuf};
 use frame::read_bounded;
 
 use super::Language;
+use super::closed::check_closed;
 use super::compiler::MAX_MODULE_BYTES;
-use super::includes::{list_includes, remove_comments};
+use super::includes::{list_includes, make_plain};
 use super::packages::name_packages;
 use crate::FilterError;
 
@@ -50,12 +51,7 @@ impl Sources {
         collector.texts.insert(file.clone(), text.to_owned());
         match language {
             Language::Wesl => name_packages(&base, &mut collector.texts),
-            _ => {
-                for text in collector.texts.values_mut() {
-                    *text = remove_comments(text);
-                }
-                collector.add_included(&base)?;
-            }
+            _ => collector.resolve_all(&base)?,
         }
         Ok(Self {
             shader: file,
@@ -84,44 +80,83 @@ struct Collector<'a> {
 }
 
 impl Collector<'_> {
-    /// Adds every file that a known one includes, until there is nothing new.
-    fn add_included(&mut self, base: &Path) -> Result<(), FilterError> {
+    /// Resolves what each file names, and adds what is new, until there is nothing new.
+    fn resolve_all(&mut self, base: &Path) -> Result<(), FilterError> {
         let mut waiting: Vec<PathBuf> = self.texts.keys().cloned().collect();
-        let mut not_beside = Vec::new();
         while let Some(file) = waiting.pop() {
-            for include in list_includes(&self.texts[&file]) {
-                let refuse = |reason: String| self.refuse_line(&file, include.line, reason);
-                let Some(path) = &include.path else {
-                    return Err(refuse(
-                        "#include names its file by a macro; allowed: the path itself, in quotes"
-                            .into(),
-                    ));
-                };
-                let found = self.find(&file, base, path).map_err(refuse)?;
-                let beside = join(folder_of(&file), path);
-                if found.is_none() || found != beside {
-                    not_beside.push((file.clone(), include.line, path.clone()));
+            let text = make_plain(&self.texts[&file]);
+            let (text, found) = self.resolve(&file, base, &text)?;
+            self.texts.insert(file, text);
+            for place in found {
+                if !self.texts.contains_key(&place) {
+                    self.read(&place)?;
+                    waiting.push(place);
                 }
-                if let Some(found) = found.filter(|found| !self.texts.contains_key(found)) {
-                    self.read(&found)?;
-                    let text = &self.texts[&found];
-                    self.texts.insert(found.clone(), remove_comments(text));
-                    waiting.push(found);
-                }
-            }
-        }
-        self.check_other_folders(&not_beside)
-    }
-
-    /// Refuses a path that leads out of the filter's folder from any folder of the shader. A compiler looks in the folders of all
-    /// files that are being included for what is not beside the file that names it.
-    fn check_other_folders(&self, paths: &[(PathBuf, usize, String)]) -> Result<(), FilterError> {
-        for (file, line, path) in paths {
-            if (self.texts.keys()).any(|other| join(folder_of(other), path).is_none()) {
-                return Err(self.refuse_line(file, *line, self.leads_out(path)));
             }
         }
         Ok(())
+    }
+
+    /// Rewrites a plain text so that each `#include` names a copy as seen from the file itself: there every compiler looks first, and
+    /// opens nothing else. Returns the files that it names, too.
+    fn resolve(
+        &self,
+        file: &Path,
+        base: &Path,
+        text: &str,
+    ) -> Result<(String, Vec<PathBuf>), FilterError> {
+        let mut lines: Vec<String> = text.split('\n').map(str::to_owned).collect();
+        let (mut resolved, mut places) = (Vec::new(), Vec::new());
+        for include in list_includes(text) {
+            let refuse = |reason: String| self.refuse_line(file, include.line, reason);
+            let Some(path) = include.path.as_deref() else {
+                return Err(refuse(
+                    "#include names its file by a macro; allowed: the path itself, in quotes"
+                        .into(),
+                ));
+            };
+            let found = self
+                .find((file, base), path, include.is_module)
+                .map_err(refuse)?;
+            let lead = found
+                .as_ref()
+                .map(|place| lead_from(folder_of(file), place));
+            match (lead, include.is_module) {
+                (Some(lead), false) => {
+                    lines[include.line - 1] = format!("#include \"{lead}\"");
+                    resolved.push(include.line);
+                }
+                // A condition may leave it out.
+                (None, false) => {
+                    lines[include.line - 1] =
+                        format!("#error includes \"{path}\", which is no file of this filter");
+                }
+                (Some(lead), true) => {
+                    let quoted = format!("\"{path}\"");
+                    let lead = match path.ends_with(".slang") {
+                        true => &lead[..],
+                        false => lead.trim_end_matches(".slang"),
+                    };
+                    // The path may be in a line after the word.
+                    let mut rest = lines.iter_mut().skip(include.line - 1);
+                    if let Some(line) = rest.find(|line| line.contains(&quoted)) {
+                        *line = line.replace(&quoted, &format!("\"{lead}\""));
+                    }
+                }
+                (None, true) if path.contains("..") => {
+                    return Err(refuse(format!(
+                        "imports \"{path}\", which is no file of this filter"
+                    )));
+                }
+                // A file of the program's copies, or none.
+                (None, true) => {}
+            }
+            places.extend(found);
+        }
+        let text = lines.join("\n");
+        check_closed(&text, self.language, &resolved)
+            .map_err(|(line, reason)| self.refuse_line(file, line, reason))?;
+        Ok((text, places))
     }
 
     fn leads_out(&self, path: &str) -> String {
@@ -139,12 +174,19 @@ impl Collector<'_> {
         }
     }
 
-    /// Finds an included file beside the one that includes it, or beside the shader; none where neither is there, which the
-    /// compiler says.
-    fn find(&self, by: &Path, base: &Path, path: &str) -> Result<Option<PathBuf>, String> {
+    /// Finds a file beside the one that names it, or beside the shader; none where neither is there. A module may go without its
+    /// ending.
+    fn find(
+        &self,
+        (by, base): (&Path, &Path),
+        path: &str,
+        is_module: bool,
+    ) -> Result<Option<PathBuf>, String> {
         let leads_out = || self.leads_out(path);
         let own = folder_of(by);
-        for from in [own, base] {
+        let ending = if is_module { ".slang" } else { "" };
+        let named = format!("{path}{ending}");
+        for (from, path) in [(own, path), (own, &named), (base, path), (base, &named)] {
             let place = join(from, path).ok_or_else(leads_out)?;
             let candidate = self.folder.join(&place);
             if candidate.is_file() {
@@ -231,6 +273,16 @@ fn join(from: &Path, path: &str) -> Option<PathBuf> {
         }
     }
     Some(joined)
+}
+
+/// Returns the path from one folder to a file, both within the filter's folder.
+fn lead_from(from: &Path, to: &Path) -> String {
+    let shared = from.components().zip(to.components());
+    let shared = shared.take_while(|(a, b)| a == b).count();
+    let up = from.components().skip(shared).map(|_| "..".to_owned());
+    let down = to.components().skip(shared);
+    let down = down.map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/")
 }
 
 fn folder_of(file: &Path) -> &Path {

@@ -36,6 +36,7 @@ pub fn overview(
             (sequence_winners(table.run))
             (counts(table, views))
             (engines(table))
+            @if let Some(note) = table.run.scaling_note() { p.note { (note) } }
             (broken_bounds(views))
             div.toolbar #tables {
                 fieldset.choice {

@@ -9,6 +9,7 @@ pub mod file;
 pub mod layers;
 pub mod merge;
 pub mod overall;
+mod scaling;
 pub mod sequence;
 
 use filters::AdapterDescription;
