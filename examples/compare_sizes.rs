@@ -32,7 +32,7 @@ fn print_tables(paths: &[String]) -> Result<(), Error> {
     for headline in [Headline::FLIP, Headline::LABEL] {
         for comparison in compare_sizes(&results, headline)? {
             println!(
-                "## {}, {} shutter\n\nMean over {}, and rank.\n",
+                "## {}, {} shutter\n\nMean over {}, and place.\n",
                 headline.name(),
                 comparison.alignment,
                 comparison.scenes.join(", ")

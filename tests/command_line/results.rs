@@ -170,12 +170,12 @@ fn results_of_two_runs_are_those_of_one() {
     assert_eq!(Results::read(&path).unwrap(), whole);
     fs::write(
         &path,
-        whole.text().replace("\"format\": 1", "\"format\": 9"),
+        whole.text().replace("\"format\": 2", "\"format\": 9"),
     )
     .unwrap();
     let other = Results::read(&path).unwrap_err().to_string();
     assert!(
-        other.contains("kept.json: has format 9; allowed: 1"),
+        other.contains("kept.json: has format 9; allowed: 2"),
         "{other}"
     );
 }

@@ -7,18 +7,11 @@ use suite::{Case, RANKED_BY, RankedSequence, Run, rank_sequences, rank_sequences
 
 use crate::bench::{Bench, assert_done, stdout};
 
-/// Names of a ranking with their ranks: `1 a`, `2= b`.
+/// Names of a ranking with their ranks: `1 a`, `2-3 b`.
 fn names(ranking: &[Vec<RankedSequence>]) -> Vec<String> {
     let ranked = ranking.iter().flatten().map(|own| &own.ranked);
     ranked
-        .map(|own| {
-            format!(
-                "{}{} {}",
-                own.rank,
-                if own.is_tied { "=" } else { "" },
-                own.name
-            )
-        })
+        .map(|own| format!("{} {}", own.rank_text(), own.name))
         .collect()
 }
 
@@ -125,8 +118,8 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
         names(&rank_sequences(&far)),
         [
             "1 velocity_gather:fine",
-            "2= identity:default",
-            "2= velocity_gather:departure"
+            "2-3 identity:default",
+            "2-3 velocity_gather:departure"
         ]
     );
     // On one scene the floor decides.
@@ -138,13 +131,14 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
             "3 velocity_gather:departure"
         ]
     );
+    // The losses are 1.00, 1.10 and 1.15: the first and the last alone differ by more than the floor.
     let noisy = with_scores(&run, by, 0.12);
     assert_eq!(
         names(&rank_sequences_on(&noisy, "scene0")),
         [
-            "1= velocity_gather:fine",
-            "1= identity:default",
-            "3 velocity_gather:departure"
+            "1-2 velocity_gather:fine",
+            "1-3 identity:default",
+            "2-3 velocity_gather:departure"
         ]
     );
     let means = &rank_sequences(&far)[0][0].means;

@@ -38,7 +38,7 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
 }
 
 #[test]
-fn filters_within_noise_share_a_rank() {
+fn filters_within_noise_share_ranks() {
     let bench = Bench::new();
     let text = stdout(&bench.run(&[
         "--filters",
@@ -48,7 +48,7 @@ fn filters_within_noise_share_a_rank() {
         .filter(|line| line.contains(":paper") || line.contains("identity:"))
         .filter_map(|line| line.split_whitespace().next())
         .collect();
-    assert_eq!(ranks, ["1=", "1=", "3"], "{text}");
+    assert_eq!(ranks, ["1-2", "1-2", "3"], "{text}");
 }
 
 #[test]

@@ -71,11 +71,11 @@ fn a_check_from_a_pack_renders_nothing_and_has_the_same_scores() {
     let output = check(&["--truths", pack, "--out", "fresh"]);
     assert_contains(
         &stderr(&output),
-        &[pack, "traced 6 tiles again", "; nothing is rendered"],
+        &[pack, "traced 8 tiles again", "; nothing is rendered"],
     );
-    // Each scene has a frame, and two truths of eight replicates; a check renders no ladders.
+    // Each scene has a frame, two truths of eight replicates, and the sharp picture of the trailing shutter's middle.
     let kept = rendered(&bench, "out");
-    assert_eq!(kept.len(), 2 * (1 + 2 * (1 + 8)));
+    assert_eq!(kept.len(), 2 * (1 + 2 * (1 + 8) + 1));
     assert!(
         kept == rendered(&bench, "fresh"),
         "a file was rendered again, or is another one"
@@ -194,9 +194,9 @@ fn plans_and_calibrations_take_packs() {
     let more = ["--truths", "truths.tar.zst"];
     let output = bench.shuttertruth(&[&split(words)[..], &more].concat());
     assert_done(&output);
-    // The first of the two seeds is that of the pack. A calibration takes no ladders.
+    // The first of the two seeds is that of the pack. A calibration takes one rung of the ladder.
     let parts = [
-        "took 10 files",
+        "took 11 files",
         "; nothing is rendered",
         "took no file; renders",
     ];

@@ -86,16 +86,12 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     table
 }
 
-/// Names a filter behind its rank: ` 2= jimenez:hdrp`.
-pub fn rank_text(ranked: &RankedFilter) -> String {
-    let rank = match ranked.is_tied {
-        true => format!("{}=", ranked.rank),
-        false => ranked.rank.to_string(),
-    };
-    format!("{rank:>3} {}", ranked.name)
+/// Names a filter behind its rank: `  2-4 jimenez:hdrp`.
+pub fn ranked_name(ranked: &RankedFilter) -> String {
+    format!("{:>5} {}", ranked.rank_text(), ranked.name)
 }
 
-/// ` 2= jimenez:hdrp`, its FLIP, the interval, and the worst scene.
+/// `  2-4 jimenez:hdrp`, its FLIP, the interval, and the worst scene.
 fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
     let number = |value: f64| Headline::FLIP.number(value);
     let interval = match ranked.interval {
@@ -107,7 +103,7 @@ fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
     if ranked.scenes < scenes {
         worst += &format!(" ({} of {scenes} scenes)", ranked.scenes);
     }
-    vec![rank_text(ranked), number(ranked.mean), interval, worst]
+    vec![ranked_name(ranked), number(ranked.mean), interval, worst]
 }
 
 /// Name of the row of the frame's lag.
@@ -145,7 +141,7 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     };
     let of_shutters: Vec<Vec<&Case>> = shutters.iter().map(of_shutter).collect();
     let mut push = |name: &str, cells: Vec<String>| {
-        let cells = std::iter::once(format!("    {name}")).chain(cells);
+        let cells = std::iter::once(format!("      {name}")).chain(cells);
         table.push_styled(cells.collect(), faint);
     };
     for name in names {
@@ -172,7 +168,7 @@ fn mean_flip<'a>(cases: impl Iterator<Item = &'a &'a Case>) -> String {
 
 fn notes(groups: &[Vec<RankedFilter>]) -> String {
     let mut notes = "FLIP where anything moves; lower is better.".to_owned();
-    if groups.iter().flatten().any(|ranked| ranked.is_tied) {
+    if groups.iter().flatten().any(RankedFilter::is_tied) {
         notes += &format!(" {RANK_RULE}");
     }
     if groups.len() > 1 {

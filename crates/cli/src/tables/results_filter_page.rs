@@ -7,7 +7,7 @@ use filters::Filter;
 use suite::{Headline, RankedFilter, ResultScores, Results};
 use tracer::{Location, SceneListing, list_scenes};
 
-use super::results_page::{cost_text, list_filters, main_results, mean, rank, sealed_of};
+use super::results_page::{cost_text, list_filters, main_results, mean, sealed_of};
 
 /// Number of scenes that a page names for each preset, the worst first.
 const WORST: usize = 3;
@@ -79,9 +79,9 @@ fn push_scores(page: &mut String, name: &str, results: &Results, sealed: Option<
             page,
             "| `{}` | {} | {} | {} | {} | {} |",
             ranked.name,
-            rank(&ranked),
+            ranked.rank_text(),
             mean(&ranked),
-            other.map_or("-".to_owned(), rank),
+            other.map_or("-".to_owned(), RankedFilter::rank_text),
             results
                 .costs
                 .get(&ranked.name)

@@ -64,7 +64,7 @@ page from the files beside it. Nothing is entered by hand. To enter a filter, ad
     cargo run -p cli --example results -- out/results_320x180/run.json
 
 - Compare filters of one shutter only.
-- {RANK_RULE} Filters that share a rank (=) may differ, and filters of neighbouring ranks may not.
+- {RANK_RULE}
 - *Sealed* are the same scenes with speeds, directions, places, times and colours that follow from a number, as in `fan@seal1`. A preset
   that was fitted to the catalogue falls there. Scores differ from the catalogue's because speeds do: compare the ranks.
 - *Time* is that of `shuttertruth bench` at this size, divided by that of `jump_flood:paper` in the same round; a bench.json beside a
@@ -174,10 +174,11 @@ fn ranking_row(ranked: &RankedFilter, beside: &Beside) -> Vec<String> {
         true => format!("[{name}]({}.md)", ranked.filter),
         false => name,
     };
-    let mut cells = vec![rank(ranked), name, mean(ranked)];
+    let mut cells = vec![ranked.rank_text(), name, mean(ranked)];
     if let Some(sealed) = beside.sealed {
         let other = sealed.iter().find(|other| other.name == ranked.name);
-        cells.extend([rank, mean].map(|text| other.map_or("-".to_owned(), text)));
+        cells
+            .extend([RankedFilter::rank_text, mean].map(|text| other.map_or("-".to_owned(), text)));
     }
     if !beside.costs.is_empty() {
         let cost = beside.costs.get(&ranked.name);
@@ -195,10 +196,6 @@ pub(super) fn cost_text(cost: &ResultCost) -> String {
         true => format!("{median:.2}"),
         false => format!("{median:.2} ({low:.2} to {high:.2})"),
     }
-}
-
-pub(super) fn rank(ranked: &RankedFilter) -> String {
-    format!("{}{}", ranked.rank, if ranked.is_tied { "=" } else { "" })
 }
 
 pub(super) fn mean(ranked: &RankedFilter) -> String {
@@ -283,7 +280,7 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
             let _ = match family.iter().find(|own| own.name == ranked.name) {
                 Some(own) => {
                     let text = match own.scenes >= FEWEST_SCENES {
-                        true => format!("{}, {}", mean(own), rank(own)),
+                        true => format!("{}, {}", mean(own), own.rank_text()),
                         false => Headline::FLIP.number(own.mean),
                     };
                     write!(page, " {text} |")

@@ -8,7 +8,7 @@ use suite::{
 
 use super::columns::{bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::{Align, Table};
-use super::ranking::{group_text, rank_text};
+use super::ranking::{group_text, ranked_name};
 use crate::output::colors;
 
 /// Columns, each with its title.
@@ -76,7 +76,7 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
     let mut notes = "Sequences, ranked by JOD: quality by ColorVideoVDP, 10 at most, higher is better. Error: of single frames; along: of \
                      the change along the motion; both as roots, in thousandths of display white, lower is better."
         .to_owned();
-    if groups.iter().flatten().any(|own| own.ranked.is_tied) {
+    if groups.iter().flatten().any(|own| own.ranked.is_tied()) {
         notes += &format!(" {RANK_RULE}");
     }
     notes += " --table shows each scene.";
@@ -101,7 +101,7 @@ fn ranking_cells(own: &RankedSequence, scenes: usize) -> Vec<String> {
         worst += &format!(" ({} of {scenes} scenes)", ranked.scenes);
     }
     vec![
-        rank_text(ranked),
+        ranked_name(ranked),
         number(ranked.mean),
         interval,
         mean(SequenceMetric::Error),
@@ -174,7 +174,7 @@ fn order_rows<'a>(
     let with_rank = ranked.iter().filter_map(|own| {
         let mut filters = filters();
         let sequence = filters.find(|sequence| sequence.filter == own.ranked.name)?;
-        Some((rank_text(&own.ranked), *sequence))
+        Some((ranked_name(&own.ranked), *sequence))
     });
     let has_rank = |own: &Sequence| ranked.iter().any(|it| it.ranked.name == own.filter);
     let without = filters().filter(|own| !has_rank(own));

@@ -99,10 +99,10 @@ fn part(tables: Option<&Markup>) -> Markup {
     }
 }
 
-/// Writes the scores that a reader looks for first, and the rank among the filters of one shutter.
+/// Writes the scores that a reader looks for first, and the place among the filters of one shutter.
 fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
     let case = view.case;
-    let (rank, of) = rank_on_scene(table, case);
+    let (place, of) = place_on_scene(table, case);
     let count = |level, is_counted: fn(Outcome) -> bool| {
         let own = view.findings.iter().filter(|own| own.level == level);
         own.filter(|own| is_counted(own.outcome)).count()
@@ -117,8 +117,8 @@ fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
                     span { (short_name(headline)) " " strong { (headline.number(value)) } (interval(case, headline)) }
                 }
             }
-            @if let (false, Some(rank)) = (case.is_reference, rank) {
-                span { "rank " strong { (rank) } " of " (of) " with a " (case.alignment) " shutter" }
+            @if let (false, Some(place)) = (case.is_reference, place) {
+                span { "place " strong { (place) } " of " (of) " with a " (case.alignment) " shutter" }
             }
             @if bounds > 0 {
                 span class=(if broken > 0 { "broken" } else { "kept" }) { (broken) " of " (counted(bounds, "required bound")) " broken" }
@@ -145,13 +145,13 @@ fn interval(case: &Case, headline: Headline) -> String {
 }
 
 /// Counts the filters of the scene with the same shutter: those that are better by FLIP, and all.
-fn rank_on_scene(table: &CaseTable, case: &Case) -> (Option<usize>, usize) {
+fn place_on_scene(table: &CaseTable, case: &Case) -> (Option<usize>, usize) {
     let flip = |case: &Case| Headline::FLIP.estimate(case);
     let rivals = (table.cases_on(&case.scene).map(|(_, own)| own))
         .filter(|own| !own.is_reference && own.alignment == case.alignment);
     let errors: Vec<f64> = rivals.filter_map(flip).collect();
-    let rank = flip(case).map(|own| 1 + errors.iter().filter(|error| **error < own).count());
-    (rank, errors.len())
+    let place = flip(case).map(|own| 1 + errors.iter().filter(|error| **error < own).count());
+    (place, errors.len())
 }
 
 /// `truth:3,4,5 .. objects:17`: the numbers of the planes.

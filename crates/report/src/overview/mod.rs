@@ -145,10 +145,7 @@ fn winners(table: &CaseTable) -> Markup {
 /// Names the filters that share the first rank, and the last filter of the ranking.
 fn winner(table: &CaseTable, group: &[RankedFilter]) -> Markup {
     let best = &group[0];
-    let ties: Vec<&RankedFilter> = group[1..]
-        .iter()
-        .filter(|own| own.rank == best.rank)
-        .collect();
+    let ties: Vec<&RankedFilter> = group[1..].iter().filter(|own| own.ranks[0] == 1).collect();
     let number = |value: f64| Headline::FLIP.number(value);
     let (scene, error) = &best.worst;
     let weakest = table.case_on(&id_of(best), scene);
@@ -162,7 +159,7 @@ fn winner(table: &CaseTable, group: &[RankedFilter]) -> Markup {
             @for (index, own) in ties.iter().enumerate() {
                 (if index == 0 { "; too close to tell apart: " } else { ", " }) (link(own)) " (" (number(own.mean)) ")"
             }
-            @if let Some(last) = group.last().filter(|own| own.rank > best.rank) {
+            @if let Some(last) = group.last().filter(|own| own.ranks[0] > 1) {
                 "; worst: " (link(last)) " (" (number(last.mean)) ")"
             }
             "."

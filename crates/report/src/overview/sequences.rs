@@ -26,7 +26,7 @@ pub fn sequence_winners(run: &Run) -> Markup {
 fn winner(group: &[&RankedFilter]) -> Markup {
     let best = group[0];
     let number = |value: f64| RANKED_BY.shown_text(value);
-    let ties = group[1..].iter().filter(|own| own.rank == best.rank);
+    let ties = group[1..].iter().filter(|own| own.ranks[0] == 1);
     let (scene, worst) = &best.worst;
     html! {
         li {

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 use metrics::SequenceMetric;
-use suite::{RANK_RULE, RANKED_BY, RankedFilter, RankedSequence, Run, SceneMean, rank_sequences};
+use suite::{RANK_RULE, RANKED_BY, RankedSequence, Run, SceneMean, rank_sequences};
 
 /// Makes a table per shutter; nothing where the run has one scene, whose own table is ranked.
 pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
@@ -10,7 +10,7 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
         ..=1 => Vec::new(),
         _ => rank_sequences(run),
     };
-    let is_tied = groups.iter().flatten().any(|own| own.ranked.is_tied);
+    let is_tied = groups.iter().flatten().any(|own| own.ranked.is_tied());
     html! {
         @if !groups.is_empty() {
             h2 { "Ranking" }
@@ -42,20 +42,12 @@ pub fn metric_heads() -> Markup {
     html! { @for metric in SequenceMetric::ALL { th title=(metric.row().meaning) { (metric.row().name) } } }
 }
 
-/// Writes a rank: `2`, or `2=` where another filter shares it.
-pub fn rank_text(ranked: &RankedFilter) -> String {
-    match ranked.is_tied {
-        true => format!("{}=", ranked.rank),
-        false => ranked.rank.to_string(),
-    }
-}
-
 fn row(own: &RankedSequence, scenes: usize) -> Markup {
     let ranked = &own.ranked;
     let (scene, worst) = &ranked.worst;
     html! {
         tr {
-            th { (rank_text(ranked)) " " (ranked.name) }
+            th { (ranked.rank_text()) " " (ranked.name) }
             @for (metric, mean) in &own.means { td { (mean_text(*metric, mean.as_ref())) } }
             td {
                 (scene) " " (RANKED_BY.shown_text(*worst))

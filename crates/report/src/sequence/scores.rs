@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use metrics::{Measured, SequenceMetric};
 use suite::{Finding, Level, RankedSequence, Run, Sequence, rank_sequences_on};
 
-use super::ranking::{metric_heads, rank_text};
+use super::ranking::metric_heads;
 use crate::finding_text::{Status, limit_text};
 
 /// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
@@ -64,7 +64,7 @@ fn order_rows<'a>(
     rows.sort_by_key(|(_, own)| (!own.is_reference, place(own).unwrap_or(usize::MAX)));
     let with_rank = rows.into_iter().map(|(index, own)| {
         let place = place(own).filter(|_| !own.is_reference);
-        let rank = place.map(|at| rank_text(&ranked[at].ranked) + " ");
+        let rank = place.map(|at| ranked[at].ranked.rank_text() + " ");
         (index, rank.unwrap_or_default(), own)
     });
     with_rank.collect()

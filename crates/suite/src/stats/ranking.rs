@@ -16,10 +16,9 @@ pub struct RankedFilter {
     pub alignment: String,
     /// Frame rate of the scenes; none for that of their files.
     pub rate: Option<FrameRate>,
-    /// 1 plus the number of filters of its shutter that are better, by more than the 95 % CI of the difference.
-    pub rank: usize,
-    /// True if another filter shares the rank.
-    pub is_tied: bool,
+    /// Best and worst rank among the filters of its shutter: the first is 1 plus the number of filters that are better, the second the
+    /// number of all filters less those that are worse.
+    pub ranks: [usize; 2],
     /// Mean score over the scenes.
     pub mean: f64,
     /// 95 % CI of the mean over scenes; none on a single scene.
@@ -54,8 +53,9 @@ struct Entry {
     scores: Vec<RankedScore>,
 }
 
-/// What a rank says, for readers.
-pub const RANK_RULE: &str = "Rank: 1 plus the number of filters that are better by more than the 95 % CI of the difference.";
+/// What ranks say, for readers.
+pub const RANK_RULE: &str = "Rank 2-4: one filter is better, two are too close to tell apart, the others are worse, by the 95 % CI of \
+                             the difference (on one scene, the noise floor).";
 
 /// Upper limit on presets that a summary ranks one by one.
 pub const MOST_RANKED: usize = 16;
@@ -100,9 +100,9 @@ impl RankedScore {
 /// Ranks filters of one shutter and frame rate among each other, the best first: one group per shutter and rate. With `best_presets`, the best preset stands
 /// for its filter.
 ///
-/// A filter's rank is 1 plus the number of filters that are better than it. One filter is better than another if its mean is lower and
-/// the 95 % CI of the mean difference over their common scenes excludes 0; on a single scene, if the difference exceeds the noise
-/// floor. This relation is not transitive: filters that share a rank may differ, and filters of neighbouring ranks may not.
+/// One filter is better than another if its mean is lower and the 95 % CI of the mean difference over their common scenes excludes 0;
+/// on a single scene, if the difference exceeds the noise floor. A filter's ranks leave room for all filters that cannot be told from
+/// it. That two filters are too close to tell apart is not transitive, so that ranges overlap.
 pub(crate) fn rank_by_score(scores: &[RankedScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for score in scores {
@@ -133,8 +133,7 @@ fn new_entry(score: &RankedScore) -> Entry {
             filter: score.filter.clone(),
             alignment: score.alignment.clone(),
             rate: FrameRate::of_name(&score.scene),
-            rank: 0,
-            is_tied: false,
+            ranks: [1, 1],
             mean: 0.0,
             interval: None,
             scenes: 0,
@@ -155,16 +154,34 @@ fn rank_group(mut group: Vec<Entry>, best_presets: bool) -> Vec<RankedFilter> {
     }
     let is_better =
         |own: &Entry, other: &Entry| own.ranked.mean < other.ranked.mean && !are_tied(own, other);
-    let ranks: Vec<usize> = (group.iter())
-        .map(|own| 1 + group.iter().filter(|other| is_better(other, own)).count())
+    let ranks: Vec<[usize; 2]> = (group.iter())
+        .map(|own| {
+            let better = group.iter().filter(|other| is_better(other, own));
+            let worse = group.iter().filter(|other| is_better(own, other));
+            [1 + better.count(), group.len() - worse.count()]
+        })
         .collect();
-    for (entry, rank) in group.iter_mut().zip(&ranks) {
-        entry.ranked.rank = *rank;
-        entry.ranked.is_tied = ranks.iter().filter(|other| *other == rank).count() > 1;
+    (group.into_iter().zip(ranks))
+        .map(|(entry, ranks)| RankedFilter {
+            ranks,
+            ..entry.ranked
+        })
+        .collect()
+}
+
+impl RankedFilter {
+    /// Writes its rank, or the range of its ranks: `1`, `2-4`.
+    pub fn rank_text(&self) -> String {
+        match self.ranks {
+            [first, last] if first == last => first.to_string(),
+            [first, last] => format!("{first}-{last}"),
+        }
     }
-    // A filter with few or uneven scenes may tie with more than the one before it.
-    group.sort_by_key(|entry| entry.ranked.rank);
-    group.into_iter().map(|entry| entry.ranked).collect()
+
+    /// Tells whether other filters are too close to it to tell apart.
+    pub fn is_tied(&self) -> bool {
+        self.ranks[0] < self.ranks[1]
+    }
 }
 
 fn summarize(entry: &mut Entry) {
@@ -213,12 +230,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_rank_counts_the_filters_that_are_better_and_not_those_before_it() {
+    fn ranks_leave_room_for_the_filters_that_cannot_be_told_apart() {
         let scores: Vec<RankedScore> = [
             ("a", [0.10, 0.20, 0.30]),
             // Better than c on every scene by about as much, and not told from a.
             ("b", [0.15, 0.21, 0.28]),
             ("c", [0.17, 0.23, 0.302]),
+            // Worse than all on every scene, by about as much.
+            ("d", [0.47, 0.53, 0.602]),
         ]
         .into_iter()
         .flat_map(|(name, values)| {
@@ -232,10 +251,11 @@ mod tests {
         .collect();
         let ranked = &rank_by_score(&scores, false)[0];
         let ranks: Vec<_> = (ranked.iter())
-            .map(|own| (own.filter.as_str(), own.rank, own.is_tied))
+            .map(|own| (own.filter.as_str(), own.rank_text()))
             .collect();
-        // c is not told from a, and b is better: one filter, although two stand before it.
-        assert_eq!(ranks, [("a", 1, true), ("b", 1, true), ("c", 2, false)]);
+        // a cannot be told from b and c, so it may be any of the three. b is better than c, and so neither first and last.
+        let due = [("a", "1-3"), ("b", "1-2"), ("c", "2-3"), ("d", "4")];
+        assert_eq!(ranks, due.map(|(name, rank)| (name, rank.to_owned())));
     }
 
     fn score(name: &str, value: f64) -> RankedScore {
@@ -252,17 +272,14 @@ mod tests {
     #[test]
     fn on_one_scene_filters_tie_within_the_noise_floor() {
         let scores = [score("a", 0.1), score("b", 0.109), score("c", 0.111)];
-        let ranks = |scores: &[RankedScore]| -> Vec<(usize, bool)> {
+        let ranks = |scores: &[RankedScore]| -> Vec<[usize; 2]> {
             let ranked = rank_by_score(scores, false);
-            ranked[0]
-                .iter()
-                .map(|own| (own.rank, own.is_tied))
-                .collect()
+            ranked[0].iter().map(|own| own.ranks).collect()
         };
-        assert_eq!(ranks(&scores[..2]), [(1, true), (1, true)]);
+        assert_eq!(ranks(&scores[..2]), [[1, 2], [1, 2]]);
         assert_eq!(
             ranks(&[scores[0].clone(), scores[2].clone()]),
-            [(1, false), (2, false)]
+            [[1, 1], [2, 2]]
         );
     }
 }
