@@ -117,7 +117,11 @@ fn find_hidden_module(line: &str) -> Option<String> {
 /// Returns true for a text that may be a path out of a folder.
 fn leads_out(text: &str) -> bool {
     let mut parts = text.split(['/', '\\']);
-    let is_drive = text.as_bytes().get(1) == Some(&b':');
+    // Windows knows `c:file`.
+    let after_drive = text.split_at_checked(1).map(|(_, rest)| rest);
+    let is_drive = after_drive
+        .and_then(|rest| rest.strip_prefix(':'))
+        .is_some_and(|rest| rest.starts_with(|c: char| c.is_alphanumeric() || "/\\.".contains(c)));
     // `\x2e` is a dot, and so is `\56`.
     let plain = text.replace("\\\\", "/");
     let mut escaped = plain.split('\\').skip(1);
@@ -185,7 +189,8 @@ mod tests {
             "// #include \"/x\" \\\n still a comment\n/* #include \"x\" \n */ float a = 2.0 / 3.0;",
             "#define CAT(a, b) a##b\n#define TWO(x) \\\n  (x) * \\\n  2\nfloat b = CAT(a, 1); // why",
             "#pragma once\n#pragma kernel CSMain\n#pragma target 3.0\n#pragma multi_compile _ FAST",
-            "[shader(\"compute\")] [numthreads(8, 8, 1)] void main() { printf(\"%d\\n\", 1); }",
+            "[shader(\"compute\")] [numthreads(8, 8, 1)] void main() { printf(\"a: %d\\n\", 1); }",
+            "#define A 1 /* one\n more */ + 2\n#define B /* to the end",
             "#error \"see https://example.org/x\"\nfloat important; // it's \"quoted\n",
             "import noise; __include \"a/b\"; float c = 1 ? 2 : 3;",
         ];

@@ -121,9 +121,11 @@ fn join_lines(text: &str) -> String {
     joined
 }
 
-/// Removes the comments of a text whose lines are joined, and keeps its other lines.
+/// Removes the comments of a text whose lines are joined, and keeps its lines. A directive goes on behind a comment of several lines,
+/// whose empty lines follow it.
 fn remove_comments(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
+    let mut due = 0;
     let mut rest = text.chars().peekable();
     let mut in_quotes = false;
     while let Some(c) = rest.next() {
@@ -132,9 +134,15 @@ fn remove_comments(text: &str) -> String {
             ('/', Some('*')) if !in_quotes => {
                 rest.next();
                 plain.push(' ');
+                let line = plain.rsplit('\n').next().unwrap_or_default();
+                let is_directive = line.trim_start().starts_with(['#', '%']);
                 let mut last = ' ';
                 for c in rest.by_ref() {
-                    plain.extend((c == '\n').then_some(c));
+                    match (c, is_directive) {
+                        ('\n', true) => due += 1,
+                        ('\n', false) => plain.push(c),
+                        _ => {}
+                    }
                     if (last, c) == ('*', '/') {
                         break;
                     }
@@ -148,9 +156,13 @@ fn remove_comments(text: &str) -> String {
             _ => {
                 in_quotes = c != '\n' && in_quotes ^ (c == '"');
                 plain.push(c);
+                if c == '\n' {
+                    plain.extend(std::iter::repeat_n('\n', std::mem::take(&mut due)));
+                }
             }
         }
     }
+    plain.extend(std::iter::repeat_n('\n', due));
     plain
 }
 
@@ -161,7 +173,7 @@ mod tests {
     #[test]
     fn includes_are_found_however_they_are_written() {
         type Found<'a> = &'a [(usize, Option<&'a str>)];
-        let cases: [(&str, Found); 16] = [
+        let cases: [(&str, Found); 17] = [
             ("#include \"a.h\"", &[(1, Some("a.h"))]),
             ("\n  #  include <b/c.h> // why", &[(2, Some("b/c.h"))]),
             (
@@ -170,7 +182,11 @@ mod tests {
             ),
             (
                 "/* a\n */ # /* b */ include /**/ \"/etc/x\"",
-                &[(1, Some("/etc/x"))],
+                &[(2, Some("/etc/x"))],
+            ),
+            (
+                "# /* a\n */ include \"a.h\"\n#include \"b.h\"",
+                &[(1, Some("a.h")), (3, Some("b.h"))],
             ),
             ("%:include \"a.h\"", &[(1, Some("a.h"))]),
             (
