@@ -187,7 +187,7 @@ mod tests {
         let shaders = [
             "#version 450\n#extension GL_GOOGLE_include_directive : require\n",
             "// #include \"/x\" \\\n still a comment\n/* #include \"x\" \n */ float a = 2.0 / 3.0;",
-            "#define CAT(a, b) a##b\n#define TWO(x) \\\n  (x) * \\\n  2\nfloat b = CAT(a, 1); // why",
+            "#define CAT(a, b) a##b\n#define IN(x) x##include_x\n#define TWO(x) \\\n  (x) * \\\n  2\nfloat b = CAT(a, 1); // why",
             "#pragma once\n#pragma kernel CSMain\n#pragma target 3.0\n#pragma multi_compile _ FAST",
             "[shader(\"compute\")] [numthreads(8, 8, 1)] void main() { printf(\"a: %d\\n\", 1); }",
             "#define A 1 /* one\n more */ + 2\n#define B /* to the end",
