@@ -13,16 +13,13 @@ pub struct Interval {
     pub low: f64,
     /// Upper end.
     pub high: f64,
+    /// Estimate of the score against a truth without noise.
+    pub center: f64,
     /// Standard error of the score.
     pub standard_error: f64,
 }
 
 impl Interval {
-    /// Estimates the score against a truth without noise: the middle of the interval.
-    pub fn center(&self) -> f64 {
-        f64::midpoint(self.low, self.high)
-    }
-
     /// Tells whether the interval holds the measured value. The truth's noise moves a score, and the interval is about a truth
     /// without.
     pub fn holds(&self, value: f64) -> bool {
@@ -38,9 +35,14 @@ impl Interval {
 /// `without`:
 ///
 /// - the squared standard error is (G - 1) / G times the sum of (without - m)^2,
-/// - the centre is `whole` + (G - 1)(`whole` - m): noise raises a score less with more replicates, and what it still adds is
-///   G - 1 times what leaving a group out added,
+/// - the centre is `whole` + (G - 1)(`whole` - m): noise raises a score less with more replicates. If it raises it by their inverse,
+///   what it still adds is G - 1 times what leaving a group out added,
 /// - the half width is the standard error times the quantile of Student's t of G - 1 degrees of freedom.
+///
+/// The noise of a truth falls with the root of its replicates. A mean of absolute errors is raised by the inverse of their number if
+/// few errors are smaller than the noise, but as much as the noise itself where the picture is perfect. That is an inverse root, and
+/// the noise still adds 1 / (root(G / (G - 1)) - 1) times what leaving a group out added. Most scores lie in between. So the interval
+/// reaches from the one centre to the other, and a half width beyond both.
 pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
     if without.len() < 2 {
         return None;
@@ -52,10 +54,12 @@ pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
     let squares: f64 = raised.iter().map(|value| (value - mean).powi(2)).sum();
     let standard_error = ((count - 1.0) / count * squares).sqrt();
     let center = whole - (count - 1.0) * mean;
+    let center_by_root = whole - mean / ((count / (count - 1.0)).sqrt() - 1.0);
     let half_width = standard_error * quantile(count - 1.0);
     Some(Interval {
-        low: center - half_width,
-        high: center + half_width,
+        low: center.min(center_by_root) - half_width,
+        high: center.max(center_by_root) + half_width,
+        center,
         standard_error,
     })
 }
@@ -107,9 +111,22 @@ mod tests {
         let (whole, without) = means(&numbers);
         let squares: Vec<f64> = without.iter().map(|mean| mean * mean).collect();
         let interval = jackknife(whole * whole, &squares).unwrap();
-        let center = (interval.low + interval.high) / 2.0;
         // 3.5^2 less s^2 / 4 = 7 / 4.
-        assert!((center - (12.25 - 1.75)).abs() < 1e-12, "{center}");
+        assert!(
+            (interval.center - (12.25 - 1.75)).abs() < 1e-12,
+            "{interval:?}"
+        );
+    }
+
+    #[test]
+    fn noise_that_falls_with_the_root_of_the_replicates_is_held() {
+        // The mean absolute error of a perfect picture, for noise of 1 in each group: its limit is 0.
+        let noise = |groups: f64| 1.0 / groups.sqrt();
+        let interval = jackknife(noise(4.0), &[noise(3.0); 4]).unwrap();
+        assert!(interval.low.abs() < 1e-12, "{interval:?}");
+        // By the inverse of the replicates, half of it would be left.
+        assert!((interval.high - 0.268).abs() < 1e-3, "{interval:?}");
+        assert_eq!(interval.high, interval.center);
     }
 
     #[test]

@@ -58,7 +58,7 @@ pub fn finding_score(finding: &Finding) -> String {
     let mut text = finding.metric.clone();
     text.extend(length_text(finding).map(|length| format!(" over {length}")));
     if let Some(value) = finding.value {
-        let estimate = finding.interval.map_or(value, |own| own.center());
+        let estimate = finding.interval.map_or(value, |own| own.center);
         text += &format!(" {}", limited(estimate));
     }
     if let Some(interval) = &finding.interval {
@@ -147,9 +147,10 @@ mod tests {
         let interval = Interval {
             low: 0.051_98,
             high: 0.053_32,
+            center: 0.052_65,
             standard_error: 0.0003,
         };
-        assert!(interval.holds(interval.center()));
+        assert!(interval.holds(interval.center));
         let text = |measured| interval_text(&interval, measured);
         assert_eq!(text(0.053), "95 % CI 0.05198 to 0.05332");
         assert_eq!(
@@ -163,7 +164,7 @@ mod tests {
         let finding: Finding = serde_json::from_value(serde_json::json!({
             "kind": "kept", "level": "required", "scene": "fan", "filter": "kino:default",
             "metric": "extent", "unit": "", "value": 0.9615,
-            "interval": {"low": 0.9584, "high": 0.9646, "standard_error": 0.001},
+            "interval": {"low": 0.9584, "high": 0.9646, "center": 0.9615, "standard_error": 0.001},
             "limit": 0.04, "floor": null, "strictest": null, "why": "", "place": "", "reason": null,
             "settled_by": null, "worst": null, "resembles": null, "pictures": "",
         }))

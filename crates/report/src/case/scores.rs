@@ -1,7 +1,7 @@
 //! Table of a case's scores, each with its noise floor and its meaning.
 
 use maud::{Markup, html};
-use metrics::{Group, Interval, Measured, Metric};
+use metrics::{Group, Measured, Metric};
 
 use super::case_view::CaseView;
 use crate::finding_text::{Status, interval_text, limit_text};
@@ -64,7 +64,7 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
                 Measured::Score(score) => {
                     td {
                         @let interval = case.intervals.get(&name);
-                        (value(case, metric, interval.map_or(score.value, Interval::center)))
+                        (value(case, metric, interval.map_or(score.value, |own| own.center)))
                         @if let Some(interval) = interval { span.note { " " (interval_text(interval, score.value)) } }
                         @if let Some((object, _)) = case.scores.worst_object(metric) {
                             span.note { " " (object) }

@@ -198,8 +198,8 @@ impl PairedScores {
             interval: [change.low, change.high],
             standard_error: change.standard_error,
             estimates: [
-                self.interval(score(0))?.center(),
-                self.interval(score(1))?.center(),
+                self.interval(score(0))?.center,
+                self.interval(score(1))?.center,
             ],
         })
     }

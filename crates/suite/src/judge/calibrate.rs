@@ -288,6 +288,7 @@ mod tests {
             interval: Some(Interval {
                 low: 0.75,
                 high: 0.85,
+                center: 0.8,
                 standard_error: 0.02,
             }),
         };

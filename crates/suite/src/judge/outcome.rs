@@ -96,6 +96,7 @@ mod tests {
             let interval = Interval {
                 low,
                 high,
+                center: f64::midpoint(low, high),
                 standard_error: 0.01,
             };
             let metric = "flip_moving".parse().unwrap();
@@ -112,6 +113,7 @@ mod tests {
         let interval = Interval {
             low: 0.75,
             high: 1.5,
+            center: 1.1,
             standard_error: 0.1,
         };
         for (ideal, expected) in [

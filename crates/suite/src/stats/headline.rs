@@ -112,7 +112,10 @@ impl Headline {
     /// None where the score does not apply.
     pub fn estimate(self, case: &Case) -> Option<f64> {
         let measured = self.measured(case).value()?;
-        Some(self.interval(case).map_or(measured, Interval::center))
+        Some(
+            self.interval(case)
+                .map_or(measured, |interval| interval.center),
+        )
     }
 
     /// Returns a picture's score; not that against the common shutter, which no picture has alone.
