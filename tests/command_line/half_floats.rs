@@ -151,6 +151,37 @@ fn shaders_of_engines_keep_their_scores_in_16_bits() {
     }
 }
 
+/// A shader that is made again for other constants stores as the first does.
+#[test]
+fn shaders_of_other_constants_keep_their_scores_in_16_bits() {
+    let bench = Bench::new();
+    let folder = bench.path("constant");
+    fs::create_dir_all(&folder).unwrap();
+    let manifest = "name = 'constant'\nsummary = 'Constants.'\nalignment = 'trailing'\n\n\
+         [convention]\ncolor_format = 'rgba16float'\n\n\
+         [[parameter]]\nname = 'taps'\nkind = 'integer'\ndefault = 3\nrange = [1, 64]\ndoc = 'Taps.'\n\n\
+         [[pass]]\nshader = 'blur.wgsl'\nconstants = { TAPS = 'taps' }\n";
+    fs::write(folder.join("filter.toml"), manifest).unwrap();
+    let shader = "override TAPS: i32 = 1;\n\
+         @group(0) @binding(0) var color: texture_2d<f32>;\n\
+         @group(0) @binding(1) var velocity: texture_2d<f32>;\n\
+         @group(0) @binding(2) var output: texture_storage_2d<rgba16float, write>;\n\
+         @compute @workgroup_size(8, 8)\nfn main(@builtin(global_invocation_id) id: vec3<u32>) {\n\
+         let last = vec2<i32>(textureDimensions(color)) - 1;\nlet pixel = vec2<i32>(id.xy);\n\
+         if any(pixel > last) { return; }\n\
+         let trail = 0.5 * textureLoad(velocity, pixel, 0).xy;\n\
+         var sum = vec4<f32>(0.0);\nfor (var tap = 0; tap < TAPS; tap++) {\n\
+         let there = pixel + vec2<i32>(trail * f32(tap) / f32(TAPS));\n\
+         sum += textureLoad(color, clamp(there, vec2<i32>(0), last), 0) / f32(TAPS);\n}\n\
+         textureStore(output, pixel, sum);\n}\n";
+    fs::write(folder.join("blur.wgsl"), shader).unwrap();
+    assert_done(&bench.run(&["--filter", "constant", "--set", "constant.taps=7"]));
+    let cases = bench.read_filter_cases();
+    let nonlinearity = cases[0].nonlinearity.unwrap();
+    // Half of a last digit of 32 bits is 6e-8, of 16 bits 5e-4.
+    assert!(nonlinearity < 1e-4, "{nonlinearity}");
+}
+
 #[test]
 fn weights_that_depend_on_colour_are_found_in_16_bits_too() {
     let bench = Bench::new();

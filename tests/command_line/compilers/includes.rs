@@ -256,6 +256,43 @@ fn honest_includes_work_and_errors_name_their_lines() {
     breaks("lib/c.h", joined, "c.h:4");
 }
 
+/// Each copy names modules as seen from itself, so the compiler looks nowhere else first.
+#[test]
+fn modules_are_named_from_the_copy_itself() {
+    let bench = Bench::new();
+    let folder = bench.path("translated");
+    fs::create_dir_all(folder.join("in/lib")).unwrap();
+    write_pass(&bench, "in/blur.slang", "");
+    let write = |file: &str, text: &str| fs::write(folder.join("in").join(file), text).unwrap();
+    write(
+        "blur.slang",
+        "import lib.other; import \"lib/other\";\nimport \"lib/../noise.slang\";\n#include \"own.h\" // why\n",
+    );
+    write("own.h", "");
+    write("noise.slang", "");
+    // Only beside the shader is there a file of that name.
+    write(
+        "lib/other.slang",
+        "__include\n\"noise\"; import \"nowhere\";\n",
+    );
+    fs::create_dir_all(bench.path("bin")).unwrap();
+    let script = "for word; do case \"$word\" in *.slang) \
+                  /bin/cat \"$word\" \"${word%/*}/lib/other.slang\";; esac; done; exit 1";
+    write_script(&bench.path("bin/slangc"), script);
+    let said = stderr(&list(&bench));
+    let parts = [
+        "import lib.other; import \"lib/other\";",
+        "import \"noise.slang\";",
+        "#include \"own.h\"\n",
+        "\"../noise\"; import \"nowhere\";",
+    ];
+    tests::text::assert_contains(&said, &parts);
+    write("blur.slang", "import \"../nowhere\";\n");
+    let said = stderr(&list(&bench));
+    let parts = ["blur.slang:1: imports \"../nowhere\", which is no file"];
+    tests::text::assert_contains(&said, &parts);
+}
+
 /// A shader, too, is a file of the folder.
 #[test]
 fn a_shader_is_no_link_out_of_the_folder() {

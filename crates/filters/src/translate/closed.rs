@@ -4,7 +4,7 @@
 //! words, wherever they are, and refuses what could hide one.
 
 use super::Language;
-use super::includes::{IMPORTS, ends_with_import};
+use super::includes::{IMPORTS, ends_with_import, list_lines};
 
 /// Words after `#` that open a file.
 const OPENING: [&str; 3] = ["include", "import", "embed"];
@@ -18,16 +18,21 @@ pub(super) fn check_closed(
     language: Language,
     resolved: &[usize],
 ) -> Result<(), (usize, String)> {
-    let has_modules = matches!(language, Language::Slang | Language::Hlsl);
     for (index, line) in text.split('\n').enumerate() {
         let number = index + 1;
-        let found = find_hidden(line, resolved.contains(&number))
-            .or_else(|| has_modules.then(|| find_hidden_module(line)).flatten());
-        if let Some(reason) = found {
+        if let Some(reason) = find_hidden(line, resolved.contains(&number)) {
             return Err((number, reason));
         }
     }
-    Ok(())
+    let lines = match language {
+        Language::Slang | Language::Hlsl => list_lines(text),
+        _ => Vec::new(),
+    };
+    let mut hidden = lines.into_iter().filter_map(|(number, line)| {
+        let reason = find_hidden_module(&line)?;
+        Some((number, reason))
+    });
+    hidden.next().map_or(Ok(()), Err)
 }
 
 /// Finds what may hide a directive, or is one that was not resolved.

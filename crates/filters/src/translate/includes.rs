@@ -65,7 +65,7 @@ pub(super) fn ends_with_import(text: &str) -> bool {
 }
 
 /// Lists the lines of a plain text, each with its number. A word of Slang for modules goes on in the next line.
-fn list_lines(text: &str) -> Vec<(usize, String)> {
+pub(super) fn list_lines(text: &str) -> Vec<(usize, String)> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut goes_on = false;
     for (index, part) in text.split('\n').enumerate() {
