@@ -33,9 +33,10 @@ fn the_gain_of_a_blur_is_that_of_still_pixels() {
     capture.write_color("blurred.exr", &blurred);
     brighten(&capture, 17.0 / 16.0, |_, _| true);
     let told = ingest(&bench);
-    let found =
-        "the engine's blur makes the picture brighter, 1.0625 times where no velocity reaches";
+    // Half floats round 1.0625 times 0.2.
+    let found = "FOUND: the engine's blur makes the picture brighter, 1.062";
     assert!(told.contains(found), "{told}");
+    assert!(told.contains(" times where no velocity reaches"), "{told}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use super::expected_motion::upside_down;
 use crate::capture::folder::Capture;
 
 /// Greatest number of frames, late or early, that is looked for.
-const MOST_FRAMES: u32 = 3;
+const MOST_FRAMES: u32 = 2;
 /// Fewest pixels at which two views must differ before a buffer tells one from the other.
 const FEWEST_PIXELS: usize = 16;
 /// Part of these pixels that must show a view.
