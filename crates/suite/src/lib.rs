@@ -82,7 +82,7 @@ pub use judge::decision::Decision;
 pub use judge::{
     BLOCK, CROP, Decoys, FEW_SUBFRAMES, Finding, JUDGEMENT_FILE, JUDGEMENT_FORMAT, JudgedScore,
     Judgement, MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, badness_within,
-    judge, judge_scores, judge_sequence, number, worst_block,
+    judge, judge_scores, judge_sequence, make_wrong_pictures, number, worst_block,
 };
 pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,

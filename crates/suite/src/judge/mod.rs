@@ -19,7 +19,7 @@ use self::bounds::SceneBounds;
 use crate::run::sequence::Sequence;
 use crate::{Case, Run};
 
-pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance};
+pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
 pub use finding::{Finding, MOST_SAMPLES, number};
 pub use judged_score::{JudgedScore, judge_scores, judge_sequence};

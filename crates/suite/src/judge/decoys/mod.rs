@@ -6,9 +6,7 @@ use frame::{Frame, Picture, Truth};
 use metrics::{Ideal, MeasureError, Metric, Reference, Scores};
 use serde::{Deserialize, Serialize};
 
-use wrong::make_wrong_pictures;
-
-pub use wrong::FEW_SUBFRAMES;
+pub use wrong::{FEW_SUBFRAMES, make_wrong_pictures};
 
 /// Wrong blur that a picture resembles most.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -22,10 +22,7 @@ pub fn make_wrong_pictures(
             .expect("a part of an exposure is an exposure");
         scatter_oracle(frame, shutter, &truth.shutter_profile)
     };
-    let identity = Picture {
-        color: frame.color.clone(),
-        coverage: frame.coverage.clone(),
-    };
+    let identity = frame.picture();
     let own = truth.alignment;
     let mut pictures = vec![
         ("half_length".to_owned(), smear(frame, own, 0.5)),
