@@ -16,7 +16,7 @@ use reader::Reader;
 use tests::root;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 45] = [
+const NOT_RUN: [(&str, &str); 46] = [
     (
         "shuttertruth render --scenes railing --size 1920x1080 --alignments trailing,centred --noise 0.01 --samples-per-pixel 64 --replicates 2 --out out",
         "takes minutes; a test renders both truths of a plate to a noise",
@@ -153,6 +153,10 @@ const NOT_RUN: [(&str, &str); 45] = [
     ),
     (
         "cargo run -p cli --example results -- out/results_320x180/run.json",
+        "compiles the program again",
+    ),
+    (
+        "cargo run -p cli --example regions -- 160x90 64",
         "compiles the program again",
     ),
     (

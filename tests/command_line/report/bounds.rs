@@ -20,7 +20,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     assert!(page.contains("2 required bounds: 1 broken, 0 too noisy to decide."));
     // The estimate without the truth's noise, with its interval.
     let interval = &case.intervals["flip_moving"];
-    let flip = f64::midpoint(interval.low, interval.high);
+    let flip = interval.center;
     let cell = format!(
         "<td class=\"required\" data-value=\"{flip}\"><a class=\"case\" href=\"#plate/identity:default\">\
          <span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\

@@ -136,10 +136,11 @@ impl Change {
         })
     }
 
-    /// Estimates the change against a truth without noise: the middle of its interval, or the measured change without one.
+    /// Estimates by how much the second is worse against a truth without noise.
     pub fn estimate(&self) -> f64 {
-        self.interval
-            .map_or(self.worse, |[low, high]| f64::midpoint(low, high))
+        let metric: Metric = (self.metric.parse()).expect("changes are of metrics");
+        let [first, second] = self.estimates.map(|value| metric.ideal().badness(value));
+        second - first
     }
 
     /// Returns true if the second is better or worse.
