@@ -137,8 +137,7 @@ fn a_limit_on_a_distance_stands_beside_a_distance() {
     let text = assert_ends(&command.output().unwrap(), 1, &["BROKEN extent"]);
     let finding = &bench.read_findings()[0];
     let interval = finding.interval.unwrap();
-    // The estimate is the middle of the interval.
-    let apart = (1.0 - interval.center()).abs();
+    let apart = (1.0 - interval.center).abs();
     assert!(apart > 0.01 && interval.high < 1.0, "{finding:?}");
     let ends = [1.0 - interval.high, 1.0 - interval.low].map(suite::number);
     let line = format!(
