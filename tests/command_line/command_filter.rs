@@ -296,7 +296,8 @@ fn a_signal_that_ends_the_program_ends_the_filter_too() {
     write_blur(&bench, "slow", SLEEPERS, "");
     for (signal, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
         let _ = fs::remove_file(bench.path("slow/pid"));
-        let mut child = bench.command(&blur("./slow")).spawn().unwrap();
+        // The tests themselves may run under nohup.
+        let mut child = start_through(&bench, "env", &["--default-signal=HUP"]);
         wait_for_pid(&bench, &mut child);
         send(&child, signal);
         assert_eq!(child.wait().unwrap().code(), Some(code), "{signal}");
@@ -310,16 +311,7 @@ fn a_closed_terminal_does_not_end_what_nohup_started() {
     let bench = Bench::new();
     render(&bench);
     write_blur(&bench, "slow", SLEEPERS, "");
-    let command = bench.command(&blur("./slow"));
-    let mut nohup = Command::new("nohup");
-    nohup.arg(command.get_program()).args(command.get_args());
-    nohup.current_dir(command.get_current_dir().unwrap());
-    nohup.envs(
-        command
-            .get_envs()
-            .filter_map(|(key, value)| Some((key, value?))),
-    );
-    let mut child = nohup.stdout(Stdio::null()).spawn().unwrap();
+    let mut child = start_through(&bench, "nohup", &[]);
     wait_for_pid(&bench, &mut child);
     send(&child, "HUP");
     // Longer than the work under way may take to end.
@@ -328,6 +320,17 @@ fn a_closed_terminal_does_not_end_what_nohup_started() {
     send(&child, "TERM");
     assert_eq!(child.wait().unwrap().code(), Some(143));
     assert_ended(&bench);
+}
+
+/// Starts the program with the filter `slow` through another program that becomes it.
+fn start_through(bench: &Bench, program: &str, words: &[&str]) -> Child {
+    let command = bench.command(&blur("./slow"));
+    let mut through = Command::new(program);
+    (through.args(words).arg(command.get_program())).args(command.get_args());
+    through.current_dir(command.get_current_dir().unwrap());
+    let given = command.get_envs();
+    through.envs(given.filter_map(|(key, value)| Some((key, value?))));
+    through.stdout(Stdio::null()).spawn().unwrap()
 }
 
 /// Waits until the filter `slow` runs.

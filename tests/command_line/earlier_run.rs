@@ -84,7 +84,7 @@ fn runs_of_two_sizes_lie_side_by_side() {
     // Both are read back.
     let again = bench.outside_ci(&[&few[..], &filters].concat());
     assert_eq!(stdout(&again), stdout(&check));
-    assert!(stdout(&bench.run(&filters)).contains("cases: 7, 7 of them read back"));
+    assert!(stdout(&bench.run(&filters)).contains("cases: 8, 8 of them read back"));
 }
 
 #[test]

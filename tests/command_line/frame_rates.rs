@@ -89,7 +89,14 @@ fn a_run_takes_every_scene_at_every_rate() {
         written.cloned().collect()
     };
     assert_eq!(means(&run), whole.overall);
-    assert_eq!(run.overall.len(), 6 * whole.overall.len());
+    // Skill applies at some rates only: where the shutter is open for long enough that the oracle gains more than noise.
+    let count = |run: &suite::Run| {
+        let means = run.overall.iter();
+        means
+            .filter(|mean| !mean.metric.starts_with("skill"))
+            .count()
+    };
+    assert_eq!(count(&run), 6 * count(&whole));
     let head = |text: &str| text.lines().take(4).map(str::to_owned).collect::<Vec<_>>();
     let printed = stdout(&output);
     let own = stdout(&alone.run(&IDENTITY));

@@ -29,7 +29,7 @@ fn a_run_of_copies_is_merged_judged_and_reported() {
     assert_done(&output);
     let text = stdout(&output);
     assert!(
-        text.starts_with("30 cases in 15 parts, 3 scenes\n"),
+        text.starts_with("33 cases in 15 parts, 3 scenes\n"),
         "{text}"
     );
     for step in ["merge: ", "check: ", "report: ", "report.html: "] {
