@@ -60,8 +60,8 @@ fn the_search_filters_rows_and_references_show_on_request() {
         &mut browser,
         "tools.querySelector('[name=search]').value = ''; tools.querySelector('[name=references]').checked = true",
     );
-    // A check has no accumulations.
-    let all = "scatter_oracle,velocity_gather:fine,identity,identity:default";
+    // A check has no accumulations but the one that skill is counted from.
+    let all = "scatter_oracle,accumulate:1,velocity_gather:fine,identity,identity:default";
     let mut found: Vec<String> = rows(&mut browser).split(',').map(str::to_owned).collect();
     let mut expected: Vec<&str> = all.split(',').collect();
     found.sort();

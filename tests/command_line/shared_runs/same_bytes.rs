@@ -114,7 +114,7 @@ fn parts_made_by_hand_are_joined_without_a_plan() {
     let bench = two_parts();
     let output = bench.shuttertruth(&["merge", "plate", "slow", "--out", "both"]);
     assert_done(&output);
-    assert_eq!(stdout(&output), "both/run.json (14 cases of 2 parts)\n");
+    assert_eq!(stdout(&output), "both/run.json (16 cases of 2 parts)\n");
     let words = [&["run"], &split(QUICK)[..], &["--filter", "identity"]].concat();
     bench.execute(&words);
     // The command is the one difference.
