@@ -44,6 +44,28 @@ impl Interval {
 /// the noise still adds 1 / (root(G / (G - 1)) - 1) times what leaving a group out added. Most scores lie in between. So the interval
 /// reaches from the one centre to the other, and a half width beyond both.
 pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
+    let mut found = jackknife_by_inverse(whole, without)?;
+    let count = without.len() as f64;
+    let raised = without.iter().map(|value| value - whole).sum::<f64>() / count;
+    let center_by_root = whole - raised / ((count / (count - 1.0)).sqrt() - 1.0);
+    let apart = center_by_root - found.center;
+    found.low += apart.min(0.0);
+    found.high += apart.max(0.0);
+    Some(found)
+}
+
+/// Estimates the interval of a percentile. A percentile is no smooth function of the truth: leaving groups out estimates its noise
+/// poorly, and its bias worse. So the interval has one centre, that by the inverse, and is wider by the score's noise floor at either
+/// end.
+pub fn jackknife_of_percentile(whole: f64, without: &[f64], floor: f64) -> Option<Interval> {
+    let mut found = jackknife_by_inverse(whole, without)?;
+    found.low -= floor;
+    found.high += floor;
+    Some(found)
+}
+
+/// Estimates the interval of a score that noise raises by the inverse of the replicates.
+fn jackknife_by_inverse(whole: f64, without: &[f64]) -> Option<Interval> {
     if without.len() < 2 {
         return None;
     }
@@ -54,11 +76,10 @@ pub fn jackknife(whole: f64, without: &[f64]) -> Option<Interval> {
     let squares: f64 = raised.iter().map(|value| (value - mean).powi(2)).sum();
     let standard_error = ((count - 1.0) / count * squares).sqrt();
     let center = whole - (count - 1.0) * mean;
-    let center_by_root = whole - mean / ((count / (count - 1.0)).sqrt() - 1.0);
     let half_width = standard_error * quantile(count - 1.0);
     Some(Interval {
-        low: center.min(center_by_root) - half_width,
-        high: center.max(center_by_root) + half_width,
+        low: center - half_width,
+        high: center + half_width,
         center,
         standard_error,
     })
@@ -127,6 +148,10 @@ mod tests {
         // By the inverse of the replicates, half of it would be left.
         assert!((interval.high - 0.268).abs() < 1e-3, "{interval:?}");
         assert_eq!(interval.high, interval.center);
+        // A percentile has one centre.
+        let interval = jackknife_of_percentile(noise(4.0), &[noise(3.0); 4], 0.1).unwrap();
+        assert!((interval.high - interval.center - 0.1).abs() < 1e-12);
+        assert!((interval.center - interval.low - 0.1).abs() < 1e-12);
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub use color::cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
 pub use color::flip::{flip_hdr, flip_ldr};
 pub use error::MeasureError;
 pub use frame::{Region, Regions, regions};
-pub use interval::{Interval, jackknife};
+pub use interval::{Interval, jackknife, jackknife_of_percentile};
 pub use maps::{ErrorMap, Maps};
 pub use metric::{
     EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, Group, ImageMetric,

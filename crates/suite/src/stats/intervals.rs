@@ -1,7 +1,10 @@
 //! Jackknife intervals of scores, from truths without one pair of replicates each.
 
 use frame::{Replicate, Truth, TruthError};
-use metrics::{Interval, Measured, Metric, Scores, SequenceMetric, SequenceScores, jackknife};
+use metrics::{
+    Interval, Measured, Metric, Scores, SequenceMetric, SequenceScores, jackknife,
+    jackknife_of_percentile,
+};
 
 use crate::run::case::Intervals;
 
@@ -39,11 +42,8 @@ pub(crate) fn truth_without_pair(
     Truth::of(&others)
 }
 
-/// Computes the interval, by [`jackknife`], of each of `metrics` that has a score against the whole truth and against the truth
-/// without each of its pairs.
-///
-/// A percentile is no smooth function of the truth, and its jackknife is too narrow: its interval is wider by the score's
-/// floor at either end.
+/// Computes the interval, by [`jackknife`] or [`jackknife_of_percentile`], of each of `metrics` that has a score against the whole truth
+/// and against the truth without each of its pairs.
 pub fn intervals(
     whole: &Scores,
     without: &[Scores],
@@ -80,10 +80,9 @@ fn interval(
         return None;
     };
     let without: Option<Vec<f64>> = without.map(|score| score.value()).collect();
-    let mut found = jackknife(score.value, &without?)?;
-    if is_percentile {
-        found.low -= score.floor;
-        found.high += score.floor;
+    let (value, without) = (score.value, without?);
+    match is_percentile {
+        true => jackknife_of_percentile(value, &without, score.floor),
+        false => jackknife(value, &without),
     }
-    Some(found)
 }
