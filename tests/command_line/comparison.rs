@@ -64,11 +64,13 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
         assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
     }
     assert!(find("accumulate:1", "centred").is_none());
-    // The lag of the frame has a row of its own.
+    // The lag behind the frame has a row of its own.
     let lag = flip(find("identity", "trailing").unwrap())
         - flip(find("accumulate:1", "trailing").unwrap());
     assert!(lag > 0.05, "{lag}");
-    let row = text.lines().find(|line| line.contains("lag of the frame"));
+    let row = text
+        .lines()
+        .find(|line| line.contains("lag behind the frame"));
     let cells: Vec<&str> = row.expect(&text).split_whitespace().skip(4).collect();
     assert_eq!(cells, [format!("{lag:.3}").as_str(), "-"]);
 

@@ -86,12 +86,12 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     table
 }
 
-/// Names a filter behind its rank: `  2-4 jimenez:hdrp`.
+/// Names a filter behind its rank: ` 2-4 jimenez:hdrp`.
 pub fn ranked_name(ranked: &RankedFilter) -> String {
-    format!("{:>5} {}", ranked.rank_text(), ranked.name)
+    format!("{:>4} {}", ranked.rank_text(), ranked.name)
 }
 
-/// `  2-4 jimenez:hdrp`, its FLIP, the interval, and the worst scene.
+/// ` 2-4 jimenez:hdrp`, its FLIP, the interval, and the worst scene.
 fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
     let number = |value: f64| Headline::FLIP.number(value);
     let interval = match ranked.interval {
@@ -106,11 +106,11 @@ fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
     vec![ranked_name(ranked), number(ranked.mean), interval, worst]
 }
 
-/// Name of the row of the frame's lag.
-const LAG: &str = "lag of the frame";
+/// Name of the row of the lag.
+const LAG: &str = "lag behind the frame";
 
-/// Makes the table of references: one row each, one column per shutter. The last row is the lag of the frame behind or before the
-/// shutter's middle.
+/// Makes the table of references: one row each, one column per shutter. The last row is the lag of the shutter's middle behind
+/// the frame.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
     let names: Vec<String> = references().map(Case::name).collect();
@@ -141,7 +141,7 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     };
     let of_shutters: Vec<Vec<&Case>> = shutters.iter().map(of_shutter).collect();
     let mut push = |name: &str, cells: Vec<String>| {
-        let cells = std::iter::once(format!("      {name}")).chain(cells);
+        let cells = std::iter::once(format!("     {name}")).chain(cells);
         table.push_styled(cells.collect(), faint);
     };
     for name in names {

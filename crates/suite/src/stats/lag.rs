@@ -18,7 +18,7 @@ pub fn mean_lag(cases: &[&Case]) -> Option<f64> {
     (!lags.is_empty()).then(|| lags.iter().sum::<f64>() / lags.len() as f64)
 }
 
-/// Says what the frame's lag costs under each shutter; none where no shutter has one.
+/// Says what the lag behind the frame costs under each shutter; none where no shutter has one.
 pub fn lag_text(cases: &[Case]) -> Option<String> {
     let cases = list_summarized(cases);
     let mut alignments: Vec<&str> = cases.iter().map(|case| case.alignment.as_str()).collect();
@@ -33,7 +33,7 @@ pub fn lag_text(cases: &[Case]) -> Option<String> {
     let lags: Vec<String> = lags.collect();
     (!lags.is_empty()).then(|| {
         format!(
-            "Lag of the frame, identity less accumulate:1: FLIP {}.",
+            "Lag behind the frame, identity less accumulate:1: FLIP {}.",
             lags.join(", ")
         )
     })
