@@ -7,6 +7,7 @@ mod cache;
 mod capture;
 mod colors;
 mod compare;
+mod engine_scene;
 mod error;
 mod filter;
 mod folder;
@@ -15,11 +16,13 @@ mod ingest;
 mod json;
 mod judge;
 mod measure;
+mod merge;
 mod monitor;
 mod named;
 mod pack;
 mod people;
 mod printable;
+mod random;
 mod render;
 mod results;
 mod run;
@@ -43,6 +46,7 @@ pub use compare::{
     Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
     compare_sizes, compare_with_last, filter_label, pair_cases, rank_changes, score_change,
 };
+pub use engine_scene::{EngineScene, INGESTED_FILE, engine_name};
 pub use error::Error;
 pub use filter::border::Border;
 pub use filter::buffer_size::BufferSize;
@@ -63,7 +67,6 @@ pub use folder::placed_file::MOST_TAKEN_BYTES;
 pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
 pub use import::{ImportPlan, Imported, Motions, Up, import};
-pub use ingest::engine_scene::{EngineScene, INGESTED_FILE, engine_name};
 pub use ingest::{Ingested, ingest};
 pub use json::file::{MOST_JSON_BYTES, read_text};
 pub use judge::baseline::{
@@ -84,6 +87,7 @@ pub use judge::{
     Judgement, MOST_SAMPLES, Outcome, Resemblance, RunBounds, Worst, add_evidence, badness_within,
     judge, judge_scores, judge_sequence, make_wrong_pictures, number, worst_block,
 };
+pub use measure::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,
 };
@@ -93,6 +97,7 @@ pub use measure::plan::RunPlan;
 pub use measure::references::scene_viewing;
 pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
 pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
+pub use merge::{MergedRun, holds_run, merge_runs};
 pub use monitor::{Monitor, Step};
 pub use pack::arrival::{Arrival, take_pack};
 pub use pack::manifest::{
@@ -107,6 +112,7 @@ pub use people::answers::{
 };
 pub use people::clips::{ClipFiles, StudyChoice, make_study};
 pub use people::design::{Clip, ShownPair, draw_session};
+pub use people::preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
 pub use people::preferences::{
     FilterStrength, PREFERENCES_FORMAT, Preferences, QuestionResult, SessionFacts, ShutterScale,
     find_preferences,
@@ -127,12 +133,10 @@ pub use render::shared::render_shared;
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truths_until};
 pub use results::{RESULTS_FORMAT, ResultCost, ResultScores, Results};
 pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
-pub use run::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::file::MOST_CASES;
 pub use run::layers::write_layers;
-pub use run::merge::{MergedRun, holds_run, merge_runs};
 pub use run::overall::Overall;
 pub use run::sequence::{Frames, MOST_FRAMES, Sequence, SequenceFrame};
 pub use run::{FORMAT, Run};
@@ -143,7 +147,6 @@ pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::lag::{lag_text, mean_lag};
 pub use stats::overall::{overall, rank_filters};
-pub use stats::preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
 pub use stats::ranking::{MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary};
 pub use stats::scene_mean::{FEWEST_SCENES, SceneMean};
 pub use stats::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};

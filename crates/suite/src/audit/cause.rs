@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::expected_motion::ANIMATION_RATE;
+/// Frames per second of an exported animation.
+pub(super) const ANIMATION_RATE: f64 = 24.0;
 
 /// Known cause of a wrong picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -3,10 +3,8 @@
 use frame::{FrameOptions, Raster, Vectors, VelocityKind};
 use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
 
-use super::cause::Cause;
+use super::cause::{ANIMATION_RATE, Cause};
 
-/// Frames per second of an exported animation.
-pub(super) const ANIMATION_RATE: f64 = 24.0;
 /// Rates at which engines draw by the clock, in frames per second.
 const CLOCK_RATES: [f64; 3] = [60.0, 30.0, 120.0];
 

@@ -4,8 +4,9 @@ use frame::Vectors;
 
 use super::cause::Cause;
 use super::depth_audit::median;
-use super::velocity_audit::{TOLERANCE, length};
 
+/// Largest end-point error of a right velocity, in pixels: rounding of half floats, and of an engine's own matrices.
+pub(super) const TOLERANCE: f64 = 0.1;
 /// Part of the velocities that a limit must cut before it is called one.
 const LEAST_CUT: f64 = 0.02;
 /// Upper limit on the distinct numbers of a buffer of few bits.
@@ -107,4 +108,8 @@ fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<(Cau
         }
     });
     (step > TOLERANCE).then_some((Cause::Steps(step), nearest))
+}
+
+pub(super) fn length([x, y]: [f64; 2]) -> f64 {
+    x.hypot(y)
 }

@@ -10,10 +10,8 @@ use super::clear_pixels::ClearPixels;
 use super::defect::{Buffer, Defect, Explanation};
 use super::depth_audit::median;
 use super::expected_motion::ExpectedMotion;
-use super::fitted_motion::{find_offset, fit_candidates};
+use super::fitted_motion::{TOLERANCE, find_offset, fit_candidates, length};
 
-/// Largest end-point error of a right velocity, in pixels: rounding of half floats, and of an engine's own matrices.
-pub(super) const TOLERANCE: f64 = 0.1;
 /// The same as a part of the speed.
 const RELATIVE_TOLERANCE: f64 = 0.01;
 /// Part of the pixels that must be right, or that a cause must explain.
@@ -225,8 +223,4 @@ fn difference(a: [f32; 2], b: [f32; 2]) -> [f64; 2] {
 
 fn dot(a: [f32; 2], b: [f32; 2]) -> f64 {
     f64::from(a[0]) * f64::from(b[0]) + f64::from(a[1]) * f64::from(b[1])
-}
-
-pub(super) fn length([x, y]: [f64; 2]) -> f64 {
-    x.hypot(y)
 }

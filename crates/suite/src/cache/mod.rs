@@ -2,4 +2,3 @@
 
 pub mod clear;
 pub mod record;
-pub mod scene_keys;

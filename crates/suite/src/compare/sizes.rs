@@ -3,9 +3,9 @@
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
+use crate::random::Random;
 use crate::stats::headline::Headline;
 use crate::stats::scene_mean::{SceneMean, TWO_SIDED, plain_mean};
-use crate::tune::random::Random;
 use crate::{Error, Results};
 
 /// Number of resamples of the scenes.

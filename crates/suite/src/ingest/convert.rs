@@ -8,14 +8,14 @@ use frame::{
 };
 use tracer::Watch;
 
-use super::engine_scene::{
-    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
-};
 use super::engine_truth::{NOT_TRACED, average_subframes, part_of};
 use super::moving::{mark_reached, usual_top_speed};
 use super::objects::{draw_coverage, name_objects};
 use crate::capture::folder::Capture;
 use crate::colors::velocity_wheel;
+use crate::engine_scene::{
+    BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
+};
 use crate::folder::claim::{Sharing, claim};
 use crate::folder::scene_folder::{refuse_long_names, refuse_scene};
 use crate::render::ladders::ladder_folder;

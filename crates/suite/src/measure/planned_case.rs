@@ -7,9 +7,9 @@ use frame::Alignment;
 
 use super::plan::RunPlan;
 use super::run_scene::RunScene;
+use crate::engine_scene::EngineScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
-use crate::ingest::engine_scene::EngineScene;
 use crate::render::ladders::LADDER;
 use crate::run::case::{ACCUMULATE, IDENTITY, SCATTER_ORACLE};
 

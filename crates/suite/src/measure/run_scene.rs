@@ -6,7 +6,7 @@ use frame::Alignment;
 use tracer::{Family, RenderSettings, Scene};
 
 use crate::Error;
-use crate::ingest::engine_scene::EngineScene;
+use crate::engine_scene::EngineScene;
 use crate::render::ladders::{LADDER, SHARP, needed_rungs};
 use crate::render::memory::{check_measuring_memory, measuring_memory};
 use crate::render::settings::frame_settings;

@@ -14,8 +14,8 @@ use crate::cache::clear::clear_scene;
 use crate::cache::record::{
     CASE_RECORD, read_record, read_record_alone, remove_altered_files, write_record,
 };
-use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
+use crate::measure::scene_keys::SceneKeys;
 use crate::render::frames::render_frame;
 use crate::render::kept::{find_kept, list_render_files, take_renders};
 use crate::render::shared::render_shared;
@@ -208,7 +208,13 @@ impl SceneContext<'_> {
             Some((frame, truths)) => (is_missing(frame), truths.iter().map(is_missing).collect()),
         };
         if let (Some(folder), RunScene::Traced(scene)) = (&self.plan.truths, self.scene) {
-            let (has_frame, has) = find_kept(scene, self.plan, &alignments, folder);
+            let (has_frame, has) = find_kept(
+                scene,
+                &self.plan.render,
+                &alignments,
+                self.plan.ladders,
+                folder,
+            );
             frame &= !has_frame;
             for (missing, has) in truths.iter_mut().zip(has) {
                 *missing &= !has;

@@ -142,7 +142,8 @@ fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
 
 /// Lists what the plan's folder lacks of a scene's frame and truths.
 fn list_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> BTreeSet<String> {
-    let (has_frame, has_truths) = find_kept(scene, plan, alignments, &plan.out);
+    let (has_frame, has_truths) =
+        find_kept(scene, &plan.render, alignments, plan.ladders, &plan.out);
     let name = &scene.name;
     let frame = (!has_frame).then(|| format!("frame of {name}"));
     let truths = (alignments.iter().zip(has_truths)).filter(|(_, is_there)| !is_there);

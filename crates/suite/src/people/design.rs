@@ -2,7 +2,7 @@
 
 use super::question::Question;
 use super::study::{Study, round_size};
-use crate::tune::random::Random;
+use crate::random::Random;
 
 /// A check comes with so many pairs.
 const PAIRS_PER_CHECK: usize = 8;
@@ -153,7 +153,7 @@ mod tests {
 
     use super::super::study::StudyShutter;
     use super::*;
-    use crate::stats::paired_counts::PairedCounts;
+    use crate::people::paired_counts::PairedCounts;
 
     fn study(filters: &[usize], scenes: usize, most_pairs: usize) -> Study {
         let shutter = |(index, count): (usize, &usize)| StudyShutter {

@@ -10,9 +10,9 @@ use super::question::Question;
 use super::score_agreement::{ScoreAgreement, compare_scores};
 use super::session::Session;
 use super::study::{Study, StudyShutter};
-use crate::stats::bradley_terry::chance;
-use crate::stats::paired_counts::PairedCounts;
-use crate::stats::preference_scale::{
+use crate::people::bradley_terry::chance;
+use crate::people::paired_counts::PairedCounts;
+use crate::people::preference_scale::{
     PreferenceScale, RESAMPLES, Resampled, count_choices, scale_preferences,
 };
 use crate::{Error, PROGRAM, Run};

@@ -5,9 +5,9 @@ use serde::Serialize;
 
 use super::session::Session;
 use super::study::Study;
+use crate::people::preference_scale::{FEWEST_PEOPLE, PreferenceScale};
+use crate::people::rank_correlation::rank_correlation;
 use crate::stats::headline::Headline;
-use crate::stats::preference_scale::{FEWEST_PEOPLE, PreferenceScale};
-use crate::stats::rank_correlation::rank_correlation;
 use crate::stats::scene_mean::{TWO_SIDED, Weighted, scene_mean};
 use crate::{Case, Run, Sequence};
 
@@ -192,7 +192,7 @@ mod tests {
     use super::super::design::{Clip, ShownPair};
     use super::super::question::Question;
     use super::*;
-    use crate::stats::preference_scale::scale_preferences;
+    use crate::people::preference_scale::scale_preferences;
 
     /// A person who compares all pairs of four filters on two scenes, and always chooses the smaller number.
     fn person(seed: u64) -> Session {

@@ -11,7 +11,7 @@ use super::study::Study;
 use crate::Error;
 use crate::json::file::read_text_within;
 use crate::json::strings::check_strings;
-use crate::stats::preference_scale::Comparison;
+use crate::people::preference_scale::Comparison;
 
 /// Upper limit on sessions that are read together.
 pub const MOST_SESSIONS: usize = 1000;

@@ -5,7 +5,6 @@ use std::path::Path;
 use frame::Frame;
 use tracer::{RenderSettings, Scene};
 
-use super::kept::is_rendered_of;
 use super::memory::check_memory;
 use super::settings::frame_settings;
 use crate::folder::scene_folder::{refuse_scene, scene_folder};
@@ -24,7 +23,7 @@ pub fn render_frame(
     let path = folder.join("frame.exr");
     let hash = tracer::frame_hash(scene, &own);
     if let Ok(found) = Frame::read(&path)
-        && is_rendered_of(&found.provenance, &hash)
+        && found.provenance.is_rendered_of(&hash)
     {
         return Ok(found);
     }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, Provenance, read_attribute, rung_file};
+use frame::{Alignment, read_attribute, rung_file};
 use tracer::{RenderSettings, Scene};
 
 use super::ladders::{ladder_folder, ladder_hash, needed_rungs};
@@ -11,7 +11,6 @@ use super::settings::frame_settings;
 use crate::Error;
 use crate::folder::placed_file::place_file;
 use crate::folder::scene_folder::{refuse_scene, scene_folder};
-use crate::measure::plan::RunPlan;
 
 /// A file of a render, by its path below an output folder, and the content hash that its header must have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,11 +19,6 @@ pub(crate) struct RenderFile {
     pub below: PathBuf,
     /// Hash of its inputs.
     pub hash: String,
-}
-
-/// Tells whether a file was rendered of these inputs. One that says that an engine drew it was not, whatever hash it has.
-pub(super) fn is_rendered_of(provenance: &Provenance, hash: &str) -> bool {
-    provenance.content_hash == hash && provenance.engine.is_none()
 }
 
 /// Lists the frame of a scene, and its truths with their replicates, and with the rungs of their ladders that measuring needs: all
@@ -61,22 +55,21 @@ pub(crate) fn list_render_files(
 }
 
 /// Tells whether the folder `truths` has the frame of a scene, and each of its truths with its last replicate, or the last rung of its
-/// ladder if the plan needs one.
+/// ladder if `ladders` are asked for.
 pub(crate) fn find_kept(
     scene: &Scene,
-    RunPlan {
-        render, ladders, ..
-    }: &RunPlan,
+    render: &RenderSettings,
     alignments: &[Alignment],
+    ladders: bool,
     truths: &Path,
 ) -> (bool, Vec<bool>) {
     let has = |file: &RenderFile| file.is_in(truths);
     let of_truth = |alignment: &Alignment| {
-        let files = list_render_files(scene, render, &[*alignment], *ladders);
+        let files = list_render_files(scene, render, &[*alignment], ladders);
         // The frame, the truth, its replicates, and the rungs.
         has(&files[1]) && files.last().is_some_and(has)
     };
-    let frame = has(&list_render_files(scene, render, &[], *ladders)[0]);
+    let frame = has(&list_render_files(scene, render, &[], ladders)[0]);
     (frame, alignments.iter().map(of_truth).collect())
 }
 

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth, read_attribute, rung_file};
 use tracer::{LadderTracer, RenderSettings, Scene};
 
-use super::kept::is_rendered_of;
 use crate::folder::scene_folder::scene_folder;
 use crate::{Error, Monitor};
 
@@ -85,7 +84,7 @@ impl<'a> LadderFiles<'a> {
     pub fn read_or_render(&self, subframes: u32, monitor: Monitor) -> Result<Ladder, Error> {
         let path = self.path(subframes);
         if let Ok(found) = Ladder::read_rung(&path, subframes)
-            && is_rendered_of(&found.provenance, &self.hash)
+            && found.provenance.is_rendered_of(&self.hash)
         {
             return Ok(found);
         }

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use frame::{Alignment, FileError, Replicate, Truth, read_attribute, truth_hash};
 use tracer::{RenderSettings, Scene, TruthTracer};
 
-use super::kept::is_rendered_of;
 use crate::{Error, Monitor};
 
 /// The place of one truth's replicates, and the hash of their inputs.
@@ -79,13 +78,13 @@ impl ReplicateFiles {
     pub(super) fn read_truth(&self, replicates: u32) -> Option<Truth> {
         let found = (self.has_truth(replicates)).then(|| Truth::read(&self.truth_path()))?;
         let hash = truth_hash(&self.hash, replicates);
-        (found.ok()).filter(|found| is_rendered_of(&found.provenance, &hash))
+        (found.ok()).filter(|found| found.provenance.is_rendered_of(&hash))
     }
 
     /// Reads a replicate; none where it is missing, broken or made from other inputs.
     pub(super) fn read(&self, index: u32) -> Option<Replicate> {
         let found = Replicate::read(&self.path(index)).ok()?;
-        let is_own = is_rendered_of(&found.provenance, &self.hash) && found.index == index;
+        let is_own = found.provenance.is_rendered_of(&self.hash) && found.index == index;
         is_own.then_some(found)
     }
 

@@ -15,7 +15,6 @@ mod objective;
 mod options;
 mod pareto;
 mod preset;
-pub(crate) mod random;
 mod rendered_scene;
 mod search;
 mod selection;

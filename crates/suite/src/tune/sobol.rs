@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::random::Random;
 use super::search::sobol_point;
+use crate::random::Random;
 
 /// Bootstrap samples behind an interval.
 const SAMPLES: usize = 1000;

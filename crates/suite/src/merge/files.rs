@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, FileError, read_bounded};
 
-use super::run_part::RunPart;
 use crate::Error;
 use crate::folder::placed_file::{MOST_TAKEN_BYTES, is_one_file, place_file};
 use crate::measure::pictures::{CASE_FILES, FRAME_FILES, truth_files};
+use crate::merge::run_part::RunPart;
 use crate::render::ladders::ladder_folder;
 use crate::render::replicates::replicates_folder;
 use crate::run::Run;

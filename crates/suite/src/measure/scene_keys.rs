@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use frame::Alignment;
 use tracer::RenderSettings;
 
-use super::record::hash_inputs;
+use crate::cache::record::hash_inputs;
 use crate::measure::run_scene::RunScene;
 use crate::render::ladders::ladder_hash;
 use crate::render::settings::frame_settings;

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::run_part::RunPart;
 use crate::Error;
+use crate::merge::run_part::RunPart;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 

@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::case_order::CaseOrder;
-use super::checks::{check_complete, check_truths};
-use super::run_part::RunPart;
 use crate::Error;
+use crate::merge::case_order::CaseOrder;
+use crate::merge::checks::{check_complete, check_truths};
+use crate::merge::run_part::RunPart;
 use crate::render::settings::list_settings;
 use crate::run::Run;
 use crate::run::case::Case;

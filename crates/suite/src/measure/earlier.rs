@@ -7,15 +7,15 @@ use std::path::{Path, PathBuf};
 use filters::AdapterDescription;
 use frame::Alignment;
 
-use super::Run;
-use super::case::Case;
-use super::case_key::{CaseKey, key};
-use super::failure::Failure;
-use super::sequence::{Frames, Sequence};
 use crate::measure::plan::RunPlan;
 use crate::measure::planned_case::PlannedCase;
 use crate::measure::run_scene::RunScene;
 use crate::render::settings::list_settings;
+use crate::run::Run;
+use crate::run::case::Case;
+use crate::run::case_key::{CaseKey, key};
+use crate::run::failure::Failure;
+use crate::run::sequence::{Frames, Sequence};
 use crate::stats::overall::overall;
 use crate::{Error, PROGRAM};
 

@@ -2,10 +2,10 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::bradley_terry::{NoScale, Penalty, fit_strengths};
-use super::paired_counts::PairedCounts;
-use super::scene_mean::TWO_SIDED;
-use crate::tune::random::Random;
+use crate::people::bradley_terry::{NoScale, Penalty, fit_strengths};
+use crate::people::paired_counts::PairedCounts;
+use crate::random::Random;
+use crate::stats::scene_mean::TWO_SIDED;
 
 /// Fewer people than this are no sample of people: their answers are drawn again in place of them.
 pub const FEWEST_PEOPLE: usize = 5;

@@ -5,7 +5,7 @@
 //! of the logistic one. Both rank alike and differ little in the middle; here a step of the scale is a ratio of odds, which two counts
 //! give without a table.
 
-use super::paired_counts::PairedCounts;
+use crate::people::paired_counts::PairedCounts;
 
 /// Penalty of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use frame::Alignment;
 
-use super::order::merge_order;
-use super::run_part::RunPart;
+use crate::merge::order::merge_order;
+use crate::merge::run_part::RunPart;
 use crate::run::Run;
 use crate::run::case::Case;
 use crate::run::failure::Failure;

@@ -12,10 +12,9 @@ use std::path::{Path, PathBuf};
 use self::files::{gather_files, place_files};
 use self::join::join_runs;
 use self::run_part::RunPart;
-use super::Run;
 use crate::Error;
 use crate::folder::claim::{Claim, Sharing, claim};
-use crate::judge::JUDGEMENT_FILE;
+use crate::run::Run;
 
 /// A run that was merged.
 pub struct MergedRun {
@@ -49,7 +48,5 @@ pub fn merge_runs(parts: &[PathBuf], command: Vec<String>, out: &Path) -> Result
     let files = gather_files(&parts)?;
     let claim = claim(out, [], Sharing::Alone)?;
     place_files(&files, out)?;
-    // It would be about another run.json.
-    let _ = std::fs::remove_file(out.join(JUDGEMENT_FILE));
     Ok(MergedRun { run, claim })
 }
