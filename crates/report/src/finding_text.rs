@@ -1,7 +1,7 @@
 //! A finding in words: its status, its score and the way out.
 
+use judge::{Finding, Length, Level, MOST_SAMPLES, Outcome, badness_within, number};
 use metrics::{Ideal, Interval};
-use suite::{Finding, Length, Level, MOST_SAMPLES, Outcome, badness_within, number};
 
 /// Status of a score against its bound, told by colour, sign and word: never by the colour alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

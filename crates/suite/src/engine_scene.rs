@@ -12,9 +12,9 @@ use crate::render::ladders::ladder_folder;
 /// Name of the file that makes a folder an ingested one.
 pub const INGESTED_FILE: &str = "ingested.json";
 /// Name of the engine's own blurred picture in that folder.
-pub(crate) const BLURRED: &str = "blurred.exr";
+pub const BLURRED: &str = "blurred.exr";
 /// Version of the layout of the file.
-pub(crate) const INGESTED_FORMAT: u32 = 1;
+pub const INGESTED_FORMAT: u32 = 1;
 /// Halves of a truth, each a picture of the whole shutter.
 const HALVES: u32 = 2;
 
@@ -221,7 +221,7 @@ pub fn engine_name(engine: &str) -> &str {
 }
 
 /// Makes one word of a text, which a folder, a table and an address can have: `three.js 0.187.0` becomes `three.js_0.187.0`.
-pub(crate) fn name_in_one_word(text: &str) -> String {
+pub fn name_in_one_word(text: &str) -> String {
     let letters = text.trim().chars().map(|letter| {
         let is_kept = letter.is_ascii_alphanumeric() || "._-+".contains(letter);
         if is_kept { letter } else { '_' }

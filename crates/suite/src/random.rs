@@ -1,7 +1,7 @@
 //! Random numbers that are the same in every version of the program.
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
-pub(crate) struct Random(pub u64);
+pub struct Random(pub u64);
 
 impl Random {
     /// Returns a number below `count`.

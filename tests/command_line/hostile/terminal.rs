@@ -6,7 +6,8 @@ use std::process::{Output, Stdio};
 
 use cli::{annotations, check_text, summary};
 use frame::{Frame, Truth};
-use suite::{CHECK_FORMAT, Check, Decision, Failure, printable_table};
+use judge::{CHECK_FORMAT, Check, Decision};
+use suite::{Failure, printable_table};
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 

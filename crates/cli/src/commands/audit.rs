@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use suite::{
-    Capture, CaptureAudit, Error, Sharing, audit_capture, claim, printable_path,
-    write_audit_picture,
-};
+use engine::{Capture, CaptureAudit, audit_capture, write_audit_picture};
+use suite::{Error, Sharing, claim, printable_path};
 
 use super::capture::{load_drawn_scene, name_folder};
 use super::ending::Ending;

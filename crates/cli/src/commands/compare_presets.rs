@@ -1,6 +1,7 @@
 //! The command `compare-presets`.
 
-use suite::{Error, Evaluator, Objective, Sharing, compare_candidates};
+use suite::{Error, Sharing};
+use tune::{Evaluator, Objective, compare_candidates};
 
 use super::candidate::{
     candidate_render_settings, claim_and_render, load_candidate_scenes, open_candidate_gpu,

@@ -5,9 +5,8 @@ use std::path::Path;
 
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
-use suite::{
-    Error, Evaluator, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, evaluate_candidate,
-};
+use suite::{Error, FilterChoice, MOST_JSON_BYTES, Sharing};
+use tune::{Evaluator, Objective, evaluate_candidate};
 
 use super::candidate::{
     claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,

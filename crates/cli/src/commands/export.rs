@@ -1,6 +1,6 @@
 //! The command `export`.
 
-use export::{ExportError, Manifest, export_gltf};
+use engine::{ExportError, Manifest, export_gltf};
 use suite::{Error, PROGRAM, printable_path};
 
 use crate::arguments::ExportArgs;

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use suite::{Error, ImportPlan, Imported, Motions, import, printable_path};
+use engine::{ImportPlan, Imported, Motions, import};
+use suite::{Error, printable_path};
 
 use super::render_settings::check_exposure;
 use crate::arguments::ImportArgs;

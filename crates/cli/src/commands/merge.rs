@@ -1,6 +1,7 @@
 //! The command `merge`.
 
-use suite::{Error, JUDGEMENT_FILE, holds_run, merge, merge_runs, printable_path, refuse_failures};
+use judge::JUDGEMENT_FILE;
+use suite::{Error, holds_run, merge, merge_runs, printable_path, refuse_failures};
 
 use super::run_files::write_run;
 use crate::arguments::MergeArgs;

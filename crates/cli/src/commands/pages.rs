@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use judge::Finding;
 use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
-use suite::{Error, Finding, Run, printable_path};
+use suite::{Error, Run, printable_path};
 
 /// A file that a command wrote.
 #[derive(serde::Serialize)]

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use judge::Judgement;
 use report::{TuneFolder, tuning_page, write_gallery};
-use suite::{Error, Judgement, Run, printable_path, write_layers};
+use suite::{Error, Run, printable_path, write_layers};
 
 use super::pages::{WrittenFile, page_lines, write_page, write_run_page};
 use crate::arguments::ReportArgs;

@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use frame::FrameOptions;
+use judge::{
+    BOUNDS_FILE, BoundsFile, RunBounds, SceneBounds, read_bounds, read_bounds_beside_scenes,
+    read_bounds_file,
+};
 use suite::{
-    BOUNDS_FILE, BoundsFile, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice,
-    Frames, RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
-    read_bounds_beside_scenes, read_bounds_file,
+    Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, Frames, RunPlan, Sharing,
+    claim, engine_name,
 };
 use tracer::{FrameRate, Location, RenderSettings, Scene, Seal};
 

@@ -1,6 +1,7 @@
 //! The command `sensitivity`.
 
-use suite::{Error, Evaluator, Sharing, Space, analyze_sensitivity, count_candidates};
+use suite::{Error, Sharing};
+use tune::{Evaluator, Space, analyze_sensitivity, count_candidates};
 
 use super::candidate::{
     candidate_render_settings, claim_and_render, load_candidate_scenes, open_candidate_gpu,

@@ -6,7 +6,7 @@ use super::evidence::{Evidence, find_evidence};
 use super::profile::{Profile, trace_profile, worst_pixel};
 use crate::pixels::layer::Layer;
 use crate::pixels::scene_files::SceneFiles;
-use suite::{BLOCK, Finding, worst_block};
+use judge::{BLOCK, Finding, worst_block};
 use suite::{Case, Error, Run};
 
 /// A case with all that a page shows of its files.

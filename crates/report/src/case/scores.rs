@@ -5,8 +5,8 @@ use metrics::{Group, Measured, Metric};
 
 use super::case_view::CaseView;
 use crate::finding_text::{Status, interval_text, limit_text};
+use judge::{Level, number};
 use suite::Case;
-use suite::{Level, number};
 
 /// Lists the scores of all groups.
 pub fn score_rows(page: &CaseView) -> Markup {

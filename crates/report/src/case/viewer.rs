@@ -4,7 +4,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::legend::draw_legends;
 use crate::pixels::layer::Layer;
-use suite::BLOCK;
+use judge::BLOCK;
 use suite::Run;
 
 /// Modes in which two pictures are compared: the script's word, the name, and the key.

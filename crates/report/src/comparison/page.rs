@@ -8,11 +8,11 @@ use super::pictures::Pictures;
 use super::runs::both_runs;
 use crate::charts::strip::Strip;
 use crate::document::{Document, Siblings};
+use judge::{Change, ChangeKind, rank_changes};
+use judge::{MeanChange, MeanKind};
+use judge::{Pair, filter_label, pair_cases};
+use judge::{RunComparison, Side};
 use suite::Error;
-use suite::{Change, ChangeKind, rank_changes};
-use suite::{MeanChange, MeanKind};
-use suite::{Pair, filter_label, pair_cases};
-use suite::{RunComparison, Side};
 
 /// Number of cases that are shown in pictures, those that changed most.
 const SHOWN: usize = 12;

@@ -3,9 +3,9 @@
 use frame::{Plane, read_exr};
 
 use crate::pixels::png::{embed_file, embed_picture};
+use judge::Pair;
+use judge::Side;
 use suite::Error;
-use suite::Pair;
-use suite::Side;
 
 /// Pictures of one case, each as an address that holds the picture itself.
 pub struct Pictures {

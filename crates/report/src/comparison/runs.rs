@@ -3,8 +3,8 @@
 use maud::{Markup, html};
 
 use crate::run_facts::facts;
+use judge::Side;
 use suite::Run;
-use suite::Side;
 
 /// Lists the settings of both runs, and the truths that they share.
 pub fn both_runs(first: &Side, second: &Side) -> Markup {

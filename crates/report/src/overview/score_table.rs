@@ -10,7 +10,8 @@ use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
 use crate::filter_id::{FilterId, list_alignments, mean, mean_floor};
-use suite::{Bench, Case, Headline, Level, Outcome, Overall, list_summarized};
+use judge::{Level, Outcome, list_summarized};
+use suite::{Bench, Case, Headline, Overall};
 use tracer::FrameRate;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.

@@ -3,7 +3,8 @@
 use maud::{Markup, html};
 
 use crate::sequence::SEQUENCES_PAGE;
-use suite::{RANKED_BY, RankedFilter, Run, rank_sequences};
+use judge::{RANKED_BY, RankedFilter, rank_sequences};
+use suite::Run;
 
 /// Names the best filters of the sequences of every shutter; nothing where the run has no sequences.
 pub fn sequence_winners(run: &Run) -> Markup {

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::charts::strip::Strip;
 use crate::numbers::percent;
-use suite::Fold;
+use tune::Fold;
 
 /// Nothing where there were no two families.
 pub fn folds(folds: &[Fold]) -> Markup {

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::folder::TuneFolder;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
-use suite::{Advice, Trial, round_bleed};
+use tune::{Advice, Trial, round_bleed};
 
 /// A measure that a chart shows against the error.
 struct Against {

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::charts::strip::Strip;
-use suite::{ParameterSensitivity, Sensitivity};
+use tune::{ParameterSensitivity, Sensitivity};
 
 /// Lists the parameters, those that matter most first.
 pub fn importance(found: &Sensitivity) -> Markup {

@@ -6,8 +6,8 @@ use maud::{Markup, html};
 
 use super::folds::change_bar;
 use crate::numbers::percent;
-use suite::log_ratio;
-use suite::{HeldOutResult, SceneScore, Tuning};
+use tune::log_ratio;
+use tune::{HeldOutResult, SceneScore, Tuning};
 
 /// Lists the scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use suite::JournalHeader;
+use tune::JournalHeader;
 
 /// Lists all that the trials depended on, and the hashes of the truths.
 pub fn settings(header: &JournalHeader) -> Markup {

@@ -18,7 +18,7 @@ pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
 }
 
 /// Refuses a folder that holds a scene itself: our pictures may have the names of its textures.
-pub(crate) fn refuse_scene(folder: &Path) -> Result<(), Error> {
+pub fn refuse_scene(folder: &Path) -> Result<(), Error> {
     match folder.join("scene.toml").exists() {
         false => Ok(()),
         true => Err(Error::Usage(format!(
@@ -29,7 +29,7 @@ pub(crate) fn refuse_scene(folder: &Path) -> Result<(), Error> {
 }
 
 /// Refuses folders, each below the one before, of which one has a name that file systems may not hold.
-pub(crate) fn refuse_long_names(folders: &Path) -> Result<(), Error> {
+pub fn refuse_long_names(folders: &Path) -> Result<(), Error> {
     let names = folders.iter().map(|name| name.to_string_lossy());
     match names.max_by_key(|name| name.len()) {
         Some(name) if name.len() > LONGEST_FOLDER_NAME => Err(Error::Usage(format!(

@@ -10,7 +10,7 @@ use crate::printable::printable;
 const FREE: [&str; 3] = ["reason", "command", "exposes"];
 
 /// Refuses a text whose strings hold control characters; the error says where. Keys count as strings.
-pub(crate) fn check_strings(text: &str) -> Result<(), serde_json::Error> {
+pub fn check_strings(text: &str) -> Result<(), serde_json::Error> {
     let mut json = serde_json::Deserializer::from_str(text);
     Printable.deserialize(&mut json)?;
     json.end()

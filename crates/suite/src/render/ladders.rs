@@ -13,7 +13,7 @@ use crate::{Error, Monitor};
 pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 
 /// The rung that is the sharp picture of a shutter's middle.
-pub(crate) const SHARP: u32 = LADDER[0];
+pub const SHARP: u32 = LADDER[0];
 
 /// Lists the rungs that measuring against a truth needs: all if ladders are asked for. Otherwise the sharp picture of the shutter's
 /// middle, which skill is counted from, unless the frame is that.
@@ -27,7 +27,7 @@ pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32
 
 /// Returns the sharp picture of the middle of a truth's shutter: the frame if its instant lies there, or else the rung [`SHARP`],
 /// which `read` reads. `frame` has no guard band.
-pub(crate) fn sharp_picture<E>(
+pub fn sharp_picture<E>(
     frame: &Frame,
     truth: &Truth,
     read: impl FnOnce() -> Result<Accumulation, E>,
@@ -39,7 +39,7 @@ pub(crate) fn sharp_picture<E>(
 }
 
 /// Names the folder of the rungs of a ladder in the folder of its scene.
-pub(crate) fn ladder_folder(alignment: Alignment) -> String {
+pub fn ladder_folder(alignment: Alignment) -> String {
     format!("ladder_{alignment}")
 }
 

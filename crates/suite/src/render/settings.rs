@@ -14,7 +14,7 @@ pub const MOST_REPLICATES: u32 = 4096;
 const FRAME_REPLICATES: u32 = 4;
 
 /// Lists name and value of every setting that all cases of a run share.
-pub(crate) fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
+pub fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
     [
         (
             "picture size",

@@ -142,7 +142,7 @@ fn check_sequence(sequence: &Sequence) -> Result<(), String> {
 }
 
 /// Tells whether a path leads below the folder that it starts from. Nothing is read or written elsewhere.
-pub(crate) fn is_below(path: &Path) -> bool {
+pub fn is_below(path: &Path) -> bool {
     let mut parts = path.components().peekable();
     parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }

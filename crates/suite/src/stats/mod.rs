@@ -2,8 +2,5 @@
 
 pub mod headline;
 pub mod intervals;
-pub mod lag;
 pub mod overall;
-pub mod ranking;
 pub mod scene_mean;
-pub mod sequence_ranking;

@@ -7,7 +7,8 @@ mod reply;
 use std::collections::BTreeSet;
 
 use serde_json::json;
-use suite::{Error, Evaluator, Objective, SceneScore, Sharing, evaluate_candidate};
+use suite::{Error, Sharing};
+use tune::{Evaluator, Objective, SceneScore, evaluate_candidate};
 
 use self::inbox::{Inbox, ScoreRequest};
 use self::reply::print_reply;
