@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use metrics::{BoundMetric, Ideal, Interval, Measured, Metric, PERFECT_JOD, Score, SequenceMetric};
+use suite::{Case, Frames, Intervals, Run};
 
 use crate::bounds::SceneBounds;
 use crate::outcome::badness_within;
 use crate::{find_sequence, number};
-use suite::{Case, Frames, Intervals, Run};
 
 /// Margin, in standard deviations.
 const DEVIATIONS: f64 = 3.0;

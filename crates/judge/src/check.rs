@@ -3,13 +3,13 @@
 use std::collections::HashSet;
 
 use serde::Serialize;
+use suite::Case;
+use suite::refuse_failures;
+use suite::{Error, Failure, Run};
 
 use crate::baseline::BaselineComparison;
 use crate::decision::Decision;
 use crate::{Finding, Outcome};
-use suite::Case;
-use suite::refuse_failures;
-use suite::{Error, Failure, Run};
 
 /// Version of the layout of a check as JSON.
 pub const CHECK_FORMAT: u32 = 1;

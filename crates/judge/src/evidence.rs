@@ -4,13 +4,13 @@ use std::path::Path;
 
 use frame::{Frame, Image, Ladder, Picture, Truth, read_exr, rung_file};
 use metrics::{Metric, Reference, Regions};
+use store::ladder_folder;
+use suite::ErrorMaps;
+use suite::{Case, Error, Run};
 
 use crate::decoys::{Decoys, FEW_SUBFRAMES};
 use crate::finding::Finding;
 use crate::worst::{Worst, worst_block, write_crop};
-use suite::ErrorMaps;
-use suite::ladder_folder;
-use suite::{Case, Error, Run};
 
 /// Adds evidence to every notable finding about a single frame of a run, from the run's files below `folder`, and writes a picture of each worst place
 /// into its case's folder.

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use metrics::{BoundMetric, Interval, Measured};
 use serde::{Deserialize, Serialize};
+use suite::Sequence;
+use suite::{Case, Run};
 
 use crate::bounds::Level;
 use crate::decision::Decision;
@@ -11,8 +13,6 @@ use crate::decoys::Resemblance;
 use crate::judged_score::JudgedScore;
 use crate::outcome::{Outcome, limit_as_badness};
 use crate::worst::Worst;
-use suite::Sequence;
-use suite::{Case, Run};
 
 /// A score, its bound, and how they stand to each other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,11 +1,11 @@
 //! Scores of one picture or one sequence, each compared with its bound.
 
 use metrics::{BoundMetric, Measured, Scores, SequenceMetric};
+use suite::Sequence;
+use suite::{Frames, Intervals};
 
 use crate::bounds::{Bound, Bounds};
 use crate::outcome::{Outcome, judge_score};
-use suite::Sequence;
-use suite::{Frames, Intervals};
 
 /// Reason why a sequence has no score.
 const NO_SEQUENCE: &str = "a frame of the sequence has no scores";

@@ -6,12 +6,11 @@ use std::str::FromStr;
 use frame::{read_bounded, write_atomically};
 use metrics::BoundMetric;
 use serde::{Deserialize, Serialize};
+use store::{MOST_RUN_BYTES, read_text_within, to_lines};
+use suite::is_below;
+use suite::{Error, PROGRAM, Run};
 
 use crate::Finding;
-use suite::is_below;
-use suite::to_lines;
-use suite::{Error, PROGRAM, Run};
-use suite::{MOST_RUN_BYTES, read_text_within};
 
 /// Version of the layout of `judgement.json`.
 pub const JUDGEMENT_FORMAT: u32 = 1;

@@ -1,9 +1,9 @@
 //! Identity of filters: what a row of every table stands for.
 
 use metrics::Measured;
+use suite::{Case, Headline, Overall};
 
 use crate::case_table::CaseTable;
-use suite::{Case, Headline, Overall};
 
 /// A filter preset with one form of its input, or a reference with one shutter.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -2,12 +2,12 @@
 
 use filters::{Filter, Source};
 use maud::{Markup, html};
+use suite::{Bench, Case, Headline};
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, case_anchor};
 use crate::numbers::value_text;
 use crate::overview::costs::{cost_of, cost_text};
-use suite::{Bench, Case, Headline};
 
 /// Scores beside the error in the table of scenes.
 const SCORES: [(Headline, &str); 6] = [

@@ -4,9 +4,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use frame::{read_png, write_atomically, write_png};
+use suite::{Case, Error, Headline, IDENTITY, Run};
 
 use crate::case_strip::{read_output, read_truth, tile};
-use suite::{Case, Error, Headline, IDENTITY, Run};
 
 /// File name of the contact sheet.
 const SHEET: &str = "truths.png";

@@ -1,9 +1,9 @@
 //! Settings that a run's scores depend on.
 
 use maud::{Markup, html};
+use suite::{Case, Run};
 
 use crate::case_table::CaseTable;
-use suite::{Case, Run};
 
 /// Lists command, program, adapter, settings, and per scene the hashes of its truths.
 pub fn provenance(table: &CaseTable) -> Markup {

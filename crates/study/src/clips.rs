@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use frame::{Image, read_bounded, read_png};
 use glob::Pattern;
+use suite::{Error, Run};
 
 use crate::study::{Study, StudyShutter};
-use suite::{Error, Run};
 
 /// What to ask about.
 #[derive(Clone, Debug)]

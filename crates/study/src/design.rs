@@ -1,8 +1,9 @@
 //! Order of a session: which pairs are shown, and on which side. `design.js` of the page draws the same; a test compares both.
 
+use suite::Random;
+
 use crate::question::Question;
 use crate::study::{Study, round_size};
-use suite::Random;
 
 /// A check comes with so many pairs.
 const PAIRS_PER_CHECK: usize = 8;

@@ -1,11 +1,11 @@
 //! Scale of preferences: strengths from the choices of people, with intervals by resampling.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use suite::Random;
+use suite::TWO_SIDED;
 
 use crate::bradley_terry::{NoScale, Penalty, fit_strengths};
 use crate::paired_counts::PairedCounts;
-use suite::Random;
-use suite::TWO_SIDED;
 
 /// Fewer people than this are no sample of people: their answers are drawn again in place of them.
 pub const FEWEST_PEOPLE: usize = 5;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
+use suite::{Error, PROGRAM, Run};
 
 use crate::agreement::{PeopleAgreement, measure_agreement};
 use crate::answers::Chosen;
@@ -15,7 +16,6 @@ use crate::question::Question;
 use crate::score_agreement::{ScoreAgreement, compare_scores};
 use crate::session::Session;
 use crate::study::{Study, StudyShutter};
-use suite::{Error, PROGRAM, Run};
 
 /// Version of the layout of the preferences that are printed as JSON.
 pub const PREFERENCES_FORMAT: u32 = 1;

@@ -2,14 +2,14 @@
 
 use metrics::SequenceMetric;
 use serde::Serialize;
+use suite::Headline;
+use suite::{Case, Run, Sequence};
+use suite::{TWO_SIDED, Weighted, scene_mean};
 
 use crate::preference_scale::{FEWEST_PEOPLE, PreferenceScale};
 use crate::rank_correlation::rank_correlation;
 use crate::session::Session;
 use crate::study::Study;
-use suite::Headline;
-use suite::{Case, Run, Sequence};
-use suite::{TWO_SIDED, Weighted, scene_mean};
 
 /// Scores of single pictures that are compared with people. Of a sequence they are those of the first frame.
 const OF_PICTURES: [Headline; 6] = [

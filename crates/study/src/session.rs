@@ -2,6 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use store::{check_strings, read_text_within};
+use suite::Error;
+
 use crate::answers::{
     ANSWERS_FORMAT, Answer, AnswerFile, Chosen, MOST_ANSWER_BYTES, SHARP_CLIP, TRUTH_CLIP,
 };
@@ -9,9 +12,6 @@ use crate::design::{Clip, ShownPair, draw_session};
 use crate::preference_scale::Comparison;
 use crate::question::Question;
 use crate::study::Study;
-use suite::Error;
-use suite::check_strings;
-use suite::read_text_within;
 
 /// Upper limit on sessions that are read together.
 pub const MOST_SESSIONS: usize = 1000;

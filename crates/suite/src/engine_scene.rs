@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr, rung_file};
 use serde::{Deserialize, Serialize};
+use store::{ladder_folder, read_text};
 
 use crate::Error;
-use crate::json::file::read_text;
-use crate::render::ladders::ladder_folder;
 
 /// Name of the file that makes a folder an ingested one.
 pub const INGESTED_FILE: &str = "ingested.json";

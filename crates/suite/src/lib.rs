@@ -2,19 +2,15 @@
 //! [`Monitor`].
 
 mod bench;
-mod cache;
 mod colors;
 mod engine_scene;
 mod error;
 mod filter;
-mod folder;
-mod json;
 mod measure;
 mod merge;
 mod monitor;
 mod named;
 mod pack;
-mod printable;
 mod random;
 mod render;
 mod run;
@@ -44,14 +40,6 @@ pub use filter::runner::{Runner, open_adapter, open_gpu};
 pub use filter::shutter_rule::ShutterRule;
 pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;
-pub use folder::claim::{Claim, Sharing, claim};
-pub use folder::numbered::{find_numbered, numbered_file};
-pub use folder::placed_file::MOST_TAKEN_BYTES;
-pub use folder::scene_folder::{refuse_long_names, refuse_scene, scene_folder};
-pub use folder::tracked::refuse_tracked;
-pub use json::file::{MOST_JSON_BYTES, MOST_RUN_BYTES, read_text, read_text_within};
-pub use json::lines::to_lines;
-pub use json::strings::check_strings;
 pub use measure::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,
@@ -66,19 +54,13 @@ pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use merge::{MergedRun, holds_run, merge_runs};
 pub use monitor::{Monitor, Step};
 pub use pack::arrival::{Arrival, take_pack};
-pub use pack::manifest::{
-    LARGEST_PACK_RATIO, MOST_MANIFEST_BYTES, Manifest, PACK_FORMAT, PackedFile,
-};
-pub use pack::reading::Pack;
-pub use pack::writing::write_pack;
-pub use printable::{printable, printable_lines, printable_path, printable_table};
+pub use pack::write_pack;
 pub use random::Random;
 pub use render::frames::render_frame;
-pub use render::ladders::{LADDER, LadderFiles, SHARP, ladder_folder, sharp_picture};
-pub use render::merge::{MOST_PART_BYTES, Merged, merge};
-pub use render::replicates::replicates_folder;
+pub use render::ladders::{LadderFiles, SHARP, sharp_picture};
+pub use render::merge::{Merged, merge};
 pub use render::scatter_oracle::{make_oracle, scatter_oracle};
-pub use render::settings::{MOST_REPLICATES, SIDES, list_settings};
+pub use render::settings::{SIDES, list_settings};
 pub use render::shared::render_shared;
 pub use render::truths::{deciding_floor, render_part, render_truth, render_truths_until};
 pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
@@ -90,6 +72,7 @@ pub use run::overall::Overall;
 pub use run::sequence::{Frames, MOST_FRAMES, Sequence, SequenceFrame};
 pub use run::{FORMAT, Run};
 pub use score::finished_picture::{FinishedPicture, read_finished_picture};
+pub use score::numbered::{find_numbered, numbered_file};
 pub use score::scores::{Scored, missing_scores, score};
 pub use score::sequence::{ScoredSequence, SequenceTruth, file_at_frame, score_sequence};
 pub use stats::headline::Headline;

@@ -2,10 +2,10 @@
 
 use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Settings, UploadedInput};
 use frame::{Image, Plane};
-
-use crate::target::Target;
 use suite::{Monitor, Runner};
 use suite::{pack_planes, unpack_planes};
+
+use crate::target::Target;
 
 /// A filter's kernels and the inputs of all scenes, on the GPU: every candidate uses them, and so costs its blurs alone.
 pub struct SharedKernels<'a> {

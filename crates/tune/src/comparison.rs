@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 
 use filters::Settings;
 use serde::{Deserialize, Serialize};
+use suite::Error;
+use suite::{FEWEST_SCENES, ONE_SIDED, plain_mean};
 use tracer::{Progress, TraceError};
 
 use crate::evaluator::Evaluator;
 use crate::loss::log_ratio;
 use crate::target::SceneScore;
-use suite::Error;
-use suite::{FEWEST_SCENES, ONE_SIDED, plain_mean};
 
 /// Scores of two candidates, scene by scene, and their mean differences.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

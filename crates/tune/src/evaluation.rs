@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use filters::{Settings, Value};
 use serde::{Deserialize, Serialize};
+use suite::Error;
 
 use crate::cost::Stopwatch;
 use crate::evaluator::Evaluator;
 use crate::loss::{mean_log_ratio, worst_bleed};
 use crate::target::SceneScore;
-use suite::Error;
 
 /// Scores of one candidate relative to the start, on the same scenes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,11 +5,11 @@ use std::sync::mpsc;
 
 use filters::{Gpu, Settings};
 use frame::{Image, Plane};
+use suite::{Error, FilterChoice, Monitor};
 
 use crate::candidate::{Candidate, SharedKernels};
 use crate::rendered_scene::RenderedScene;
 use crate::target::{SceneScore, Target};
-use suite::{Error, FilterChoice, Monitor};
 
 /// A filter on scenes that are loaded once; scores that were measured before come from memory.
 pub struct Evaluator<'a> {

@@ -6,10 +6,10 @@ use std::path::Path;
 use filters::Value;
 use frame::write_atomically;
 use serde::{Deserialize, Serialize};
+use store::read_text;
+use suite::Error;
 
 use crate::comparison::PairedComparison;
-use suite::Error;
-use suite::read_text;
 
 /// One comparison of start and choice on the held-out scenes: a line of `openings.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use frame::FileError;
 use serde::Serialize;
 use serde_json::Value;
+use store::read_text;
+use suite::Error;
 
 use crate::header::JournalHeader;
 use crate::trial::Trial;
-use suite::Error;
-use suite::read_text;
 
 /// Characters of a setting that an error shows.
 const MOST_SHOWN: usize = 80;

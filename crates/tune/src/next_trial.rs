@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::{FilterError, Settings};
+use suite::Error;
 use tracer::TraceError;
 
 use crate::cost::Stopwatch;
@@ -15,7 +16,6 @@ use crate::selection::ChoiceLimits;
 use crate::target::SceneScore;
 use crate::trial::{Trial, TrialOutcome};
 use crate::wilcoxon::signed_rank_p_value;
-use suite::Error;
 
 /// Scenes that a candidate runs on before it can be dropped.
 const RACE_FROM: usize = 6;

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use judge::SceneBounds;
+use suite::{Error, FilterChoice, Monitor};
 use tracer::{RenderSettings, Scene};
 
 use crate::loss::LEAST_BLEED;
@@ -11,8 +13,6 @@ use crate::objective::Objective;
 use crate::selection::ChoiceLimits;
 use crate::space::Space;
 use crate::trial::Trial;
-use judge::SceneBounds;
-use suite::{Error, FilterChoice, Monitor};
 
 /// Filter, scenes, limits and effort of a tuning.
 pub struct TuneOptions {

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use filters::Value;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
+use suite::Error;
 use tracer::{Progress, TraceError, Watch};
 
 use crate::evaluator::Evaluator;
 use crate::loss::{FAILED, mean_log_ratio};
 use crate::sobol::{SobolIndices, sobol_indices};
 use crate::space::Space;
-use suite::Error;
 
 /// An axis whose total index is below this, its interval included, may become a constant: it causes less than a fiftieth of
 /// the variance.

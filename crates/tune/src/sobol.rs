@@ -1,9 +1,9 @@
 //! Sobol indices: the share of a function's variance that each parameter causes.
 
 use serde::{Deserialize, Serialize};
+use suite::Random;
 
 use crate::search::sobol_point;
-use suite::Random;
 
 /// Bootstrap samples behind an interval.
 const SAMPLES: usize = 1000;

@@ -1,12 +1,12 @@
 //! Scene that candidates are scored on.
 
 use frame::{Image, Plane, Raster, Region};
+use judge::Bounds;
 use metrics::{ImageMetric, Metric, ObjectMetric, Reference, flip_ldr};
 use serde::{Deserialize, Serialize};
+use suite::Error;
 
 use crate::rendered_scene::RenderedScene;
-use judge::Bounds;
-use suite::Error;
 
 /// Scores of one candidate on one scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use filters::{Gpu, Parameter, Settings, Value};
 use serde::{Deserialize, Serialize};
+use suite::{Error, PROGRAM};
 use tracer::TraceError;
 
 use crate::comparison::compare_candidates;
@@ -21,7 +22,6 @@ use crate::search::Search;
 use crate::selection::{Choice, Fold, choose_trial, cross_validate, trial_settings};
 use crate::target::Target;
 use crate::trial::{Trial, TrialOutcome};
-use suite::{Error, PROGRAM};
 
 /// Version of the layout of `tune.json`.
 pub const TUNE_FORMAT: u32 = 1;

@@ -7,7 +7,8 @@ use std::process::{Output, Stdio};
 use cli::{annotations, check_text, summary};
 use frame::{Frame, Truth};
 use judge::{CHECK_FORMAT, Check, Decision};
-use suite::{Failure, printable_table};
+use store::printable_table;
+use suite::Failure;
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 

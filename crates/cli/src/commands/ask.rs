@@ -2,8 +2,9 @@
 
 use judge::Side;
 use report::write_ask_folder;
+use store::printable_path;
 use study::{Question, SECONDS_PER_QUESTION, Study, StudyChoice, draw_session, make_study};
-use suite::{Error, printable_path};
+use suite::Error;
 
 use crate::arguments::AskArgs;
 use crate::output::print::{print, print_json};

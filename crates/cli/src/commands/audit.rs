@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use engine::{Capture, CaptureAudit, audit_capture, write_audit_picture};
-use suite::{Error, Sharing, claim, printable_path};
+use store::{Sharing, claim, printable_path};
+use suite::Error;
 
 use super::capture::{load_drawn_scene, name_folder};
 use super::ending::Ending;

@@ -2,9 +2,8 @@
 
 use judge::{BOUNDS_FILE, bound_subframes, calibrate, check_names};
 use metrics::{BoundMetric, Metric};
-use suite::{
-    Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, printable_path, refuse_failures,
-};
+use store::printable_path;
+use suite::{Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, refuse_failures};
 use tracer::{Progress, Watch};
 
 use super::expected::print_expected_time;

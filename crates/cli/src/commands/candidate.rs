@@ -2,10 +2,8 @@
 
 use filters::Gpu;
 use judge::SceneBounds;
-use suite::{
-    Claim, Error, FilterChoice, Sharing, claim, estimate_case_seconds, estimate_render_seconds,
-    open_gpu,
-};
+use store::{Claim, Sharing, claim};
+use suite::{Error, FilterChoice, estimate_case_seconds, estimate_render_seconds, open_gpu};
 use tracer::{RenderSettings, Scene};
 use tune::{RenderedScene, render_scenes};
 

@@ -9,7 +9,8 @@ use judge::{
     check_lengths, check_names, compare_with_baseline, is_of_subframes, judge, require_bounds,
     size_for_bounds,
 };
-use suite::{Error, Run, open_gpu, printable_path, refuse_tracked};
+use store::{printable_path, refuse_tracked};
+use suite::{Error, Run, open_gpu};
 use tracer::Location;
 
 use super::ending::Ending;

@@ -1,6 +1,7 @@
 //! The command `compare-presets`.
 
-use suite::{Error, Sharing};
+use store::Sharing;
+use suite::Error;
 use tune::{Evaluator, Objective, compare_candidates};
 
 use super::candidate::{

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
-use suite::{Error, FilterChoice, MOST_JSON_BYTES, Sharing};
+use store::{MOST_JSON_BYTES, Sharing};
+use suite::{Error, FilterChoice};
 use tune::{Evaluator, Objective, evaluate_candidate};
 
 use super::candidate::{

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use engine::{ImportPlan, Imported, Motions, import};
-use suite::{Error, printable_path};
+use store::printable_path;
+use suite::Error;
 
 use super::render_settings::check_exposure;
 use crate::arguments::ImportArgs;

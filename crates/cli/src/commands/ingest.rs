@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use engine::{Capture, Ingested, ingest};
 use frame::{Display, Region};
-use suite::{EngineScene, Error, printable_path};
+use store::printable_path;
+use suite::{EngineScene, Error};
 use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};

@@ -1,7 +1,8 @@
 //! The command `merge`.
 
 use judge::JUDGEMENT_FILE;
-use suite::{Error, holds_run, merge, merge_runs, printable_path, refuse_failures};
+use store::printable_path;
+use suite::{Error, holds_run, merge, merge_runs, refuse_failures};
 
 use super::run_files::write_run;
 use crate::arguments::MergeArgs;

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use judge::Finding;
 use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
-use suite::{Error, Run, printable_path};
+use store::printable_path;
+use suite::{Error, Run};
 
 /// A file that a command wrote.
 #[derive(serde::Serialize)]

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use judge::{Level, judge};
-use suite::{Error, Part, Run, open_gpu, printable, printable_path, refuse_failures};
+use store::{printable, printable_path};
+use suite::{Error, Part, Run, open_gpu, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};

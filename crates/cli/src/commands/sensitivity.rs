@@ -1,6 +1,7 @@
 //! The command `sensitivity`.
 
-use suite::{Error, Sharing};
+use store::Sharing;
+use suite::Error;
 use tune::{Evaluator, Space, analyze_sensitivity, count_candidates};
 
 use super::candidate::{

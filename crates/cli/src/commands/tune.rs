@@ -5,7 +5,8 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use frame::FileError;
-use suite::{Error, FilterChoice, Sharing, claim};
+use store::{Sharing, claim};
+use suite::{Error, FilterChoice};
 use tracer::{Progress, RenderSettings};
 use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use judge::{Check, Decision, Finding, number};
 use report::{finding_line, length_text, limit_text, way_out};
-use suite::printable;
+use store::printable;
 
 use crate::tables::check::{comparison_line, count_lines, verdict_word};
 

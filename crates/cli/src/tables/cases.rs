@@ -2,7 +2,8 @@
 
 use judge::lag_text;
 use metrics::Scores;
-use suite::{Case, Headline, Run, printable};
+use store::printable;
+use suite::{Case, Headline, Run};
 
 use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::Table;

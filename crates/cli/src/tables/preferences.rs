@@ -1,9 +1,9 @@
 //! Tables of what people prefer.
 
+use store::{printable, printable_path};
 use study::{
     FEWEST_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
 };
-use suite::{printable, printable_path};
 
 use super::columns::{legend_text, number_table};
 use crate::output::colors;

@@ -2,7 +2,8 @@
 
 use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use metrics::{SequenceMetric, SequenceScores};
-use suite::{Run, Sequence, printable};
+use store::printable;
+use suite::{Run, Sequence};
 
 use super::columns::{bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::{Align, Table};

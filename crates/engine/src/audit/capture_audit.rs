@@ -3,6 +3,7 @@
 use filters::DepthKind;
 use frame::Raster;
 use serde::Serialize;
+use suite::Error;
 use tracer::Scene;
 
 use crate::audit::cause::Cause;
@@ -15,7 +16,6 @@ use crate::audit::shown::{LEAST_SHOWN, ObjectShown, count_shown};
 use crate::audit::velocity_audit::{ObjectAudit, audit_velocity};
 use crate::audit::views::find_other_views;
 use crate::capture::folder::Capture;
-use suite::Error;
 
 /// Part of the pixels whose depth must be known before it tells, without ids, what the engine shows there.
 const LEAST_KNOWN: f64 = 0.3;

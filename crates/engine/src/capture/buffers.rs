@@ -192,7 +192,7 @@ fn refuse_channels<T>(file: &ExrFile, allowed: &str) -> Result<T, Error> {
         &file.path,
         &format!(
             "has the channels {}; needed: {allowed}",
-            suite::printable(&names.join(", "))
+            store::printable(&names.join(", "))
         ),
     )
 }

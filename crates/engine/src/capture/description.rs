@@ -6,8 +6,8 @@ use frame::{Alignment, MOST_STOPS, is_hidden};
 use serde::Deserialize;
 use tracer::FrameRate;
 
+use store::read_text;
 use suite::Error;
-use suite::read_text;
 
 /// Name of the file.
 pub const CAPTURE_FILE: &str = "capture.toml";

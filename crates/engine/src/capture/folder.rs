@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use filters::{Convention, DepthKind, VelocityTime};
 use frame::{Alignment, Image, Plane, Raster, Vectors};
+use store::read_text;
+use suite::Error;
 
 use crate::capture::buffers::{
     check_size, find_picture, is_png, read_color, read_depth, read_objects,
@@ -11,8 +13,6 @@ use crate::capture::buffers::{
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
-use suite::Error;
-use suite::read_text;
 
 /// Name of the file of a capture that holds its convention.
 pub const CONVENTION_FILE: &str = "engine.toml";

@@ -11,6 +11,7 @@ use std::fs;
 use std::path::Path;
 
 use frame::FileError;
+use suite::Error;
 use tracer::load_scene;
 
 use self::folder::{check_new, create};
@@ -18,7 +19,6 @@ use self::model::Model;
 pub use self::model::Up;
 pub use self::motion::Motions;
 pub use self::plan::ImportPlan;
-use suite::Error;
 
 /// An imported scene.
 pub struct Imported {

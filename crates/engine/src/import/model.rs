@@ -5,12 +5,12 @@ use std::ops::RangeInclusive;
 use std::path::{Component, Path, PathBuf};
 
 use frame::{FileError, read_bounded};
+use suite::Error;
+use suite::named;
 use tracer::limits::LARGEST_MESH_FILE;
 use tracer::{SceneError, load_scene_and_files};
 
 use crate::import::folder::create;
-use suite::Error;
-use suite::named;
 
 /// Name of the folder of the model's files, in the scene's folder.
 pub const FOLDER: &str = "model";

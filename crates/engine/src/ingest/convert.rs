@@ -6,18 +6,16 @@ use frame::{
     Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
     Truth, VelocityKind, display_srgb, write_exr, write_png,
 };
+use store::{Sharing, claim, ladder_folder, refuse_long_names, refuse_scene};
+use suite::velocity_wheel;
+use suite::{BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word};
+use suite::{Error, PROGRAM};
 use tracer::Watch;
 
 use crate::capture::folder::Capture;
 use crate::ingest::engine_truth::{NOT_TRACED, average_subframes, part_of};
 use crate::ingest::moving::{mark_reached, usual_top_speed};
 use crate::ingest::objects::{draw_coverage, name_objects};
-use suite::ladder_folder;
-use suite::velocity_wheel;
-use suite::{BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word};
-use suite::{Error, PROGRAM};
-use suite::{Sharing, claim};
-use suite::{refuse_long_names, refuse_scene};
 
 /// A capture that was ingested.
 pub struct Ingested {

@@ -4,14 +4,14 @@ use frame::{
     Accumulation, Alignment, AtInstant, Ladder, Picture, Plane, Provenance, Raster, Replicate,
     Shutter, ShutterProfile, Support, Truth,
 };
+use store::LADDER;
+use suite::Error;
 use tracer::{Progress, TraceError, Watch};
 
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
 use crate::ingest::moving::{ColorRange, mark_reached};
 use crate::ingest::objects::draw_coverage;
-use suite::Error;
-use suite::LADDER;
 
 /// Least number of sub-frames.
 const FEWEST_SUBFRAMES: usize = 4;

@@ -1,9 +1,9 @@
 //! Objects that an engine's pictures show, by their ids.
 
 use frame::{Plane, Raster};
+use suite::Error;
 
 use crate::capture::folder::{Capture, SUBFRAMES};
-use suite::Error;
 
 /// Name of what is no object.
 const BACKGROUND: &str = "background";

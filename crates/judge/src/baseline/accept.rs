@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use glob::Pattern;
 use metrics::Metric;
+use suite::{Case, Error, Run};
 
 use crate::baseline::{BASELINE_FORMAT, Baseline};
-use suite::{Case, Error, Run};
 
 /// Options of accepting a run.
 pub struct Acceptance<'a> {

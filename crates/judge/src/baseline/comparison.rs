@@ -6,12 +6,12 @@ use std::str::FromStr;
 
 use metrics::{Measured, Metric};
 use serde::Serialize;
+use suite::{Case, Error, Run};
+use suite::{ONE_SIDED, plain_mean};
 
 use crate::baseline::Baseline;
 use crate::bounds::Margin;
 use crate::decision::Decision;
-use suite::{Case, Error, Run};
-use suite::{ONE_SIDED, plain_mean};
 
 /// Change of one metric of one filter since the baseline, over all scenes that it applies to.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -10,9 +10,8 @@ use filters::AdapterDescription;
 use frame::write_atomically;
 use serde::{Deserialize, Serialize};
 
+use store::{check_strings, read_text};
 use suite::Error;
-use suite::check_strings;
-use suite::read_text;
 
 pub use accept::{Acceptance, accept_scores};
 pub use comparison::{BaselineComparison, ComparisonKind, compare_with_baseline};

@@ -6,13 +6,12 @@ use std::str::FromStr;
 
 use metrics::{BoundMetric, Metric, SequenceMetric};
 use serde::Deserialize;
+use store::{printable, printable_path, read_text};
+use suite::{Error, SIDES};
 use toml::Spanned;
 use tracer::Location;
 
 use crate::bounds::{Bound, Bounds, Length, Level};
-use suite::read_text;
-use suite::{Error, SIDES};
-use suite::{printable, printable_path};
 
 /// Contents of a bounds.toml.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,11 +1,11 @@
 //! Checks that bounds name scenes and filters that exist, and that every case has a bound.
 
 use filters::Filter;
+use suite::{Error, FilterChoice, Frames};
 use tracer::Location;
 
 use crate::bounds::sized::read_all_bounds;
 use crate::bounds::{BOUNDS_FILE, BoundsFile, Length, Level, SceneBounds};
-use suite::{Error, FilterChoice, Frames};
 
 /// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, the bounds of the
 /// scenes that take part.

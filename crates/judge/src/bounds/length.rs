@@ -1,10 +1,10 @@
 //! Length of the sequence that a limit holds for.
 
 use metrics::BoundMetric;
-
-use crate::bounds::{Bound, SceneBounds};
 use suite::MOST_FRAMES;
 use suite::{Error, FilterChoice, Frames};
+
+use crate::bounds::{Bound, SceneBounds};
 
 /// Frames that a limit on a score of a sequence holds for.
 #[derive(Clone, Copy, Debug, PartialEq)]

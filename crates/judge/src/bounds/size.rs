@@ -1,7 +1,8 @@
 //! Picture size that bounds hold for.
 
-use crate::bounds::{Bound, SceneBounds, sized_bounds_file};
 use suite::{Error, FilterChoice};
+
+use crate::bounds::{Bound, SceneBounds, sized_bounds_file};
 
 /// Returns the size that all limits on these filters hold for; `asked` if they hold for any size. Refuses limits for another size
 /// than `asked`, and limits for two sizes: growth, bleed and misplacement are in pixels.

@@ -1,9 +1,9 @@
 //! Files of bounds that hold for one picture size, such as `bounds_1280x720.toml`.
 
+use suite::{Error, SIDES};
 use tracer::Location;
 
 use crate::bounds::{BOUNDS_FILE, BoundsFile, read_bounds_file};
-use suite::{Error, SIDES};
 
 /// Names the file of bounds for pictures of `size`, columns and rows, beside the scenes or beside one scene.
 pub fn sized_bounds_file((width, height): (u32, u32)) -> String {

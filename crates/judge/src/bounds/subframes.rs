@@ -3,9 +3,9 @@
 use std::str::FromStr;
 
 use metrics::Metric;
+use suite::FilterChoice;
 
 use crate::bounds::SceneBounds;
-use suite::FilterChoice;
 
 /// Tells whether any of the scenes has a limit on equivalent sub-frames of any of the filters.
 pub fn bound_subframes<'a>(

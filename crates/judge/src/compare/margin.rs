@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use suite::Headline;
+
 use crate::bounds::Margin;
 use crate::compare::RunComparison;
 use crate::compare::change::ChangeKind;
 use crate::compare::mean::MeanKind;
-use suite::Headline;
 
 /// Margins of scores that no bound names, in their units: differences that nobody sees.
 const USUAL_MARGINS: [(Headline, f64); 2] = [(Headline::PSNR, 0.1), (Headline::SKILL, 0.02)];

@@ -3,10 +3,10 @@
 use std::cmp::Ordering;
 
 use serde::Serialize;
+use suite::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
 use tracer::FrameRate;
 
 use crate::compare::change::{Change, ChangeKind};
-use suite::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
 
 /// Mean of one metric of one filter, over the scenes that it applies to in both runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -2,21 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr, rung_file};
+use frame::{Alignment, FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr};
 use metrics::{
     ImageMetric, Interval, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores,
     SkillMetric, jackknife,
 };
+use store::RenderFile;
+use suite::Headline;
+use suite::make_oracle;
+use suite::{Error, FEWEST_REPLICATES, truths_without_pairs};
+use suite::{SHARP, sharp_picture};
 use tracer::{Progress, TraceError, Watch};
 
 use crate::compare::change::{Change, Uncertainty};
 use crate::compare::pairing::Pair;
 use crate::compare::side::Side;
-use suite::Headline;
-use suite::make_oracle;
-use suite::replicates_folder;
-use suite::{Error, FEWEST_REPLICATES, truths_without_pairs};
-use suite::{SHARP, ladder_folder, sharp_picture};
 
 /// Metrics that are compared.
 const METRICS: [Metric; 9] = [
@@ -103,12 +103,11 @@ impl TruthParts {
 
     fn read_below(folder: &Path, pair: &Pair, count: u32) -> Result<Option<Self>, Error> {
         let alignment: Alignment = pair.first.alignment.parse().map_err(Error::Usage)?;
-        let truth = folder.join(format!("truth_{alignment}.exr"));
-        let frame = folder.join("frame.exr");
+        let path = |file: RenderFile| folder.join(file.path());
+        let truth = path(RenderFile::Truth(alignment));
+        let frame = path(RenderFile::Frame);
         let replicates: Vec<PathBuf> = (0..count)
-            .map(|index| {
-                replicates_folder(folder, alignment).join(format!("replicate_{index:03}.exr"))
-            })
+            .map(|index| path(RenderFile::Replicate(alignment, index)))
             .collect();
         let there = [&truth, &frame]
             .into_iter()
@@ -126,7 +125,7 @@ impl TruthParts {
         let frame = Frame::read(&frame)?;
         let oracle = make_oracle(&frame, &whole);
         let frame = frame.cropped();
-        let rung = folder.join(ladder_folder(alignment)).join(rung_file(SHARP));
+        let rung = path(RenderFile::Rung(alignment, SHARP));
         let read = || Ok::<_, FileError>(Ladder::read_rung(&rung, SHARP)?.rungs.remove(0));
         Ok(Some(Self {
             sharp: sharp_picture(&frame, &whole, read).ok(),

@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::compare::side::Side;
 use suite::{Case, Error, Run};
+
+use crate::compare::side::Side;
 
 /// A case that two runs have.
 #[derive(Clone, Copy, Debug)]

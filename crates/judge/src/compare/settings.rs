@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use filters::AdapterDescription;
 use serde::Serialize;
-
-use crate::compare::pairing::Pair;
 use suite::list_settings;
 use suite::{Case, Run};
+
+use crate::compare::pairing::Pair;
 
 /// One setting with two values.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

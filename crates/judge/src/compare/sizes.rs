@@ -3,11 +3,12 @@
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-use crate::results::Results;
 use suite::Error;
 use suite::Headline;
 use suite::Random;
 use suite::{SceneMean, TWO_SIDED, plain_mean};
+
+use crate::results::Results;
 
 /// Number of resamples of the scenes.
 const RESAMPLES: usize = 2000;

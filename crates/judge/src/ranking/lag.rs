@@ -1,8 +1,9 @@
 //! Lag: what it costs that the frame is not the middle of its shutter.
 
-use crate::ranking::ranking::list_summarized;
 use suite::Headline;
 use suite::{Case, IDENTITY};
+
+use crate::ranking::ranking::list_summarized;
 
 /// Returns the FLIP that the frame has above a sharp picture of the shutter's middle: the mean over the scenes of `cases`, which are of
 /// one shutter and frame rate. None where the frame is that picture.

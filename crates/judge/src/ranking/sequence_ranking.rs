@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-
-use crate::ranking::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};
 use suite::Sequence;
 use suite::{Case, InputFormat, Run};
 use suite::{SceneMean, TWO_SIDED, plain_mean};
 use tracer::FrameRate;
+
+use crate::ranking::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};
 
 /// The score that sequences are ranked by: the one that counts errors of single frames and of their changes together. Scores of changes
 /// alone rank a filter high that flickers little around a wrong picture.

@@ -1,10 +1,10 @@
 //! Costs of filters, as results keep them.
 
 use serde::{Deserialize, Serialize};
-
-use crate::results::{Results, rounded};
 use suite::Bench;
 use suite::{Error, Spread};
+
+use crate::results::{Results, rounded};
 
 /// Time of a filter preset, divided by that of [`suite::BASELINE`] in the same round of a bench.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,14 +6,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use store::{read_text, to_lines};
+use suite::refuse_failures;
+use suite::{Case, Error, Headline, InputFormat, Run};
 use tracer::{Family, Seal};
 
 pub use self::cost::ResultCost;
 use crate::ranking::ranking::{RankedFilter, RankedScore, rank_by_score};
-use suite::read_text;
-use suite::refuse_failures;
-use suite::to_lines;
-use suite::{Case, Error, Headline, InputFormat, Run};
 
 /// Version of the layout of a file of results.
 pub const RESULTS_FORMAT: u32 = 2;

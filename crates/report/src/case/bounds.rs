@@ -1,5 +1,7 @@
 //! Bounds of a case, with evidence for those that are not kept.
 
+use judge::Level;
+use judge::{CROP, Finding, Outcome, number};
 use maud::{Markup, html};
 use metrics::BoundMetric;
 
@@ -9,8 +11,6 @@ use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, finding_line, limit_text, way_out, worst_frame_text};
 use crate::numbers::counted;
 use crate::sequence::SEQUENCES_PAGE;
-use judge::Level;
-use judge::{CROP, Finding, Outcome, number};
 
 /// Lists the required bounds of a run that are not kept, each with a link to its case.
 pub fn broken_bounds(pages: &[CaseView]) -> Markup {

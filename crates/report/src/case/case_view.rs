@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use judge::{BLOCK, Finding, worst_block};
+use suite::{Case, Error, Run};
+
 use super::evidence::{Evidence, find_evidence};
 use super::profile::{Profile, trace_profile, worst_pixel};
 use crate::pixels::layer::Layer;
 use crate::pixels::scene_files::SceneFiles;
-use judge::{BLOCK, Finding, worst_block};
-use suite::{Case, Error, Run};
 
 /// A case with all that a page shows of its files.
 pub struct CaseView<'a> {

@@ -2,11 +2,11 @@
 
 use std::str::FromStr;
 
+use judge::{Finding, worst_block};
 use metrics::Metric;
+use suite::{Case, Error};
 
 use crate::pixels::scene_files::{CaseFiles, SceneFiles};
-use judge::{Finding, worst_block};
-use suite::{Case, Error};
 
 /// The worst place of one score.
 #[derive(Clone, Debug, PartialEq)]

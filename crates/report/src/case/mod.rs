@@ -9,7 +9,9 @@ mod profile_chart;
 mod scores;
 pub mod viewer;
 
+use judge::{Level, Outcome};
 use maud::{Markup, html};
+use suite::{Case, Drawn, Headline};
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, case_anchor};
@@ -18,11 +20,9 @@ use crate::pixels::scene_files::find_traced;
 use crate::run_facts::{provenance_line, truth_text};
 use bounds::bounds;
 use case_view::CaseView;
-use judge::{Level, Outcome};
 use profile::Profile;
 use profile_chart::profile_chart;
 use scores::score_rows;
-use suite::{Case, Drawn, Headline};
 
 /// Tables of a case: what stands above its pictures, and below them.
 pub struct CaseTables {

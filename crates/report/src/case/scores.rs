@@ -1,12 +1,12 @@
 //! Table of a case's scores, each with its noise floor and its meaning.
 
+use judge::{Level, number};
 use maud::{Markup, html};
 use metrics::{Group, Measured, Metric};
+use suite::Case;
 
 use super::case_view::CaseView;
 use crate::finding_text::{Status, interval_text, limit_text};
-use judge::{Level, number};
-use suite::Case;
 
 /// Lists the scores of all groups.
 pub fn score_rows(page: &CaseView) -> Markup {

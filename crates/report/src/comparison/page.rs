@@ -1,18 +1,18 @@
 //! Page of a comparison.
 
+use judge::{Change, ChangeKind, rank_changes};
+use judge::{MeanChange, MeanKind};
+use judge::{Pair, filter_label, pair_cases};
+use judge::{RunComparison, Side};
 use maud::{Markup, html};
 use metrics::Metric;
+use suite::Error;
 
 use super::cells::ChangeCells;
 use super::pictures::Pictures;
 use super::runs::both_runs;
 use crate::charts::strip::Strip;
 use crate::document::{Document, Siblings};
-use judge::{Change, ChangeKind, rank_changes};
-use judge::{MeanChange, MeanKind};
-use judge::{Pair, filter_label, pair_cases};
-use judge::{RunComparison, Side};
-use suite::Error;
 
 /// Number of cases that are shown in pictures, those that changed most.
 const SHOWN: usize = 12;

@@ -1,10 +1,10 @@
 //! Settings of two runs side by side.
 
+use judge::Side;
 use maud::{Markup, html};
+use suite::Run;
 
 use crate::run_facts::facts;
-use judge::Side;
-use suite::Run;
 
 /// Lists the settings of both runs, and the truths that they share.
 pub fn both_runs(first: &Side, second: &Side) -> Markup {

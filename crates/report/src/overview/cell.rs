@@ -1,13 +1,13 @@
 //! Cell of the overview: one score of one case, which leads to the case.
 
+use judge::{Finding, Level, Outcome};
 use maud::{Markup, html};
 use metrics::{Ideal, Measured};
+use suite::Headline;
 
 use crate::case::case_view::CaseView;
 use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, interval_text, limit_text};
-use judge::{Finding, Level, Outcome};
-use suite::Headline;
 
 /// Least badness that a colour tells from another one, where scores have a logarithmic scale.
 const LEAST: f64 = 1e-3;

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use filters::{Clock, Value};
 use maud::{Markup, html};
+use store::read_text;
+use suite::Headline;
+use suite::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
+use suite::{Bench, Error, SIDES};
 
 use super::pareto::{Point, pareto_chart};
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, mean};
-use suite::Headline;
-use suite::read_text;
-use suite::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
-use suite::{Bench, Error, SIDES};
 
 /// Name of the file that `shuttertruth bench` writes.
 const BENCH_FILE: &str = "bench.json";

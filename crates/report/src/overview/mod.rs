@@ -7,7 +7,9 @@ mod pareto;
 mod score_table;
 mod sequences;
 
+use judge::{Finding, Level, Outcome, RankedFilter, lag_text, rank_for_summary};
 use maud::{Markup, html};
+use suite::{Bench, Headline};
 
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
@@ -18,10 +20,8 @@ use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
 use costs::costs;
 use headlines::{TABLE_SCORES, TableScore};
-use judge::{Finding, Level, Outcome, RankedFilter, lag_text, rank_for_summary};
 use score_table::score_table;
 use sequences::sequence_winners;
-use suite::{Bench, Headline};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
 pub fn overview(

@@ -1,7 +1,10 @@
 //! Table of one score: filters, best mean first, against scenes.
 
+use judge::{Level, Outcome, list_summarized};
 use maud::{Markup, html};
 use metrics::Ideal;
+use suite::{Bench, Case, Headline, Overall};
+use tracer::FrameRate;
 
 use super::cell::{Colors, cell};
 use super::costs::{cost_of, cost_text};
@@ -10,9 +13,6 @@ use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
 use crate::filter_id::{FilterId, list_alignments, mean, mean_floor};
-use judge::{Level, Outcome, list_summarized};
-use suite::{Bench, Case, Headline, Overall};
-use tracer::FrameRate;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
 const WHISKERS: f64 = 1.5;

@@ -1,10 +1,10 @@
 //! What a run's sequences say, in a line per shutter.
 
+use judge::{RANKED_BY, RankedFilter, rank_sequences};
 use maud::{Markup, html};
+use suite::Run;
 
 use crate::sequence::SEQUENCES_PAGE;
-use judge::{RANKED_BY, RankedFilter, rank_sequences};
-use suite::Run;
 
 /// Names the best filters of the sequences of every shutter; nothing where the run has no sequences.
 pub fn sequence_winners(run: &Run) -> Markup {

@@ -7,12 +7,12 @@ use frame::{
     Alignment, ExrFile, FileError, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions,
 };
 use metrics::{Side, object_sides};
+use suite::ACCUMULATE;
+use suite::{Case, Error, ErrorMaps, Run};
 
 use super::layer::Layer;
 use super::planes::Planes;
 use super::png::{embed_picture, thumbnail};
-use suite::ACCUMULATE;
-use suite::{Case, Error, ErrorMaps, Run};
 
 /// The frame of a scene, its truths, and the planes of all its pictures.
 pub struct SceneFiles {

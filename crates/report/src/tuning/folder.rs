@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 
+use store::read_text;
 use suite::Error;
-use suite::read_text;
 use tune::{JOURNAL_FORMAT, JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning};
 
 /// Contents of tune.json, journal.jsonl and sensitivity.json; at least one is there.

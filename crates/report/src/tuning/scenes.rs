@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use maud::{Markup, html};
+use tune::log_ratio;
+use tune::{HeldOutResult, SceneScore, Tuning};
 
 use super::folds::change_bar;
 use crate::numbers::percent;
-use tune::log_ratio;
-use tune::{HeldOutResult, SceneScore, Tuning};
 
 /// Lists the scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {

@@ -1,11 +1,11 @@
 //! Checks of a plan, before anything is rendered.
 
 use frame::Alignment;
+use store::refuse_long_names;
 
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use crate::Error;
-use crate::folder::scene_folder::refuse_long_names;
 use crate::render::settings::frame_settings;
 use crate::run::sequence::{Frames, MOST_FRAMES};
 

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use frame::Alignment;
+use store::hash_inputs;
 use tracer::RenderSettings;
 
-use crate::cache::record::hash_inputs;
 use crate::measure::run_scene::RunScene;
 use crate::render::ladders::ladder_hash;
 use crate::render::settings::frame_settings;

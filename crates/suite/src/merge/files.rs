@@ -1,40 +1,24 @@
-//! Files of runs that are joined.
+//! The pictures of runs that are joined.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, read_bounded};
+use frame::FileError;
+use store::{Files, gather, list_renders};
 
+use super::run_part::RunPart;
 use crate::Error;
-use crate::folder::placed_file::{MOST_TAKEN_BYTES, is_one_file, place_file};
 use crate::measure::pictures::{CASE_FILES, FRAME_FILES, truth_files};
-use crate::merge::run_part::RunPart;
-use crate::render::ladders::ladder_folder;
-use crate::render::replicates::replicates_folder;
 use crate::run::Run;
 
-/// The source of each file, by its path below the parts.
-pub(super) type Files = BTreeMap<PathBuf, PathBuf>;
-
-/// Lists the files of all cases and their scenes. A file that two parts hold must be the same in both, and no picture may be missing from
-/// all. Follows no links.
+/// Gathers the files of all cases and their scenes. A file that two parts hold must be the same in both, and no picture may be missing
+/// from all. Follows no links.
 pub(super) fn gather_files(parts: &[RunPart]) -> Result<Files, Error> {
-    let mut files = Files::new();
-    for part in parts {
-        for below in list_folders(part) {
-            for name in list_files(&part.folder.join(&below))? {
-                let below = below.join(name);
-                let file = part.folder.join(&below);
-                match files.get(&below) {
-                    Some(other) => check_same(other, &file)?,
-                    None => {
-                        files.insert(below, file);
-                    }
-                }
-            }
-        }
-    }
+    let lists = parts
+        .iter()
+        .map(|part| Ok((&*part.folder, list_files(part)?)));
+    let files = gather(lists.collect::<Result<Vec<_>, Error>>()?)?;
     parts
         .iter()
         .try_for_each(|part| check_pictures(part, &files))?;
@@ -70,29 +54,25 @@ fn list_cases(run: &Run) -> impl Iterator<Item = (&Path, &Path, &str)> {
     cases.chain(frames)
 }
 
-/// Places all files below a folder.
-pub(super) fn place_files(files: &Files, out: &Path) -> Result<(), Error> {
-    for (below, file) in files {
-        place_file(file, &out.join(below))?;
-    }
-    Ok(())
-}
-
-/// Lists the folders of a run's cases, of its scenes, and of their replicates and ladders, relative to `run.json`.
-fn list_folders(part: &RunPart) -> BTreeSet<PathBuf> {
-    let mut folders: BTreeSet<PathBuf> = BTreeSet::new();
+/// Lists the files of a run's scenes and cases, and those that were rendered for them, relative to `run.json`.
+fn list_files(part: &RunPart) -> Result<Vec<PathBuf>, Error> {
+    let mut folders: BTreeSet<&Path> = BTreeSet::new();
     for (scene, case, _) in list_cases(&part.run) {
-        for alignment in Alignment::ALL {
-            folders.insert(replicates_folder(scene, alignment));
-            folders.insert(scene.join(ladder_folder(alignment)));
-        }
-        folders.extend([scene, case].map(Path::to_owned));
+        folders.extend([scene, case]);
     }
-    folders
+    let mut files: BTreeSet<PathBuf> = (list_renders(&part.folder)?.into_iter())
+        .filter(|render| folders.contains(Path::new(&render.folder)))
+        .map(|render| render.path())
+        .collect();
+    for below in folders {
+        let names = list_names(&part.folder.join(below))?.into_iter();
+        files.extend(names.map(|name| below.join(name)));
+    }
+    Ok(files.into_iter().collect())
 }
 
 /// Lists the names of regular files in a folder; none where there is no such folder, or a link to one.
-fn list_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+fn list_names(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     if !fs::symlink_metadata(folder).is_ok_and(|found| found.is_dir()) {
         return Ok(Vec::new());
     }
@@ -108,17 +88,4 @@ fn list_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
         }
     }
     Ok(names)
-}
-
-/// Refuses two files of one name with other bytes.
-fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
-    let read = |path: &Path| read_bounded(path, MOST_TAKEN_BYTES);
-    if is_one_file(one, other) || read(one)? == read(other)? {
-        return Ok(());
-    }
-    Err(Error::Usage(format!(
-        "{} and {} differ; parts of one run come from one build of the program, one version of the scenes, and the same settings",
-        one.display(),
-        other.display()
-    )))
 }

@@ -9,11 +9,12 @@ mod run_part;
 
 use std::path::{Path, PathBuf};
 
-use self::files::{gather_files, place_files};
+use store::{Claim, Sharing, claim, place_files};
+
+use self::files::gather_files;
 use self::join::join_runs;
 use self::run_part::RunPart;
 use crate::Error;
-use crate::folder::claim::{Claim, Sharing, claim};
 use crate::run::Run;
 
 /// A run that was merged.

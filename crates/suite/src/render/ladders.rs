@@ -3,14 +3,11 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth, read_attribute, rung_file};
+use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth, read_attribute};
+use store::{LADDER, RenderFile, scene_folder};
 use tracer::{LadderTracer, RenderSettings, Scene};
 
-use crate::folder::scene_folder::scene_folder;
 use crate::{Error, Monitor};
-
-/// Sub-frame counts of the ladder that N_eq is read from.
-pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 
 /// The rung that is the sharp picture of a shutter's middle.
 pub const SHARP: u32 = LADDER[0];
@@ -38,11 +35,6 @@ pub fn sharp_picture<E>(
     }
 }
 
-/// Names the folder of the rungs of a ladder in the folder of its scene.
-pub fn ladder_folder(alignment: Alignment) -> String {
-    format!("ladder_{alignment}")
-}
-
 /// The ladder of one truth, with a file for each rung: all of them together would take more memory than all else that measuring
 /// holds.
 pub struct LadderFiles<'a> {
@@ -61,7 +53,7 @@ impl<'a> LadderFiles<'a> {
     pub fn new(scene: &'a Scene, settings: &RenderSettings, truth: &'a Truth, out: &Path) -> Self {
         Self {
             scene,
-            folder: scene_folder(out, scene).join(ladder_folder(truth.alignment)),
+            folder: scene_folder(out, scene),
             hash: ladder_hash(scene, settings, truth.alignment),
             settings: *settings,
             truth,
@@ -93,7 +85,7 @@ impl<'a> LadderFiles<'a> {
     }
 
     fn path(&self, subframes: u32) -> PathBuf {
-        self.folder.join(rung_file(subframes))
+        (self.folder).join(RenderFile::Rung(self.truth.alignment, subframes).path())
     }
 
     fn render(&self, subframes: u32, monitor: Monitor) -> Result<(), Error> {

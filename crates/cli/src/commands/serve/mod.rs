@@ -7,7 +7,8 @@ mod reply;
 use std::collections::BTreeSet;
 
 use serde_json::json;
-use suite::{Error, Sharing};
+use store::Sharing;
+use suite::Error;
 use tune::{Evaluator, Objective, SceneScore, evaluate_candidate};
 
 use self::inbox::{Inbox, ScoreRequest};

@@ -1,80 +1,77 @@
 //! Writing of packs.
 
 use std::io::Write;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use frame::{FileError, read_bounded, remove_leftovers, write_streamed};
 use tar::{Builder, EntryType, Header};
+use tracer::{Progress, TraceError, Watch};
 
-use super::contents::list_contents;
 use super::manifest::{MANIFEST, MOST_MANIFEST_BYTES, Manifest, PACK_FORMAT, PackedFile};
-use crate::folder::placed_file::MOST_TAKEN_BYTES;
-use crate::run::Run;
-use crate::{Error, Monitor, PROGRAM};
+use crate::Error;
+use crate::gather::MOST_TAKEN_BYTES;
 
 /// Level of zstd. Kept files are compressed already, and higher levels gain nothing.
 const LEVEL: i32 = 3;
 /// Permissions of a packed file: everybody may read it.
 const MODE: u32 = 0o644;
 
-/// Packs the kept frames, truths and ladders of the chosen scenes of a finished run in `folder` into the archive `pack`. The same files
-/// give the same bytes.
+/// Writes files below `folder` into the archive `pack`; their sizes and hashes of bytes are filled in. The same files give the same
+/// bytes. `program` is the name and version that the manifest records.
 ///
 /// # Errors
-/// A file is missing, cannot be read or written, or is another one than the run was measured with.
-pub fn write_pack(
-    run: &Run,
+/// A file cannot be read or written, or changes meanwhile; or `watch` ends the work.
+pub fn write_archive(
+    mut files: Vec<PackedFile>,
     folder: &Path,
-    scenes: &[String],
     pack: &Path,
-    monitor: Monitor,
+    program: &str,
+    watch: Watch,
 ) -> Result<Manifest, Error> {
-    let mut files = list_contents(run, folder, scenes)?;
     // A killed process may have left a part of a pack.
     let beside = pack.parent().filter(|parent| **parent != *"");
     remove_leftovers(beside.unwrap_or(Path::new(".")));
     let total = 2 * files.len() as u64;
-    monitor.watch("packing", |watch| {
-        let advance = |done: usize| {
-            let done = done as u64;
-            match watch(tracer::Progress { done, total }) {
-                std::ops::ControlFlow::Continue(()) => Ok(()),
-                std::ops::ControlFlow::Break(()) => Err(tracer::TraceError::Cancelled),
-            }
-        };
-        for (index, file) in files.iter_mut().enumerate() {
-            advance(index)?;
-            let bytes = read_bounded(&folder.join(&file.path), MOST_TAKEN_BYTES)?;
-            file.bytes = bytes.len() as u64;
-            file.blake3 = blake3::hash(&bytes).to_hex().to_string();
-        }
-        let manifest = Manifest {
-            format: PACK_FORMAT,
-            program: PROGRAM.to_owned(),
-            files,
-        };
-        write_streamed(pack, |file| {
-            let hashed = manifest.files.len();
-            write_archive(&manifest, folder, file, pack, |index| {
-                advance(hashed + index)
-            })
-        })?;
-        Ok(manifest)
-    })
+    let advance = |done: usize| match watch(Progress {
+        done: done as u64,
+        total,
+    }) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(TraceError::Cancelled),
+    };
+    for (index, file) in files.iter_mut().enumerate() {
+        advance(index)?;
+        let bytes = read_bounded(&folder.join(&file.path), MOST_TAKEN_BYTES)?;
+        file.bytes = bytes.len() as u64;
+        file.blake3 = blake3::hash(&bytes).to_hex().to_string();
+    }
+    let manifest = Manifest {
+        format: PACK_FORMAT,
+        program: program.to_owned(),
+        files,
+    };
+    let hashed = manifest.files.len();
+    write_streamed(pack, |file| {
+        write_entries(&manifest, folder, file, pack, |index| {
+            advance(hashed + index)
+        })
+    })?;
+    Ok(manifest)
 }
 
-fn write_archive(
+fn write_entries(
     manifest: &Manifest,
     folder: &Path,
     file: &mut dyn Write,
     pack: &Path,
-    advance: impl Fn(usize) -> Result<(), tracer::TraceError>,
+    advance: impl Fn(usize) -> Result<(), TraceError>,
 ) -> Result<(), Error> {
     let fail = |source| FileError::io(pack, "write", source);
     let mut text = serde_json::to_string_pretty(manifest).expect("a manifest is plain data");
     text.push('\n');
     if text.len() as u64 > MOST_MANIFEST_BYTES {
-        return Err(Error::Usage(format!(
+        return Err(Error::Refused(format!(
             "{}: its list of files takes {} bytes; allowed: {MOST_MANIFEST_BYTES}; pack fewer scenes with --scenes",
             pack.display(),
             text.len()
@@ -98,7 +95,7 @@ fn read_unchanged(folder: &Path, file: &PackedFile) -> Result<Vec<u8>, Error> {
     let bytes = read_bounded(&path, MOST_TAKEN_BYTES)?;
     match blake3::hash(&bytes).to_hex().as_str() == file.blake3 {
         true => Ok(bytes),
-        false => Err(Error::Usage(format!(
+        false => Err(Error::Refused(format!(
             "{}: changed while it was packed; wait until nothing writes to this folder",
             path.display()
         ))),

@@ -32,7 +32,7 @@ pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
         (true, _) => (out, None),
     };
     let cannot_tell = |reason: String| {
-        Error::Usage(format!(
+        Error::Refused(format!(
             "{name}: cannot tell whether files came with the checkout: {reason}; {way_out}"
         ))
     };
@@ -55,7 +55,7 @@ pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
     let mut names = output.stdout.split(|byte| *byte == 0);
     match names.next().filter(|name| !name.is_empty()) {
         None => Ok(()),
-        Some(name) => Err(Error::Usage(format!(
+        Some(name) => Err(Error::Refused(format!(
             "{} is tracked by git: it came with the checkout, and a check does not count what a change brings along; {way_out}",
             folder.join(&*String::from_utf8_lossy(name)).display()
         ))),

@@ -21,7 +21,7 @@ pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
 pub fn refuse_scene(folder: &Path) -> Result<(), Error> {
     match folder.join("scene.toml").exists() {
         false => Ok(()),
-        true => Err(Error::Usage(format!(
+        true => Err(Error::Refused(format!(
             "{} holds a scene, whose files would be overwritten; allowed: an output folder that holds none, such as out",
             folder.display()
         ))),
@@ -32,7 +32,7 @@ pub fn refuse_scene(folder: &Path) -> Result<(), Error> {
 pub fn refuse_long_names(folders: &Path) -> Result<(), Error> {
     let names = folders.iter().map(|name| name.to_string_lossy());
     match names.max_by_key(|name| name.len()) {
-        Some(name) if name.len() > LONGEST_FOLDER_NAME => Err(Error::Usage(format!(
+        Some(name) if name.len() > LONGEST_FOLDER_NAME => Err(Error::Refused(format!(
             "the output folder \"{}...\" would have a name of {} bytes; allowed: up to {LONGEST_FOLDER_NAME}; it is made of the names of \
              scene and variant, or of filter, preset and what --set changes: give them shorter ones",
             name.chars().take(SHOWN).collect::<String>(),

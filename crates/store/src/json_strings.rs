@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-use crate::printable::printable;
+use crate::printable;
 
 /// Keys of texts that may have several lines: why something failed, and words of a command line.
 const FREE: [&str; 3] = ["reason", "command", "exposes"];

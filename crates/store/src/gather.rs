@@ -1,20 +1,68 @@
-//! Files that one folder takes from another.
+//! Files that one folder takes from others.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use frame::{FileError, read_bounded, write_atomically};
 
+use crate::Error;
+
 /// Upper limit on the bytes of a file that is taken from another folder.
 pub const MOST_TAKEN_BYTES: u64 = 1 << 32;
+
+/// The source of each file, by its path below the parts.
+pub type Files = BTreeMap<PathBuf, PathBuf>;
+
+/// Gathers the files of several folders, of each by their paths below it. Several may hold the same file, if its bytes are equal.
+///
+/// # Errors
+/// Two files of one path differ, or cannot be read.
+pub fn gather<'a>(
+    parts: impl IntoIterator<Item = (&'a Path, Vec<PathBuf>)>,
+) -> Result<Files, Error> {
+    let mut files = Files::new();
+    for (part, own) in parts {
+        for below in own {
+            let file = part.join(&below);
+            match files.get(&below) {
+                Some(other) => check_same(other, &file)?,
+                None => drop(files.insert(below, file)),
+            }
+        }
+    }
+    Ok(files)
+}
+
+/// Refuses two files of one name with other bytes.
+fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
+    let read = |path: &Path| read_bounded(path, MOST_TAKEN_BYTES);
+    if is_one_file(one, other) || read(one)? == read(other)? {
+        return Ok(());
+    }
+    Err(Error::Refused(format!(
+        "{} and {} differ; all parts come from one build of the program, one version of the scenes, the same settings, and one kind of \
+         processor",
+        one.display(),
+        other.display()
+    )))
+}
+
+/// Places gathered files below a folder.
+///
+/// # Errors
+/// As [`place_file`].
+pub fn place_files(files: &Files, out: &Path) -> Result<(), FileError> {
+    (files.iter()).try_for_each(|(below, file)| place_file(file, &out.join(below)))
+}
 
 /// Places the file `from` at `to` as well, in place of what lies there: as a second name of the same file, or as a copy where the
 /// file system has no such names. Files of this program are replaced as a whole, and so neither name changes the other.
 ///
 /// # Errors
 /// Fails if `from` is no regular file, if a folder lies at `to`, or if a file cannot be read or written.
-pub(crate) fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
+pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
     let found = fs::symlink_metadata(from).map_err(|source| FileError::io(from, "read", source))?;
     if !found.is_file() {
         return Err(FileError::Foreign {
@@ -41,7 +89,7 @@ pub(crate) fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
 }
 
 /// Tells whether two paths name one file, so that nothing needs to be read.
-pub(crate) fn is_one_file(one: &Path, other: &Path) -> bool {
+fn is_one_file(one: &Path, other: &Path) -> bool {
     #[cfg(unix)]
     {
         use std::os::unix::fs::MetadataExt;

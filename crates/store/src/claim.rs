@@ -7,8 +7,8 @@ use std::path::Path;
 use frame::{FileError, remove_leftovers};
 use tracer::Scene;
 
-use super::scene_folder::{refuse_long_names, refuse_scene, scene_folder};
 use crate::Error;
+use crate::folder::{refuse_long_names, refuse_scene, scene_folder};
 
 /// Name of the empty file that is locked; it stays in a folder that was claimed once.
 const LOCK_FILE: &str = ".shuttertruth.lock";
@@ -60,7 +60,7 @@ pub fn claim<'a>(
 fn refuse_file(out: &Path) -> Result<(), Error> {
     match out.ancestors().find(|path| path.is_file()) {
         None => Ok(()),
-        Some(file) => Err(Error::Usage(format!(
+        Some(file) => Err(Error::Refused(format!(
             "{}: is a file, where the output folder is to be; name another output folder",
             file.display()
         ))),
@@ -72,7 +72,7 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     let path = out.join(LOCK_FILE);
     let fail = |source: std::io::Error| -> Error {
         match source.kind() {
-            ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => Error::Usage(format!(
+            ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => Error::Refused(format!(
                 "{}: cannot write to this folder: {source}; name another output folder",
                 out.display()
             )),
@@ -89,7 +89,7 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     };
     match locked {
         Ok(()) => Ok(Some(file)),
-        Err(TryLockError::WouldBlock) => Err(Error::Usage(format!(
+        Err(TryLockError::WouldBlock) => Err(Error::Refused(format!(
             "another shuttertruth is writing to {}; wait until it has ended, or take another output folder",
             out.display()
         ))),

@@ -2,14 +2,11 @@
 
 use std::path::{Component, Path};
 
-use frame::{Alignment, rung_file};
 use serde::{Deserialize, Serialize};
 
-use crate::folder::placed_file::MOST_TAKEN_BYTES;
-use crate::json::strings::check_strings;
-use crate::render::ladders::{LADDER, ladder_folder};
-use crate::render::replicates::replicate_index;
-use crate::render::settings::MOST_REPLICATES;
+use crate::gather::MOST_TAKEN_BYTES;
+use crate::json_strings::check_strings;
+use crate::render_file::RenderPath;
 
 /// Version of the layout of a pack; it rises when a reader of the old one would misread the new one.
 pub const PACK_FORMAT: u32 = 1;
@@ -154,35 +151,11 @@ fn check_path(path: &str) -> Result<(), String> {
         })
         .collect::<Option<Vec<_>>>()
         .is_some_and(|parts| parts.join("/") == path);
-    match is_plain && !path.contains(['\\', ':']) && is_render(path) {
+    match is_plain && !path.contains(['\\', ':']) && RenderPath::parse(Path::new(path)).is_some() {
         true => Ok(()),
         false => Err(format!(
             "{MANIFEST} names \"{path}\"; allowed: what a run renders, such as fan/frame.exr or fan/0001/truth_trailing.exr"
         )),
-    }
-}
-
-/// Tells whether a path is that of a frame, a truth, a replicate or a rung: nothing else would be verified.
-fn is_render(path: &str) -> bool {
-    let parts: Vec<&str> = path.split('/').collect();
-    let below = match parts.as_slice() {
-        [_scene, frame, below @ ..] if frame.parse::<u32>().is_ok() => below,
-        [_scene, below @ ..] => below,
-        [] => return false,
-    };
-    match below {
-        ["frame.exr"] => true,
-        [file] => (Alignment::ALL.iter()).any(|own| *file == format!("truth_{own}.exr")),
-        [folder, file] => Alignment::ALL.iter().any(|own| match *folder {
-            _ if *folder == ladder_folder(*own) => {
-                LADDER.iter().any(|rung| *file == rung_file(*rung))
-            }
-            _ => {
-                *folder == format!("truth_{own}")
-                    && replicate_index(file).is_some_and(|index| index < MOST_REPLICATES)
-            }
-        }),
-        _ => false,
     }
 }
 

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use store::printable_path;
+
 use crate::Error;
-use crate::printable::printable_path;
 
 /// Endings of pictures that can be scored.
 const ENDINGS: [&str; 2] = ["exr", "png"];

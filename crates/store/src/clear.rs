@@ -1,48 +1,50 @@
 //! Removal of a scene's files, so that they are made anew.
 
+use std::ffi::OsStr;
 use std::fs::{DirEntry, FileType};
 use std::path::Path;
 
 use frame::FileError;
 
-use super::record::CASE_RECORD;
 use crate::Error;
+use crate::record::CASE_RECORD;
+use crate::render_file::RenderFile;
 
-/// Removes frame, truths, replicates and ladders of a scene's folder, and the records of its cases. Refuses links to folders:
-/// nothing outside is removed.
-pub(crate) fn clear_scene(folder: &Path) -> Result<(), Error> {
+/// Removes frame, truths, replicates and ladders of a scene's folder, with the records of these and of its cases. Refuses links to
+/// folders: nothing outside is removed.
+///
+/// # Errors
+/// A folder is a link, or a file cannot be removed.
+pub fn clear_scene(folder: &Path) -> Result<(), Error> {
     if let Ok(found) = std::fs::symlink_metadata(folder) {
         refuse_link(folder, found.file_type())?;
     }
     for entry in entries(folder)? {
-        let kind =
-            (entry.file_type()).map_err(|source| FileError::io(&entry.path(), "read", source))?;
-        if kind.is_dir() || entry.path().is_dir() {
-            refuse_link(&entry.path(), kind)?;
-            for inner in entries(&entry.path())? {
-                remove(&inner, is_part_or_case)?;
+        let path = entry.path();
+        let kind = (entry.file_type()).map_err(|source| FileError::io(&path, "read", source))?;
+        if kind.is_dir() || path.is_dir() {
+            refuse_link(&path, kind)?;
+            for inner in entries(&path)? {
+                remove(folder, &inner.path())?;
             }
         } else {
-            remove(&entry, is_rendered)?;
+            remove(folder, &path)?;
         }
     }
     Ok(())
 }
 
-/// Tells whether a name is one such as `frame.exr`, `truth_trailing.exr`, or a record of these.
-fn is_rendered(name: &str) -> bool {
-    let is_one = |stem: &str| stem == "frame" || stem.starts_with("truth_");
-    let stem = (name.strip_suffix(".exr")).or(name.strip_suffix(".json"));
-    stem.is_some_and(is_one)
-}
-
-/// Tells whether a name is that of a case's record, of a replicate (`replicate_0.exr`) or of a ladder's rung (`n64.exr`).
-fn is_part_or_case(name: &str) -> bool {
-    let is_part = |stem: &str| {
-        let number = stem.strip_prefix("replicate_").or(stem.strip_prefix('n'));
-        number.is_some_and(|number| number.parse::<u32>().is_ok())
+/// Removes a file below a scene's folder if it is a rendered one, or a record.
+fn remove(folder: &Path, path: &Path) -> Result<(), FileError> {
+    let below = path.strip_prefix(folder).unwrap_or(path);
+    let rendered = match below.extension() == Some(OsStr::new("json")) {
+        true => below.with_extension("exr"),
+        false => below.to_owned(),
     };
-    name == CASE_RECORD || name.strip_suffix(".exr").is_some_and(is_part)
+    match below.ends_with(CASE_RECORD) || RenderFile::parse(&rendered).is_some() {
+        false => Ok(()),
+        true => std::fs::remove_file(path).map_err(|source| FileError::io(path, "remove", source)),
+    }
 }
 
 /// Lists a folder; nothing where there is none.
@@ -54,18 +56,10 @@ fn entries(folder: &Path) -> Result<Vec<DirEntry>, FileError> {
     listed.map_err(|source| FileError::io(folder, "read", source))
 }
 
-fn remove(entry: &DirEntry, is_one: fn(&str) -> bool) -> Result<(), FileError> {
-    match entry.file_name().to_str() {
-        Some(name) if is_one(name) => std::fs::remove_file(entry.path())
-            .map_err(|source| FileError::io(&entry.path(), "remove", source)),
-        _ => Ok(()),
-    }
-}
-
 fn refuse_link(path: &Path, kind: FileType) -> Result<(), Error> {
     match kind.is_symlink() {
         false => Ok(()),
-        true => Err(Error::Usage(format!(
+        true => Err(Error::Refused(format!(
             "{} is a link, and nothing behind one is removed; remove the link, or take another output folder",
             path.display()
         ))),
