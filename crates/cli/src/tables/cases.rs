@@ -28,7 +28,7 @@ pub fn run_table(run: &Run) -> String {
     let mut missing = Missing::default();
     for scene in list_once(run.cases.iter().map(|case| case.scene.as_str())) {
         let of_scene = || run.cases.iter().filter(|case| case.scene == scene);
-        for alignment in list_once(of_scene().map(|case| case.alignment.as_str())) {
+        for alignment in list_once(of_scene().map(|case| case.alignment)) {
             table.push_text(&colors::heading(&format!("{scene}, {alignment} shutter")));
             for case in of_scene().filter(|case| case.alignment == alignment) {
                 let row = bracket_name(&case.name(), case.is_reference);

@@ -39,8 +39,8 @@ pub fn number_table(titles: &[&str]) -> Table {
     Table::new(titles, &align)
 }
 
-/// Lists each text once, in order.
-pub fn list_once<'a>(all: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+/// Lists each thing once, in order.
+pub fn list_once<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     let mut listed = Vec::new();
     for one in all {
         if !listed.contains(&one) {

@@ -1,5 +1,6 @@
 //! Summary of a run: the ranking of its filters, and the references beside them.
 
+use frame::Alignment;
 use suite::{
     Case, Headline, MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag,
     rank_for_summary,
@@ -53,11 +54,11 @@ fn limit_rows(groups: &mut [Vec<RankedFilter>], rows: usize) -> usize {
 
 /// Names the shutter of a group: `centred shutter`, with the frame rate if it is none of the scenes' files.
 pub fn group_text(ranked: &RankedFilter) -> String {
-    shutter_text(&ranked.alignment, ranked.rate)
+    shutter_text(ranked.alignment, ranked.rate)
 }
 
 /// Names a shutter and a frame rate.
-pub fn shutter_text(alignment: &str, rate: Option<FrameRate>) -> String {
+pub fn shutter_text(alignment: Alignment, rate: Option<FrameRate>) -> String {
     let rate = rate.map_or(String::new(), |rate| format!(", {}", rate.text()));
     format!("{alignment} shutter{rate}")
 }
@@ -118,13 +119,13 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     if names.is_empty() {
         return String::new();
     }
-    let shutters: Vec<(&str, Option<FrameRate>)> = groups
+    let shutters: Vec<(Alignment, Option<FrameRate>)> = groups
         .iter()
-        .map(|group| (group[0].alignment.as_str(), group[0].rate))
+        .map(|group| (group[0].alignment, group[0].rate))
         .collect();
     let columns: Vec<String> = (shutters.iter())
         .map(|(alignment, rate)| match rate {
-            None => (*alignment).to_owned(),
+            None => alignment.to_string(),
             Some(rate) => format!("{alignment} {}", rate.word()),
         })
         .collect();
@@ -135,7 +136,7 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
         .chain(columns.iter().map(|_| Align::Right))
         .collect();
     let mut table = Table::new(&titles, &align);
-    let of_shutter = |(alignment, rate): &(&str, Option<FrameRate>)| -> Vec<&Case> {
+    let of_shutter = |(alignment, rate): &(Alignment, Option<FrameRate>)| -> Vec<&Case> {
         let is_own = |case: &&Case| case.alignment == *alignment && case.rate == *rate;
         references().filter(is_own).collect()
     };

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use frame::Alignment;
 use suite::{
     Error, FEWEST_SCENES, Headline, RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison,
     compare_with_last,
@@ -93,9 +94,8 @@ fn push_size(
     }
     let sealed_groups = sealed.map(|sealed| sealed.ranking(None));
     for group in results.ranking(None) {
-        let alignment = &group[0].alignment;
-        let others =
-            (sealed_groups.iter().flatten()).find(|other| other[0].alignment == *alignment);
+        let alignment = group[0].alignment;
+        let others = (sealed_groups.iter().flatten()).find(|other| other[0].alignment == alignment);
         let _ = write!(page, "\n### {width}x{height}, {alignment} shutter\n\n");
         let beside = Beside {
             sealed: others.map(Vec::as_slice),
@@ -218,7 +218,7 @@ fn push_agreement(
     page: &mut String,
     results: &Results,
     sealed: &Results,
-    alignment: &str,
+    alignment: Alignment,
 ) -> Result<(), Error> {
     let compared = compare_with_last(&[results, sealed], Headline::FLIP)?;
     let Some(SizeComparison { agreement, .. }) =
@@ -253,13 +253,13 @@ fn push_agreement(
 
 /// The mean of each filter over the scenes of each family, with its rank there if the scenes are enough to order filters.
 fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
-    let alignment = &group[0].alignment;
+    let alignment = group[0].alignment;
     let families: Vec<(Family, Vec<RankedFilter>)> = (FAMILIES.into_iter())
         .filter_map(|family| {
             let groups = results.ranking(Some(family)).into_iter();
             let own = groups
                 .into_iter()
-                .find(|own| own[0].alignment == *alignment)?;
+                .find(|own| own[0].alignment == alignment)?;
             Some((family, own))
         })
         .collect();

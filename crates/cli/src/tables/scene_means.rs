@@ -1,5 +1,6 @@
 //! Tables of means over scenes.
 
+use frame::Alignment;
 use suite::{Headline, Overall, rank_filters};
 
 use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
@@ -30,7 +31,7 @@ pub fn means_table(overall: &[Overall]) -> String {
     }
     let mut by_flip = means_heading(overall, "FLIP", &MEAN_COLUMNS, None);
     for group in groups {
-        let heading = shutter_text(&group[0].alignment, group[0].rate);
+        let heading = shutter_text(group[0].alignment, group[0].rate);
         by_flip.push_text(&colors::heading(&heading));
         for row in group {
             push_mean(
@@ -50,7 +51,13 @@ pub fn means_table(overall: &[Overall]) -> String {
         }
         for row in group {
             let columns = (Headline::SKILL, &SKILL_COLUMNS[..]);
-            push_mean(&mut by_skill, overall, row, columns, Some(&row.alignment));
+            push_mean(
+                &mut by_skill,
+                overall,
+                row,
+                columns,
+                Some(row.alignment.name()),
+            );
         }
         text += "\n";
         text += &by_skill.text();
@@ -65,13 +72,13 @@ pub fn means_table(overall: &[Overall]) -> String {
 
 /// Notes the shutters for which skill applies to fewer scenes than FLIP.
 fn fewer_scenes_note(overall: &[Overall]) -> String {
-    let count = |headline: Headline, alignment: &str| {
+    let count = |headline: Headline, alignment: Alignment| {
         let name = headline.name();
         let mut own = overall.iter();
         let own = own.find(|mean| mean.metric == name && mean.alignment == alignment);
         own.map_or(0, |mean| mean.scenes)
     };
-    let alignments = list_once(overall.iter().map(|mean| mean.alignment.as_str()));
+    let alignments = list_once(overall.iter().map(|mean| mean.alignment));
     let counted = alignments.into_iter().filter_map(|alignment| {
         let [skill, flip] =
             [Headline::SKILL, Headline::FLIP].map(|headline| count(headline, alignment));

@@ -171,7 +171,7 @@ fn id_of(ranked: &RankedFilter) -> FilterId {
     FilterId {
         name: ranked.name.clone(),
         is_reference: false,
-        alignment: ranked.alignment.clone(),
+        alignment: ranked.alignment,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr, rung_file};
+use frame::{FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr, rung_file};
 use metrics::{
     ImageMetric, Interval, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores,
     SkillMetric, jackknife,
@@ -102,7 +102,7 @@ impl TruthParts {
     }
 
     fn read_below(folder: &Path, pair: &Pair, count: u32) -> Result<Option<Self>, Error> {
-        let alignment: Alignment = pair.first.alignment.parse().map_err(Error::Usage)?;
+        let alignment = pair.first.alignment;
         let truth = folder.join(format!("truth_{alignment}.exr"));
         let frame = folder.join("frame.exr");
         let replicates: Vec<PathBuf> = (0..count)

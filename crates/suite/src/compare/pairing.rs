@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use frame::Alignment;
+
 use super::side::Side;
 use crate::{Case, Error, Run};
 
@@ -94,10 +96,10 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
 }
 
 /// Key that is unique among the cases of one run.
-type Key<'a> = (&'a str, String, &'a str, bool);
+type Key<'a> = (&'a str, String, Alignment, bool);
 
 fn key(case: &Case) -> Key<'_> {
-    (&case.scene, case.name(), &case.alignment, case.is_reference)
+    (&case.scene, case.name(), case.alignment, case.is_reference)
 }
 
 /// Key of a case within a run, whatever values `--set` gave to its parameters.
@@ -105,7 +107,7 @@ fn preset_key(case: &Case) -> Key<'_> {
     (
         &case.scene,
         case.preset_name(),
-        &case.alignment,
+        case.alignment,
         case.is_reference,
     )
 }

@@ -3,6 +3,8 @@
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
+use frame::Alignment;
+
 use crate::stats::headline::Headline;
 use crate::stats::scene_mean::{SceneMean, TWO_SIDED, plain_mean};
 use crate::tune::random::Random;
@@ -15,7 +17,7 @@ const RESAMPLES: usize = 2000;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeComparison {
     /// Shutter alignment of the filters.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Scenes that every mean is over.
     pub scenes: Vec<String>,
     /// Columns and rows of each file of results.
@@ -89,9 +91,7 @@ pub fn compare_with_last(
     let Some(last) = results.last() else {
         return Err(Error::Usage("no results to compare".to_owned()));
     };
-    let alignments: BTreeSet<&str> = (last.scores.iter())
-        .map(|own| own.alignment.as_str())
-        .collect();
+    let alignments: BTreeSet<Alignment> = last.scores.iter().map(|own| own.alignment).collect();
     (alignments.into_iter())
         .map(|alignment| compare_group(results, alignment, headline))
         .collect()
@@ -99,7 +99,7 @@ pub fn compare_with_last(
 
 fn compare_group(
     results: &[&Results],
-    alignment: &str,
+    alignment: Alignment,
     headline: Headline,
 ) -> Result<SizeComparison, Error> {
     let last = results.last().expect("there are results");
@@ -134,7 +134,7 @@ fn compare_group(
         .collect();
     filters.sort_by_key(|filter| filter.ranks.last().copied());
     Ok(SizeComparison {
-        alignment: alignment.to_owned(),
+        alignment,
         scenes: scenes.into_iter().map(str::to_owned).collect(),
         sizes: results.iter().map(|own| own.size.into()).collect(),
         filters,

@@ -29,7 +29,7 @@ pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Resul
             }
         }
     }
-    let truth_of = |case: &Case| (case.scene.clone(), case.alignment.clone());
+    let truth_of = |case: &Case| (case.scene.clone(), case.alignment);
     for group in notable.chunk_by_mut(|(one, _), (next, _)| truth_of(one) == truth_of(next)) {
         add_evidence_of_truth(group, folder)?;
     }

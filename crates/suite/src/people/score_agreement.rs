@@ -1,5 +1,6 @@
 //! Agreement of scores with people.
 
+use frame::Alignment;
 use metrics::SequenceMetric;
 use serde::Serialize;
 
@@ -148,14 +149,14 @@ fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
     };
     let sequences = SequenceMetric::ALL.iter().map(|metric| {
         table(metric.row().name.to_owned(), &|scene, filter| {
-            let found = find_sequence(run, scene, filter, &own.alignment)?;
+            let found = find_sequence(run, scene, filter, own.alignment)?;
             let value = found.scores.get(*metric).value()?;
             Some(metric.row().ideal.badness(value))
         })
     });
     let pictures = OF_PICTURES.iter().map(|headline| {
         table(headline.name(), &|scene, filter| {
-            let case = find_case(run, scene, filter, &own.alignment)?;
+            let case = find_case(run, scene, filter, own.alignment)?;
             Some(headline.ideal().badness(headline.estimate(case)?))
         })
     });
@@ -165,7 +166,12 @@ fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
     }
 }
 
-fn find_case<'a>(run: &'a Run, scene: &str, filter: &str, alignment: &str) -> Option<&'a Case> {
+fn find_case<'a>(
+    run: &'a Run,
+    scene: &str,
+    filter: &str,
+    alignment: Alignment,
+) -> Option<&'a Case> {
     run.cases.iter().find(|case| {
         !case.is_reference
             && (case.scene == scene && case.alignment == alignment)
@@ -177,7 +183,7 @@ fn find_sequence<'a>(
     run: &'a Run,
     scene: &str,
     filter: &str,
-    alignment: &str,
+    alignment: Alignment,
 ) -> Option<&'a Sequence> {
     run.sequences.iter().find(|own| {
         !own.is_reference

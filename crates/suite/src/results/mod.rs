@@ -5,6 +5,7 @@ mod cost;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use frame::Alignment;
 use serde::{Deserialize, Serialize};
 use tracer::{Family, Seal};
 
@@ -57,7 +58,7 @@ pub struct ResultScores {
     /// `jump_flood:paper`, followed by what is not as usual.
     pub name: String,
     /// Shutter alignment that it is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Noise floor of its FLIP.
     pub floor: f64,
     /// Scores of [`Headline::OF_MEANS`] by name, of five digits; those that do not apply are missing.
@@ -262,7 +263,7 @@ impl ResultScores {
             family: case.family,
             filter: case.filter.clone(),
             name: case.name(),
-            alignment: case.alignment.clone(),
+            alignment: case.alignment,
             floor: Headline::FLIP.floor(case).map_or(0.0, rounded),
             scores: scores.collect(),
         }
@@ -278,7 +279,7 @@ impl ResultScores {
             scene: self.scene.clone(),
             filter: self.filter.clone(),
             name: self.name.clone(),
-            alignment: self.alignment.clone(),
+            alignment: self.alignment,
             value: self.score(Headline::FLIP)?,
             floor: self.floor,
         })

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use filters::{Convention, Value};
+use frame::Alignment;
 use metrics::{ImageScores, Interval, Jitter, Scores};
 use serde::{Deserialize, Serialize};
 use tracer::{Family, FrameRate};
@@ -63,7 +64,7 @@ pub struct Case {
     /// relative to what the blur changes; none for reference pictures.
     pub nonlinearity: Option<f64>,
     /// The shutter alignment that the filter declares and is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Hash of the truth's inputs: equal hashes mean equal truths.
     pub truth_hash: String,
     /// The measured scores, each with its noise floor.

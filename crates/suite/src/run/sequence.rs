@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use frame::Alignment;
 use metrics::SequenceScores;
 use serde::{Deserialize, Serialize};
 use tracer::FrameRate;
@@ -23,7 +24,7 @@ pub struct Sequence {
     #[serde(rename = "bar")]
     pub is_reference: bool,
     /// The shutter alignment that the filter declares and is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Scores over time.
     pub scores: SequenceScores,
     /// 95 % confidence intervals of the scores; empty where none were asked for.

@@ -1,5 +1,7 @@
 //! Lag: what it costs that the frame is not the middle of its shutter.
 
+use frame::Alignment;
+
 use super::headline::Headline;
 use super::ranking::list_summarized;
 use crate::run::case::{Case, IDENTITY};
@@ -21,7 +23,7 @@ pub fn mean_lag(cases: &[&Case]) -> Option<f64> {
 /// Says what the lag behind the frame costs under each shutter; none where no shutter has one.
 pub fn lag_text(cases: &[Case]) -> Option<String> {
     let cases = list_summarized(cases);
-    let mut alignments: Vec<&str> = cases.iter().map(|case| case.alignment.as_str()).collect();
+    let mut alignments: Vec<Alignment> = cases.iter().map(|case| case.alignment).collect();
     alignments.sort_unstable();
     alignments.dedup();
     let lags = alignments.into_iter().filter_map(|alignment| {

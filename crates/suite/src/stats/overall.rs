@@ -48,7 +48,7 @@ pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall
 
 /// Tells whether both are of the same filter preset or reference picture, at the same frame rate.
 fn are_of_one(a: &Case, b: &Case) -> bool {
-    let key = |case: &Case| (case.is_reference, case.name(), case.alignment.clone());
+    let key = |case: &Case| (case.is_reference, case.name(), case.alignment);
     key(a) == key(b) && a.rate == b.rate
 }
 
@@ -66,7 +66,7 @@ fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
         Overall {
             filter: own[0].name(),
             is_reference: own[0].is_reference,
-            alignment: own[0].alignment.clone(),
+            alignment: own[0].alignment,
             rate: own[0].rate,
             metric: headline.name(),
             scenes: scores.len(),
