@@ -1,6 +1,7 @@
 //! Measurements beside the filters' own scores: references, a common shutter, noise, coarser frames.
 
 use frame::{Alignment, Frame, Ladder, Picture, Truth};
+use metrics::Metric;
 use suite::{Case, DepthFormat, FinishedPicture, Overall, Run, VelocityFormat};
 
 use crate::bench::{Bench, SCENE, assert_done, assert_refused, quick_command, split, stdout};
@@ -291,6 +292,6 @@ fn identity_overall(run: &Run) -> ([f64; 2], Overall) {
     let mean = run
         .overall
         .iter()
-        .find(|mean| (&mean.filter[..], &mean.metric[..]) == ("identity:default", "flip_moving"));
+        .find(|mean| (&mean.filter[..], mean.metric) == ("identity:default", Metric::FLIP));
     (scores.try_into().unwrap(), mean.unwrap().clone())
 }

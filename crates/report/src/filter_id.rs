@@ -1,10 +1,10 @@
 //! Identity of filters: what a row of every table stands for.
 
 use frame::Alignment;
-use metrics::Measured;
+use metrics::{Measured, Metric};
 
 use crate::case_table::CaseTable;
-use suite::{Case, Headline, Overall};
+use suite::{Case, Overall};
 
 /// A filter preset with one form of its input, or a reference with one shutter.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -75,10 +75,10 @@ pub fn list_alignments(filters: &[FilterId]) -> Vec<Alignment> {
 }
 
 /// Averages a score's noise floor over a filter's scenes; none where the score applies to none.
-pub fn mean_floor(table: &CaseTable, filter: &FilterId, headline: Headline) -> Option<f64> {
+pub fn mean_floor(table: &CaseTable, filter: &FilterId, metric: Metric) -> Option<f64> {
     let floors = table
         .cases_of(filter)
-        .filter_map(|(_, case)| match headline.measured(case) {
+        .filter_map(|(_, case)| match case.measured(metric) {
             Measured::Score(score) => Some(score.floor),
             Measured::NotApplicable { .. } => None,
         });

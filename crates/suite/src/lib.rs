@@ -72,9 +72,8 @@ pub use judge::baseline::{
 };
 pub use judge::bounds::{
     BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
-    bound_subframes, check_lengths, check_names, is_of_subframes, read_bounds,
-    read_bounds_beside_scenes, read_bounds_file, require_bounds, size_for_bounds,
-    sized_bounds_file,
+    bound_subframes, check_lengths, check_names, read_bounds, read_bounds_beside_scenes,
+    read_bounds_file, require_bounds, size_for_bounds, sized_bounds_file,
 };
 pub use judge::calibrate::{Calibration, Proposal, Sample, calibrate, default_metrics};
 pub use judge::check::{CHECK_FORMAT, Check, check};
@@ -139,7 +138,6 @@ pub use run::{FORMAT, Run};
 pub use score::finished_picture::{FinishedPicture, read_finished_picture};
 pub use score::scores::{Scored, missing_scores, score};
 pub use score::sequence::{ScoredSequence, SequenceTruth, file_at_frame, score_sequence};
-pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::lag::{lag_text, mean_lag};
 pub use stats::overall::{overall, rank_filters};

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use cli::{annotations, check_text, compare_table, junit, run_table, summary};
+use metrics::{Metric, ObjectMetric};
 use report::{LARGEST_PAGE, compare_page, write_report};
 use suite::{
     Acceptance, Baseline, Finding, Judgement, Margin, Run, RunBounds, Side, accept_scores,
@@ -158,14 +159,18 @@ fn accept_run(run: &Run, old: Option<Baseline>) {
     }
 }
 
-fn margins() -> BTreeMap<String, Margin> {
-    let metrics = ["flip_moving", "skill_flip", "extent"];
+fn margins() -> BTreeMap<Metric, Margin> {
+    let metrics = [
+        Metric::FLIP,
+        Metric::SKILL,
+        Metric::Object(ObjectMetric::Extent),
+    ];
     let margins = metrics.map(|metric| {
         let margin = Margin {
             width: 0.01,
             place: "bounds.toml:1".to_owned(),
         };
-        (metric.to_owned(), margin)
+        (metric, margin)
     });
     margins.into()
 }

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
-use metrics::BoundMetric;
+use metrics::Metric;
 use suite::{
     Case, Check, Decision, FilterChoice, InputFormat, Monitor, Run, RunBounds, RunPlan, check,
     judge, measure_scenes, open_gpu,
@@ -83,7 +83,7 @@ impl Bench {
         let runs: Vec<Run> = (CALIBRATED_WITH.into_iter())
             .map(|seed| bench.run(choices(filters.iter().map(|name| (*name).to_owned())), seed))
             .collect();
-        let metrics = METRICS.map(|name| name.parse::<BoundMetric>().unwrap());
+        let metrics = METRICS.map(|name| name.parse::<Metric>().unwrap());
         for name in NAMES {
             let bounds = calibrate_scene(&runs, &metrics, name);
             bench.bounds.insert(name.to_owned(), bounds);

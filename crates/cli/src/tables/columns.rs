@@ -1,13 +1,13 @@
 //! Parts that tables of cases and tables of means share.
 
-use suite::Headline;
+use metrics::Metric;
 
 use super::layout::{Align, Table};
 use crate::output::colors;
 use crate::output::wrap::push_wrapped;
 
 /// A column: its title and its score.
-pub type Column = (&'static str, Headline);
+pub type Column = (&'static str, Metric);
 
 /// Puts the names of references into brackets: they are no filters.
 pub fn bracket_name(name: &str, is_reference: bool) -> String {

@@ -1,9 +1,9 @@
 //! Summary of a run: the ranking of its filters, and the references beside them.
 
 use frame::Alignment;
+use metrics::Metric;
 use suite::{
-    Case, Headline, MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag,
-    rank_for_summary,
+    Case, MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, rank_for_summary,
 };
 
 use tracer::FrameRate;
@@ -94,7 +94,7 @@ pub fn ranked_name(ranked: &RankedFilter) -> String {
 
 /// ` 2-4 jimenez:hdrp`, its FLIP, the interval, and the worst scene.
 fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
-    let number = |value: f64| Headline::FLIP.number(value);
+    let number = |value: f64| Metric::FLIP.number(value);
     let interval = match ranked.interval {
         Some([low, high]) => format!("{} to {}", number(low), number(high)),
         None => "-".to_owned(),
@@ -151,7 +151,7 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     }
     let lags: Vec<Option<f64>> = of_shutters.iter().map(|own| mean_lag(own)).collect();
     if lags.iter().any(Option::is_some) {
-        let text = |lag: &Option<f64>| lag.map_or("-".to_owned(), |lag| Headline::FLIP.number(lag));
+        let text = |lag: &Option<f64>| lag.map_or("-".to_owned(), |lag| Metric::FLIP.number(lag));
         push(LAG, lags.iter().map(text).collect());
     }
     table.text()
@@ -159,11 +159,11 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
 
 fn mean_flip<'a>(cases: impl Iterator<Item = &'a &'a Case>) -> String {
     let values: Vec<f64> = cases
-        .filter_map(|case| Headline::FLIP.estimate(case))
+        .filter_map(|case| case.estimate(Metric::FLIP))
         .collect();
     match values.len() {
         0 => "n/a".to_owned(),
-        count => Headline::FLIP.number(values.iter().sum::<f64>() / count as f64),
+        count => Metric::FLIP.number(values.iter().sum::<f64>() / count as f64),
     }
 }
 

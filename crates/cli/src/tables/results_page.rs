@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use frame::Alignment;
+use metrics::Metric;
 use suite::{
-    Error, FEWEST_SCENES, Headline, RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison,
+    Error, FEWEST_SCENES, RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison,
     compare_with_last,
 };
 use tracer::{Family, Location, list_scenes};
@@ -185,7 +186,7 @@ fn ranking_row(ranked: &RankedFilter, beside: &Beside) -> Vec<String> {
         cells.push(cost.map_or("-".to_owned(), cost_text));
     }
     let (scene, worst) = &ranked.worst;
-    cells.push(format!("{scene} {}", Headline::FLIP.number(*worst)));
+    cells.push(format!("{scene} {}", Metric::FLIP.number(*worst)));
     cells
 }
 
@@ -199,7 +200,7 @@ pub(super) fn cost_text(cost: &ResultCost) -> String {
 }
 
 pub(super) fn mean(ranked: &RankedFilter) -> String {
-    let number = |value| Headline::FLIP.number(value);
+    let number = |value| Metric::FLIP.number(value);
     match ranked.interval {
         Some([low, high]) => {
             format!(
@@ -220,7 +221,7 @@ fn push_agreement(
     sealed: &Results,
     alignment: Alignment,
 ) -> Result<(), Error> {
-    let compared = compare_with_last(&[results, sealed], Headline::FLIP)?;
+    let compared = compare_with_last(&[results, sealed], Metric::FLIP)?;
     let Some(SizeComparison { agreement, .. }) =
         (compared.into_iter()).find(|own| own.alignment == alignment)
     else {
@@ -281,7 +282,7 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
                 Some(own) => {
                     let text = match own.scenes >= FEWEST_SCENES {
                         true => format!("{}, {}", mean(own), own.rank_text()),
-                        false => Headline::FLIP.number(own.mean),
+                        false => Metric::FLIP.number(own.mean),
                     };
                     write!(page, " {text} |")
                 }

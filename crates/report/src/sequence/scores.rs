@@ -2,7 +2,7 @@
 
 use frame::Alignment;
 use maud::{Markup, html};
-use metrics::{Measured, SequenceMetric};
+use metrics::{Measured, Metric, SequenceMetric};
 use suite::{Finding, Level, RankedSequence, Run, Sequence, rank_sequences_on};
 
 use super::ranking::metric_heads;
@@ -109,10 +109,9 @@ fn finding_about<'a>(
     metric: SequenceMetric,
     findings: &'a [Finding],
 ) -> Option<&'a Finding> {
-    let name = metric.row().name;
     findings.iter().find(|finding| {
         !own.is_reference
-            && (finding.metric == name
+            && (finding.metric == Metric::Sequence(metric)
                 && finding.scene == own.scene
                 && finding.filter == own.filter)
     })

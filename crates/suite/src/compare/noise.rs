@@ -15,7 +15,6 @@ use super::side::Side;
 use crate::render::ladders::{SHARP, ladder_folder, sharp_picture};
 use crate::render::replicates::replicates_folder;
 use crate::render::scatter_oracle::make_oracle;
-use crate::stats::headline::Headline;
 use crate::{Error, FEWEST_REPLICATES, truths_without_pairs};
 
 /// Metrics that are compared.
@@ -71,7 +70,7 @@ pub fn measure_changes(
         };
         changes.extend(METRICS.iter().filter_map(|metric| {
             let uncertainty = measured.as_ref().and_then(|own| own.uncertainty(*metric));
-            let weight = Headline::Metric(*metric).weight(pair.first, &sides[0].run.cases)?;
+            let weight = pair.first.weight(*metric, &sides[0].run.cases)?;
             Change::new(pair, *metric, weight, uncertainty)
         }));
     }

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 use frame::Alignment;
+use metrics::Metric;
 
-use crate::stats::headline::Headline;
 use crate::stats::scene_mean::{SceneMean, TWO_SIDED, plain_mean};
 use crate::tune::random::Random;
 use crate::{Error, Results};
@@ -74,40 +74,37 @@ type Badness = Vec<Vec<f64>>;
 /// filters if the 95 % CI of their mean difference over scenes does not hold 0. That needs five scenes.
 ///
 /// Scenes and filters that one of them lacks are an error.
-pub fn compare_sizes(
-    results: &[Results],
-    headline: Headline,
-) -> Result<Vec<SizeComparison>, Error> {
+pub fn compare_sizes(results: &[Results], metric: Metric) -> Result<Vec<SizeComparison>, Error> {
     let mut results: Vec<&Results> = results.iter().collect();
     results.sort_by_key(|own| u64::from(own.size[0]) * u64::from(own.size[1]));
-    compare_with_last(&results, headline)
+    compare_with_last(&results, metric)
 }
 
 /// Compares results of the same filters and scenes as [`compare_sizes`] does, each with the last.
 pub fn compare_with_last(
     results: &[&Results],
-    headline: Headline,
+    metric: Metric,
 ) -> Result<Vec<SizeComparison>, Error> {
     let Some(last) = results.last() else {
         return Err(Error::Usage("no results to compare".to_owned()));
     };
     let alignments: BTreeSet<Alignment> = last.scores.iter().map(|own| own.alignment).collect();
     (alignments.into_iter())
-        .map(|alignment| compare_group(results, alignment, headline))
+        .map(|alignment| compare_group(results, alignment, metric))
         .collect()
 }
 
 fn compare_group(
     results: &[&Results],
     alignment: Alignment,
-    headline: Headline,
+    metric: Metric,
 ) -> Result<SizeComparison, Error> {
     let last = results.last().expect("there are results");
     let own = || (last.scores.iter()).filter(|own| own.alignment == alignment);
     let names: BTreeSet<&str> = own().map(|own| own.name.as_str()).collect();
     // A still scene orders no filters, and has no score where nothing moves.
     let scenes: BTreeSet<&str> = (own())
-        .filter(|own| own.score(headline).is_some())
+        .filter(|own| own.score(metric).is_some())
         .map(|own| own.scene.as_str())
         .collect();
     let badness: Vec<Badness> = (results.iter())
@@ -115,7 +112,7 @@ fn compare_group(
             (names.iter())
                 .map(|name| {
                     (scenes.iter())
-                        .map(|scene| find(results, scene, name, headline))
+                        .map(|scene| find(results, scene, name, metric))
                         .collect()
                 })
                 .collect()
@@ -145,16 +142,16 @@ fn compare_group(
 }
 
 /// Finds how bad a filter is on a scene.
-fn find(results: &Results, scene: &str, name: &str, headline: Headline) -> Result<f64, Error> {
+fn find(results: &Results, scene: &str, name: &str, metric: Metric) -> Result<f64, Error> {
     let found = (results.scores.iter()).find(|own| own.scene == scene && own.name == name);
-    let value = found.and_then(|own| own.score(headline));
+    let value = found.and_then(|own| own.score(metric));
     value
-        .map(|value| headline.ideal().badness(value))
+        .map(|value| metric.ideal().badness(value))
         .ok_or_else(|| {
             Error::Usage(format!(
                 "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
                 results.file_name(),
-                headline.name()
+                metric.name()
             ))
         })
 }

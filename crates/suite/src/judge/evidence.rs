@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frame::{Frame, Image, Ladder, Picture, Truth, read_exr, rung_file};
-use metrics::{Metric, Reference, Regions};
+use metrics::{Reference, Regions};
 
 use super::decoys::{Decoys, FEW_SUBFRAMES};
 use super::finding::Finding;
@@ -90,7 +90,7 @@ impl WorstPlaces<'_> {
         finding: &Finding,
         folder: &Path,
     ) -> Result<Worst, Error> {
-        let metric: Metric = (finding.metric.parse()).expect("a finding is about a metric");
+        let metric = finding.metric;
         let map_name = metric.row().map.name();
         let map = errors.map(map_name)?;
         let (x, y) = worst_block(metric, &map, self.regions);

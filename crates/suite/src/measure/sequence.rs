@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Image, Raster, Truth, read_exr, read_png, write_animated_png, write_png};
-use metrics::{Instant, SequenceReference, SequenceScores};
+use metrics::{Instant, Metric, SequenceReference, SequenceScores};
 use tracer::Scene;
 
 use super::plan::RunPlan;
@@ -206,7 +206,7 @@ fn measure_sequence(
         alignment: first.alignment,
         frames: frames.collect(),
         worst_frames: worst_frames
-            .map(|(metric, frame)| (metric.row().name.to_owned(), *frame as u32))
+            .map(|(metric, frame)| (Metric::Sequence(*metric), *frame as u32))
             .collect(),
         intervals: Intervals::new(),
         scores: measured.scores,

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use frame::Alignment;
+use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use tracer::{Family, Seal};
 
@@ -14,7 +15,7 @@ use crate::json::file::read_text;
 use crate::json::lines::to_lines;
 use crate::run::failure::refuse_failures;
 use crate::stats::ranking::{RankedFilter, RankedScore, rank_by_score};
-use crate::{Case, Error, Headline, InputFormat, Run};
+use crate::{Case, Error, InputFormat, Run};
 
 /// Version of the layout of a file of results.
 pub const RESULTS_FORMAT: u32 = 2;
@@ -61,8 +62,8 @@ pub struct ResultScores {
     pub alignment: Alignment,
     /// Noise floor of its FLIP.
     pub floor: f64,
-    /// Scores of [`Headline::OF_MEANS`] by name, of five digits; those that do not apply are missing.
-    pub scores: BTreeMap<String, f64>,
+    /// Scores of [`Metric::OF_MEANS`] by name, of five digits; those that do not apply are missing.
+    pub scores: BTreeMap<Metric, f64>,
 }
 
 impl Results {
@@ -234,10 +235,7 @@ impl Results {
         let mut ranked = self.ranking(None).into_iter().flatten();
         let best = ranked.find(|own| own.filter == filter)?;
         let error = |own: &&ResultScores| {
-            Some((
-                own.score(Headline::SKILL).is_some(),
-                own.score(Headline::FLIP)?,
-            ))
+            Some((own.score(Metric::SKILL).is_some(), own.score(Metric::FLIP)?))
         };
         (self.scores.iter())
             .filter(|own| own.name == best.name && error(own).is_some())
@@ -256,22 +254,22 @@ impl Results {
 
 impl ResultScores {
     fn of(case: &Case) -> Self {
-        let scores = (Headline::OF_MEANS.into_iter())
-            .filter_map(|headline| Some((headline.name(), rounded(headline.estimate(case)?))));
+        let scores = (Metric::OF_MEANS.into_iter())
+            .filter_map(|metric| Some((metric, rounded(case.estimate(metric)?))));
         Self {
             scene: Seal::split_name(&case.scene).0.to_owned(),
             family: case.family,
             filter: case.filter.clone(),
             name: case.name(),
             alignment: case.alignment,
-            floor: Headline::FLIP.floor(case).map_or(0.0, rounded),
+            floor: case.floor(Metric::FLIP).map_or(0.0, rounded),
             scores: scores.collect(),
         }
     }
 
-    /// A score by its headline; none if it does not apply.
-    pub fn score(&self, headline: Headline) -> Option<f64> {
-        self.scores.get(&headline.name()).copied()
+    /// A score; none if it does not apply.
+    pub fn score(&self, metric: Metric) -> Option<f64> {
+        self.scores.get(&metric).copied()
     }
 
     fn flip(&self) -> Option<RankedScore> {
@@ -280,7 +278,7 @@ impl ResultScores {
             filter: self.filter.clone(),
             name: self.name.clone(),
             alignment: self.alignment,
-            value: self.score(Headline::FLIP)?,
+            value: self.score(Metric::FLIP)?,
             floor: self.floor,
         })
     }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use filters::{Convention, Value};
 use frame::Alignment;
-use metrics::{ImageScores, Interval, Jitter, Scores};
+use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
 use serde::{Deserialize, Serialize};
 use tracer::{Family, FrameRate};
 
@@ -14,8 +14,8 @@ use crate::filter::choice::overrides_text;
 use crate::ingest::engine_scene::engine_name;
 use crate::render::ladders::SHARP;
 
-/// Confidence intervals of scores, by the names of their metrics.
-pub type Intervals = BTreeMap<String, Interval>;
+/// Confidence intervals of scores.
+pub type Intervals = BTreeMap<Metric, Interval>;
 
 /// One filter preset, or one reference picture, on one scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]

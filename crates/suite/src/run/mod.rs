@@ -2,6 +2,7 @@
 
 pub mod case;
 pub mod case_key;
+mod case_scores;
 pub mod earlier;
 pub mod error_maps;
 pub mod failure;

@@ -1,6 +1,7 @@
 //! Means over the scenes, as a run records them.
 
 use frame::Alignment;
+use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use tracer::FrameRate;
 
@@ -17,8 +18,8 @@ pub struct Overall {
     /// Frame rate of the scenes; none for that of their files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<FrameRate>,
-    /// Name of the metric, `bleed` or `flip_common`.
-    pub metric: String,
+    /// One of [`Metric::OF_MEANS`].
+    pub metric: Metric,
     /// Number of scenes, each variant of one counted.
     pub scenes: usize,
     /// Mean over the scenes, in the metric's unit; of a skill the ratio of means.

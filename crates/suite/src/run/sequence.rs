@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use frame::Alignment;
-use metrics::SequenceScores;
+use metrics::{Metric, SequenceScores};
 use serde::{Deserialize, Serialize};
 use tracer::FrameRate;
 
@@ -30,9 +30,9 @@ pub struct Sequence {
     /// 95 % confidence intervals of the scores; empty where none were asked for.
     #[serde(default, skip_serializing_if = "Intervals::is_empty")]
     pub intervals: Intervals,
-    /// Frame that is worst in a score, from 0, by the names of the metrics that frames have a share in.
+    /// Frame that is worst in a score, from 0, by the metrics that frames have a share in.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub worst_frames: BTreeMap<String, u32>,
+    pub worst_frames: BTreeMap<Metric, u32>,
     /// Frames, from the first on.
     pub frames: Vec<SequenceFrame>,
 }

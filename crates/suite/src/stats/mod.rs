@@ -1,7 +1,6 @@
 //! Statistics of scores: intervals of one score, and means over the scenes of a run.
 
 pub mod bradley_terry;
-pub mod headline;
 pub mod intervals;
 pub mod lag;
 pub mod overall;

@@ -1,8 +1,8 @@
 //! Ranking of filters by one score, with ties.
 
 use frame::Alignment;
+use metrics::Metric;
 
-use super::headline::Headline;
 use super::scene_mean::{TWO_SIDED, plain_mean};
 use crate::{Case, InputFormat};
 use tracer::FrameRate;
@@ -93,8 +93,8 @@ impl RankedScore {
             filter: case.filter.clone(),
             name: case.name(),
             alignment: case.alignment,
-            value: Headline::FLIP.estimate(case)?,
-            floor: Headline::FLIP.floor(case)?,
+            value: case.estimate(Metric::FLIP)?,
+            floor: case.floor(Metric::FLIP)?,
         })
     }
 }

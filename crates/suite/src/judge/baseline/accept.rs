@@ -82,7 +82,7 @@ fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
     }
     let scores = (Metric::all().into_iter()).filter_map(|metric| {
         Some((
-            metric.name(),
+            metric,
             round_to_six_digits(case.scores.get(metric).value()?),
         ))
     });

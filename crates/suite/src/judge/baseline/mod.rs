@@ -9,6 +9,7 @@ use std::path::Path;
 use filters::AdapterDescription;
 use frame::Alignment;
 use frame::write_atomically;
+use metrics::Metric;
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
@@ -36,7 +37,7 @@ pub struct Baseline {
     /// Hash of the truth's inputs, per scene and alignment.
     pub truths: BTreeMap<String, BTreeMap<Alignment, String>>,
     /// Score to six digits, per scene, filter (`jump_flood:paper`) and metric.
-    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<String, f64>>>,
+    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<Metric, f64>>>,
 }
 
 impl Baseline {
