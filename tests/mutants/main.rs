@@ -13,7 +13,6 @@ mod verdict;
 
 use std::process::ExitCode;
 use std::time::Instant;
-
 use suite::Error;
 
 use bench::Bench;

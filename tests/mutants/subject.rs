@@ -2,9 +2,10 @@
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
+use suite::Error;
 
 use cli::{Programs, select_filters};
-use suite::{Error, FilterChoice};
+use suite::FilterChoice;
 use tests::filter_folder::{copy_changed_filter, shipped_filter};
 use tests::mutants::{Mutant, choose_mutants};
 

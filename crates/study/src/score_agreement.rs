@@ -1,10 +1,9 @@
 //! Agreement of scores with people.
 
-use metrics::SequenceMetric;
+use frame::Alignment;
+use metrics::{Metric, SequenceMetric};
 use serde::Serialize;
-use suite::Headline;
-use suite::{Case, Run, Sequence};
-use suite::{TWO_SIDED, Weighted, scene_mean};
+use suite::{Case, Run, Sequence, TWO_SIDED, Weighted, scene_mean};
 
 use crate::preference_scale::{FEWEST_PEOPLE, PreferenceScale};
 use crate::rank_correlation::rank_correlation;
@@ -12,13 +11,13 @@ use crate::session::Session;
 use crate::study::Study;
 
 /// Scores of single pictures that are compared with people. Of a sequence they are those of the first frame.
-const OF_PICTURES: [Headline; 6] = [
-    Headline::FLIP,
-    Headline::PSNR,
-    Headline::GROWTH,
-    Headline::LOSS,
-    Headline::Bleed,
-    Headline::LABEL,
+const OF_PICTURES: [Metric; 6] = [
+    Metric::FLIP,
+    Metric::PSNR,
+    Metric::GROWTH,
+    Metric::LOSS,
+    Metric::Bleed,
+    Metric::LABEL,
 ];
 /// Fewer filters than this have no order to speak of.
 const FEWEST_RANKED: usize = 3;
@@ -26,8 +25,8 @@ const FEWEST_RANKED: usize = 3;
 /// How well one score predicts people.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScoreAgreement {
-    /// Name of the score.
-    pub score: String,
+    /// Score.
+    pub score: Metric,
     /// Rank correlation of its mean over the scenes with the scale: 1 if people rank the filters as the score does. None with fewer than
     /// three filters, or where the score does not apply.
     pub correlation: Option<f64>,
@@ -43,7 +42,7 @@ pub struct ScoreAgreement {
 
 /// A score of every filter of one shutter.
 struct ScoreTable {
-    name: String,
+    score: Metric,
     /// How bad each filter is, scene by scene; none where the score does not apply.
     badness: Vec<Vec<Option<f64>>>,
 }
@@ -78,7 +77,7 @@ fn compare_score(
         .collect();
     let mean = (!people.is_empty()).then(|| scene_mean(&people, TWO_SIDED));
     ScoreAgreement {
-        score: table.name.clone(),
+        score: table.score,
         correlation,
         correlation_interval: (can_have_interval.then(|| percentiles(resampled))).flatten(),
         predicted: mean.map(|mean| mean.mean),
@@ -134,7 +133,7 @@ fn percentiles(mut values: Vec<f64>) -> Option<[f64; 2]> {
 
 fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
     let own = &study.shutters[shutter];
-    let table = |name: String, badness: &dyn Fn(&str, &str) -> Option<f64>| {
+    let table = |score: Metric, badness: &dyn Fn(&str, &str) -> Option<f64>| {
         let of_scene = |scene: &String| -> Vec<Option<f64>> {
             own.filters
                 .iter()
@@ -142,21 +141,21 @@ fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
                 .collect()
         };
         ScoreTable {
-            name,
+            score,
             badness: study.scenes.iter().map(of_scene).collect(),
         }
     };
     let sequences = SequenceMetric::ALL.iter().map(|metric| {
-        table(metric.row().name.to_owned(), &|scene, filter| {
-            let found = find_sequence(run, scene, filter, &own.alignment)?;
+        table(Metric::Sequence(*metric), &|scene, filter| {
+            let found = find_sequence(run, scene, filter, own.alignment)?;
             let value = found.scores.get(*metric).value()?;
             Some(metric.row().ideal.badness(value))
         })
     });
-    let pictures = OF_PICTURES.iter().map(|headline| {
-        table(headline.name(), &|scene, filter| {
-            let case = find_case(run, scene, filter, &own.alignment)?;
-            Some(headline.ideal().badness(headline.estimate(case)?))
+    let pictures = OF_PICTURES.iter().map(|metric| {
+        table(*metric, &|scene, filter| {
+            let case = find_case(run, scene, filter, own.alignment)?;
+            Some(metric.ideal().badness(case.estimate(*metric)?))
         })
     });
     match run.frames.is_one() {
@@ -165,7 +164,12 @@ fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
     }
 }
 
-fn find_case<'a>(run: &'a Run, scene: &str, filter: &str, alignment: &str) -> Option<&'a Case> {
+fn find_case<'a>(
+    run: &'a Run,
+    scene: &str,
+    filter: &str,
+    alignment: Alignment,
+) -> Option<&'a Case> {
     run.cases.iter().find(|case| {
         !case.is_reference
             && (case.scene == scene && case.alignment == alignment)
@@ -177,7 +181,7 @@ fn find_sequence<'a>(
     run: &'a Run,
     scene: &str,
     filter: &str,
-    alignment: &str,
+    alignment: Alignment,
 ) -> Option<&'a Sequence> {
     run.sequences.iter().find(|own| {
         !own.is_reference
@@ -231,7 +235,7 @@ mod tests {
         let compare = |badness: [f64; 4]| {
             let scene: Vec<Option<f64>> = badness.map(Some).into();
             let table = ScoreTable {
-                name: "flip".to_owned(),
+                score: Metric::FLIP,
                 badness: vec![scene.clone(), scene],
             };
             compare_score(&table, 0, &all, &scale)

@@ -180,15 +180,15 @@ fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
         let due = shown(&file.study, trial);
         let found = [
             &answer.scene,
-            &answer.alignment,
+            answer.alignment.name(),
             &answer.left,
             &answer.right,
         ];
-        if found.map(String::as_str) != due {
+        if found != due {
             return Err(format!(
                 "{} is about {}; the seed {} shows {} there; give the file as the page wrote it",
                 place(),
-                found.map(String::as_str).join(" / "),
+                found.join(" / "),
                 file.seed,
                 due.join(" / ")
             ));
@@ -222,7 +222,7 @@ fn shown<'a>(study: &'a Study, trial: &ShownPair) -> [&'a str; 4] {
     let scene = study.scenes[trial.scene].as_str();
     [
         scene,
-        &shutter.alignment,
+        shutter.alignment.name(),
         name(trial.left),
         name(trial.right),
     ]

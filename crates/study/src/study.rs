@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use frame::Alignment;
 use serde::{Deserialize, Serialize};
 
 use suite::{Frames, MOST_FRAMES};
@@ -38,7 +39,7 @@ pub struct Study {
 #[serde(deny_unknown_fields)]
 pub struct StudyShutter {
     /// Alignment of the shutter. Filters of two shutters have two truths, and are not compared.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Names of the filters, as run.json has them: `jump_flood:paper`.
     pub filters: Vec<String>,
     /// Hashes of the truths' inputs: per scene those of its frames.
@@ -75,17 +76,17 @@ impl Study {
                 self.scenes.len()
             ));
         }
-        refuse_twice("scene", &self.scenes)?;
+        refuse_twice("scene", self.scenes.iter().map(String::as_str))?;
         if !(1..=MOST_FRAMES).contains(&self.frames.count) || !self.shows_at_a_rate() {
             return Err(format!(
                 "has {} frames at {} per second; allowed: 1 to {MOST_FRAMES}, above 0 per second",
                 self.frames.count, self.frames.per_second
             ));
         }
-        let alignments: Vec<String> = (self.shutters.iter())
-            .map(|own| own.alignment.clone())
-            .collect();
-        refuse_twice("shutter", &alignments)?;
+        refuse_twice(
+            "shutter",
+            self.shutters.iter().map(|own| own.alignment.name()),
+        )?;
         if self.shutters.is_empty() {
             return Err("asks about no filter; allowed: two or more of one shutter".to_owned());
         }
@@ -114,7 +115,7 @@ impl Study {
                 own.filters.len()
             ));
         }
-        refuse_twice("filter", &own.filters)?;
+        refuse_twice("filter", own.filters.iter().map(String::as_str))?;
         if let Some(name) = own.filters.iter().find(|name| name.starts_with('[')) {
             return Err(format!(
                 "asks about a filter \"{name}\"; brackets stand for the truth and the sharp frame"
@@ -146,9 +147,9 @@ pub(super) fn round_size(filters: usize, distance: usize) -> usize {
     }
 }
 
-fn refuse_twice(what: &str, names: &[String]) -> Result<(), String> {
+fn refuse_twice<'a>(what: &str, mut names: impl Iterator<Item = &'a str>) -> Result<(), String> {
     let mut seen = HashSet::new();
-    match names.iter().find(|name| !seen.insert(*name)) {
+    match names.find(|name| !seen.insert(*name)) {
         None => Ok(()),
         Some(name) => Err(format!("asks about the {what} \"{name}\" twice")),
     }

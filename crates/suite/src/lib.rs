@@ -75,7 +75,6 @@ pub use score::finished_picture::{FinishedPicture, read_finished_picture};
 pub use score::numbered::{find_numbered, numbered_file};
 pub use score::scores::{Scored, missing_scores, score};
 pub use score::sequence::{ScoredSequence, SequenceTruth, file_at_frame, score_sequence};
-pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::scene_mean::{

@@ -78,7 +78,7 @@ impl<'a> Target<'a> {
             (bleed, score.bleed, start.bleed),
         ];
         let excess = measured.into_iter().filter_map(|(metric, value, start)| {
-            let bound = self.bounds.get(&metric.name())?;
+            let bound = self.bounds.get(&metric)?;
             // A limit for another picture size says nothing about this one.
             (bound
                 .size

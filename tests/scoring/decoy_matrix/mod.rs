@@ -60,7 +60,7 @@ fn broken_bounds(scores: &Scores, bounds: &Bounds) -> Vec<String> {
     let judged = judge_scores(scores, None, bounds).into_iter();
     judged
         .filter_map(|judged| match judged.outcome {
-            Outcome::Broken => Some(judged.metric),
+            Outcome::Broken => Some(judged.metric.name()),
             Outcome::Kept | Outcome::NotApplicable => None,
             other => panic!("{}: {other:?}", judged.metric),
         })

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use suite::Error;
 
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
 use store::{MOST_JSON_BYTES, Sharing};
-use suite::{Error, FilterChoice};
+use suite::FilterChoice;
 use tune::{Evaluator, Objective, evaluate_candidate};
 
 use super::candidate::{

@@ -2,7 +2,8 @@
 
 use engine::{ExportError, Manifest, export_gltf};
 use store::printable_path;
-use suite::{Error, PROGRAM};
+use suite::Error;
+use suite::PROGRAM;
 
 use crate::arguments::ExportArgs;
 use crate::output::print::print;

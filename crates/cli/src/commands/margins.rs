@@ -1,13 +1,14 @@
 //! Margins of scores, in the folder of scenes.
 
 use std::collections::BTreeMap;
+use suite::Error;
 
 use judge::{BOUNDS_FILE, Margin, read_bounds_file};
-use suite::Error;
+use metrics::Metric;
 use tracer::Location;
 
 /// Margins by the names of metrics.
-pub type Margins = BTreeMap<String, Margin>;
+pub type Margins = BTreeMap<Metric, Margin>;
 
 /// Reads the margins by which scores may differ before it matters; none where the folder has no bounds.
 pub fn read_margins(root: &Location) -> Result<Margins, Error> {

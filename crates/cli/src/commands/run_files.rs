@@ -1,9 +1,10 @@
 //! Files that describe a finished run: run.json and the judgement of it.
 
 use std::path::Path;
+use suite::Error;
 
 use judge::{Finding, Judgement};
-use suite::{Error, Run};
+use suite::Run;
 
 /// Writes `run.json` and returns its text.
 pub fn write_run(run: &Run, out: &Path) -> Result<String, Error> {

@@ -1,8 +1,9 @@
 //! Selection of scenes.
 
 use std::path::Path;
+use suite::Error;
 
-use suite::{EngineScene, Error};
+use suite::EngineScene;
 use tracer::{FrameRate, Location, Scene, list_scene, list_scenes, load_scene};
 
 use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};

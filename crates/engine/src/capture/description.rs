@@ -27,7 +27,7 @@ pub struct CaptureDescription {
     #[serde(default)]
     pub exposure: Option<f64>,
     /// Alignment of their shutter: `trailing`, `centred` or `leading`.
-    #[serde(default, deserialize_with = "parse_alignment")]
+    #[serde(default)]
     pub alignment: Option<Alignment>,
     /// Time of the frame, in frames after the instant that the exported manifest names.
     #[serde(default)]
@@ -121,13 +121,6 @@ fn line_of(text: &str, offset: usize) -> usize {
         .iter()
         .filter(|byte| **byte == b'\n')
         .count()
-}
-
-fn parse_alignment<'a, D: serde::Deserializer<'a>>(
-    deserializer: D,
-) -> Result<Option<Alignment>, D::Error> {
-    let text = String::deserialize(deserializer)?;
-    text.parse().map(Some).map_err(serde::de::Error::custom)
 }
 
 #[cfg(test)]

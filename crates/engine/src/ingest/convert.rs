@@ -149,7 +149,7 @@ fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
         scene: capture.description.scene.clone(),
         size: [capture.color.width, capture.color.height],
         exposure,
-        alignment: alignment.name().to_owned(),
+        alignment,
         subframes,
         step: length / f64::from(subframes.max(1)),
         ladder: Vec::new(),

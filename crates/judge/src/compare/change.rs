@@ -14,8 +14,8 @@ pub struct Change {
     pub filter: String,
     /// True for a bar, false for a filter.
     pub bar: bool,
-    /// Name of the metric.
-    pub metric: String,
+    /// Score.
+    pub metric: Metric,
     /// Score in the first run, in the metric's unit.
     pub first: f64,
     /// Score in the second run.
@@ -117,7 +117,7 @@ impl Change {
             scene: pair.first.scene.clone(),
             filter: filter_label(pair.first),
             bar: pair.first.is_reference,
-            metric: metric.name(),
+            metric,
             first: first.value,
             second: second.value,
             worse,
@@ -138,8 +138,9 @@ impl Change {
 
     /// Estimates by how much the second is worse against a truth without noise.
     pub fn estimate(&self) -> f64 {
-        let metric: Metric = (self.metric.parse()).expect("changes are of metrics");
-        let [first, second] = self.estimates.map(|value| metric.ideal().badness(value));
+        let [first, second] = self
+            .estimates
+            .map(|value| self.metric.ideal().badness(value));
         second - first
     }
 
@@ -158,9 +159,9 @@ impl Change {
 }
 
 /// Turns a change for the worse into a change of the score: more of a score that ought to be high is better.
-pub fn score_change(metric: &str, worse: f64) -> f64 {
-    match metric.parse().map(Metric::ideal) {
-        Ok(Ideal::Highest) => -worse,
+pub fn score_change(metric: Metric, worse: f64) -> f64 {
+    match metric.ideal() {
+        Ideal::Highest => -worse,
         _ => worse,
     }
 }

@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use metrics::Metric;
 use serde::Serialize;
 use suite::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
 use tracer::FrameRate;
@@ -13,8 +14,8 @@ use crate::compare::change::{Change, ChangeKind};
 pub struct MeanChange {
     /// `jump_flood:paper`, and behind that the frame rate of the scenes where that is none of their files: `jump_flood:paper 24fps`.
     pub filter: String,
-    /// Name of the metric.
-    pub metric: String,
+    /// Score.
+    pub metric: Metric,
     /// Number of scenes.
     pub scenes: usize,
     /// Numbers of scenes that are better, and worse, by more than noise.
@@ -65,14 +66,14 @@ impl MeanKind {
 
 /// Averages changes per filter, metric and frame rate, in the order of the changes; leaves out bars.
 pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
-    let mut keys: Vec<(String, &str)> = Vec::new();
+    let mut keys: Vec<(String, Metric)> = Vec::new();
     for change in changes.iter().filter(|change| !change.bar) {
         let key = key(change);
         if !keys.contains(&key) {
             keys.push(key);
         }
     }
-    let of_key = |own: (String, &str)| {
+    let of_key = |own: (String, Metric)| {
         let of_it = changes
             .iter()
             .filter(|change| !change.bar && key(change) == own);
@@ -85,12 +86,12 @@ pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
 }
 
 /// Names filter and frame rate of a change, and its metric.
-fn key(change: &Change) -> (String, &str) {
+fn key(change: &Change) -> (String, Metric) {
     let filter = match FrameRate::of_name(&change.scene) {
         Some(rate) => format!("{} {}", change.filter, rate.word()),
         None => change.filter.clone(),
     };
-    (filter, &change.metric)
+    (filter, change.metric)
 }
 
 fn average(changes: &[&Change]) -> MeanChange {
@@ -113,7 +114,7 @@ fn average(changes: &[&Change]) -> MeanChange {
     };
     MeanChange {
         filter: changes[0].filter.clone(),
-        metric: changes[0].metric.clone(),
+        metric: changes[0].metric,
         scenes: count,
         better_worse: [of_kind(ChangeKind::Better), of_kind(ChangeKind::Worse)],
         first: mean(|change| change.estimates[0]).mean,
@@ -135,7 +136,7 @@ mod tests {
             scene: format!("scene_{index}"),
             filter: "one:paper".to_owned(),
             bar: false,
-            metric: "flip_moving".to_owned(),
+            metric: Metric::FLIP,
             first: 0.5,
             second: 0.5 + worse,
             worse: *worse,

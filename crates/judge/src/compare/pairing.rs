@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use frame::Alignment;
 use suite::{Case, Error, Run};
 
 use crate::compare::side::Side;
@@ -95,10 +96,10 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
 }
 
 /// Key that is unique among the cases of one run.
-type Key<'a> = (&'a str, String, &'a str, bool);
+type Key<'a> = (&'a str, String, Alignment, bool);
 
 fn key(case: &Case) -> Key<'_> {
-    (&case.scene, case.name(), &case.alignment, case.is_reference)
+    (&case.scene, case.name(), case.alignment, case.is_reference)
 }
 
 /// Key of a case within a run, whatever values `--set` gave to its parameters.
@@ -106,7 +107,7 @@ fn preset_key(case: &Case) -> Key<'_> {
     (
         &case.scene,
         case.preset_name(),
-        &case.alignment,
+        case.alignment,
         case.is_reference,
     )
 }

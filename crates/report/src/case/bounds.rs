@@ -3,7 +3,6 @@
 use judge::Level;
 use judge::{CROP, Finding, Outcome, number};
 use maud::{Markup, html};
-use metrics::BoundMetric;
 
 use super::case_view::CaseView;
 use super::evidence::Evidence;
@@ -141,10 +140,9 @@ fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> M
 
 /// Lists metric, limit, value and interval.
 fn facts(finding: &Finding) -> Markup {
-    let metric: Option<BoundMetric> = finding.metric.parse().ok();
     html! {
         dl {
-            div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (metric.meaning()) } } }
+            div { dt { "metric" } dd { (finding.metric) ": " (finding.metric.meaning()) } }
             @if let Some(value) = finding.value {
                 div { dt { "measured" } dd { (finding.with_unit(value)) } }
             }

@@ -59,7 +59,7 @@ fn truths<'a>(first: &'a Run, second: &Run) -> Vec<[&'a str; 3]> {
             .cases
             .iter()
             .any(|own| own.scene == case.scene && own.truth_hash == case.truth_hash);
-        let truth = [case.scene.as_str(), &case.alignment, &case.truth_hash];
+        let truth = [case.scene.as_str(), case.alignment.name(), &case.truth_hash];
         if shared && !truths.contains(&truth) {
             truths.push(truth);
         }

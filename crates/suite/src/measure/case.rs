@@ -291,7 +291,7 @@ impl CaseContext<'_> {
             command: command.map(Command::words),
             convention: convention.map(Convention::resolved),
             nonlinearity: measured.nonlinearity,
-            alignment: truth.alignment.name().to_owned(),
+            alignment: truth.alignment,
             truth_hash: truth.provenance.content_hash.clone(),
             common,
             jitter: measured.jitter,

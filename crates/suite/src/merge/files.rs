@@ -1,5 +1,6 @@
 //! The pictures of runs that are joined.
 
+use frame::Alignment;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -44,12 +45,12 @@ fn check_pictures(part: &RunPart, files: &Files) -> Result<(), Error> {
 }
 
 /// Lists the cases of a run, and of all frames of its sequences, each as the folder of its scene, its own folder, and its shutter.
-fn list_cases(run: &Run) -> impl Iterator<Item = (&Path, &Path, &str)> {
+fn list_cases(run: &Run) -> impl Iterator<Item = (&Path, &Path, Alignment)> {
     let cases =
-        (run.cases.iter()).map(|case| (Path::new(&case.scene), &*case.folder, &*case.alignment));
+        (run.cases.iter()).map(|case| (Path::new(&case.scene), &*case.folder, case.alignment));
     let frames = run.sequences.iter().flat_map(|sequence| {
         let frames = sequence.frames.iter();
-        frames.map(|frame| (&*frame.scene, &*frame.folder, &*sequence.alignment))
+        frames.map(|frame| (&*frame.scene, &*frame.folder, sequence.alignment))
     });
     cases.chain(frames)
 }

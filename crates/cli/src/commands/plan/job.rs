@@ -1,9 +1,10 @@
 //! One job of a plan.
 
 use std::path::{Path, PathBuf};
+use suite::Error;
 
 use serde::Serialize;
-use suite::{Error, JobCost};
+use suite::JobCost;
 
 /// A process of this program: a line of a plan.
 #[derive(Clone, Debug, Serialize)]

@@ -1,6 +1,7 @@
 //! Scenes as words of a job's command line.
 
-use suite::{EngineScene, Error};
+use suite::EngineScene;
+use suite::Error;
 
 use super::job::{files_below, path_word};
 use crate::arguments::SceneArgs;

@@ -1,8 +1,7 @@
 //! Replies of `serve`: lines of JSON on standard output.
 
-use suite::Error;
-
 use crate::output::print::print;
+use suite::Error;
 
 /// Prints one reply.
 pub fn print_reply(value: serde_json::Value) -> Result<(), Error> {
