@@ -3,11 +3,10 @@
 
 use std::path::Path;
 use std::process::ExitCode;
-use suite::Error;
 
 use judge::{Agreement, FilterAtSizes, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
-use suite::Run;
+use suite::{Error, Run};
 
 fn main() -> ExitCode {
     let paths: Vec<String> = std::env::args().skip(1).collect();

@@ -2,10 +2,9 @@
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use suite::Error;
 
 use cli::{Programs, select_filters};
-use suite::FilterChoice;
+use suite::{Error, FilterChoice};
 use tests::filter_folder::{copy_changed_filter, shipped_filter};
 use tests::mutants::{Mutant, choose_mutants};
 

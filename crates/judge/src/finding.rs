@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use metrics::{Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
-use suite::Sequence;
-use suite::{Case, Run};
+use suite::{Case, Run, Sequence};
 
 use crate::bounds::Level;
 use crate::decision::Decision;

@@ -5,8 +5,7 @@ use std::path::Path;
 use frame::{read_bounded, write_atomically};
 use serde::{Deserialize, Serialize};
 use store::{MOST_RUN_BYTES, read_text_within, to_lines};
-use suite::is_below;
-use suite::{Error, PROGRAM, Run};
+use suite::{Error, PROGRAM, Run, is_below};
 
 use crate::Finding;
 

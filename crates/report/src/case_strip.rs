@@ -1,10 +1,9 @@
 //! Pictures of a case side by side, from the PNG files that a run left.
 
 use std::path::Path;
-use suite::Error;
 
 use frame::{Raster, read_png, write_png};
-use suite::Case;
+use suite::{Case, Error};
 
 /// Pixels between two pictures.
 const GAP: u32 = 2;

@@ -1,8 +1,7 @@
 //! Scale of preferences: strengths from the choices of people, with intervals by resampling.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
-use suite::Random;
-use suite::TWO_SIDED;
+use suite::{Random, TWO_SIDED};
 
 use crate::bradley_terry::{NoScale, Penalty, fit_strengths};
 use crate::paired_counts::PairedCounts;

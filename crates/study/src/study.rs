@@ -4,7 +4,6 @@ use std::collections::HashSet;
 
 use frame::Alignment;
 use serde::{Deserialize, Serialize};
-
 use suite::{Frames, MOST_FRAMES};
 
 /// Upper limit on the filters of one shutter that people compare.

@@ -2,8 +2,7 @@
 
 use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Settings, UploadedInput};
 use frame::{Image, Plane};
-use suite::{Monitor, Runner};
-use suite::{pack_planes, unpack_planes};
+use suite::{Monitor, Runner, pack_planes, unpack_planes};
 
 use crate::target::Target;
 

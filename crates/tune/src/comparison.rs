@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 
 use filters::Settings;
 use serde::{Deserialize, Serialize};
-use suite::Error;
-use suite::{FEWEST_SCENES, ONE_SIDED, plain_mean};
+use suite::{Error, FEWEST_SCENES, ONE_SIDED, plain_mean};
 use tracer::{Progress, TraceError};
 
 use crate::evaluator::Evaluator;

@@ -2,7 +2,6 @@
 
 use filters::{Blur, FilterError, Gpu, Input, Settings};
 use frame::Frame;
-
 use suite::FilterChoice;
 
 /// Rounds of one candidate and the start in turn; odd, so that the median is one of them.

@@ -3,14 +3,10 @@
 use std::path::Path;
 
 use frame::{Alignment, Frame, Truth};
-use metrics::Viewing;
-use tracer::{Family, RenderSettings, Scene};
-
 use judge::SceneBounds;
-use suite::render_frame;
-use suite::render_truth;
-use suite::scene_viewing;
-use suite::{Error, Monitor};
+use metrics::Viewing;
+use suite::{Error, Monitor, render_frame, render_truth, scene_viewing};
+use tracer::{Family, RenderSettings, Scene};
 
 /// A scene, rendered once and measured against hundreds of times.
 pub struct RenderedScene {

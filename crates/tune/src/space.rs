@@ -1,7 +1,6 @@
 //! Parameters that a tuning may change, and their mapping to the unit cube.
 
 use filters::{Filter, Kind, Parameter, Scale, Settings, Value};
-
 use suite::Error;
 
 /// Some parameters of a filter with their ranges, around a set of values.

@@ -4,14 +4,14 @@
 mod decoys;
 mod scenes;
 
+use decoys::{APART, decoys};
 use frame::Picture;
 use judge::{Bounds, Outcome, judge_scores, read_bounds_file};
 use metrics::{Measured, Metric, Reference, Scores};
+use scenes::scenes;
 use tests::synthetic::{Blur, Scene, VIEWING};
 
 use crate::noisy;
-use decoys::{APART, decoys};
-use scenes::scenes;
 
 /// Reads the bounds of every filter on every scene, required or not.
 fn shared_bounds() -> Bounds {

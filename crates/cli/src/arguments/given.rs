@@ -1,10 +1,10 @@
 //! Options as this command line gives them, for the command lines of other processes.
 
 use std::ffi::OsString;
-use suite::Error;
 
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, CommandFactory};
+use suite::Error;
 
 use super::Cli;
 use super::groups::visible_command_line;

@@ -1,10 +1,10 @@
 //! Arguments that choose scenes and say how they are rendered.
 
 use std::path::PathBuf;
-use suite::Error;
 
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
+use suite::Error;
 use tracer::{FrameRate, Location, RenderSettings};
 
 use super::frame_rates::FrameRateArgs;

@@ -1,10 +1,10 @@
 //! The command `audit`.
 
 use std::path::{Path, PathBuf};
-use suite::Error;
 
 use engine::{Capture, CaptureAudit, audit_capture, write_audit_picture};
 use store::{Sharing, claim, printable_path};
+use suite::Error;
 
 use super::capture::{load_drawn_scene, name_folder};
 use super::ending::Ending;

@@ -1,8 +1,8 @@
 //! Folder and scene of a capture, for `ingest` and `audit`.
 
 use std::path::{Path, PathBuf};
-use suite::Error;
 
+use suite::Error;
 use tracer::{Location, Scene};
 
 use crate::selection::select_scenes;

@@ -1,6 +1,7 @@
 //! The command `completions`.
 
 use std::io::Write;
+
 use suite::Error;
 
 use crate::arguments::{CompletionsArgs, visible_command_line};

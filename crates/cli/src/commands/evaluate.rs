@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use suite::Error;
 
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
 use store::{MOST_JSON_BYTES, Sharing};
-use suite::FilterChoice;
+use suite::{Error, FilterChoice};
 use tune::{Evaluator, Objective, evaluate_candidate};
 
 use super::candidate::{

@@ -2,8 +2,7 @@
 
 use engine::{ExportError, Manifest, export_gltf};
 use store::printable_path;
-use suite::Error;
-use suite::PROGRAM;
+use suite::{Error, PROGRAM};
 
 use crate::arguments::ExportArgs;
 use crate::output::print::print;

@@ -1,10 +1,10 @@
 //! The command `import`.
 
 use std::path::Path;
-use suite::Error;
 
 use engine::{ImportPlan, Imported, Motions, import};
 use store::printable_path;
+use suite::Error;
 
 use super::render_settings::check_exposure;
 use crate::arguments::ImportArgs;

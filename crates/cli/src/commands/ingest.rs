@@ -2,12 +2,11 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use suite::Error;
 
 use engine::{Capture, Ingested, ingest};
 use frame::{Display, Region};
 use store::printable_path;
-use suite::EngineScene;
+use suite::{EngineScene, Error};
 use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};

@@ -1,10 +1,10 @@
 //! Margins of scores, in the folder of scenes.
 
 use std::collections::BTreeMap;
-use suite::Error;
 
 use judge::{BOUNDS_FILE, Margin, read_bounds_file};
 use metrics::Metric;
+use suite::Error;
 use tracer::Location;
 
 /// Margins by the names of metrics.

@@ -1,12 +1,11 @@
 //! Pages and other files that a command writes, with the lines that name them.
 
 use std::path::{Path, PathBuf};
-use suite::Error;
 
 use judge::Finding;
 use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
 use store::printable_path;
-use suite::Run;
+use suite::{Error, Run};
 
 /// A file that a command wrote.
 #[derive(serde::Serialize)]

@@ -3,8 +3,7 @@
 use glob::Pattern;
 use judge::Side;
 use study::{Study, StudyChoice, find_preferences, make_study, read_sessions, refuse_other_run};
-use suite::Error;
-use suite::Run;
+use suite::{Error, Run};
 
 use crate::arguments::PreferencesArgs;
 use crate::output::print::{print, print_json};

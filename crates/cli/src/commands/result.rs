@@ -1,9 +1,9 @@
 //! A result in a JSON file, printed as a table or as JSON.
 
 use std::path::PathBuf;
-use suite::Error;
 
 use store::printable_path;
+use suite::Error;
 
 use crate::output::print::print;
 

@@ -1,10 +1,9 @@
 //! Files that describe a finished run: run.json and the judgement of it.
 
 use std::path::Path;
-use suite::Error;
 
 use judge::{Finding, Judgement};
-use suite::Run;
+use suite::{Error, Run};
 
 /// Writes `run.json` and returns its text.
 pub fn write_run(run: &Run, out: &Path) -> Result<String, Error> {

@@ -1,8 +1,7 @@
 //! Trial of filters of the user's own, before they are listed.
 
 use filters::{Filter, FilterError, Limits, try_out};
-use suite::Error;
-use suite::open_adapter;
+use suite::{Error, open_adapter};
 
 use crate::output::print::print_note;
 use crate::output::progress::make_silent_monitor;

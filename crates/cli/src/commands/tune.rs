@@ -3,11 +3,10 @@
 use std::io::ErrorKind;
 use std::path::Path;
 use std::time::{Duration, Instant};
-use suite::Error;
 
 use frame::FileError;
 use store::{Sharing, claim};
-use suite::FilterChoice;
+use suite::{Error, FilterChoice};
 use tracer::{Progress, RenderSettings};
 use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
 

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal, Write};
-use suite::Error;
 
 use store::{printable, printable_lines, printable_table};
+use suite::Error;
 use tracer::Scene;
 
 use super::wrap::push_wrapped;

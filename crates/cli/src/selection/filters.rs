@@ -1,10 +1,9 @@
 //! Selection of filters, their presets and overrides.
 
 use std::path::Path;
-use suite::Error;
 
 use filters::Filter;
-use suite::FilterChoice;
+use suite::{Error, FilterChoice};
 
 use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};
 use super::path::is_path;

@@ -1,9 +1,8 @@
 //! Selection of scenes.
 
 use std::path::Path;
-use suite::Error;
 
-use suite::EngineScene;
+use suite::{EngineScene, Error};
 use tracer::{FrameRate, Location, Scene, list_scene, list_scenes, load_scene};
 
 use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};

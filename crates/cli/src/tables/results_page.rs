@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use suite::Error;
 
 use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_with_last};
 use metrics::Metric;
-use suite::FEWEST_SCENES;
+use suite::{Error, FEWEST_SCENES};
 use tracer::{Family, Location, list_scenes};
 
 use super::columns::list_once;

@@ -5,8 +5,7 @@ use std::path::Path;
 
 use metrics::{Measured, Metric};
 use serde::Serialize;
-use suite::{Case, Error, Run};
-use suite::{ONE_SIDED, plain_mean};
+use suite::{Case, Error, ONE_SIDED, Run, plain_mean};
 
 use crate::baseline::Baseline;
 use crate::bounds::Margin;

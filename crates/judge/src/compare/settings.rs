@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use filters::AdapterDescription;
 use serde::Serialize;
-use suite::list_settings;
-use suite::{Case, Run};
+use suite::{Case, Run, list_settings};
 
 use crate::compare::pairing::Pair;
 

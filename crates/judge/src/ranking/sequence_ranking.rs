@@ -4,9 +4,7 @@ use std::collections::HashMap;
 
 use frame::Alignment;
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use suite::Sequence;
-use suite::{Case, InputFormat, Run};
-use suite::{SceneMean, TWO_SIDED, plain_mean};
+use suite::{Case, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
 use tracer::FrameRate;
 
 use crate::ranking::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};

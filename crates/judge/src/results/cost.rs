@@ -1,8 +1,7 @@
 //! Costs of filters, as results keep them.
 
 use serde::{Deserialize, Serialize};
-use suite::Bench;
-use suite::{Error, Spread};
+use suite::{Bench, Error, Spread};
 
 use crate::results::{Results, rounded};
 

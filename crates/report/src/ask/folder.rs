@@ -2,10 +2,10 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-use suite::Error;
 
 use frame::{FileError, read_bounded, remove_leftovers, write_atomically};
 use study::{ClipFiles, Question, Study};
+use suite::Error;
 
 use super::page::ask_page;
 

@@ -1,7 +1,6 @@
 //! Bounds of a case, with evidence for those that are not kept.
 
-use judge::Level;
-use judge::{CROP, Finding, Outcome, number};
+use judge::{CROP, Finding, Level, Outcome, number};
 use maud::{Markup, html};
 
 use super::case_view::CaseView;

@@ -2,8 +2,7 @@
 
 use judge::{Finding, worst_block};
 use metrics::Metric;
-use suite::Case;
-use suite::Error;
+use suite::{Case, Error};
 
 use crate::pixels::scene_files::{CaseFiles, SceneFiles};
 

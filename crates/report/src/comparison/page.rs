@@ -1,9 +1,9 @@
 //! Page of a comparison.
 
-use judge::{Change, ChangeKind, rank_changes};
-use judge::{MeanChange, MeanKind};
-use judge::{Pair, filter_label, pair_cases};
-use judge::{RunComparison, Side};
+use judge::{
+    Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison, Side, filter_label, pair_cases,
+    rank_changes,
+};
 use maud::{Markup, html};
 use metrics::Metric;
 use suite::Error;

@@ -1,8 +1,7 @@
 //! Pictures of a case in two runs.
 
 use frame::{Plane, read_exr};
-use judge::Pair;
-use judge::Side;
+use judge::{Pair, Side};
 use suite::Error;
 
 use crate::pixels::png::{embed_file, embed_picture};

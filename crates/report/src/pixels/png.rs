@@ -1,11 +1,11 @@
 //! Pictures that a page holds itself.
 
 use std::path::Path;
-use suite::Error;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use frame::{FileError, Image, Raster, display_srgb, read_bounded, write_png};
+use suite::Error;
 
 /// Largest PNG file that a page shows, in bytes.
 const MOST_PICTURE_BYTES: u64 = 1 << 28;

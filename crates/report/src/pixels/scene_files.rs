@@ -7,8 +7,7 @@ use frame::{
     Alignment, ExrFile, FileError, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions,
 };
 use metrics::{Side, object_sides};
-use suite::ACCUMULATE;
-use suite::{Case, Error, ErrorMaps, Run};
+use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run};
 
 use super::layer::Layer;
 use super::planes::Planes;

@@ -1,11 +1,10 @@
 //! Files that `tune` leaves in its folder.
 
 use std::path::{Path, PathBuf};
-use suite::Error;
 
 use serde::de::DeserializeOwned;
-
 use store::read_text;
+use suite::Error;
 use tune::{JOURNAL_FORMAT, JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning};
 
 /// Contents of tune.json, journal.jsonl and sensitivity.json; at least one is there.

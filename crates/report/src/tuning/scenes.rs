@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use maud::{Markup, html};
-use tune::log_ratio;
-use tune::{HeldOutResult, SceneScore, Tuning};
+use tune::{HeldOutResult, SceneScore, Tuning, log_ratio};
 
 use super::folds::change_bar;
 use crate::numbers::percent;

@@ -1,7 +1,6 @@
 //! Settings that a tuning ran with.
 
 use maud::{Markup, html};
-
 use tune::JournalHeader;
 
 /// Lists all that the trials depended on, and the hashes of the truths.

@@ -7,9 +7,7 @@ use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
-use tracer::Defocus;
-
-use tracer::FrameRate;
+use tracer::{Defocus, FrameRate};
 
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;

@@ -1,11 +1,10 @@
 //! The pictures of runs that are joined.
 
-use frame::Alignment;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frame::FileError;
+use frame::{Alignment, FileError};
 use store::{Files, gather, list_renders};
 
 use super::run_part::RunPart;

@@ -3,13 +3,12 @@
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use suite::Error;
 
 use cli::{compare_table, run_table};
 use judge::{Acceptance, Baseline, Side, accept_scores, compare_runs};
 use report::{LARGEST_PAGE, compare_page, write_report};
 use serde_json::{Value, json};
-use suite::Run;
+use suite::{Error, Run};
 
 use crate::bench::{Bench, assert_done, assert_refused};
 

@@ -1,10 +1,9 @@
 //! Filters as words of a job's command line.
 
 use std::path::Path;
-use suite::Error;
 
 use filters::Filter;
-use suite::FilterChoice;
+use suite::{Error, FilterChoice};
 
 use super::job::files_below;
 use super::scene_words::as_path;

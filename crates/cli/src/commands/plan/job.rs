@@ -1,10 +1,9 @@
 //! One job of a plan.
 
 use std::path::{Path, PathBuf};
-use suite::Error;
 
 use serde::Serialize;
-use suite::JobCost;
+use suite::{Error, JobCost};
 
 /// A process of this program: a line of a plan.
 #[derive(Clone, Debug, Serialize)]

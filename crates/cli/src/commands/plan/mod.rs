@@ -5,12 +5,13 @@ mod job;
 mod jobs;
 mod scene_words;
 
+use suite::Error;
+
 use self::jobs::list_jobs;
 use super::run_plan::{apply_options, make_plan};
 use crate::arguments::PlanArgs;
 use crate::output::print::print;
 use crate::tables::jobs::jobs_table;
-use suite::Error;
 
 /// Prints the jobs that a run, or a calibration, can be split into.
 pub fn execute(args: &PlanArgs) -> Result<(), Error> {

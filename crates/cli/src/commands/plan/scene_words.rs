@@ -1,7 +1,6 @@
 //! Scenes as words of a job's command line.
 
-use suite::EngineScene;
-use suite::Error;
+use suite::{EngineScene, Error};
 
 use super::job::{files_below, path_word};
 use crate::arguments::SceneArgs;

@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::time::Duration;
-use suite::Error;
 
 use filters::{FilterError, Value};
 use serde::Deserialize;
 use serde_json::json;
+use suite::Error;
 
 use super::line_reader::{Line, read_lines};
 use super::reply::print_reply;

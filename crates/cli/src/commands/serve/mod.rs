@@ -5,10 +5,10 @@ mod line_reader;
 mod reply;
 
 use std::collections::BTreeSet;
-use suite::Error;
 
 use serde_json::json;
 use store::Sharing;
+use suite::Error;
 use tune::{Evaluator, Objective, SceneScore, evaluate_candidate};
 
 use self::inbox::{Inbox, ScoreRequest};

@@ -1,7 +1,8 @@
 //! Replies of `serve`: lines of JSON on standard output.
 
-use crate::output::print::print;
 use suite::Error;
+
+use crate::output::print::print;
 
 /// Prints one reply.
 pub fn print_reply(value: serde_json::Value) -> Result<(), Error> {
