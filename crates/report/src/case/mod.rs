@@ -13,6 +13,7 @@ use maud::{Markup, html};
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, case_anchor};
+use crate::finding_text::Tally;
 use crate::numbers::{counted, value_text};
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::{provenance_line, truth_text};
@@ -21,7 +22,7 @@ use case_view::CaseView;
 use profile::Profile;
 use profile_chart::profile_chart;
 use scores::score_rows;
-use suite::{Case, Drawn, Headline, Level, Outcome};
+use suite::{Case, Drawn, Headline, Level};
 
 /// Tables of a case: what stands above its pictures, and below them.
 pub struct CaseTables {
@@ -103,36 +104,23 @@ fn part(tables: Option<&Markup>) -> Markup {
 fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
     let case = view.case;
     let (place, of) = place_on_scene(table, case);
-    let count = |level, is_counted: fn(Outcome) -> bool| {
-        let own = view.findings.iter().filter(|own| own.level == level);
-        own.filter(|own| is_counted(own.outcome)).count()
-    };
-    let [bounds, targets] = [Level::Required, Level::Report].map(|level| count(level, |_| true));
-    let [broken, missed] =
-        [Level::Required, Level::Report].map(|level| count(level, |own| own == Outcome::Broken));
+    let [bounds, targets] =
+        [Level::Required, Level::Report].map(|level| Tally::of(&view.findings, level));
     html! {
         p.score {
-            @for headline in [Headline::FLIP, Headline::SKILL, Headline::PSNR] {
+            @for (headline, name) in [(Headline::FLIP, "FLIP"), (Headline::SKILL, "skill"), (Headline::PSNR, "PSNR")] {
                 @if let Some(value) = headline.estimate(case) {
-                    span { (short_name(headline)) " " strong { (headline.number(value)) } (interval(case, headline)) }
+                    span { (name) " " strong { (headline.number(value)) } (interval(case, headline)) }
                 }
             }
             @if let (false, Some(place)) = (case.is_reference, place) {
                 span { "place " strong { (place) } " of " (of) " with a " (case.alignment) " shutter" }
             }
-            @if bounds > 0 {
-                span class=(if broken > 0 { "broken" } else { "kept" }) { (broken) " of " (counted(bounds, "required bound")) " broken" }
+            @if bounds.all > 0 {
+                span class=(if bounds.broken > 0 { "broken" } else { "met" }) { (bounds.broken) " of " (counted(bounds.all, "required bound")) " broken" }
             }
-            @if targets > 0 { span { (missed) " of " (counted(targets, "target")) " missed" } }
+            @if targets.all > 0 { span { (targets.broken) " of " (counted(targets.all, "target")) " missed" } }
         }
-    }
-}
-
-fn short_name(headline: Headline) -> &'static str {
-    match headline {
-        Headline::FLIP => "FLIP",
-        Headline::SKILL => "skill",
-        _ => "PSNR",
     }
 }
 

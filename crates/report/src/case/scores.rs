@@ -5,8 +5,7 @@ use metrics::{Group, Measured, Metric};
 
 use super::case_view::CaseView;
 use crate::finding_text::{Status, interval_text, limit_text};
-use suite::Case;
-use suite::{Level, number};
+use suite::{Case, number};
 
 /// Lists the scores of all groups.
 pub fn score_rows(page: &CaseView) -> Markup {
@@ -55,7 +54,7 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
     let name = metric.name();
     let finding = (page.findings.iter()).find(|finding| finding.metric == name);
     let status = finding.and_then(|finding| Status::of(finding.outcome));
-    let required = finding.is_some_and(|finding| finding.level == Level::Required);
+    let required = finding.and_then(Status::required_class);
     html! {
         tr {
             th scope="row" { (name) }
@@ -71,12 +70,10 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
                         }
                     }
                     td data-label="floor" { (number(score.floor)) }
-                    td class=[status.filter(|_| required).map(|status| status.word)]
-                        data-label=[status.map(|_| "limit")] {
+                    td class=[required] data-label=[status.map(|_| "limit")] {
                         @if let (Some(finding), Some(status)) = (finding, status) {
-                            span.sign aria-hidden="true" { (status.sign) }
-                            (limit_text(finding))
-                            @if required { span.unseen { ", " (status.word) } } @else { span.note { " target" } }
+                            (status) (limit_text(finding))
+                            @if let Some(word) = required { span.unseen { ", " (word) } } @else { span.note { " target" } }
                         }
                     }
                 }

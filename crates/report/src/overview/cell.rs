@@ -62,9 +62,7 @@ pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
             data-value=[estimate]
             title=[reason(&measured)] {
             a.case href=(format!("#{}", case_anchor(case))) {
-                @if let Some((_, status)) = judged {
-                    span.sign aria-hidden="true" { (status.sign) }
-                }
+                @if let Some((_, status)) = judged { (status) }
                 (headline.text(case))
                 @if let (Some(interval), Some(value)) = (headline.interval(case), measured.value()) {
                     span.unseen { ", " (interval_text(interval, value)) }
