@@ -4,9 +4,8 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use suite::{
-    Agreement, Error, FilterAtSizes, Headline, Results, Run, SizeComparison, compare_sizes,
-};
+use judge::{Agreement, FilterAtSizes, Results, SizeComparison, compare_sizes};
+use suite::{Error, Headline, Run};
 
 fn main() -> ExitCode {
     let paths: Vec<String> = std::env::args().skip(1).collect();

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use cli::{main_results, picture_name, results_filter_pages, results_page};
-use suite::{Headline, Results, Run};
+use judge::Results;
+use suite::{Headline, Run};
 use tests::filter_folder::copy_changed_filter;
 use tracer::Seal;
 

@@ -1,8 +1,9 @@
 //! The packed jump flood, which must equal the jump flood.
 
-use crate::fields::{Field, noise, rectangles};
 use filters::{Blur, Filter, Gpu, Settings};
 use frame::{FAR_DEPTH, Image, Raster};
+
+use crate::fields::{Field, noise, rectangles};
 use tests::open_gpu;
 
 /// Names of parameters and their values.

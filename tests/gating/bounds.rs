@@ -3,8 +3,9 @@
 use std::fs;
 
 use cli::Programs;
+use judge::{Level, SceneBounds};
 use metrics::{Metric, SequenceMetric};
-use suite::{Frames, Level, SceneBounds};
+use suite::Frames;
 use tests::text::assert_contains;
 
 /// Reads the bounds of a folder with one scene, `fan`, from texts beside the scenes and beside the scene.
@@ -19,10 +20,10 @@ fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> 
     let filters =
         cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let check = || {
-        let bounds = suite::read_bounds(folder.path(), &scene, None)?;
-        suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
+        let bounds = judge::read_bounds(folder.path(), &scene, None)?;
+        judge::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
         let scenes = std::iter::once(("fan", &bounds));
-        suite::require_bounds(folder.path(), scenes, &filters, Frames::default())?;
+        judge::require_bounds(folder.path(), scenes, &filters, Frames::default())?;
         Ok(bounds)
     };
     check().map_err(|error: suite::Error| {
@@ -69,7 +70,7 @@ fn limits_hold_only_at_their_own_size() {
     let filters =
         cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let size = |bounds: &[&SceneBounds], asked| {
-        let size = suite::size_for_bounds(bounds.iter().copied(), &filters, asked);
+        let size = judge::size_for_bounds(bounds.iter().copied(), &filters, asked);
         size.map_err(|error| error.to_string())
     };
     assert_eq!(size(&[&any, &small], None), Ok(Some((160, 90))));
@@ -118,7 +119,7 @@ fn every_metric_of_sequences_can_have_a_bound_for_a_number_of_frames() {
         let at = |count, per_second| Frames { count, per_second };
         let lengths = |frames| {
             let scenes = std::iter::once(&bounds);
-            suite::check_lengths(scenes, &filters, frames).map_err(|error| error.to_string())
+            judge::check_lengths(scenes, &filters, frames).map_err(|error| error.to_string())
         };
         // Single frames leave it alone, and another length is refused before anything is rendered.
         assert_eq!(lengths(at(1, 60.0)), Ok(()));
@@ -160,9 +161,9 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
     let filters =
         cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let read = |asked| {
-        let bounds = suite::read_bounds(folder.path(), &scene, asked)?;
-        suite::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
-        let size = suite::size_for_bounds(std::iter::once(&bounds), &filters, asked)?;
+        let bounds = judge::read_bounds(folder.path(), &scene, asked)?;
+        judge::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
+        let size = judge::size_for_bounds(std::iter::once(&bounds), &filters, asked)?;
         let limit = bounds.of("identity", "default")["flip_moving"].limit;
         Ok::<_, suite::Error>((limit, size))
     };
@@ -344,7 +345,7 @@ fn bounds_of_a_scene_that_does_not_exist_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("fna")).unwrap();
     fs::write(folder.path().join("fna/bounds.toml"), "").unwrap();
-    let message = suite::check_names(folder.path(), std::iter::empty(), &[]).unwrap_err();
+    let message = judge::check_names(folder.path(), std::iter::empty(), &[]).unwrap_err();
     assert!(
         message.to_string().contains("fna has no scene.toml"),
         "{message}"

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use judge::{Level, Outcome, SceneBounds, default_metrics, judge_scores};
 use metrics::{BoundMetric, Metric};
-use suite::{Case, Error, Level, Outcome, Run, SceneBounds, default_metrics, judge_scores};
+use suite::{Case, Error, Run};
 use tests::limits::calibrate_scene;
 use tracer::Scene;
 

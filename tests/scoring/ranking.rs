@@ -185,7 +185,7 @@ fn a_filter_worse_than_doing_nothing_ranks_below_it() {
         "{ranking}"
     );
     assert_eq!(
-        suite::lag_text(&run.cases).unwrap(),
+        judge::lag_text(&run.cases).unwrap(),
         // 0.270 - 0.156, since the scenes' difficulties average 1.
         "Lag behind the frame, identity less accumulate:1: FLIP 0.114 under a trailing shutter."
     );

@@ -2,8 +2,9 @@
 
 use std::fs;
 
+use judge::{SceneBounds, calibrate, read_bounds_file};
 use metrics::BoundMetric;
-use suite::{Run, SceneBounds, calibrate, read_bounds_file};
+use suite::Run;
 
 /// Makes the bounds of a scene that `calibrate` proposes after several runs of sound filters.
 pub fn calibrate_scene(runs: &[Run], metrics: &[BoundMetric], scene: &str) -> SceneBounds {

@@ -1,8 +1,8 @@
 //! A finding in words: its status, its score and the way out.
 
+use judge::{Finding, Length, Level, MOST_SAMPLES, Outcome, badness_within, number};
 use maud::{Markup, Render, html};
 use metrics::{Ideal, Interval};
-use suite::{Finding, Length, Level, MOST_SAMPLES, Outcome, badness_within, number};
 
 /// Status of a score against its bound, shown by colour, sign and word: never by the colour alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -24,8 +24,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use frame::write_atomically;
+use judge::Finding;
 use maud::{Markup, PreEscaped};
-use suite::{Case, Error, Finding, Run};
+use suite::{Case, Error, Run};
 
 use case::case_view::CaseView;
 use case::{CaseTables, case_section};

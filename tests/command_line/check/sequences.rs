@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use suite::{Outcome, Run};
+use judge::Outcome;
+use suite::Run;
 
 use super::{IDENTITY, assert_ends, json};
 use crate::bench::{Bench, assert_done, assert_refused, split};
@@ -38,7 +39,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     ];
     assert_ends(&single, 0, &parts);
     let not_judged = bench.read_findings();
-    let outcomes = |findings: &[suite::Finding]| -> Vec<(String, Outcome)> {
+    let outcomes = |findings: &[judge::Finding]| -> Vec<(String, Outcome)> {
         let pairs = findings.iter().map(|own| (own.metric.clone(), own.outcome));
         pairs.collect()
     };

@@ -6,7 +6,9 @@ use std::process::{Output, Stdio};
 
 use cli::{annotations, check_text, summary};
 use frame::{Frame, Truth};
-use suite::{CHECK_FORMAT, Check, Decision, Failure, printable_table};
+use judge::{CHECK_FORMAT, Check, Decision};
+use store::printable_table;
+use suite::Failure;
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 

@@ -5,7 +5,7 @@ mod refusals;
 use std::fs;
 
 use serde_json::Value;
-use suite::{
+use study::{
     Answer, AnswerFile, Chosen, Clip, DisplayFacts, Question, SHARP_CLIP, ShownPair, Study,
     TRUTH_CLIP, draw_session,
 };

@@ -25,8 +25,8 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
         "<td class=\"required\" data-value=\"{flip}\"><a class=\"case\" href=\"#plate/identity:default\">\
          <span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
          <span class=\"unseen\">, 95 % CI {} to {}",
-        suite::number(interval.low),
-        suite::number(interval.high)
+        judge::number(interval.low),
+        judge::number(interval.high)
     );
     assert!(page.contains(&cell), "{cell}");
     assert!(page.contains("<span class=\"unseen\">, broken, required limit 0.2000</span></a>"));

@@ -64,7 +64,7 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
     let run = bench.read_run();
     let table = panel(&page, "flip_moving");
     let terminal = cli::ranking_text(&run.cases);
-    for ranked in suite::rank_for_summary(&run.cases).concat() {
+    for ranked in judge::rank_for_summary(&run.cases).concat() {
         let cells: Vec<f64> = (run.cases.iter().filter(|case| case.name() == ranked.name))
             .map(|case| {
                 let link = format!("href=\"#{}\"", address(case));
@@ -91,7 +91,7 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
     }
     // Both name the same best filters, and the same ties.
     let best = between(&page, "<ul class=\"winners\">", "</ul>")[0];
-    for group in suite::rank_for_summary(&run.cases) {
+    for group in judge::rank_for_summary(&run.cases) {
         let name = format!(
             "shutter: <strong><a href=\"#filter:{0}\">{0}</a>",
             group[0].name

@@ -5,8 +5,9 @@ mod gather;
 mod paper;
 mod way_back;
 
-use crate::fields::{Field, noise, rectangles};
 use filters::{Blur, Filter, Gpu, Settings, Value};
+
+use crate::fields::{Field, noise, rectangles};
 use flood::Chosen;
 use paper::{Jitter, Paper, Reference};
 use tests::open_gpu;

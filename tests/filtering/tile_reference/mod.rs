@@ -6,9 +6,10 @@ mod noise;
 mod published;
 mod tiles;
 
-use crate::fields::{self, Field, rectangles};
 use filters::{Blur, Filter, Settings, Value};
 use frame::{Image, Raster};
+
+use crate::fields::{self, Field, rectangles};
 use tests::open_gpu;
 use tiles::{Tiles, Vec2, length};
 

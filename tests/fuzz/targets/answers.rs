@@ -1,10 +1,11 @@
 //! Files of people's answers, which the page of `ask` writes and `preferences` reads.
 
 use cli::preferences_table;
-use suite::{
-    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, Clip, DisplayFacts, Frames, Question, SHARP_CLIP,
+use study::{
+    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, Clip, DisplayFacts, Question, SHARP_CLIP,
     ShownPair, Study, StudyShutter, TRUTH_CLIP, draw_session, find_preferences, read_sessions,
 };
+use suite::Frames;
 
 use crate::huge;
 use crate::seeds::Seed;

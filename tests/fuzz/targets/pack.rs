@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use suite::{Manifest, PACK_FORMAT, Pack, PackedFile};
+use store::{Manifest, PACK_FORMAT, Pack, PackedFile};
 
 use crate::huge;
 use crate::place::Place;

@@ -6,11 +6,12 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use cli::{annotations, check_text, compare_table, junit, run_table, summary};
-use report::{LARGEST_PAGE, compare_page, write_report};
-use suite::{
-    Acceptance, Baseline, Finding, Judgement, Margin, Run, RunBounds, Side, accept_scores,
-    add_evidence, check, compare_runs, compare_with_baseline, judge, read_bounds, write_layers,
+use judge::{
+    Acceptance, Baseline, Finding, Judgement, Margin, RunBounds, Side, accept_scores, add_evidence,
+    check, compare_runs, compare_with_baseline, judge, read_bounds,
 };
+use report::{LARGEST_PAGE, compare_page, write_report};
+use suite::{Run, write_layers};
 
 use crate::huge;
 use crate::place::Place;
@@ -131,7 +132,7 @@ fn write_page(run: &Run, findings: &[Finding], folder: &Path) {
 fn show(
     run: &Run,
     findings: Vec<Finding>,
-    comparisons: Vec<suite::BaselineComparison>,
+    comparisons: Vec<judge::BaselineComparison>,
     out: &Path,
 ) {
     let checked = check(run, findings, comparisons);

@@ -4,8 +4,8 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use engine::{ImportPlan, Motions, Up, import};
 use frame::{Alignment, FrameOptions, Image, VelocityKind};
-use suite::{ImportPlan, Motions, Up, import};
 use tracer::{RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
 
 use super::none;

@@ -3,7 +3,7 @@
 use std::fs;
 
 use report::{TuneFolder, tuning_page};
-use suite::Journal;
+use tune::Journal;
 
 use super::run_json::of;
 use crate::huge;

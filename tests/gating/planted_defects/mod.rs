@@ -8,11 +8,9 @@ use std::path::PathBuf;
 
 use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
+use judge::{Check, Decision, RunBounds, check, judge};
 use metrics::BoundMetric;
-use suite::{
-    Case, Check, Decision, FilterChoice, InputFormat, Monitor, Run, RunBounds, RunPlan, check,
-    judge, measure_scenes, open_gpu,
-};
+use suite::{Case, FilterChoice, InputFormat, Monitor, Run, RunPlan, measure_scenes, open_gpu};
 use tests::filter_folder::copy_changed_filter;
 use tests::limits::calibrate_scene;
 use tracer::{RenderSettings, Scene};

@@ -5,8 +5,8 @@ mod decoys;
 mod scenes;
 
 use frame::Picture;
+use judge::{Bounds, Outcome, judge_scores, read_bounds_file};
 use metrics::{Measured, Metric, Reference, Scores};
-use suite::{Bounds, Outcome, judge_scores, read_bounds_file};
 use tests::synthetic::{Blur, Scene, VIEWING};
 
 use crate::noisy;

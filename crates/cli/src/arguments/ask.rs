@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use glob::Pattern;
-use suite::Question;
+use study::Question;
 
 use super::parse::{parse_glob, parse_named, parse_whole};
 

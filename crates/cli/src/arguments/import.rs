@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use suite::Up;
+use engine::Up;
 
 use super::parse::{parse_degrees_per_frame, parse_exposure, parse_named, parse_pixels_per_frame};
 

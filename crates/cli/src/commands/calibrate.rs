@@ -1,10 +1,9 @@
 //! The command `calibrate`.
 
+use judge::{BOUNDS_FILE, bound_subframes, calibrate, check_names};
 use metrics::{BoundMetric, Metric};
-use suite::{
-    BOUNDS_FILE, Error, Run, RunPlan, bound_subframes, calibrate, check_names, estimate_run,
-    measure_scenes, open_gpu, printable_path, refuse_failures,
-};
+use store::printable_path;
+use suite::{Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, refuse_failures};
 use tracer::{Progress, Watch};
 
 use super::expected::print_expected_time;

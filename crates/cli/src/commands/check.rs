@@ -4,11 +4,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use frame::FileError;
-use suite::{
-    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence,
-    bound_subframes, check, check_lengths, check_names, compare_with_baseline, is_of_subframes,
-    judge, open_gpu, printable_path, refuse_tracked, require_bounds, size_for_bounds,
+use judge::{
+    BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
+    check_lengths, check_names, compare_with_baseline, is_of_subframes, judge, require_bounds,
+    size_for_bounds,
 };
+use store::{printable_path, refuse_tracked};
+use suite::{Error, Run, open_gpu};
 use tracer::Location;
 
 use super::ending::Ending;

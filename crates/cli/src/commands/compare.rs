@@ -1,7 +1,8 @@
 //! The command `compare`.
 
+use judge::{Side, compare_runs};
 use report::compare_page;
-use suite::{Error, Side, compare_runs};
+use suite::Error;
 
 use super::margins::read_margins;
 use super::pages::write_page;

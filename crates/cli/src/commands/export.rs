@@ -1,7 +1,8 @@
 //! The command `export`.
 
-use export::{ExportError, Manifest, export_gltf};
-use suite::{Error, PROGRAM, printable_path};
+use engine::{ExportError, Manifest, export_gltf};
+use store::printable_path;
+use suite::{Error, PROGRAM};
 
 use crate::arguments::ExportArgs;
 use crate::output::print::print;

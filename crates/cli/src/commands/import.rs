@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use suite::{Error, ImportPlan, Imported, Motions, import, printable_path};
+use engine::{ImportPlan, Imported, Motions, import};
+use store::printable_path;
+use suite::Error;
 
 use super::render_settings::check_exposure;
 use crate::arguments::ImportArgs;

@@ -1,7 +1,8 @@
 //! The command `man`.
 
 use clap_mangen::Man;
-use suite::{Error, printable_path};
+use store::printable_path;
+use suite::Error;
 
 use crate::arguments::{ManArgs, visible_command_line};
 use crate::output::print::print;

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use suite::{BOUNDS_FILE, Error, Margin, read_bounds_file};
+use judge::{BOUNDS_FILE, Margin, read_bounds_file};
+use suite::Error;
 use tracer::Location;
 
 /// Margins by the names of metrics.

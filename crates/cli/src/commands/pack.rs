@@ -1,6 +1,7 @@
 //! The command `pack`.
 
-use suite::{Error, Run, find_newer_sizes, printable_path, write_pack};
+use store::printable_path;
+use suite::{Error, Run, find_newer_sizes, write_pack};
 
 use crate::arguments::PackArgs;
 use crate::output::count::count_text;

@@ -1,10 +1,9 @@
 //! The command `preferences`.
 
 use glob::Pattern;
-use suite::{
-    Error, Run, Side, Study, StudyChoice, find_preferences, make_study, read_sessions,
-    refuse_other_run,
-};
+use judge::Side;
+use study::{Study, StudyChoice, find_preferences, make_study, read_sessions, refuse_other_run};
+use suite::{Error, Run};
 
 use crate::arguments::PreferencesArgs;
 use crate::output::print::{print, print_json};

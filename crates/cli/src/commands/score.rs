@@ -2,7 +2,8 @@
 
 use frame::{Frame, Ladder, Truth};
 use metrics::Metric;
-use suite::{Error, Scored, engine_name, missing_scores, printable, read_finished_picture, score};
+use store::printable;
+use suite::{Error, Scored, engine_name, missing_scores, read_finished_picture, score};
 
 use super::convention::read_convention;
 use super::score_sequence;

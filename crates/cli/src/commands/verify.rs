@@ -5,10 +5,8 @@ use std::path::{Path, PathBuf};
 
 use frame::{FileError, Tile};
 use serde::Serialize;
-use suite::{
-    Error, KeptScene, Pack, TILE_SIDE, Verification, Verified, list_kept_scenes, printable_path,
-    verify_scene,
-};
+use store::{Pack, printable_path};
+use suite::{Error, KeptScene, TILE_SIDE, Verification, Verified, list_kept_scenes, verify_scene};
 
 use super::ending::Ending;
 use super::kept_truths::choose_seed;

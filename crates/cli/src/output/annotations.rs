@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
+use judge::{Check, Decision, Finding, number};
 use report::{finding_line, length_text, limit_text, way_out};
-use suite::{Check, Decision, Finding, number, printable};
+use store::printable;
 
 use crate::tables::check::{comparison_line, count_lines, verdict_word};
 

@@ -2,8 +2,8 @@
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
+use judge::{Check, Decision, Finding, Level, Outcome};
 use report::{finding_line, way_out, worst_frame_text};
-use suite::{Check, Decision, Finding, Level, Outcome};
 
 use crate::tables::check::comparison_line;
 

@@ -10,7 +10,8 @@ use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
 use terminal_size::{Width, terminal_size_of};
 use tracer::Progress;
 
-use suite::{Monitor, Step, printable};
+use store::printable;
+use suite::{Monitor, Step};
 
 use super::interrupts::was_interrupted;
 use super::print::print_error;

@@ -1,7 +1,9 @@
 //! Table of a run: one row per case.
 
+use judge::lag_text;
 use metrics::Scores;
-use suite::{Case, Headline, Run, lag_text, printable};
+use store::printable;
+use suite::{Case, Headline, Run};
 
 use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::Table;

@@ -1,14 +1,15 @@
 //! Tables of a comparison of two runs.
 
+use judge::{
+    Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, rank_changes,
+};
+use store::printable;
+
 use super::layout::{Align, Table};
 use crate::output::colors::{bad, doubtful, faint, good};
 use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
 use report::ChangeCells;
-use suite::{
-    Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, printable,
-    rank_changes,
-};
 
 /// Upper limit on changed cases in the table; `--json` and the page have all.
 const CASES: usize = 12;

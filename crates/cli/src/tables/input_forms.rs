@@ -1,6 +1,7 @@
 //! Table of what each form of the input costs each filter.
 
-use suite::{Case, Headline, InputFormat, ShutterRule, list_summarized};
+use judge::list_summarized;
+use suite::{Case, Headline, InputFormat, ShutterRule};
 
 use super::columns::{legend_text, list_once, number_table};
 

@@ -1,7 +1,7 @@
 //! Listings of scenes and filters, in brief and in detail.
 
 use filters::{Command, Filter, Parameter, Preset, Unit};
-use suite::printable;
+use store::printable;
 use tracer::SceneListing;
 
 use crate::output::colors::heading;

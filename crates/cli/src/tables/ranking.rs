@@ -1,9 +1,7 @@
 //! Summary of a run: the ranking of its filters, and the references beside them.
 
-use suite::{
-    Case, Headline, MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag,
-    rank_for_summary,
-};
+use judge::{MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, rank_for_summary};
+use suite::{Case, Headline};
 
 use tracer::FrameRate;
 

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use filters::Filter;
-use suite::{Headline, RankedFilter, ResultScores, Results};
+use judge::{RankedFilter, ResultScores, Results};
+use suite::Headline;
 use tracer::{Location, SceneListing, list_scenes};
 
 use super::results_page::{cost_text, list_filters, main_results, mean, sealed_of};

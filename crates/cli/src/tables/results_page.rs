@@ -3,10 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use suite::{
-    Error, FEWEST_SCENES, Headline, RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison,
-    compare_with_last,
-};
+use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_with_last};
+use suite::{Error, FEWEST_SCENES, Headline};
 use tracer::{Family, Location, list_scenes};
 
 use super::columns::list_once;

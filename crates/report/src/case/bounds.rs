@@ -8,7 +8,7 @@ use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, Tally, finding_line, limit_text, way_out, worst_frame_text};
 use crate::numbers::counted;
 use crate::sequence::SEQUENCES_PAGE;
-use suite::{CROP, Finding, Level, number};
+use judge::{CROP, Finding, Level, number};
 
 /// Lists the required bounds of a run that are not met, each with a link to its case.
 pub fn broken_bounds(pages: &[CaseView]) -> Markup {

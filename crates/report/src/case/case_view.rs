@@ -3,7 +3,8 @@
 use super::evidence::{Evidence, find_evidence};
 use super::profile::{Profile, trace_profile, worst_pixel};
 use crate::pixels::scene_files::{Layers, SceneFiles};
-use suite::{BLOCK, Case, Error, Finding, Run, worst_block};
+use judge::{BLOCK, Finding, worst_block};
+use suite::{Case, Error, Run};
 
 /// A case with all that a page shows of its files.
 pub struct CaseView<'a> {

@@ -5,8 +5,8 @@ use std::str::FromStr;
 use metrics::Metric;
 
 use crate::pixels::scene_files::{CaseFiles, SceneFiles};
+use judge::{Finding, worst_block};
 use suite::{Case, Error};
-use suite::{Finding, worst_block};
 
 /// The worst place of one score.
 #[derive(Clone, Debug, PartialEq)]

@@ -19,10 +19,11 @@ use crate::pixels::scene_files::find_traced;
 use crate::run_facts::{provenance_line, truth_text};
 use bounds::bounds;
 use case_view::CaseView;
+use judge::Level;
 use profile::Profile;
 use profile_chart::profile_chart;
 use scores::score_rows;
-use suite::{Case, Drawn, Headline, Level};
+use suite::{Case, Drawn, Headline};
 
 /// Tables of a case: what stands above its pictures, and below them.
 pub struct CaseTables {

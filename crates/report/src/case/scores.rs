@@ -5,7 +5,8 @@ use metrics::{Group, Measured, Metric};
 
 use super::case_view::CaseView;
 use crate::finding_text::{Status, interval_text, limit_text};
-use suite::{Case, number};
+use judge::number;
+use suite::Case;
 
 /// Lists the scores of all groups.
 pub fn score_rows(page: &CaseView) -> Markup {

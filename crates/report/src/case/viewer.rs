@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use super::legend::draw_legends;
 use crate::document::script_data;
 use crate::pixels::layer::Layer;
-use suite::{BLOCK, Run};
+use judge::BLOCK;
+use suite::Run;
 
 /// Modes in which two pictures are compared: the script's word, the name, and the key.
 const MODES: [(&str, &str, &str); 5] = [

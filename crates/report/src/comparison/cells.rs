@@ -1,6 +1,6 @@
 //! Words and numbers of a change, alike on the page and in the terminal.
 
-use suite::{Change, ChangeKind, MeanChange, number, score_change};
+use judge::{Change, ChangeKind, MeanChange, number, score_change};
 
 use crate::numbers::signed;
 

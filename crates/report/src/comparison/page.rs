@@ -9,10 +9,11 @@ use super::runs::both_runs;
 use crate::charts::strip::Strip;
 use crate::document::{Document, Siblings};
 use crate::table::{Column, scroll_table};
-use suite::{
-    Change, ChangeKind, Error, MeanChange, MeanKind, Pair, RunComparison, Side, filter_label,
-    pair_cases, rank_changes,
+use judge::{
+    Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison, Side, filter_label, pair_cases,
+    rank_changes,
 };
+use suite::Error;
 
 /// Number of cases that are shown in pictures, those that changed most.
 const SHOWN: usize = 12;

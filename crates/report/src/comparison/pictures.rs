@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use frame::{Plane, read_exr};
 
 use crate::pixels::png::{embed_file, embed_picture};
-use suite::{Error, Pair, Side};
+use judge::{Pair, Side};
+use suite::Error;
 
 /// Pictures of one case, each as an address that holds the picture itself.
 pub struct Pictures {

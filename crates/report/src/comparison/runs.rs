@@ -4,7 +4,8 @@ use maud::{Markup, html};
 
 use crate::run_facts::facts;
 use crate::table::{Column, scroll_table};
-use suite::{Run, Side};
+use judge::Side;
+use suite::Run;
 
 /// Lists the settings of both runs, and the truths that they share.
 pub fn both_runs(first: &Side, second: &Side) -> Markup {

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use filters::Value;
-use suite::{BENCH_FORMAT, Bench, CaseCost, Error, REACHES, SIDES, read_text};
+use store::read_text;
+use suite::{BENCH_FORMAT, Bench, CaseCost, Error, REACHES, SIDES};
 
 use crate::case_table::CaseTable;
 use crate::filter_id::FilterId;

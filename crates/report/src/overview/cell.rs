@@ -6,7 +6,8 @@ use metrics::{Ideal, Measured};
 use crate::case::case_view::CaseView;
 use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, interval_text, limit_text};
-use suite::{Finding, Headline, Level, Outcome};
+use judge::{Finding, Level, Outcome};
+use suite::Headline;
 
 /// Least badness that a colour tells from another one, where scores have a logarithmic scale.
 const LEAST: f64 = 1e-3;

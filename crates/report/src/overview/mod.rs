@@ -19,8 +19,9 @@ use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
 use costs::costs;
 use headlines::{TABLE_SCORES, better, meaning};
+use judge::{Level, lag_text};
 use score_table::score_table;
-use suite::{Bench, Headline, Level, lag_text};
+use suite::{Bench, Headline};
 use winners::{sequence_winners, winners};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.

@@ -11,7 +11,8 @@ use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
 use crate::filter_id::{FilterId, mean};
 use crate::finding_text::Tally;
-use suite::{Bench, Case, Headline, Level, Overall, list_summarized};
+use judge::{Level, list_summarized};
+use suite::{Bench, Case, Headline, Overall};
 use tracer::FrameRate;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.

@@ -1,7 +1,8 @@
 //! The best filters of every shutter.
 
+use judge::{RANKED_BY, RankedFilter, rank_for_summary, rank_sequences};
 use maud::{Markup, html};
-use suite::{Headline, RANKED_BY, RankedFilter, Run, rank_for_summary, rank_sequences};
+use suite::{Headline, Run};
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, case_anchor};

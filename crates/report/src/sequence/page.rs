@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
 use serde::Serialize;
-use suite::{CHANGE_PICTURE, Finding, RANKED_BY, Run, Sequence};
+use suite::{CHANGE_PICTURE, Run, Sequence};
 
 use super::ranking::ranking_tables;
 use super::scores::score_tables;

@@ -1,8 +1,9 @@
 //! Tables of scores over time.
 
+use judge::{Finding, RankedSequence, rank_sequences_on};
 use maud::{Markup, html};
 use metrics::{Measured, SequenceMetric};
-use suite::{Finding, RankedSequence, Run, Sequence, rank_sequences_on};
+use suite::{Run, Sequence};
 
 use super::ranking::metric_table;
 use crate::finding_text::{Status, limit_text};

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::numbers::percent;
 use crate::table::{Column, scroll_table};
-use suite::{Advice, Preference, Tuning};
+use tune::{Advice, Preference, Tuning};
 
 /// Writes the outcome in a few sentences.
 pub fn summary(tuning: &Tuning) -> Markup {

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::charts::plot::{Axis, Plot};
-use suite::{Trial, TrialOutcome};
+use tune::{Trial, TrialOutcome};
 
 /// Largest loss that is drawn: failed trials, and those far off, are drawn here.
 const MOST_LOSS: f64 = 1.0;

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use crate::charts::strip::Strip;
 use crate::numbers::percent;
 use crate::table::{Column, scroll_table};
-use suite::Fold;
+use tune::Fold;
 
 /// Lists the families; nothing where there were no two.
 pub fn folds(folds: &[Fold]) -> Markup {

@@ -7,7 +7,7 @@ use crate::charts::is_undominated;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
 use crate::table::{Column, scroll_table};
-use suite::{Advice, Trial, round_bleed};
+use tune::{Advice, Trial, round_bleed};
 
 /// A measure that a chart shows against the error.
 struct Against {

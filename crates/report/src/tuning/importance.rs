@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::charts::strip::Strip;
 use crate::table::{Column, scroll_table};
-use suite::{ParameterSensitivity, Sensitivity};
+use tune::{ParameterSensitivity, Sensitivity};
 
 /// Lists the parameters, those that matter most first.
 pub fn importance(found: &Sensitivity) -> Markup {

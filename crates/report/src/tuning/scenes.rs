@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use super::folds::change_bar;
 use crate::numbers::percent;
 use crate::table::{Column, scroll_table};
-use suite::{HeldOutResult, SceneScore, Tuning, log_ratio};
+use tune::{HeldOutResult, SceneScore, Tuning, log_ratio};
 
 /// Lists the scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {

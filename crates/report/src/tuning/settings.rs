@@ -1,7 +1,7 @@
 //! Settings that a tuning ran with.
 
 use maud::{Markup, html};
-use suite::JournalHeader;
+use tune::JournalHeader;
 
 use crate::table::{Column, scroll_table};
 

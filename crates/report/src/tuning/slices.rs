@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 use super::folder::TuneFolder;
 use crate::charts::plot::{Axis, Plot};
-use suite::Trial;
+use tune::Trial;
 
 /// Ranges of more than this factor have an axis of equal factors.
 const LOG_FROM: f64 = 30.0;

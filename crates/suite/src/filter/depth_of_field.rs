@@ -6,7 +6,7 @@ use frame::Frame;
 use tracer::{Defocus, Scene, trace_defocus, trace_frame};
 
 use super::traced_again::settings_of;
-use crate::named::named;
+use crate::named;
 use crate::{Error, Monitor};
 
 named! {

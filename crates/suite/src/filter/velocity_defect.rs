@@ -5,7 +5,7 @@ use tracer::{PointMotion, Scene, trace_motion};
 
 use super::traced_again::settings_of;
 use crate::Error;
-use crate::named::named;
+use crate::named;
 
 /// Jitter of two consecutive frames, as temporal anti-aliasing has it: the second point of the Halton sequence of bases 2 and 3 less
 /// the first, in pixels.

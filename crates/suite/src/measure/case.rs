@@ -19,11 +19,11 @@ use super::probes::{FilterOutput, blur_noise_frames, blur_with_probes};
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use crate::Error;
+use crate::engine_scene::EngineScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::depth_of_field::DepthOfField;
 use crate::filter::input_format::InputFormat;
 use crate::filter::runner::Runner;
-use crate::ingest::engine_scene::EngineScene;
 use crate::run::case::{Case, Intervals};
 use crate::stats::intervals::intervals;
 

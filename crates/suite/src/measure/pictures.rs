@@ -7,9 +7,9 @@ use frame::{
     write_exr, write_half_exr, write_png,
 };
 use metrics::Measurement;
+use store::{LADDER, ladder_folder};
 
 use crate::colors::{magma, velocity_wheel};
-use crate::render::ladders::{LADDER, ladder_folder};
 use crate::run::error_maps::KEPT_MAPS;
 
 /// Files of a frame, in the folder of its scene.

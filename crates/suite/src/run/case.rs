@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use tracer::{Family, FrameRate};
 
 use crate::InputFormat;
+use crate::engine_scene::engine_name;
 use crate::filter::choice::overrides_text;
-use crate::ingest::engine_scene::engine_name;
 use crate::render::ladders::SHARP;
 
 /// Confidence intervals of scores, by the names of their metrics.

@@ -5,15 +5,13 @@ use std::path::{Component, Path};
 use std::str::FromStr;
 
 use frame::Alignment;
+use store::{MOST_REPLICATES, MOST_RUN_BYTES, check_strings, read_text_within, to_lines};
 
 use super::case::Case;
 use super::sequence::{MOST_FRAMES, Sequence};
 use super::{FORMAT, Run};
 use crate::Error;
-use crate::json::file::{MOST_RUN_BYTES, read_text_within};
-use crate::json::lines::to_lines;
-use crate::json::strings::check_strings;
-use crate::render::settings::{MOST_REPLICATES, SIDES};
+use crate::render::settings::SIDES;
 
 /// Upper limit on the cases of a run.json.
 pub const MOST_CASES: usize = 50_000;
@@ -142,7 +140,7 @@ fn check_sequence(sequence: &Sequence) -> Result<(), String> {
 }
 
 /// Tells whether a path leads below the folder that it starts from. Nothing is read or written elsewhere.
-pub(crate) fn is_below(path: &Path) -> bool {
+pub fn is_below(path: &Path) -> bool {
     let mut parts = path.components().peekable();
     parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }

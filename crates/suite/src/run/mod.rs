@@ -2,12 +2,10 @@
 
 pub mod case;
 pub mod case_key;
-pub mod earlier;
 pub mod error_maps;
 pub mod failure;
 pub mod file;
 pub mod layers;
-pub mod merge;
 pub mod overall;
 mod scaling;
 pub mod sequence;

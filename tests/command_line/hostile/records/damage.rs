@@ -5,9 +5,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use cli::{compare_table, run_table};
+use judge::{Acceptance, Baseline, Side, accept_scores, compare_runs};
 use report::{LARGEST_PAGE, compare_page, write_report};
 use serde_json::{Value, json};
-use suite::{Acceptance, Baseline, Error, Run, Side, accept_scores, compare_runs};
+use suite::{Error, Run};
 
 use crate::bench::{Bench, assert_done, assert_refused};
 

@@ -7,7 +7,9 @@ mod reply;
 use std::collections::BTreeSet;
 
 use serde_json::json;
-use suite::{Error, Evaluator, Objective, SceneScore, Sharing, evaluate_candidate};
+use store::Sharing;
+use suite::Error;
+use tune::{Evaluator, Objective, SceneScore, evaluate_candidate};
 
 use self::inbox::{Inbox, ScoreRequest};
 use self::reply::print_reply;
