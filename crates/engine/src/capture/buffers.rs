@@ -6,7 +6,6 @@ use filters::{Convention, DepthKind};
 use frame::{
     ExrFile, FAR_DEPTH, Image, Plane, Raster, Samples, Vectors, read_exr, read_png, scene_linear,
 };
-
 use suite::{Error, SIDES};
 
 /// Most by which a number of a depth buffer may leave the buffer's range, as rounding makes it.

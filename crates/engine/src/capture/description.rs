@@ -4,10 +4,9 @@ use std::path::Path;
 
 use frame::{Alignment, MOST_STOPS, is_hidden};
 use serde::Deserialize;
-use tracer::FrameRate;
-
 use store::read_text;
 use suite::Error;
+use tracer::FrameRate;
 
 /// Name of the file.
 pub const CAPTURE_FILE: &str = "capture.toml";

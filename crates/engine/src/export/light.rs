@@ -5,14 +5,13 @@ use std::path::Path;
 
 use frame::{ExrFile, FileError, Image, write_exr};
 use glam::{DQuat, DVec3};
-use gltf_json::Index;
-use gltf_json::Node;
 use gltf_json::extensions::root::KhrLightsPunctual;
 use gltf_json::extensions::scene::khr_lights_punctual::{
     KhrLightsPunctual as LightOfNode, Light, Type,
 };
 use gltf_json::scene::UnitQuaternion;
 use gltf_json::validation::Checked;
+use gltf_json::{Index, Node};
 use tracer::{Background, Sun};
 
 use crate::export::buffer::Document;

@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 
 use frame::FileError;
-
 use suite::Error;
 
 /// Makes a folder and those above it.

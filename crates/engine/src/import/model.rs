@@ -5,8 +5,7 @@ use std::ops::RangeInclusive;
 use std::path::{Component, Path, PathBuf};
 
 use frame::{FileError, read_bounded};
-use suite::Error;
-use suite::named;
+use suite::{Error, named};
 use tracer::limits::LARGEST_MESH_FILE;
 use tracer::{SceneError, load_scene_and_files};
 

@@ -1,8 +1,7 @@
 //! Motion of an imported scene.
 
-use tracer::Family;
-
 use suite::Error;
+use tracer::Family;
 
 /// Speeds of model and camera, at least one of them given.
 #[derive(Clone, Copy, Debug, Default)]

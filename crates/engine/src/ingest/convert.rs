@@ -7,9 +7,10 @@ use frame::{
     Truth, VelocityKind, display_srgb, write_exr, write_png,
 };
 use store::{Sharing, claim, ladder_folder, refuse_long_names, refuse_scene};
-use suite::velocity_wheel;
-use suite::{BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word};
-use suite::{Error, PROGRAM};
+use suite::{
+    BLURRED, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM, engine_name,
+    name_in_one_word, velocity_wheel,
+};
 use tracer::Watch;
 
 use crate::capture::folder::Capture;
