@@ -8,8 +8,7 @@ use frame::write_atomically;
 use serde::{Deserialize, Serialize};
 
 use crate::comparison::PairedComparison;
-use suite::Error;
-use suite::read_text;
+use suite::{Error, read_text};
 
 /// One comparison of start and choice on the held-out scenes: a line of `openings.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,7 +25,7 @@ pub struct HeldOutResult {
 }
 
 /// Reads all results so far.
-pub fn read_held_out_results(path: &Path) -> Result<Vec<HeldOutResult>, Error> {
+fn read_held_out_results(path: &Path) -> Result<Vec<HeldOutResult>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }

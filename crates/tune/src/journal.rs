@@ -10,8 +10,7 @@ use serde_json::Value;
 
 use crate::header::JournalHeader;
 use crate::trial::Trial;
-use suite::Error;
-use suite::read_text;
+use suite::{Error, read_text};
 
 /// Characters of a setting that an error shows.
 const MOST_SHOWN: usize = 80;
