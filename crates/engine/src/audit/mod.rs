@@ -17,6 +17,5 @@ pub use audit_pictures::write_audit_picture;
 pub use capture_audit::{CaptureAudit, audit_capture};
 pub use cause::Cause;
 pub use defect::{Buffer, Defect};
-pub use depth_audit::DepthAudit;
 pub use shown::ObjectShown;
 pub use velocity_audit::ObjectAudit;
