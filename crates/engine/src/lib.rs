@@ -5,6 +5,8 @@ mod capture;
 mod export;
 mod import;
 mod ingest;
+mod refusal;
+mod statistics;
 
 pub use audit::{
     Buffer, CaptureAudit, Cause, Defect, ObjectAudit, ObjectShown, audit_capture,

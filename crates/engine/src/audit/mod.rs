@@ -9,6 +9,7 @@ mod defect;
 mod depth_audit;
 mod expected_motion;
 mod fitted_motion;
+mod rendered_view;
 mod shown;
 mod velocity_audit;
 mod views;
