@@ -10,8 +10,8 @@ use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
 use crate::ingest::moving::{ColorRange, mark_reached};
 use crate::ingest::objects::draw_coverage;
-use suite::Error;
-use suite::LADDER;
+use crate::refusal::refuse;
+use suite::{Error, LADDER};
 
 /// Least number of sub-frames.
 const FEWEST_SUBFRAMES: usize = 4;
@@ -96,12 +96,14 @@ fn check_count(capture: &Capture) -> Result<(), Error> {
     let count = capture.subframes.len();
     match count.is_multiple_of(2) && (FEWEST_SUBFRAMES..=MOST_SUBFRAMES).contains(&count) {
         true => Ok(()),
-        false => Err(Error::Usage(format!(
-            "{}: holds {count} sub-frames; allowed: even numbers from {FEWEST_SUBFRAMES} to {MOST_SUBFRAMES}, at the \
-             midpoints of equal parts of the shutter that {CAPTURE_FILE} names: half of them tell the noise of the others; \
-             capture 32, for instance",
-            capture.folder.join(SUBFRAMES).display()
-        ))),
+        false => refuse(
+            &capture.folder.join(SUBFRAMES),
+            &format!(
+                "holds {count} sub-frames; allowed: even numbers from {FEWEST_SUBFRAMES} to {MOST_SUBFRAMES}, at the midpoints of \
+                 equal parts of the shutter that {CAPTURE_FILE} names: half of them show the noise of the others; capture 32, for \
+                 instance"
+            ),
+        ),
     }
 }
 
@@ -113,11 +115,7 @@ fn pick_subframes(rung: u32, count: usize, half: usize) -> Vec<usize> {
         let doubled = (2 * part + 1) * count;
         let later = doubled / (2 * rung);
         let is_between = doubled.is_multiple_of(2 * rung);
-        if half == 0 && is_between {
-            later - 1
-        } else {
-            later
-        }
+        later - usize::from(half == 0 && is_between)
     });
     picks.collect()
 }
@@ -262,10 +260,10 @@ mod tests {
             for part in 0..rung as usize {
                 let places = halves.each_ref().map(|picks| picks[part] as f64 + 0.5);
                 let middle = 0.5 * (places[0] + places[1]) / count as f64;
-                let due = (part as f64 + 0.5) / f64::from(rung);
+                let expected = (part as f64 + 0.5) / f64::from(rung);
                 // Where the parts are no whole number of sub-frames, the nearest is at most half of one away.
                 assert!(
-                    (middle - due).abs() <= 0.5 / count as f64 + 1e-12,
+                    (middle - expected).abs() <= 0.5 / count as f64 + 1e-12,
                     "{rung} of {count}: {halves:?}"
                 );
             }
