@@ -3,9 +3,9 @@
 mod audit;
 mod capture;
 mod export;
+mod files;
 mod import;
 mod ingest;
-mod refusal;
 mod statistics;
 
 pub use audit::{

@@ -16,7 +16,7 @@ use crate::audit::velocity_audit::{ObjectAudit, audit_velocity};
 use crate::audit::views::find_other_views;
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::Capture;
-use crate::refusal::refuse;
+use crate::files::refuse;
 use suite::Error;
 
 /// Part of the pixels whose depth must be known before it tells, without ids, what the engine shows there.

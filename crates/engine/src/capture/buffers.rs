@@ -7,7 +7,7 @@ use frame::{
     ExrFile, FAR_DEPTH, Image, Plane, Raster, Samples, Vectors, read_exr, read_png, scene_linear,
 };
 
-use crate::refusal::refuse;
+use crate::files::refuse;
 use suite::{Error, SIDES, printable};
 
 /// Most by which a number of a depth buffer may leave the buffer's range, as rounding makes it.

@@ -6,7 +6,7 @@ use frame::{Alignment, MOST_STOPS, is_hidden};
 use serde::Deserialize;
 use tracer::FrameRate;
 
-use crate::refusal::refuse;
+use crate::files::refuse;
 use suite::{Error, read_text};
 
 /// Name of the file.

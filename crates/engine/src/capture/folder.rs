@@ -12,7 +12,7 @@ use crate::capture::buffers::{
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
-use crate::refusal::refuse;
+use crate::files::refuse;
 use suite::{Error, read_text};
 
 /// Name of the file of a capture that holds its convention.

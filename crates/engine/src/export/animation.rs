@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use tracer::{Motion, Shape};
 
 use crate::export::document::{Document, widen};
-use crate::export::motion::{CubicKey, Track, Tracks};
+use crate::export::motion::{Track, Tracks};
 use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
 
 /// The animation of a scene: channels and samplers.
@@ -89,11 +89,11 @@ impl<'a> Channels<'a> {
                 // Slopes are per second there.
                 let slope =
                     |own: T| value(own).map(|part| (f64::from(part) * FRAMES_PER_SECOND) as f32);
-                let triple = |key: &CubicKey<T>| {
-                    [slope(key.slope_in), value(key.value), slope(key.slope_out)]
-                };
-                let times = keys.iter().map(|key| key.time).collect();
-                (times, keys.iter().flat_map(triple).collect(), "CUBICSPLINE")
+                let times = keys.iter().map(|(time, _)| *time).collect();
+                let triples = keys.iter().flat_map(|(_, [before, own, after])| {
+                    [slope(*before), value(*own), slope(*after)]
+                });
+                (times, triples.collect(), "CUBICSPLINE")
             }
         };
         let output = document.push_floats(&values, None);
@@ -142,7 +142,7 @@ fn first_of<T: Copy>(track: &Track<T>) -> T {
     match track {
         Track::Still(value) => *value,
         Track::Linear(keys) => keys[0].1,
-        Track::Cubic(keys) => keys[0].value,
+        Track::Cubic(keys) => keys[0].1[1],
     }
 }
 

@@ -6,6 +6,8 @@ use std::path::Path;
 use frame::{FileError, write_atomically};
 use serde_json::{Value, json};
 
+use crate::files::write_json;
+
 /// Name of the document.
 const DOCUMENT: &str = "scene.gltf";
 /// Name of the file that holds vertices and keys.
@@ -136,12 +138,6 @@ impl Document {
         write_atomically(&folder.join(BUFFER), &self.bytes)?;
         write_json(&folder.join(DOCUMENT), &fields)
     }
-}
-
-/// Writes plain data as JSON.
-pub fn write_json(path: &Path, content: &impl serde::Serialize) -> Result<(), FileError> {
-    let text = serde_json::to_vec_pretty(content).expect("plain data can be written");
-    write_atomically(path, &text)
 }
 
 /// Widens a number so that its text keeps the few digits that it has.

@@ -8,13 +8,14 @@ use suite::Error;
 use tracer::{Location, Parent, Scene};
 
 use crate::export::animation::Channels;
-use crate::export::document::{Document, widen, write_json};
+use crate::export::document::{Document, widen};
 use crate::export::light::{SKY, SUN_EXTENSION, push_sun, sun_light, write_sky};
 use crate::export::manifest::{MANIFEST, Manifest};
 use crate::export::material::push_material;
 use crate::export::mesh::push_mesh;
 use crate::export::textures::Textures;
 use crate::export::timeline::Timeline;
+use crate::files::write_json;
 
 /// Nearest depth that a camera shows, in metres: glTF asks for one, the tracer has none.
 const NEAR: f64 = 0.01;

@@ -14,7 +14,7 @@ use tracer::load_scene;
 use self::model::Model;
 pub use self::model::Up;
 pub use self::plan::{ImportPlan, Motions};
-use crate::refusal::refuse;
+use crate::files::refuse;
 use suite::Error;
 
 /// An imported scene.

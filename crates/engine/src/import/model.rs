@@ -8,7 +8,7 @@ use frame::{FileError, read_bounded, write_atomically};
 use tracer::limits::LARGEST_MESH_FILE;
 use tracer::{SceneError, load_scene_and_files};
 
-use crate::refusal::refuse;
+use crate::files::refuse;
 use suite::{Error, named};
 
 /// Name of the folder of the model's files, in the scene's folder.

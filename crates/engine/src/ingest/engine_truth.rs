@@ -8,9 +8,9 @@ use tracer::{Progress, TraceError, Watch};
 
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
+use crate::files::refuse;
 use crate::ingest::moving::{ColorRange, mark_reached};
 use crate::ingest::objects::draw_coverage;
-use crate::refusal::refuse;
 use suite::{Error, LADDER};
 
 /// Least number of sub-frames.
@@ -43,7 +43,7 @@ pub fn average_subframes(
 ) -> Result<EngineTruth, Error> {
     check_count(capture)?;
     let averages = Averages::read(capture, objects.len(), watch)?;
-    let halves = averages.halves.each_ref().map(Sum::mean);
+    let halves = averages.whole.halves.each_ref().map(Sum::mean);
     let changed = averages.range.mark_changed();
     let reached = mark_reached(&capture.velocity, shutter);
     let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
@@ -137,7 +137,8 @@ fn find_movers(support: &Support) -> Vec<bool> {
 
 /// All means that are made of the sub-frames, each of which is read once.
 struct Averages {
-    halves: [Sum; HALVES],
+    /// The mean of all sub-frames.
+    whole: Rung,
     rungs: Vec<Rung>,
     range: ColorRange,
 }
@@ -147,16 +148,17 @@ impl Averages {
     fn read(capture: &Capture, objects: usize, watch: Watch) -> Result<Self, Error> {
         let count = capture.subframes.len();
         let size = (capture.color.width, capture.color.height);
-        let none = || Sum::new(size, objects);
+        let make_rung = |subframes: u32, picks: [Vec<usize>; HALVES]| Rung {
+            subframes,
+            picks,
+            halves: [0, 1].map(|_| Sum::new(size, objects)),
+        };
+        let every_other = |half: usize| (half..count).step_by(HALVES).collect();
         let rungs = LADDER.into_iter();
         let mut averages = Self {
-            halves: std::array::from_fn(|_| none()),
+            whole: make_rung(count as u32, [0, 1].map(every_other)),
             rungs: (rungs.filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count))
-                .map(|subframes| Rung {
-                    subframes,
-                    picks: [0, 1].map(|half| pick_subframes(subframes, count, half)),
-                    halves: [none(), none()],
-                })
+                .map(|rung| make_rung(rung, [0, 1].map(|half| pick_subframes(rung, count, half))))
                 .collect(),
             range: ColorRange::new(size, capture.description.stops.unwrap_or(0.0)),
         };
@@ -181,8 +183,7 @@ impl Averages {
 
     fn add(&mut self, index: usize, picture: &Picture) {
         self.range.add(&picture.color);
-        self.halves[index % HALVES].add(picture);
-        for rung in &mut self.rungs {
+        for rung in std::iter::once(&mut self.whole).chain(&mut self.rungs) {
             for (picks, half) in rung.picks.iter().zip(&mut rung.halves) {
                 if picks.contains(&index) {
                     half.add(picture);
@@ -192,12 +193,12 @@ impl Averages {
     }
 }
 
-/// The mean of a few of the sub-frames.
+/// The mean of some of the sub-frames.
 struct Rung {
     subframes: u32,
     /// Indices of the sub-frames, per half.
-    picks: [Vec<usize>; 2],
-    halves: [Sum; 2],
+    picks: [Vec<usize>; HALVES],
+    halves: [Sum; HALVES],
 }
 
 impl Rung {

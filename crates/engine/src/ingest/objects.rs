@@ -3,7 +3,7 @@
 use frame::{Plane, Raster};
 
 use crate::capture::folder::{Capture, SUBFRAMES};
-use crate::refusal::refuse;
+use crate::files::refuse;
 use suite::Error;
 
 /// Name of what is no object.
