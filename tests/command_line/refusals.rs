@@ -206,7 +206,7 @@ fn ctrl_c_leaves_no_partial_file() {
     // Far more samples than the program can render before the interrupt.
     let mut child = bench
         .command(&split(
-            "render --quiet --out out --size 1024x512 --samples-per-pixel 65536",
+            "truths render --quiet --out out --size 1024x512 --samples-per-pixel 65536",
         ))
         .spawn()
         .unwrap();
@@ -239,7 +239,7 @@ fn names_that_no_folder_can_have_are_refused_before_anything_is_rendered() {
         &["run", "--filter", &filter, "--scenes", "plate"][..],
         &["run", "--filter", "identity", "--scenes", &long],
         &["check", "--filter", "identity", "--scenes", &long],
-        &["render", "--scenes", &long],
+        &["truths", "render", "--scenes", &long],
     ] {
         bench.write_bound(1.0);
         bench.copy_bound(&long);

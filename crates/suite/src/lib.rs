@@ -44,18 +44,16 @@ pub use compare::{
     compare_sizes, compare_with_last, filter_label, pair_cases, rank_changes, score_change,
 };
 pub use error::Error;
-pub use filter::border::Border;
 pub use filter::buffer_size::BufferSize;
 pub use filter::camera_jitter::CameraJitter;
 pub use filter::choice::FilterChoice;
 pub use filter::depth_format::DepthFormat;
 pub use filter::depth_of_field::DepthOfField;
-pub use filter::input_format::{InputFormat, InputForms};
+pub use filter::input_format::{InputForm, InputFormat, InputKind};
 pub use filter::multisampling::Multisampling;
 pub use filter::render_scale::RenderScale;
 pub use filter::runner::{Runner, open_adapter, open_gpu};
 pub use filter::shutter_rule::ShutterRule;
-pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;
 pub use folder::claim::{Claim, Sharing, claim};
 pub use folder::numbered::{find_numbered, numbered_file};

@@ -1,5 +1,8 @@
-//! The command `calibrate`.
+//! The command `limits calibrate`.
 
+use std::str::FromStr;
+
+use clap::Args;
 use metrics::{BoundMetric, Metric};
 use suite::{
     BOUNDS_FILE, Error, Run, RunPlan, bound_subframes, calibrate, check_names, estimate_run,
@@ -11,8 +14,33 @@ use super::expected::print_expected_time;
 use super::kept_truths::take_packed_truths;
 use super::run_files::write_run;
 use super::run_plan::{check_replicates_for_intervals, claim_out, make_plan};
-use crate::arguments::CalibrateArgs;
+use crate::arguments::measure::MeasureArgs;
+use crate::arguments::parse::within;
+use crate::arguments::sequence::SequenceArgs;
 use crate::output::print::print;
+
+/// `shuttertruth limits calibrate`
+#[derive(Debug, Args)]
+pub struct CalibrateArgs {
+    #[command(flatten)]
+    pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub sequence: SequenceArgs,
+    /// Number of runs, each with a truth of its own seed: --seed, --seed + 1, and so on.
+    #[arg(help_heading = "Calibration", long, value_name = "K", default_value_t = 3, value_parser = within::<u32>(2..=100))]
+    pub runs: u32,
+    /// Adapters, by their numbers in `list adapters` or parts of their names, separated by commas [default: the fastest].
+    #[arg(
+        help_heading = "Calibration",
+        long,
+        value_delimiter = ',',
+        value_name = "ADAPTERS"
+    )]
+    pub adapters: Vec<String>,
+    /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination; with --frames all of sequences too].
+    #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = BoundMetric::from_str)]
+    pub metrics: Vec<BoundMetric>,
+}
 
 /// Runs once per seed and adapter, and prints the limits that follow as one bounds.toml per scene.
 pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {

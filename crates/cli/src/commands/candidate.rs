@@ -1,4 +1,4 @@
-//! A candidate of `tune`, `evaluate` and `serve`: its filter, and the rendered scenes that it is scored on.
+//! A candidate of `tune search`, `tune evaluate` and `tune serve`: its filter, and the rendered scenes that it is scored on.
 
 use filters::Gpu;
 use suite::{
@@ -10,7 +10,8 @@ use tracer::{RenderSettings, Scene};
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
 use super::run_plan::load_scenes;
-use crate::arguments::{CandidateArgs, SceneArgs};
+use crate::arguments::candidate::CandidateArgs;
+use crate::arguments::scenes::SceneArgs;
 use crate::output::count::count_text;
 use crate::output::progress::make_monitor;
 use crate::selection::select_filters;

@@ -1,4 +1,4 @@
-//! Folder and scene of a capture, for `ingest` and `audit`.
+//! Folder and scene of a capture, for `engine ingest` and `engine audit`.
 
 use std::path::{Path, PathBuf};
 

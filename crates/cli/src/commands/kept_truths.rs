@@ -18,7 +18,7 @@ pub fn check_truths(truths: &Path) -> Result<(), Error> {
         true => Pack::open(truths).map(drop),
         false if truths.is_dir() => Ok(()),
         false => Err(Error::Usage(format!(
-            "--truths {}: {}; allowed: a folder into which `shuttertruth render --ladders` or `run` \
+            "--truths {}: {}; allowed: a folder into which `shuttertruth truths render --ladders` or `run` \
              wrote, or a pack",
             truths.display(),
             match truths.exists() {

@@ -3,7 +3,7 @@
 use suite::{Error, MOST_REPLICATES};
 use tracer::{MOST_SAMPLES, RenderSettings};
 
-use crate::arguments::SceneArgs;
+use crate::arguments::scenes::SceneArgs;
 
 /// Makes the settings of a render, for pictures of one size.
 pub fn make_render_settings(

@@ -12,7 +12,9 @@ use tracer::{FrameRate, Location, RenderSettings, Scene, Seal};
 
 use super::kept_truths::check_truths;
 use super::render_settings::make_render_settings;
-use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
+use crate::arguments::measure::MeasureArgs;
+use crate::arguments::run_options::RunOptions;
+use crate::arguments::scenes::SceneArgs;
 use crate::output::count::count_text;
 use crate::output::print::{print_note, print_scene_notes};
 use crate::output::progress::make_monitor;
@@ -44,7 +46,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
         engine_scenes,
         filters,
-        inputs: args.forms.input_forms().one_by_one(),
+        inputs: args.forms.one_by_one(),
         jitter_frames: args.jitter_frames,
         frames: Frames::default(),
         render: make_render_settings(&args.scenes, size, args.replicates)?,

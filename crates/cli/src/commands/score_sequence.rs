@@ -9,7 +9,7 @@ use suite::{
 use tracer::Scene;
 
 use super::convention::read_convention;
-use crate::arguments::ScoreArgs;
+use super::score::ScoreArgs;
 use crate::output::print::{print, print_json};
 use crate::selection::select_scenes;
 use crate::tables::sequence::score_sequence_table;

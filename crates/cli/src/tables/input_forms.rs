@@ -1,6 +1,6 @@
 //! Table of what each form of the input costs each filter.
 
-use suite::{Case, Headline, InputFormat, ShutterRule, list_summarized};
+use suite::{Case, Headline, InputFormat, list_summarized};
 
 use super::columns::{legend_text, list_once, number_table};
 
@@ -12,7 +12,8 @@ const FILTERS_ABREAST: usize = 3;
 /// rates.
 pub fn input_forms_text(cases: &[Case]) -> String {
     let cases = list_summarized(cases);
-    let rates = |case: &&&Case| case.rate.is_some() || case.input.rule == ShutterRule::default();
+    let rates =
+        |case: &&&Case| case.rate.is_some() || case.input.rule == InputFormat::default().rule;
     let changes: Vec<String> = cases
         .iter()
         .filter(rates)

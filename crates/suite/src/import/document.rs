@@ -26,7 +26,7 @@ pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     let exposes = format!("Imported from {file}: {}.", plan.motions.sentence());
     let motions = &plan.motions;
     let mut text = format!(
-        "# Made by `shuttertruth import`; yours to change.\n\
+        "# Made by `shuttertruth engine import`; yours to change.\n\
          exposes = {exposes}\nfamily = \"{family}\"\nexposure = {exposure}\nsize = [{width}, {height}]\n\n\
          [camera]\nvertical_fov = {VERTICAL_FOV}\n",
         exposes = toml::Value::from(exposes),

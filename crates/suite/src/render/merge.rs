@@ -64,7 +64,7 @@ fn gather(parts: &[PathBuf]) -> Result<Files, Error> {
         let own = rendered_below(part)?;
         if own.is_empty() {
             return Err(Error::Usage(format!(
-                "{} holds no replicates; allowed: folders into which `shuttertruth render` wrote a part A..B of the replicates, or \
+                "{} holds no replicates; allowed: folders into which `shuttertruth truths render` wrote a part A..B of the replicates, or \
                  finished runs alone",
                 part.display()
             )));
@@ -123,7 +123,7 @@ fn merge_replicates(folder: &Path, files: &[&Path]) -> Result<Truth, Error> {
 fn check_replicates(folder: &Path, replicates: &[Replicate]) -> Result<(), Error> {
     if let Some(pair) = (replicates.windows(2)).find(|pair| pair[0].index == pair[1].index) {
         return Err(Error::Usage(format!(
-            "{}: two files hold replicate {}; leave names as `shuttertruth render` made them",
+            "{}: two files hold replicate {}; leave names as `shuttertruth truths render` made them",
             folder.display(),
             pair[0].index
         )));
@@ -150,7 +150,7 @@ fn check_replicates(folder: &Path, replicates: &[Replicate]) -> Result<(), Error
     let home = replicates_folder(Path::new(&one.provenance.scene), one.alignment);
     if folder != home {
         return Err(Error::Usage(format!(
-            "{} holds replicates that belong into {}; leave folders as `shuttertruth render` made them",
+            "{} holds replicates that belong into {}; leave folders as `shuttertruth truths render` made them",
             folder.display(),
             home.display()
         )));

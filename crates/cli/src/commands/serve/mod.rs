@@ -1,4 +1,4 @@
-//! The command `serve`.
+//! The command `tune serve`.
 
 mod inbox;
 mod line_reader;
@@ -6,6 +6,7 @@ mod reply;
 
 use std::collections::BTreeSet;
 
+use clap::Args;
 use serde_json::json;
 use suite::{Error, Evaluator, Objective, SceneScore, Sharing, evaluate_candidate};
 
@@ -15,8 +16,15 @@ use super::candidate::{
     claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,
 };
 use super::evaluate::change_settings;
-use crate::arguments::ServeArgs;
+use crate::arguments::candidate::CandidateArgs;
 use crate::output::progress::make_monitor;
+
+/// `shuttertruth tune serve`
+#[derive(Debug, Args)]
+pub struct ServeArgs {
+    #[command(flatten)]
+    pub candidate: CandidateArgs,
+}
 
 /// Answers until standard input ends and all is answered.
 pub fn execute(args: &ServeArgs) -> Result<(), Error> {

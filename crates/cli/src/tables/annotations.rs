@@ -5,7 +5,7 @@ use std::fmt::Write;
 use report::{finding_line, length_text, limit_text, way_out};
 use suite::{Check, Decision, Finding, number, printable};
 
-use crate::tables::check::{comparison_line, count_lines, verdict_word};
+use super::check::{comparison_line, count_lines, verdict_word};
 
 /// Upper limit that GitHub sets on the annotations of a step.
 const MOST_ANNOTATIONS: usize = 10;
