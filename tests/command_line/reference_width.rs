@@ -137,7 +137,7 @@ fn every_command_that_runs_filters_scales_presets_unless_told_not_to() {
     let evaluate = |params: &str, more: &[&str]| {
         fs::write(bench.path("params.json"), params).unwrap();
         let words = split(
-            "tune search evaluate --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --out tuned \
+            "tune evaluate --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --out tuned \
              --params params.json",
         );
         json(&[&words[..], more].concat())["scenes"]["plate"]["flip"].clone()

@@ -174,7 +174,7 @@ fn json_output_has_no_other_text() {
         ),
         (
             [
-                &["tune", "search", "sensitivity"],
+                &["tune", "sensitivity"],
                 &candidate[..],
                 &["--vary", "samples", "--rows", "2"],
             ]
@@ -182,11 +182,7 @@ fn json_output_has_no_other_text() {
             "parameters",
         ),
         (
-            [
-                &["tune", "search", "compare", "paper", "corrected"],
-                &candidate[..],
-            ]
-            .concat(),
+            [&["tune", "compare", "paper", "corrected"], &candidate[..]].concat(),
             "flip",
         ),
     ] {

@@ -16,7 +16,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use filters::FilterError;
-use suite::Error;
+use suite::{Error, printable};
 
 use commands::ending::Ending;
 use environment::set_environment;
@@ -42,7 +42,8 @@ pub fn run_program() -> ExitCode {
     let is_verbose = |argument: OsString| argument == "-v" || argument == "--verbose";
     set_environment(std::env::args_os().any(is_verbose));
     catch_interrupts();
-    let arguments = Cli::parse_words().unwrap_or_else(|error| refuse_arguments(&error));
+    let arguments =
+        Cli::parse_words(std::env::args_os()).unwrap_or_else(|error| refuse_arguments(&error));
     set_output(arguments.output);
     match execute(&arguments.command) {
         Ok(Ending::Done) => ExitCode::SUCCESS,
@@ -75,5 +76,10 @@ fn refuse_arguments(error: &clap::Error) -> ! {
         print_failure(&Error::Usage(place));
         std::process::exit(error.exit_code())
     }
-    error.exit()
+    // Words may be names of files with control codes, which the message is to show as escapes.
+    let words = std::env::args_os().map(|word| printable(&word.to_string_lossy()).into_owned());
+    match Cli::parse_words(words) {
+        Err(error) => error.exit(),
+        Ok(_) => error.exit(),
+    }
 }

@@ -1,5 +1,7 @@
 //! The command line: its words, and the work behind each.
 
+use std::ffi::OsString;
+
 use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use suite::Error;
@@ -45,19 +47,19 @@ pub enum Command {
     /// Prints tables; writes bench.json.
     Bench(bench::BenchArgs),
     /// Search, study and compare the parameters of a filter
-    #[command(subcommand)]
+    #[command(subcommand, disable_help_subcommand = true)]
     Tune(TuneCommand),
     /// Exchange scenes and frames with engines
-    #[command(subcommand)]
+    #[command(subcommand, disable_help_subcommand = true)]
     Engine(EngineCommand),
     /// Render, join, pack and verify truths; split a run into jobs
-    #[command(subcommand)]
+    #[command(subcommand, disable_help_subcommand = true)]
     Truths(TruthsCommand),
     /// Accept scores as a baseline, or propose bounds
-    #[command(subcommand)]
+    #[command(subcommand, disable_help_subcommand = true)]
     Limits(LimitsCommand),
     /// Ask people about pictures, and read their answers
-    #[command(subcommand)]
+    #[command(subcommand, disable_help_subcommand = true)]
     People(PeopleCommand),
     /// Print completions for a shell
     #[command(hide = true)]
@@ -154,13 +156,15 @@ impl Cli {
         Self::command().mut_subcommands(|command| command.hide(false))
     }
 
-    /// Parses the words of this process.
+    /// Parses the words of a command line.
     ///
     /// # Errors
     /// The words are wrong, or ask for help.
-    pub fn parse_words() -> Result<Self, clap::Error> {
+    pub fn parse_words<W: Into<OsString> + Clone>(
+        words: impl IntoIterator<Item = W>,
+    ) -> Result<Self, clap::Error> {
         let mut program = Self::command_line();
-        let matches = program.try_get_matches_from_mut(std::env::args_os())?;
+        let matches = program.try_get_matches_from_mut(words)?;
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut program))
     }
 }

@@ -165,7 +165,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
         (ask(&["--pairs", "2"]), &["allows 2 pairs", "3 or more"]),
         (
             ask(&["--question", "best"]),
-            &["--question best is not known"],
+            &["'best' for '--question <QUESTION>'", "better"],
         ),
         (
             vec!["people", "ask", "out", "--out", "page"],

@@ -35,7 +35,7 @@ fn two_runs_cannot_share_a_folder_at_the_same_time() {
         "check --quiet --filters identity --out out",
         "limits calibrate --quiet --filters identity --out out",
         "tune search --quiet --filter jump_flood --objective flip --out out",
-        "tune search serve --quiet --filter jump_flood --out out",
+        "tune serve --quiet --filter jump_flood --out out",
     ] {
         let words = split(words);
         assert_refused(&bench.shuttertruth(&words), 2, &parts);

@@ -48,8 +48,8 @@ fn no_command_runs_a_program_without_permission() {
         "limits calibrate --out out --filter mine",
         "engine blur --filter ./mine --frame frame.exr --out b.exr",
         "tune search --out out --filter ./mine",
-        "tune search evaluate --out out --filter ./mine --params p.json",
-        "tune search serve --out out --filter ./mine",
+        "tune evaluate --out out --filter ./mine --params p.json",
+        "tune serve --out out --filter ./mine",
     ] {
         let parts = [
             "./mine/filter.toml:4: ",

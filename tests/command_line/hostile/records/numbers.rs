@@ -53,7 +53,7 @@ fn numbers_out_of_range_are_refused_with_the_allowed_range() {
             &["--budget", "0 to 1000000"],
         ),
         (
-            "tune search sensitivity --filter jump_flood --rows 10000000000000",
+            "tune sensitivity --filter jump_flood --rows 10000000000000",
             &["--rows", "0 to 1000000"],
         ),
     ] {
