@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 use std::process::ExitCode;
 
 use frame::{Alignment, Frame, Image, Picture, Raster, Truth};
+use judge::make_wrong_pictures;
 use metrics::{MeasureError, Reference};
 use rayon::prelude::*;
-use suite::{Error, make_wrong_pictures, scatter_oracle};
+use suite::{Error, scatter_oracle};
 use tracer::{Progress, RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
 
 /// FLIP over *moving* and over *support*.

@@ -45,16 +45,16 @@ fn a_moved_command_names_its_new_place() {
     let bench = Bench::new();
     for (words, place) in [
         (
-            &["ingest", "capture"][..],
+            &["engine", "ingest", "capture"][..],
             "ingest: use shuttertruth engine ingest",
         ),
         (&["-q", "accept"], "accept: use shuttertruth limits accept"),
         (
-            &["compare-presets", "a", "b"],
+            &["tune", "compare", "a", "b"],
             "compare-presets: use shuttertruth tune compare",
         ),
         (
-            &["tune", "--filter", "jump_flood"],
+            &["tune", "search", "--filter", "jump_flood"],
             "tune: use shuttertruth tune search",
         ),
     ] {

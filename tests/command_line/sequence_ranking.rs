@@ -2,8 +2,9 @@
 
 use std::fs;
 
+use judge::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use suite::{Case, RANKED_BY, RankedSequence, Run, rank_sequences, rank_sequences_on};
+use suite::{Case, Run};
 
 use crate::bench::{Bench, assert_done, stdout};
 

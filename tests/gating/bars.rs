@@ -4,8 +4,9 @@ use std::path::Path;
 
 use cli::SceneChoice;
 use frame::{Alignment, Picture};
+use judge::{JudgedScore, Outcome};
 use metrics::{Measured, Reference};
-use suite::{JudgedScore, Monitor, Outcome};
+use suite::Monitor;
 use tests::scenes;
 use tracer::RenderSettings;
 
@@ -29,11 +30,11 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     let ladder = suite::LadderFiles::new(scene, &settings, &truth, out);
     let rung = ladder.read_or_render(64, Monitor::SILENT).unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::scene_viewing(scene)).unwrap();
-    let bounds = suite::read_bounds(scenes(), &choice.folder, Some((160, 90))).unwrap();
+    let bounds = judge::read_bounds(scenes(), &choice.folder, Some((160, 90))).unwrap();
     // Bounds for all filters, required or not.
     let bounds = bounds.of("identity", "default");
     let judged = |picture: &Picture| {
-        suite::judge_scores(&reference.measure(picture).unwrap().scores, None, &bounds)
+        judge::judge_scores(&reference.measure(picture).unwrap().scores, None, &bounds)
     };
     let identity = Picture {
         color: frame.color.clone(),

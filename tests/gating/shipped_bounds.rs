@@ -1,10 +1,10 @@
 //! Required bounds of the most compared filters, on every scene.
 
 use cli::{Programs, select_filters, select_scenes};
-use suite::{
-    Check, Decision, Finding, InputFormat, Level, Monitor, Outcome, RunBounds, RunPlan, check,
-    judge, measure_scenes, read_bounds, size_for_bounds,
+use judge::{
+    Check, Decision, Finding, Level, Outcome, RunBounds, check, judge, read_bounds, size_for_bounds,
 };
+use suite::{InputFormat, Monitor, RunPlan, measure_scenes};
 use tests::open_gpu;
 use tracer::RenderSettings;
 
@@ -76,7 +76,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
 fn assert_required(check: &Check, scene: &str, filter: &str, metric: &str) {
     let required = (check.findings.iter()).any(|finding| {
         (&finding.scene[..], &finding.filter[..]) == (scene, filter)
-            && finding.metric == metric
+            && finding.metric.name() == metric
             && finding.level == Level::Required
     });
     assert!(

@@ -5,10 +5,8 @@ use std::path::PathBuf;
 
 use cli::{SceneChoice, select_scenes};
 use filters::Gpu;
-use suite::{
-    Error, FilterChoice, InputFormat, Monitor, Run, RunBounds, RunPlan, measure_scenes,
-    read_bounds, size_for_bounds,
-};
+use judge::{RunBounds, read_bounds, size_for_bounds};
+use suite::{Error, FilterChoice, InputFormat, Monitor, Run, RunPlan, measure_scenes};
 use tests::scenes;
 use tracer::{RenderSettings, Scene};
 

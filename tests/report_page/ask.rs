@@ -3,7 +3,7 @@
 use std::fs;
 
 use serde_json::{Value, json};
-use suite::{Clip, Question, ShownPair, Study, draw_session};
+use study::{Clip, Question, ShownPair, Study, draw_session};
 
 use crate::bench::{Bench, assert_done};
 use crate::browser::Browser;

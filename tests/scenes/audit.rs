@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use engine::{Capture, CaptureAudit, CaptureDescription, Cause, Defect, audit_capture};
 use filters::Convention;
 use frame::{FAR_DEPTH, Image, Vectors};
-use suite::{Capture, CaptureAudit, CaptureDescription, Cause, Defect, audit_capture};
 use tests::scenes;
 use tracer::{PointLayers, PointMotion, RenderSettings, Scene, load_scene, trace_motion};
 

@@ -3,8 +3,8 @@
 use std::fs;
 use std::ops::ControlFlow;
 
+use engine::{Buffer, Capture, CaptureAudit, Cause};
 use frame::{Frame, Raster, VelocityKind};
-use suite::{Buffer, Capture, CaptureAudit, Cause};
 use tests::scenes;
 use tracer::{PointMotion, RenderSettings, Scene, load_scene, trace_frame};
 
@@ -219,7 +219,7 @@ fn motion_by_the_clock_is_named() {
         let scene = load(name);
         for rate in [60.0, 30.0, 120.0] {
             let motion = PointMotion {
-                over: export::FRAMES_PER_SECOND / rate,
+                over: engine::FRAMES_PER_SECOND / rate,
                 ..PointMotion::RIGHT
             };
             let velocity = trace(&scene, motion).velocity;

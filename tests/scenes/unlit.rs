@@ -3,7 +3,7 @@
 use std::fs;
 use std::ops::ControlFlow;
 
-use export::export_gltf;
+use engine::export_gltf;
 use frame::ColorSampling;
 use tests::scenes;
 use tracer::{RenderSettings, Scene, list_scenes, load_scene, trace_frame};

@@ -15,15 +15,15 @@ mod tables;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use filters::FilterError;
-use suite::{Error, printable};
-
 use commands::ending::Ending;
 use environment::set_environment;
+use filters::FilterError;
 use output::interrupts::{INTERRUPTED_TEXT, catch_interrupts, interrupted_code};
 use output::print::{print_error, print_failure};
 use output::verbosity::set_output;
 use program::{Cli, execute, find_new_place};
+use store::printable;
+use suite::Error;
 
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::annotations::{annotations, summary};

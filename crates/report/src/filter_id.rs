@@ -1,9 +1,10 @@
 //! Identity of filters: what a row of every table stands for.
 
-use metrics::Measured;
+use frame::Alignment;
+use metrics::{Measured, Metric};
+use suite::{Case, Overall};
 
 use crate::case_table::CaseTable;
-use suite::{Case, Headline, Overall};
 
 /// A filter preset with one form of its input, or a reference with one shutter.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -13,7 +14,7 @@ pub struct FilterId {
     /// True of a reference: `identity`, `scatter_oracle`, `accumulate:N`.
     pub is_reference: bool,
     /// The shutter alignment that it is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
 }
 
 impl FilterId {
@@ -22,7 +23,7 @@ impl FilterId {
         Self {
             name: case.name(),
             is_reference: case.is_reference,
-            alignment: case.alignment.clone(),
+            alignment: case.alignment,
         }
     }
 
@@ -69,15 +70,15 @@ fn escape(name: &str) -> String {
 }
 
 /// Lists the shutter alignments of some filters.
-pub fn list_alignments(filters: &[FilterId]) -> Vec<&str> {
-    drop_repetitions(filters.iter().map(|filter| filter.alignment.as_str()))
+pub fn list_alignments(filters: &[FilterId]) -> Vec<Alignment> {
+    drop_repetitions(filters.iter().map(|filter| filter.alignment))
 }
 
 /// Averages a score's noise floor over a filter's scenes; none where the score applies to none.
-pub fn mean_floor(table: &CaseTable, filter: &FilterId, headline: Headline) -> Option<f64> {
+pub fn mean_floor(table: &CaseTable, filter: &FilterId, metric: Metric) -> Option<f64> {
     let floors = table
         .cases_of(filter)
-        .filter_map(|(_, case)| match headline.measured(case) {
+        .filter_map(|(_, case)| match case.measured(metric) {
             Measured::Score(score) => Some(score.floor),
             Measured::NotApplicable { .. } => None,
         });

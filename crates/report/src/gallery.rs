@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use frame::{read_png, write_atomically, write_png};
+use metrics::Metric;
+use suite::{Case, Error, IDENTITY, Run};
 
 use crate::case_strip::{read_output, read_truth, tile};
-use suite::{Case, Error, Headline, IDENTITY, Run};
 
 /// File name of the contact sheet.
 const SHEET: &str = "truths.png";
@@ -66,8 +67,8 @@ fn find_entries(run: &Run) -> Vec<Entry<'_>> {
 /// Ranks the filters of one scene by skill; by FLIP against the common shutter where the oracle is no better than no blur,
 /// so that there is no skill. None where nothing moves.
 fn find_entry<'a>(cases: &[&'a Case]) -> Option<Entry<'a>> {
-    let skills = cases.iter().map(|case| Headline::SKILL.estimate(case));
-    let errors = (cases.iter()).map(|case| Some(-Headline::CommonFlip.estimate(case)?));
+    let skills = cases.iter().map(|case| case.estimate(Metric::SKILL));
+    let errors = (cases.iter()).map(|case| Some(-case.estimate(Metric::CommonFlip)?));
     let keys: Vec<f64> = (skills.collect::<Option<_>>()).or_else(|| errors.collect())?;
     let place = |index: usize| cases[index];
     let by_key = |a: &usize, b: &usize| keys[*a].total_cmp(&keys[*b]);
@@ -103,7 +104,7 @@ fn section(entry: &Entry) -> String {
     );
     for (label, case) in [("best", best), ("worst", worst)] {
         let [skill, flip, common] =
-            [Headline::SKILL, Headline::FLIP, Headline::CommonFlip].map(|score| score.text(case));
+            [Metric::SKILL, Metric::FLIP, Metric::CommonFlip].map(|score| case.score_text(score));
         let name = case.name();
         let _ = writeln!(
             text,

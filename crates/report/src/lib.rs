@@ -23,8 +23,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use frame::write_atomically;
+use judge::Finding;
 use maud::{Markup, PreEscaped};
-use suite::Finding;
 use suite::{Case, Error, Run};
 
 use case::case_view::{CaseInput, CaseView};

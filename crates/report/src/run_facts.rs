@@ -1,9 +1,10 @@
 //! Settings that a run's scores depend on.
 
+use frame::Alignment;
 use maud::{Markup, html};
+use suite::{Case, Run};
 
 use crate::case_table::CaseTable;
-use suite::{Case, Run};
 
 /// Lists command, program, adapter, settings, and per scene the hashes of its truths.
 pub fn provenance(table: &CaseTable) -> Markup {
@@ -75,7 +76,7 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
                 render.options.velocity, render.options.color, render.guard_band
             ),
         ),
-        ("shutter in common", run.common_alignment.clone()),
+        ("shutter in common", run.common_alignment.to_string()),
     ]
 }
 
@@ -123,12 +124,12 @@ pub fn truth_text(case: &Case) -> String {
 fn truths(table: &CaseTable) -> Vec<Markup> {
     let mut rows = Vec::new();
     for scene in &table.scenes {
-        let mut alignments: Vec<&str> = Vec::new();
+        let mut alignments: Vec<Alignment> = Vec::new();
         for (_, case) in table.cases_on(scene) {
-            if alignments.contains(&case.alignment.as_str()) {
+            if alignments.contains(&case.alignment) {
                 continue;
             }
-            alignments.push(&case.alignment);
+            alignments.push(case.alignment);
             rows.push(html! {
                 tr {
                     th scope="row" { (scene) }

@@ -5,8 +5,10 @@ use std::path::Path;
 use std::process::{Output, Stdio};
 
 use cli::{annotations, check_text, summary};
-use frame::{Frame, Truth};
-use suite::{CHECK_FORMAT, Check, Decision, Failure, printable_table};
+use frame::{Alignment, Frame, Truth};
+use judge::{CHECK_FORMAT, Check, Decision};
+use store::printable_table;
+use suite::Failure;
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 
@@ -126,7 +128,7 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
         failures: vec![Failure {
             scene: hostile.to_owned(),
             filter: hostile.to_owned(),
-            alignment: "trailing".to_owned(),
+            alignment: Alignment::Trailing,
             reason: hostile.to_owned(),
         }],
         findings: Vec::new(),

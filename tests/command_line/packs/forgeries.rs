@@ -79,7 +79,7 @@ fn every_changed_attribute_is_found() {
         verified.map_or_else(|error| vec![error.to_string()], |own| own.differences)
     };
     assert_eq!(differences(), Vec::<String>::new());
-    let rungs = suite::LADDER.map(|rung| format!("ladder_trailing/{}", frame::rung_file(rung)));
+    let rungs = store::LADDER.map(|rung| format!("ladder_trailing/{}", frame::rung_file(rung)));
     let whole = ["frame.exr", "truth_trailing.exr"].map(str::to_owned);
     for file in whole.into_iter().chain(replicate_files()).chain(rungs) {
         let path = folder.join(&file);
@@ -244,7 +244,7 @@ fn leave_out(bench: &Bench, begin: &str) {
     let before = entries.len();
     entries.retain(|entry| !entry.name.starts_with(begin));
     assert!(entries.len() < before);
-    let keep = |manifest: &mut suite::Manifest| {
+    let keep = |manifest: &mut store::Manifest| {
         (manifest.files).retain(|file| !file.path.starts_with(begin));
     };
     change_manifest(&mut entries, keep);

@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::Path;
 
 use frame::{Replicate, Truth};
-use suite::Manifest;
+use store::Manifest;
 
 use crate::bench::{Bench, split};
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use suite::Manifest;
+use store::Manifest;
 use tar::EntryType;
 
 use super::{Packed, QUICK, change_manifest, compress, entries, packed, run, write};
@@ -195,7 +195,7 @@ fn manifests_that_promise_too_much_are_refused() {
         |manifest| manifest.files[3] = manifest.files[2].clone(),
         &["twice"],
     );
-    let file = |number: usize, bytes: u64| suite::PackedFile {
+    let file = |number: usize, bytes: u64| store::PackedFile {
         path: format!("s{number:06}/frame.exr"),
         bytes,
         blake3: blake3::hash(b"").to_hex().to_string(),

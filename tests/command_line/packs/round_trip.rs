@@ -104,9 +104,9 @@ fn one_run_gives_one_archive_with_the_manifest_first() {
     assert!(fs::read(bench.path("again.tar.zst")).unwrap() == first);
 
     let entries = entries(&bench.path("truths.tar.zst"));
-    let manifest: suite::Manifest = serde_json::from_slice(&entries[0].bytes).unwrap();
+    let manifest: store::Manifest = serde_json::from_slice(&entries[0].bytes).unwrap();
     assert_eq!(entries[0].name, "manifest.json");
-    assert_eq!(manifest.format, suite::PACK_FORMAT);
+    assert_eq!(manifest.format, store::PACK_FORMAT);
     let names: Vec<&String> = entries[1..].iter().map(|entry| &entry.name).collect();
     let listed: Vec<&String> = manifest.files.iter().map(|file| &file.path).collect();
     assert_eq!(names, listed);

@@ -5,7 +5,7 @@ mod refusals;
 use std::fs;
 
 use serde_json::Value;
-use suite::{
+use study::{
     Answer, AnswerFile, Chosen, Clip, DisplayFacts, Question, SHARP_CLIP, ShownPair, Study,
     TRUTH_CLIP, draw_session,
 };
@@ -43,7 +43,7 @@ fn answer(
         };
         Answer {
             scene: study.scenes[pair.scene].clone(),
-            alignment: shutter.alignment.clone(),
+            alignment: shutter.alignment,
             left: name(pair.left),
             right: name(pair.right),
             choice: choose(pair, index),

@@ -3,7 +3,7 @@
 use std::fs;
 
 use serde_json::json;
-use suite::{AnswerFile, Question};
+use study::{AnswerFile, Question};
 
 use super::{FILTERS, answer, make_study, prefer_first, preferences, write_answers};
 use crate::bench::{Bench, assert_done, assert_refused};

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use suite::{Sensitivity, Tuning};
+use tune::{Sensitivity, Tuning};
 
 use crate::bench::{Bench, assert_refused, split};
 

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use filters::Filter;
-use suite::TrialOutcome;
 use tests::filter_folder::copy_shipped_filter;
 use tests::text::assert_contains;
+use tune::TrialOutcome;
 
 use super::{parse_trials, read_journal, read_tuning, set_up, tuning_words};
 use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
@@ -79,7 +79,7 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     let params = [params.to_str().unwrap(), "--objective", "flip,bleed"];
     let output = bench.shuttertruth(&[&words[..], &params, &scene].concat());
     assert_done(&output);
-    let answer: suite::Evaluation = serde_json::from_str(&stdout(&output)).unwrap();
+    let answer: tune::Evaluation = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(answer.scenes["a"], tuning.chosen.scenes["a"]);
     assert_eq!(answer.values, tuning.values);
     // The filter's preset equals it, too.
@@ -180,7 +180,7 @@ fn a_study_finds_the_parameters_that_matter() {
     let few = ["--samples-per-pixel", "16", "--out", "out"];
     let output = bench.shuttertruth(&[&words[..], &more, &few].concat());
     assert_done(&output);
-    let found: suite::Sensitivity = bench.read_json("out/sensitivity.json");
+    let found: tune::Sensitivity = bench.read_json("out/sensitivity.json");
     // Weighted taps do not read the extent; only replaced ones do.
     let extent = &found.parameters["behind_extent"];
     assert!(extent.constant && extent.slice.iter().all(|(_, error)| *error == 0.0));

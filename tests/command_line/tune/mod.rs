@@ -6,7 +6,7 @@ mod refusals;
 
 use std::fs;
 
-use suite::{Trial, Tuning};
+use tune::{Trial, Tuning};
 
 use crate::bench::{Bench, MTL, OBJ, SCENE, split};
 

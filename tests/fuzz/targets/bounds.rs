@@ -2,17 +2,17 @@
 
 use cli::{Programs, select_filters};
 use filters::Filter;
-use suite::{
-    Frames, Run, check_lengths, check_names, judge, read_bounds, read_bounds_file, require_bounds,
+use judge::{
+    check_lengths, check_names, judge, read_bounds, read_bounds_file, require_bounds,
     size_for_bounds,
 };
+use suite::{Frames, Run};
 
 use super::run_json::of;
-use crate::huge;
 use crate::place::Place;
 use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// bounds.toml beside the scenes, and beside a scene.
 pub static TARGET: Target = Target {

@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::{Component, Path};
 
+use engine::{Capture, ingest};
 use frame::{Display, Raster, write_exr};
-use suite::{Capture, EngineScene, INGESTED_FILE, ingest};
+use suite::{EngineScene, INGESTED_FILE};
 
 use crate::place::Place;
 use crate::seeds::Seed;

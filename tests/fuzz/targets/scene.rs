@@ -4,16 +4,15 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use engine::{ImportPlan, Motions, Up, import};
 use frame::{Alignment, FrameOptions, Image, VelocityKind};
-use suite::{ImportPlan, Motions, Up, import};
 use tracer::{RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
 
 use super::none;
-use crate::huge;
 use crate::place::Place;
 use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// scene.toml.
 pub static SCENE: Target = Target {

@@ -3,13 +3,12 @@
 use std::fs;
 
 use report::{TuneFolder, tuning_page};
-use suite::Journal;
+use tune::Journal;
 
 use super::run_json::of;
-use crate::huge;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// journal.jsonl.
 pub static JOURNAL: Target = Target {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use filters::{Filter, Value};
-use suite::{
+use tune::{
     ChoiceLimits, PairedComparison, Preference, SceneScore, Space, Trial, TrialOutcome,
     choose_trial, cross_validate, pareto_front, signed_rank_p_value,
 };

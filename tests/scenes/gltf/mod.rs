@@ -2,7 +2,7 @@
 
 mod played;
 
-use export::{Timeline, export_gltf};
+use engine::{Timeline, export_gltf};
 use glam::{DAffine3, DVec3};
 use played::Played;
 use tests::random::Random;

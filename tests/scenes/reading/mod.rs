@@ -4,10 +4,11 @@ mod materials;
 mod meshes;
 mod motions;
 
-use crate::scene_folder::{Folder, OBJ, SCENE};
 use frame::{Efficiency, ShutterProfile};
 use glam::DVec3;
 use tracer::{Background, Family, Interpolation, Parent, load_scene};
+
+use crate::scene_folder::{Folder, OBJ, SCENE};
 
 #[test]
 fn the_documented_example_loads() {

@@ -3,7 +3,9 @@
 use std::ops::{Range, RangeBounds};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
-use suite::{MOST_FRAMES, MOST_REPLICATES, Objective, SIDES};
+use store::MOST_REPLICATES;
+use suite::{MOST_FRAMES, SIDES};
+use tune::Objective;
 
 /// Number of replicates, or a part of them.
 #[derive(Clone, Debug, PartialEq, Eq)]

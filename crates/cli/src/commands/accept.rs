@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use suite::{
-    Acceptance, Baseline, Error, Run, accept_scores, find_newer_sizes, printable_path,
-    refuse_failures,
-};
+use judge::{Acceptance, Baseline, accept_scores};
+use store::printable_path;
+use suite::{Error, Run, find_newer_sizes, refuse_failures};
 
 use crate::arguments::parse::parse_glob;
 use crate::output::count::count_text;

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use glob::Pattern;
+use judge::Side;
 use report::write_ask_folder;
-use suite::{
-    Error, Question, SECONDS_PER_QUESTION, Side, Study, StudyChoice, draw_session, make_study,
-    printable_path,
-};
+use store::printable_path;
+use study::{Question, SECONDS_PER_QUESTION, Study, StudyChoice, draw_session, make_study};
+use suite::Error;
 
 use crate::arguments::parse::{parse_glob, parse_named};
 use crate::output::print::{print, print_json};

@@ -3,10 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use suite::{
-    Capture, CaptureAudit, Error, Sharing, audit_capture, claim, printable_path,
-    write_audit_picture,
-};
+use engine::{Capture, CaptureAudit, audit_capture, write_audit_picture};
+use store::{Sharing, claim, printable_path};
+use suite::Error;
 use tracer::Location;
 
 use super::capture::{load_drawn_scene, name_folder};

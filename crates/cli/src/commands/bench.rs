@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use filters::Gpu;
-use suite::{Bench, BenchPlan, Error, bench, open_adapter, printable_path};
+use store::printable_path;
+use suite::{Bench, BenchPlan, Error, bench, open_adapter};
 
 use super::expected::print_expected_time;
 use crate::arguments::adapter::AdapterArgs;

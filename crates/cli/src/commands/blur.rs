@@ -7,7 +7,8 @@ use filters::{Convention, FilterError, Input};
 use frame::{
     Camera, ExrFile, Image, Plane, Reprojection, Vectors, read_exr, read_frame_rate, write_exr,
 };
-use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu, printable_path};
+use store::printable_path;
+use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu};
 
 use super::convention::read_convention;
 use super::render_settings::check_exposure;

@@ -1,13 +1,10 @@
 //! The command `limits calibrate`.
 
-use std::str::FromStr;
-
 use clap::Args;
-use metrics::{BoundMetric, Metric};
-use suite::{
-    BOUNDS_FILE, Error, Run, RunPlan, bound_subframes, calibrate, check_names, estimate_run,
-    measure_scenes, open_gpu, printable_path, refuse_failures,
-};
+use judge::{BOUNDS_FILE, bound_subframes, calibrate, check_names};
+use metrics::Metric;
+use store::printable_path;
+use suite::{Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, refuse_failures};
 use tracer::{Progress, Watch};
 
 use super::expected::print_expected_time;
@@ -38,8 +35,8 @@ pub struct CalibrateArgs {
     )]
     pub adapters: Vec<String>,
     /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination; with --frames all of sequences too].
-    #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = BoundMetric::from_str)]
-    pub metrics: Vec<BoundMetric>,
+    #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::parse_bounded)]
+    pub metrics: Vec<Metric>,
 }
 
 /// Runs once per seed and adapter, and prints the limits that follow as one bounds.toml per scene.
@@ -62,8 +59,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     plan.jitter_frames = 0;
     plan.ladders = match args.metrics.as_slice() {
         [] => bound_subframes(bounds.values(), &plan.filters),
-        metrics => (metrics.iter())
-            .any(|metric| matches!(metric, BoundMetric::Frame(Metric::Equivalent(_)))),
+        metrics => (metrics.iter()).any(|metric| matches!(metric, Metric::Equivalent(_))),
     };
     check_names(
         &args.measure.scenes.scenes_dir,
@@ -95,7 +91,7 @@ fn print_expected_runs(args: &CalibrateArgs, plan: &RunPlan) {
 
 /// Refuses metrics of sequences where single frames are measured.
 fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
-    let is_of_sequence = |metric: &&BoundMetric| matches!(metric, BoundMetric::Sequence(_));
+    let is_of_sequence = |metric: &&Metric| matches!(metric, Metric::Sequence(_));
     match args.metrics.iter().find(is_of_sequence) {
         Some(metric) if args.sequence.frames().is_one() => Err(Error::Usage(format!(
             "--metrics: {metric} is a score of a sequence, and single frames would be measured; say of how many frames with \

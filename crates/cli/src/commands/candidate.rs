@@ -1,11 +1,11 @@
 //! A candidate of `tune search`, `tune evaluate` and `tune serve`: its filter, and the rendered scenes that it is scored on.
 
 use filters::Gpu;
-use suite::{
-    Claim, Error, FilterChoice, RenderedScene, SceneBounds, Sharing, claim, estimate_case_seconds,
-    estimate_render_seconds, open_gpu, render_scenes,
-};
+use judge::SceneBounds;
+use store::{Claim, Sharing, claim};
+use suite::{Error, FilterChoice, estimate_case_seconds, estimate_render_seconds, open_gpu};
 use tracer::{RenderSettings, Scene};
+use tune::{RenderedScene, render_scenes};
 
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;

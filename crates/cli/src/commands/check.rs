@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use frame::FileError;
-use suite::{
-    BOUNDS_FILE, Baseline, Error, Finding, Judgement, Run, RunBounds, add_evidence,
-    bound_subframes, check, check_lengths, check_names, compare_with_baseline, is_of_subframes,
-    judge, open_gpu, printable_path, refuse_tracked, require_bounds, size_for_bounds,
+use judge::{
+    BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
+    check_lengths, check_names, compare_with_baseline, judge, require_bounds, size_for_bounds,
 };
+use metrics::Metric;
+use store::{printable_path, refuse_tracked};
+use suite::{Error, Run, open_gpu};
 use tracer::Location;
 
 use super::ending::Ending;
@@ -177,7 +179,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     plan.check()?;
     plan.intervals = true;
     plan.ladders = bound_subframes(bounds.values(), &plan.filters)
-        || margins.keys().any(|name| is_of_subframes(name));
+        || (margins.keys()).any(|metric| matches!(metric, Metric::Equivalent(_)));
     check_replicates_for_intervals(plan.render.replicates)?;
     let root = &args.measure.scenes.scenes_dir;
     check_names(root, bounds.values(), &plan.filters)?;

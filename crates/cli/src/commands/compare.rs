@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use judge::{Side, compare_runs};
 use report::compare_page;
-use suite::{Error, Side, compare_runs};
+use suite::Error;
 use tracer::Location;
 
 use super::margins::read_margins;

@@ -1,7 +1,9 @@
 //! The command `tune compare`.
 
 use clap::Args;
-use suite::{Error, Evaluator, Objective, Sharing, compare_candidates};
+use store::Sharing;
+use suite::Error;
+use tune::{Evaluator, Objective, compare_candidates};
 
 use super::candidate::{
     candidate_render_settings, claim_and_render, load_candidate_scenes, open_candidate_gpu,

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
-use suite::{
-    Error, Evaluator, FilterChoice, MOST_JSON_BYTES, Objective, Sharing, evaluate_candidate,
-};
+use store::{MOST_JSON_BYTES, Sharing};
+use suite::{Error, FilterChoice};
+use tune::{Evaluator, Objective, evaluate_candidate};
 
 use super::candidate::{
     claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,

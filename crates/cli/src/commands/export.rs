@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use export::{ExportError, Manifest, export_gltf};
-use suite::{Error, PROGRAM, printable_path};
+use engine::{ExportError, Manifest, export_gltf};
+use store::printable_path;
+use suite::{Error, PROGRAM};
 use tracer::Location;
 
 use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};

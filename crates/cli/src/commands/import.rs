@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use suite::{Error, ImportPlan, Imported, Motions, Up, import, printable_path};
+use engine::{ImportPlan, Imported, Motions, Up, import};
+use store::printable_path;
+use suite::Error;
 
 use super::render_settings::check_exposure;
 use crate::arguments::parse::{parse_degrees_per_frame, parse_named, parse_pixels_per_frame};

@@ -4,8 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use engine::{Capture, Ingested, ingest};
 use frame::{Display, Region};
-use suite::{Capture, EngineScene, Error, Ingested, ingest, printable_path};
+use store::printable_path;
+use suite::{EngineScene, Error};
 use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use frame::FileError;
-use suite::{Error, printable_path};
+use store::printable_path;
+use suite::Error;
 
 use crate::output::print::print;
 

@@ -1,8 +1,9 @@
 //! A run that is measured now, beside the cases of an earlier run in the same folder.
 
 use filters::Gpu;
+use store::Claim;
 use suite::{
-    Claim, EarlierCases, Error, Run, RunPlan, estimate_run, estimate_run_roughly, folder_for_size,
+    EarlierCases, Error, Run, RunPlan, estimate_run, estimate_run_roughly, folder_for_size,
     measure_scenes_as_expected,
 };
 

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use suite::{Error, holds_run, merge, merge_runs, printable_path, refuse_failures};
+use judge::JUDGEMENT_FILE;
+use store::printable_path;
+use suite::{Error, holds_run, merge, merge_runs, refuse_failures};
 
 use super::run_files::write_run;
 use crate::output::count::count_text;
@@ -49,6 +51,8 @@ fn join_runs(args: &MergeArgs) -> Result<(), Error> {
         words => words.to_vec(),
     };
     let merged = merge_runs(&args.parts, command, &args.out)?;
+    // It would be about another run.json.
+    let _ = std::fs::remove_file(args.out.join(JUDGEMENT_FILE));
     write_run(&merged.run, &args.out)?;
     let run = &merged.run;
     let mut text = failures_text(&run.failures);

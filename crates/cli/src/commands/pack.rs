@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use suite::{Error, Run, find_newer_sizes, printable_path, write_pack};
+use store::printable_path;
+use suite::{Error, Run, find_newer_sizes, write_pack};
 
 use crate::output::count::count_text;
 use crate::output::print::{print, print_json, print_note};

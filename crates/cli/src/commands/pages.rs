@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use judge::Finding;
 use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
-use suite::{Error, Finding, Run, printable_path};
+use store::printable_path;
+use suite::{Error, Run};
 
 /// A file that a command wrote.
 #[derive(serde::Serialize)]

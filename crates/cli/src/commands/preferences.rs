@@ -4,10 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use glob::Pattern;
-use suite::{
-    Error, Run, Side, Study, StudyChoice, find_preferences, make_study, read_sessions,
-    refuse_other_run,
-};
+use judge::Side;
+use study::{Study, StudyChoice, find_preferences, make_study, read_sessions, refuse_other_run};
+use suite::{Error, Run};
 
 use crate::output::print::{print, print_json};
 use crate::tables::preferences::preferences_table;

@@ -2,10 +2,10 @@
 
 use clap::Args;
 use frame::{Alignment, Truth};
+use store::{LADDER, MOST_REPLICATES, Sharing, claim, printable_path, scene_folder};
 use suite::{
-    Error, LADDER, LadderFiles, MOST_REPLICATES, Sharing, claim, deciding_floor,
-    estimate_render_seconds, printable_path, render_frame, render_part, render_shared,
-    render_truth, render_truths_until, scene_folder,
+    Error, LadderFiles, deciding_floor, estimate_render_seconds, render_frame, render_part,
+    render_shared, render_truth, render_truths_until,
 };
 use tracer::{RenderSettings, Scene};
 

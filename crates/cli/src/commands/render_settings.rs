@@ -1,6 +1,7 @@
 //! Settings of renders from the command line, checked.
 
-use suite::{Error, MOST_REPLICATES};
+use store::MOST_REPLICATES;
+use suite::Error;
 use tracer::{MOST_SAMPLES, RenderSettings};
 
 use crate::arguments::scenes::SceneArgs;

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use judge::Judgement;
 use report::{TuneFolder, tuning_page, write_gallery};
-use suite::{Error, Judgement, Run, printable_path, write_layers};
+use store::printable_path;
+use suite::{Error, Run, write_layers};
 
 use super::pages::{WrittenFile, page_lines, write_page, write_run_page};
 use crate::output::print::{print, print_json};

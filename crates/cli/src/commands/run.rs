@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use suite::{Error, Level, Part, Run, judge, open_gpu, printable, printable_path, refuse_failures};
+use judge::{Level, judge};
+use store::{printable, printable_path};
+use suite::{Error, Part, Run, open_gpu, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};

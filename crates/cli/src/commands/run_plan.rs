@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use frame::FrameOptions;
+use judge::{
+    BOUNDS_FILE, BoundsFile, RunBounds, SceneBounds, read_bounds, read_bounds_beside_scenes,
+    read_bounds_file,
+};
+use store::{Claim, Sharing, claim};
 use suite::{
-    BOUNDS_FILE, BoundsFile, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice,
-    Frames, RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
-    read_bounds_beside_scenes, read_bounds_file,
+    Case, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, Frames, RunPlan, engine_name,
 };
 use tracer::{FrameRate, Location, RenderSettings, Scene, Seal};
 
@@ -86,7 +89,7 @@ fn leave_out_filters(
 ) -> Result<Vec<FilterChoice>, Error> {
     let mut taken = vec![false; filters.len()];
     for scene in engine_scenes {
-        let alignment = scene.alignment();
+        let alignment = scene.alignment;
         let mut left_out = [0, 0];
         for (choice, taken) in filters.iter().zip(&mut taken) {
             match (
@@ -195,7 +198,7 @@ pub fn read_case_bounds(
 
 /// Claims the folder of a run for this process alone.
 pub fn claim_out(plan: &RunPlan) -> Result<Claim, Error> {
-    claim(&plan.out, &plan.scenes, Sharing::Alone)
+    Ok(claim(&plan.out, &plan.scenes, Sharing::Alone)?)
 }
 
 /// Loads the named scenes of the folder `root` with their bounds, those for pictures of `size` too; all of it where none is named.

@@ -5,9 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use frame::{Frame, Ladder, Truth};
 use metrics::Metric;
-use suite::{
-    Error, Frames, Scored, engine_name, missing_scores, printable, read_finished_picture, score,
-};
+use store::printable;
+use suite::{Error, Frames, Scored, engine_name, missing_scores, read_finished_picture, score};
 use tracer::Location;
 
 use super::convention::read_convention;

@@ -2,9 +2,10 @@
 
 use frame::{Frame, Image, Truth};
 use metrics::{Measured, SequenceMetric};
+use store::{printable, printable_path};
 use suite::{
-    Error, Frames, ScoredSequence, SequenceTruth, file_at_frame, find_numbered, printable,
-    printable_path, read_finished_picture, score_sequence,
+    Error, Frames, ScoredSequence, SequenceTruth, file_at_frame, find_numbered,
+    read_finished_picture, score_sequence,
 };
 use tracer::Scene;
 

@@ -1,7 +1,9 @@
 //! The command `tune sensitivity`.
 
 use clap::Args;
-use suite::{Error, Evaluator, Sharing, Space, analyze_sensitivity, count_candidates};
+use store::Sharing;
+use suite::Error;
+use tune::{Evaluator, Space, analyze_sensitivity, count_candidates};
 
 use super::candidate::{
     candidate_render_settings, claim_and_render, load_candidate_scenes, open_candidate_gpu,

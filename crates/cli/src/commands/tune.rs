@@ -6,11 +6,10 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use frame::FileError;
-use suite::{
-    Advice, Error, FilterChoice, Sharing, Space, TuneOptions, Tuning, claim, interleave_families,
-    tune, tuned_preset_toml,
-};
+use store::{Sharing, claim};
+use suite::{Error, FilterChoice};
 use tracer::{Progress, RenderSettings};
+use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
 
 use super::candidate::{
     candidate_render_settings, load_candidate_scenes, open_candidate_gpu, print_expected_scoring,

@@ -6,10 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use frame::{FileError, Tile};
 use serde::Serialize;
-use suite::{
-    Error, KeptScene, Pack, TILE_SIDE, Verification, Verified, list_kept_scenes, printable_path,
-    verify_scene,
-};
+use store::{Pack, printable_path};
+use suite::{Error, KeptScene, TILE_SIDE, Verification, Verified, list_kept_scenes, verify_scene};
 use tracer::Location;
 
 use super::ending::Ending;

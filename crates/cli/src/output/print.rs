@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal, Write};
 
-use suite::{Error, printable, printable_lines, printable_table};
+use store::{printable, printable_lines, printable_table};
+use suite::Error;
 use tracer::Scene;
 
 use super::wrap::push_wrapped;

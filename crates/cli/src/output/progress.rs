@@ -7,10 +7,10 @@ use std::sync::{LazyLock, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
+use store::printable;
+use suite::{Monitor, Step};
 use terminal_size::{Width, terminal_size_of};
 use tracer::Progress;
-
-use suite::{Monitor, Step, printable};
 
 use super::interrupts::was_interrupted;
 use super::print::print_error;

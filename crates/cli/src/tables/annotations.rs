@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
+use judge::{Check, Decision, Finding, number};
 use report::{finding_line, length_text, limit_text, way_out};
-use suite::{Check, Decision, Finding, number, printable};
+use store::printable;
 
 use super::check::{comparison_line, count_lines, verdict_word};
 
@@ -111,7 +112,7 @@ fn summary_row(finding: &Finding) -> String {
 /// Names the metric, and the length of the sequence.
 fn metric_cell(finding: &Finding) -> String {
     match length_text(finding) {
-        None => finding.metric.clone(),
+        None => finding.metric.name(),
         Some(length) => format!("{} over {length}", finding.metric),
     }
 }

@@ -1,7 +1,8 @@
 //! Listings of scenes and filters, in brief and in detail.
 
 use filters::{Command, Filter, Parameter, Preset, Unit};
-use suite::{InputKind, printable};
+use store::printable;
+use suite::InputKind;
 use tracer::SceneListing;
 
 use crate::output::colors::heading;

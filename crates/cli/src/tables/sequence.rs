@@ -1,10 +1,9 @@
 //! Tables of sequences: the ranking of their filters, and one row per filter and scene with all scores over time.
 
+use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use metrics::{SequenceMetric, SequenceScores};
-use suite::{
-    RANK_RULE, RANKED_BY, RankedSequence, Run, Sequence, printable, rank_sequences,
-    rank_sequences_on,
-};
+use store::printable;
+use suite::{Run, Sequence};
 
 use super::columns::{bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::{Align, Table};
@@ -120,7 +119,7 @@ fn sequence_table(run: &Run, scenes: &[&str]) -> String {
     for scene in scenes {
         let of_scene = || run.sequences.iter().filter(|own| own.scene == *scene);
         let groups = rank_sequences_on(run, scene);
-        for alignment in list_once(of_scene().map(|own| own.alignment.as_str())) {
+        for alignment in list_once(of_scene().map(|own| own.alignment)) {
             let heading = format!("{}, {alignment} shutter", printable(scene));
             table.push_text(&colors::heading(&heading));
             let of_shutter: Vec<&Sequence> = of_scene()

@@ -2,7 +2,8 @@
 
 use maud::{Markup, PreEscaped, html};
 use serde_json::json;
-use suite::{PROGRAM, Question, SECONDS_PER_QUESTION, Study, draw_session};
+use study::{Question, SECONDS_PER_QUESTION, Study, draw_session};
+use suite::PROGRAM;
 
 use crate::document::{Document, Siblings};
 

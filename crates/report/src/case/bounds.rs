@@ -1,7 +1,7 @@
 //! Bounds of a case, with evidence for those that are not kept.
 
+use judge::{CROP, Finding, Level, Outcome, number};
 use maud::{Markup, html};
-use metrics::BoundMetric;
 
 use super::case_view::CaseView;
 use super::evidence::Evidence;
@@ -9,8 +9,6 @@ use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, finding_line, limit_text, way_out, worst_frame_text};
 use crate::numbers::counted;
 use crate::sequence::SEQUENCES_PAGE;
-use suite::Level;
-use suite::{CROP, Finding, Outcome, number};
 
 /// Lists the required bounds of a run that are not kept, each with a link to its case.
 pub fn broken_bounds(pages: &[CaseView]) -> Markup {
@@ -141,10 +139,9 @@ fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> M
 
 /// Lists metric, limit, value and interval.
 fn facts(finding: &Finding) -> Markup {
-    let metric: Option<BoundMetric> = finding.metric.parse().ok();
     html! {
         dl {
-            div { dt { "metric" } dd { (finding.metric) @if let Some(metric) = metric { ": " (metric.meaning()) } } }
+            div { dt { "metric" } dd { (finding.metric) ": " (finding.metric.meaning()) } }
             @if let Some(value) = finding.value {
                 div { dt { "measured" } dd { (finding.with_unit(value)) } }
             }

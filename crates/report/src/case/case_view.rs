@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
+use judge::{BLOCK, Finding, worst_block};
+use metrics::Metric;
+use suite::{Case, Error, Run};
+
 use super::evidence::{Evidence, find_evidence};
 use super::profile::{Profile, trace_profile, worst_pixel};
 use crate::pixels::layer::Layer;
 use crate::pixels::scene_files::SceneFiles;
-use suite::{BLOCK, Finding, worst_block};
-use suite::{Case, Error, Run};
 
 /// A case with all that a page shows of its files.
 pub struct CaseView<'a> {
@@ -69,8 +71,8 @@ impl<'a> CaseView<'a> {
         let place = match evidence.iter().flatten().next() {
             Some(first) => worst_pixel(&own.errors.map(&first.map)?, first.place, BLOCK),
             None => {
-                let metric = "flip_moving".parse().expect("a metric's name");
-                let (x, y) = worst_block(metric, &flip, &files.truths[&case.alignment].regions);
+                let (x, y) =
+                    worst_block(Metric::FLIP, &flip, &files.truths[&case.alignment].regions);
                 worst_pixel(&flip, [x, y], BLOCK)
             }
         };

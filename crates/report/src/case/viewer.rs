@@ -1,11 +1,11 @@
 //! Viewer of pictures: one set of controls, which the script moves to the case that is open.
 
+use judge::BLOCK;
 use maud::{Markup, PreEscaped, html};
+use suite::Run;
 
 use super::legend::draw_legends;
 use crate::pixels::layer::Layer;
-use suite::BLOCK;
-use suite::Run;
 
 /// Modes in which two pictures are compared: the script's word, the name, and the key.
 const MODES: [(&str, &str, &str); 5] = [

@@ -1,18 +1,18 @@
 //! Page of a comparison.
 
+use judge::{
+    Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison, Side, filter_label, pair_cases,
+    rank_changes,
+};
 use maud::{Markup, html};
 use metrics::Metric;
+use suite::Error;
 
 use super::cells::ChangeCells;
 use super::pictures::Pictures;
 use super::runs::both_runs;
 use crate::charts::strip::Strip;
 use crate::document::{Document, Siblings};
-use suite::Error;
-use suite::{Change, ChangeKind, rank_changes};
-use suite::{MeanChange, MeanKind};
-use suite::{Pair, filter_label, pair_cases};
-use suite::{RunComparison, Side};
 
 /// Number of cases that are shown in pictures, those that changed most.
 const SHOWN: usize = 12;
@@ -123,8 +123,8 @@ fn means(means: &[MeanChange]) -> Markup {
         .filter(|mean| mean.kind != MeanKind::Same)
         .collect();
     // Filters of one metric stand together.
-    let place = |metric: &str| means.iter().position(|own| own.metric == metric);
-    changed.sort_by_key(|mean| place(&mean.metric));
+    let place = |metric: Metric| means.iter().position(|own| own.metric == metric);
+    changed.sort_by_key(|mean| place(mean.metric));
     html! {
         section {
             h2 { "Means over scenes" }
@@ -154,7 +154,7 @@ fn means(means: &[MeanChange]) -> Markup {
 
 /// Writes the rows of one metric, all with one scale.
 fn metric_means(means: &[&MeanChange]) -> Markup {
-    let metric = means[0].metric.as_str();
+    let metric = means[0].metric;
     let ends = means
         .iter()
         .flat_map(|mean| mean.interval)
@@ -164,7 +164,7 @@ fn metric_means(means: &[&MeanChange]) -> Markup {
         tbody.group {
             tr {
                 th scope="rowgroup" colspan="7" {
-                    (metric) " " span.note { (metric.parse().map_or_else(|_| String::new(), Metric::meaning)) }
+                    (metric) " " span.note { (metric.meaning()) }
                 }
             }
         }

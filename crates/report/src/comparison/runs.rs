@@ -1,10 +1,10 @@
 //! Settings of two runs side by side.
 
+use judge::Side;
 use maud::{Markup, html};
+use suite::Run;
 
 use crate::run_facts::facts;
-use suite::Run;
-use suite::Side;
 
 /// Lists the settings of both runs, and the truths that they share.
 pub fn both_runs(first: &Side, second: &Side) -> Markup {
@@ -59,7 +59,7 @@ fn truths<'a>(first: &'a Run, second: &Run) -> Vec<[&'a str; 3]> {
             .cases
             .iter()
             .any(|own| own.scene == case.scene && own.truth_hash == case.truth_hash);
-        let truth = [case.scene.as_str(), &case.alignment, &case.truth_hash];
+        let truth = [case.scene.as_str(), case.alignment.name(), &case.truth_hash];
         if shared && !truths.contains(&truth) {
             truths.push(truth);
         }

@@ -4,14 +4,13 @@ use std::path::Path;
 
 use filters::{Clock, Value};
 use maud::{Markup, html};
+use metrics::Metric;
+use store::read_text;
+use suite::{BASELINE, BENCH_FORMAT, Bench, CaseCost, Error, GROWTH_FROM, REACHES, SIDES, Spread};
 
 use super::pareto::{Point, pareto_chart};
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, mean};
-use suite::Headline;
-use suite::read_text;
-use suite::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
-use suite::{Bench, Error, SIDES};
 
 /// Name of the file that `shuttertruth bench` writes.
 const BENCH_FILE: &str = "bench.json";
@@ -190,7 +189,7 @@ fn references(table: &CaseTable) -> Vec<(String, f64)> {
 /// Averages over the scenes that have an error.
 fn mean_error(table: &CaseTable, filter: &FilterId) -> Option<f64> {
     let cases = table.cases_of(filter);
-    mean(cases.filter_map(|(_, case)| Headline::CommonFlip.estimate(case)))
+    mean(cases.filter_map(|(_, case)| case.estimate(Metric::CommonFlip)))
 }
 
 /// Lists the run's filters that were timed.

@@ -7,7 +7,14 @@ mod pareto;
 mod score_table;
 mod sequences;
 
+use costs::costs;
+use headlines::{TABLE_SCORES, TableScore};
+use judge::{Finding, Level, Outcome, RankedFilter, lag_text, rank_for_summary};
 use maud::{Markup, html};
+use metrics::Metric;
+use score_table::score_table;
+use sequences::sequence_winners;
+use suite::Bench;
 
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
@@ -16,11 +23,6 @@ use crate::filter_id::{FilterId, case_anchor};
 use crate::numbers::counted;
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
-use costs::costs;
-use headlines::{TABLE_SCORES, TableScore};
-use score_table::score_table;
-use sequences::sequence_winners;
-use suite::{Bench, Finding, Headline, Level, Outcome, RankedFilter, lag_text, rank_for_summary};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
 pub fn overview(
@@ -43,7 +45,7 @@ pub fn overview(
                     legend.unseen { "Score" }
                     @for (index, score) in TABLE_SCORES.iter().enumerate() {
                         label {
-                            input type="radio" name="metric" value=(score.headline.name()) checked[index == 0];
+                            input type="radio" name="metric" value=(score.metric.name()) checked[index == 0];
                             span { (score.title) }
                         }
                     }
@@ -146,7 +148,7 @@ fn winners(table: &CaseTable) -> Markup {
 fn winner(table: &CaseTable, group: &[RankedFilter]) -> Markup {
     let best = &group[0];
     let ties: Vec<&RankedFilter> = group[1..].iter().filter(|own| own.ranks[0] == 1).collect();
-    let number = |value: f64| Headline::FLIP.number(value);
+    let number = |value: f64| Metric::FLIP.number(value);
     let (scene, error) = &best.worst;
     let weakest = table.case_on(&id_of(best), scene);
     html! {
@@ -171,7 +173,7 @@ fn id_of(ranked: &RankedFilter) -> FilterId {
     FilterId {
         name: ranked.name.clone(),
         is_reference: false,
-        alignment: ranked.alignment.clone(),
+        alignment: ranked.alignment,
     }
 }
 
@@ -188,17 +190,17 @@ fn panel(
     bench: Option<&Bench>,
 ) -> Markup {
     // One copy of the pictures is enough: the script moves them to the table that is seen.
-    let first = score.headline == TABLE_SCORES[0].headline;
+    let first = score.metric == TABLE_SCORES[0].metric;
     let none = vec![String::new(); thumbnails.len()];
     let content = html! {
         p.meaning {
-            strong { (score.title) } ": " (score.meaning()) "; " (score.better()) "."
-            @if let Some(lag) = lag_text(&table.run.cases).filter(|_| score.headline == Headline::SKILL) { " " (lag) }
+            strong { (score.title) } ": " (score.metric.meaning()) "; " (score.better()) "."
+            @if let Some(lag) = lag_text(&table.run.cases).filter(|_| score.metric == Metric::SKILL) { " " (lag) }
         }
         (score_table(table, views, if first { thumbnails } else { &none }, score, bench))
     };
     html! {
-        div.panel data-metric=(score.headline.name()) {
+        div.panel data-metric=(score.metric.name()) {
             // Where scripts run, the other tables are text until somebody looks at them, so that the page opens sooner.
             @if first { (content) } @else { noscript { (content) } }
         }

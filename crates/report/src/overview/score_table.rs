@@ -1,7 +1,10 @@
 //! Table of one score: filters, best mean first, against scenes.
 
+use judge::{Level, Outcome, list_summarized};
 use maud::{Markup, html};
-use metrics::Ideal;
+use metrics::{Ideal, Metric};
+use suite::{Bench, Case, Overall};
+use tracer::FrameRate;
 
 use super::cell::{Colors, cell};
 use super::costs::{cost_of, cost_text};
@@ -10,8 +13,6 @@ use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
 use crate::filter_id::{FilterId, list_alignments, mean, mean_floor};
-use suite::{Bench, Case, Headline, Level, Outcome, Overall, list_summarized};
-use tracer::FrameRate;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
 const WHISKERS: f64 = 1.5;
@@ -30,26 +31,26 @@ struct Row<'a> {
 }
 
 /// Groups the filters of a run by shutter, unless the score compares across shutters; the best mean comes first.
-fn rank_rows<'a>(table: &CaseTable<'a>, headline: Headline) -> Vec<Vec<Row<'a>>> {
+fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
     // Shutters come in the order of their filters, as in every ranking, and references behind the filters.
     let mut filters = table.filters.clone();
     filters.sort_by_key(|filter| filter.is_reference);
     let rate = summarized_rate(&table.run.cases);
     let means: Vec<&Overall> = (table.run.overall.iter())
-        .filter(|own| own.metric == headline.name() && Some(own.rate) == rate)
+        .filter(|own| own.metric == metric && Some(own.rate) == rate)
         .collect();
     let row = |filter: &FilterId| {
         let overall = means.iter().find(|own| filter.is_of(own)).copied();
         let of_rate = |case: &Case| rate.is_none_or(|rate| case.rate == rate);
         let scores = (table.cases_of(filter)).filter(|(_, case)| of_rate(case));
-        let only = mean(scores.filter_map(|(_, case)| headline.estimate(case)));
+        let only = mean(scores.filter_map(|(_, case)| case.estimate(metric)));
         Row {
             overall,
             mean: overall.map(|own| own.mean).or(only),
             filter: filter.clone(),
         }
     };
-    let mut groups: Vec<Vec<Row>> = match headline.spans_alignments() {
+    let mut groups: Vec<Vec<Row>> = match metric.spans_alignments() {
         true => vec![filters.iter().map(row).collect()],
         false => (list_alignments(&filters).into_iter())
             .map(|own| {
@@ -63,7 +64,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, headline: Headline) -> Vec<Vec<Row<'a>>>
     };
     let badness = |row: &Row| {
         row.mean
-            .map_or(f64::INFINITY, |own| headline.ideal().badness(own))
+            .map_or(f64::INFINITY, |own| metric.ideal().badness(own))
     };
     for group in &mut groups {
         group.sort_by(|a, b| badness(a).total_cmp(&badness(b)));
@@ -79,30 +80,30 @@ pub fn score_table(
     score: &TableScore,
     bench: Option<&Bench>,
 ) -> Markup {
-    let headline = score.headline;
+    let metric = score.metric;
     let scenes = &table.scenes;
-    let groups = rank_rows(table, headline);
+    let groups = rank_rows(table, metric);
     let rows = || groups.iter().flatten();
     let own = views.iter().filter(|view| !view.case.is_reference);
     let colors = Colors::over(
-        headline.ideal(),
-        own.filter_map(|view| headline.estimate(view.case)),
+        metric.ideal(),
+        own.filter_map(|view| view.case.estimate(metric)),
     );
     let has_means = rows().any(|row| row.overall.is_some());
     let strip = strip_over(
         rows().filter(|row| !row.filter.is_reference),
-        headline.ideal(),
+        metric.ideal(),
     );
     let columns = 1 + scenes.len() + 3 * usize::from(has_means) + usize::from(bench.is_some());
     // What a reader looks for comes first.
-    let order = match headline.ideal() {
+    let order = match metric.ideal() {
         Ideal::Highest => "descending",
         Ideal::Lowest | Ideal::Target(_) => "ascending",
     };
     html! {
         div.scroll tabindex="0" role="region" aria-label=(format!("{} of every case", score.title)) {
             table.sortable.many[scenes.len() > MANY] data-first=(order) {
-                caption { (caption(headline, has_means, scenes.len())) }
+                caption { (caption(metric, has_means, scenes.len())) }
                 thead {
                     tr {
                         th scope="col" { button { "filter" } }
@@ -110,7 +111,7 @@ pub fn score_table(
                             th scope="col" { button { "mean" } }
                             th.note scope="col" { "95 % CI" }
                             th.chart scope="col" {
-                                div.ends { span { (headline.number(strip.low)) } span.unseen { " to " } span { (headline.number(strip.high)) } }
+                                div.ends { span { (metric.number(strip.low)) } span.unseen { " to " } span { (metric.number(strip.high)) } }
                             }
                         }
                         @for (scene, picture) in scenes.iter().zip(thumbnails) {
@@ -123,7 +124,7 @@ pub fn score_table(
                     }
                 }
                 @for group in &groups {
-                    @if !headline.spans_alignments() {
+                    @if !metric.spans_alignments() {
                         tbody.group {
                             tr { th scope="rowgroup" colspan=(columns) { (group[0].filter.alignment) " shutter" } }
                         }
@@ -131,11 +132,11 @@ pub fn score_table(
                     tbody {
                         @for row in group {
                             tr.reference[row.filter.is_reference] data-failing[is_failing(table, views, &row.filter)] {
-                                th scope="row" { (name(headline, &row.filter)) }
-                                @if has_means { (mean_cells(table, headline, &strip, row)) }
+                                th scope="row" { (name(metric, &row.filter)) }
+                                @if has_means { (mean_cells(table, metric, &strip, row)) }
                                 @for scene in scenes {
                                     @match table.case_on(&row.filter, scene) {
-                                        Some(index) => (cell(headline, &colors, &views[index])),
+                                        Some(index) => (cell(metric, &colors, &views[index])),
                                         None => td { "-" },
                                     }
                                 }
@@ -149,8 +150,8 @@ pub fn score_table(
     }
 }
 
-fn caption(headline: Headline, has_means: bool, scenes: usize) -> &'static str {
-    match (has_means, headline.spans_alignments()) {
+fn caption(metric: Metric, has_means: bool, scenes: usize) -> &'static str {
+    match (has_means, metric.spans_alignments()) {
         (false, _) if scenes > 1 => "Counts of sub-frames have no mean",
         (false, _) => "A single scene has no mean",
         (true, true) => {
@@ -178,11 +179,11 @@ fn is_failing(table: &CaseTable, views: &[CaseView], filter: &FilterId) -> bool 
 }
 
 /// Links a filter to its section.
-fn name(headline: Headline, filter: &FilterId) -> Markup {
+fn name(metric: Metric, filter: &FilterId) -> Markup {
     html! {
         @if filter.is_reference { (filter.name) }
         @else { a href=(format!("#{}", filter.section_anchor())) { (breakable(&filter.name)) } }
-        @if headline.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
+        @if metric.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
     }
 }
 
@@ -193,19 +194,19 @@ fn breakable(name: &str) -> Markup {
     }
 }
 
-fn mean_cells(table: &CaseTable, headline: Headline, strip: &Strip, row: &Row) -> Markup {
+fn mean_cells(table: &CaseTable, metric: Metric, strip: &Strip, row: &Row) -> Markup {
     let Some(own) = row.overall else {
         return html! { td { "-" } td {} td {} };
     };
     let class = if own.is_reference { "open" } else { "" };
     // Only where less is better does a floor lie between perfect and the score.
-    let floor = match headline.ideal() {
-        Ideal::Lowest => mean_floor(table, &row.filter, headline),
+    let floor = match metric.ideal() {
+        Ideal::Lowest => mean_floor(table, &row.filter, metric),
         Ideal::Highest | Ideal::Target(_) => None,
     };
-    let [low, high] = own.interval.map(|end| headline.number(end));
+    let [low, high] = own.interval.map(|end| metric.number(end));
     html! {
-        td.mean data-value=(own.mean) { (headline.number(own.mean)) }
+        td.mean data-value=(own.mean) { (metric.number(own.mean)) }
         td.note { (low) " to " (high) }
         td.chart {
             (strip.draw(&html! {

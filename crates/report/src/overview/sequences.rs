@@ -1,9 +1,10 @@
 //! What a run's sequences say, in a line per shutter.
 
+use judge::{RANKED_BY, RankedFilter, rank_sequences};
 use maud::{Markup, html};
+use suite::Run;
 
 use crate::sequence::SEQUENCES_PAGE;
-use suite::{RANKED_BY, RankedFilter, Run, rank_sequences};
 
 /// Names the best filters of the sequences of every shutter; nothing where the run has no sequences.
 pub fn sequence_winners(run: &Run) -> Markup {

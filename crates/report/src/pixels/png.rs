@@ -5,7 +5,6 @@ use std::path::Path;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use frame::{FileError, Image, Raster, display_srgb, read_bounded, write_png};
-
 use suite::Error;
 
 /// Largest PNG file that a page shows, in bytes.

@@ -7,23 +7,22 @@ use frame::{
     Alignment, ExrFile, FileError, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions,
 };
 use metrics::{Side, object_sides};
+use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run};
 
 use super::layer::Layer;
 use super::planes::Planes;
 use super::png::{embed_picture, thumbnail};
-use suite::ACCUMULATE;
-use suite::{Case, Error, ErrorMaps, Run};
 
 /// The frame of a scene, its truths, and the planes of all its pictures.
 pub struct SceneFiles {
     /// Without its guard band.
     pub frame: Frame,
-    /// Truths by the name of the alignment.
-    pub truths: BTreeMap<String, TruthFile>,
+    /// Truths by their alignment.
+    pub truths: BTreeMap<Alignment, TruthFile>,
     /// The planes of all its cases.
     pub planes: Planes,
-    /// Accumulation that stands in every profile, with its title, by the name of the alignment.
-    pub accumulations: BTreeMap<String, (String, Image)>,
+    /// Accumulation that stands in every profile, with its title, by their alignment.
+    pub accumulations: BTreeMap<Alignment, (String, Image)>,
     folder: PathBuf,
     /// Folder of the same scene as it was rendered, where an engine drew this one.
     traced: Option<PathBuf>,
@@ -72,7 +71,7 @@ impl SceneFiles {
             let file = read_exr(&path)?;
             check_size(&path, (file.width, file.height), frame.size())?;
             let named = (format!("{} sub-frames", case.preset), file.color("")?);
-            accumulations.insert(case.alignment.clone(), named);
+            accumulations.insert(case.alignment, named);
         }
         let mut planes = Planes::default();
         let velocity = [0, 1].map(|axis| frame.velocity.map(|motion| motion[axis]));
@@ -105,14 +104,13 @@ impl SceneFiles {
     /// The truth that a case is scored against, read once.
     fn truth(&mut self, case: &Case) -> Result<&TruthFile, Error> {
         if !self.truths.contains_key(&case.alignment) {
-            let truth = self.read_truth(&case.alignment)?;
-            self.truths.insert(case.alignment.clone(), truth);
+            let truth = self.read_truth(case.alignment)?;
+            self.truths.insert(case.alignment, truth);
         }
         Ok(&self.truths[&case.alignment])
     }
 
-    fn read_truth(&mut self, alignment: &str) -> Result<TruthFile, Error> {
-        let alignment: Alignment = alignment.parse().map_err(Error::Usage)?;
+    fn read_truth(&mut self, alignment: Alignment) -> Result<TruthFile, Error> {
         let path = self.folder.join(format!("truth_{alignment}.exr"));
         let truth = Truth::read(&path)?;
         check_size(&path, truth.size(), self.frame.size())?;

@@ -1,8 +1,9 @@
 //! Player of sequences.
 
+use judge::{Finding, RANKED_BY};
 use maud::{PreEscaped, html};
 use serde::Serialize;
-use suite::{CHANGE_PICTURE, Finding, RANKED_BY, Run, Sequence};
+use suite::{CHANGE_PICTURE, Run, Sequence};
 
 use super::ranking::ranking_tables;
 use super::scores::score_tables;

@@ -1,8 +1,9 @@
 //! Ranking of the filters of sequences, by means over the scenes.
 
+use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences};
 use maud::{Markup, html};
 use metrics::SequenceMetric;
-use suite::{RANK_RULE, RANKED_BY, RankedSequence, Run, SceneMean, rank_sequences};
+use suite::{Run, SceneMean};
 
 /// Makes a table per shutter; nothing where the run has one scene, whose own table is ranked.
 pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {

@@ -1,23 +1,25 @@
 //! Tables of scores over time.
 
+use frame::Alignment;
+use judge::{Finding, Level, RankedSequence, rank_sequences_on};
 use maud::{Markup, html};
-use metrics::{Measured, SequenceMetric};
-use suite::{Finding, Level, RankedSequence, Run, Sequence, rank_sequences_on};
+use metrics::{Measured, Metric, SequenceMetric};
+use suite::{Run, Sequence};
 
 use super::ranking::metric_heads;
 use crate::finding_text::{Status, limit_text};
 
 /// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
 pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
-    let mut groups: Vec<[&str; 2]> = Vec::new();
+    let mut groups: Vec<(&str, Alignment)> = Vec::new();
     for own in &run.sequences {
-        let group = [own.scene.as_str(), own.alignment.as_str()];
+        let group = (own.scene.as_str(), own.alignment);
         if !groups.contains(&group) {
             groups.push(group);
         }
     }
     html! {
-        @for [scene, alignment] in groups {
+        @for (scene, alignment) in groups {
             h3 { (scene) ", " (alignment) " shutter" }
             div.scroll {
                 table {
@@ -47,7 +49,7 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
 fn order_rows<'a>(
     run: &'a Run,
     scene: &str,
-    alignment: &str,
+    alignment: Alignment,
 ) -> Vec<(usize, String, &'a Sequence)> {
     let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene)
         .into_iter()
@@ -108,10 +110,9 @@ fn finding_about<'a>(
     metric: SequenceMetric,
     findings: &'a [Finding],
 ) -> Option<&'a Finding> {
-    let name = metric.row().name;
     findings.iter().find(|finding| {
         !own.is_reference
-            && (finding.metric == name
+            && (finding.metric == Metric::Sequence(metric)
                 && finding.scene == own.scene
                 && finding.filter == own.filter)
     })

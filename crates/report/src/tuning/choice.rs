@@ -1,9 +1,9 @@
 //! Choice of a tuning.
 
 use maud::{Markup, html};
+use tune::{Advice, Preference, Tuning};
 
 use crate::numbers::percent;
-use suite::{Advice, Preference, Tuning};
 
 /// Writes the outcome in a few sentences.
 pub fn summary(tuning: &Tuning) -> Markup {

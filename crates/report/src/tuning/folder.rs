@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
-
-use suite::read_text;
-use suite::{Error, JOURNAL_FORMAT, JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning};
+use store::read_text;
+use suite::Error;
+use tune::{JOURNAL_FORMAT, JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning};
 
 /// Contents of tune.json, journal.jsonl and sensitivity.json; at least one is there.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! Cross-validation: the choice that was made without a family of scenes, on that family.
 
 use maud::{Markup, html};
+use tune::Fold;
 
 use crate::charts::strip::Strip;
 use crate::numbers::percent;
-use suite::Fold;
 
 /// Nothing where there were no two families.
 pub fn folds(folds: &[Fold]) -> Markup {

@@ -1,11 +1,11 @@
 //! Pareto front of a tuning: trials that no other one beats.
 
 use maud::{Markup, html};
+use tune::{Advice, Trial, round_bleed};
 
 use super::folder::TuneFolder;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
-use suite::{Advice, Trial, round_bleed};
 
 /// A measure that a chart shows against the error.
 struct Against {

@@ -1,9 +1,9 @@
 //! Importance of parameters.
 
 use maud::{Markup, html};
+use tune::{ParameterSensitivity, Sensitivity};
 
 use crate::charts::strip::Strip;
-use suite::{ParameterSensitivity, Sensitivity};
 
 /// Lists the parameters, those that matter most first.
 pub fn importance(found: &Sensitivity) -> Markup {

@@ -11,9 +11,9 @@ mod settings;
 mod slices;
 
 use maud::{Markup, html};
+use suite::Error;
 
 use crate::document::{Document, Siblings};
-use suite::Error;
 
 pub use folder::TuneFolder;
 
@@ -62,7 +62,7 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
     Ok(document.render())
 }
 
-fn failures(tuning: &suite::Tuning) -> Markup {
+fn failures(tuning: &tune::Tuning) -> Markup {
     html! {
         @if !tuning.failed.is_empty() {
             section {

@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 
 use maud::{Markup, html};
+use tune::{HeldOutResult, SceneScore, Tuning, log_ratio};
 
 use super::folds::change_bar;
 use crate::numbers::percent;
-use suite::log_ratio;
-use suite::{HeldOutResult, SceneScore, Tuning};
 
 /// Lists the scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {

@@ -1,8 +1,7 @@
 //! Settings that a tuning ran with.
 
 use maud::{Markup, html};
-
-use suite::JournalHeader;
+use tune::JournalHeader;
 
 /// Lists all that the trials depended on, and the hashes of the truths.
 pub fn settings(header: &JournalHeader) -> Markup {

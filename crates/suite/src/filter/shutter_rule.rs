@@ -3,7 +3,7 @@
 use frame::Frame;
 use tracer::Scene;
 
-use crate::named::named;
+use crate::named;
 
 named! {
     /// A rule by which a filter sets its exposure where a scene is taken at another frame rate than that of its file.

@@ -7,9 +7,7 @@ use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
-use tracer::Defocus;
-
-use tracer::FrameRate;
+use tracer::{Defocus, FrameRate};
 
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
@@ -19,11 +17,11 @@ use super::probes::{FilterOutput, blur_noise_frames, blur_with_probes};
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use crate::Error;
+use crate::engine_scene::EngineScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::depth_of_field::DepthOfField;
 use crate::filter::input_format::InputFormat;
 use crate::filter::runner::Runner;
-use crate::ingest::engine_scene::EngineScene;
 use crate::run::case::{Case, Intervals};
 use crate::stats::intervals::intervals;
 
@@ -291,7 +289,7 @@ impl CaseContext<'_> {
             command: command.map(Command::words),
             convention: convention.map(Convention::resolved),
             nonlinearity: measured.nonlinearity,
-            alignment: truth.alignment.name().to_owned(),
+            alignment: truth.alignment,
             truth_hash: truth.provenance.content_hash.clone(),
             common,
             jitter: measured.jitter,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use filters::FilterError;
 use frame::{Accumulation, Alignment, Frame, Ladder, Truth};
 use metrics::{ColorReference, Reference};
+use store::put;
 use tracer::{Defocus, Progress, Scene, Watch};
 
 use super::case::{CaseContext, CommonTruth};
@@ -15,7 +16,6 @@ use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
 use crate::Error;
-use crate::cache::record::write_record;
 use crate::filter::depth_of_field::DepthOfField;
 use crate::filter::input_format::InputFormat;
 use crate::render::ladders::{LadderFiles, SHARP, needed_rungs};
@@ -139,7 +139,7 @@ impl SceneContext<'_> {
             Err(error) => return Ok(Err(self.failure(error, planned)?)),
         };
         if let Some(key) = self.case_key(planned) {
-            write_record(&self.case_record(planned), key, &files, &case)?;
+            put(&self.case_record(planned), key, &files, &case)?;
         }
         (self.plan.monitor.ended)("record");
         Ok(Ok(case))
@@ -152,7 +152,7 @@ impl SceneContext<'_> {
             | Error::Measure(_) => Ok(Failure {
                 scene: self.scene.name().to_owned(),
                 filter: planned.name(),
-                alignment: planned.alignment.name().to_owned(),
+                alignment: planned.alignment,
                 reason: error.to_string(),
             }),
             _ => Err(error),

@@ -3,6 +3,7 @@
 use std::convert::Infallible;
 
 use filters::Gpu;
+use store::LADDER;
 use tracer::{Progress, RenderSettings, Scene};
 
 use super::first_slice::{RenderCosts, count_small_pixels, measure_first_cases};
@@ -11,7 +12,7 @@ use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
-use crate::render::ladders::{LADDER, needed_rungs};
+use crate::render::ladders::needed_rungs;
 use crate::render::settings::frame_settings;
 
 /// Time in seconds from which a first slice is measured; shorter work is over before that pays.

@@ -1,8 +1,10 @@
 //! The main job: renders every scene, runs every filter on it, measures how far each picture is from the truth.
 
 pub mod case;
+mod check_plan;
 pub mod dilated_velocity;
 mod due_cases;
+pub mod earlier;
 pub mod estimate;
 mod first_slice;
 mod frames;
@@ -17,5 +19,6 @@ pub mod probes;
 pub mod references;
 pub(crate) mod run_scene;
 pub mod scene;
+mod scene_keys;
 pub mod scenes;
 pub mod sequence;

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
 use frame::Alignment;
+use store::LADDER;
 
 use super::plan::RunPlan;
 use super::run_scene::RunScene;
+use crate::engine_scene::EngineScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
-use crate::ingest::engine_scene::EngineScene;
-use crate::render::ladders::LADDER;
 use crate::run::case::{ACCUMULATE, IDENTITY, SCATTER_ORACLE};
 
 /// Sub-frame counts of the accumulations that filters are compared with, rungs of the ladder.
@@ -58,7 +58,7 @@ impl<'a> PlannedCase<'a> {
         });
         let own = match scene {
             RunScene::Drawn(scene) if scene.has_picture => Some(Self {
-                alignment: scene.alignment(),
+                alignment: scene.alignment,
                 source: PictureSource::Engine(scene),
             }),
             _ => None,

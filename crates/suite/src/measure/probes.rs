@@ -33,7 +33,7 @@ pub(crate) fn blur_with_probes(
     picture: [u32; 2],
     ended: fn(&'static str),
 ) -> Result<FilterOutput, FilterError> {
-    let mattes = pack(&frame.coverage);
+    let mattes = pack_planes(&frame.coverage);
     let (width, height) = frame.size();
     let step = [
         picture[0] as f32 / (width - 2 * frame.guard_band) as f32,
@@ -43,7 +43,7 @@ pub(crate) fn blur_with_probes(
     let mixture = mix(&frame.color, &probes[0]);
     let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
     colors.extend(&mattes);
-    let mattes_before = pack(&before.coverage);
+    let mattes_before = pack_planes(&before.coverage);
     let mixture_before = mix(&before.color, &probes[0]);
     let mut colors_before = vec![&before.color, &probes[0], &probes[1], &mixture_before];
     colors_before.extend(&mattes_before);
@@ -78,7 +78,7 @@ pub(crate) fn blur_with_probes(
         probes: Probes::of([&outputs[1], &outputs[2]]),
         picture: Picture {
             color: color.unwrap_or_else(|| outputs[0].clone()),
-            coverage: unpack(&outputs[4..], frame.coverage.len()),
+            coverage: unpack_planes(&outputs[4..], frame.coverage.len()),
         },
     })
 }
@@ -160,7 +160,7 @@ fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
 }
 
 /// Packs three planes to an image; the last image is filled up with zeros.
-pub(crate) fn pack(planes: &[Plane]) -> Vec<Image> {
+pub fn pack_planes(planes: &[Plane]) -> Vec<Image> {
     planes
         .chunks(3)
         .map(|chunk| {
@@ -179,7 +179,7 @@ pub(crate) fn pack(planes: &[Plane]) -> Vec<Image> {
 }
 
 /// Takes planes out of images again.
-pub(crate) fn unpack(images: &[Image], count: usize) -> Vec<Plane> {
+pub fn unpack_planes(images: &[Image], count: usize) -> Vec<Plane> {
     (0..count)
         .map(|plane| images[plane / 3].map(|pixel| pixel[plane % 3]))
         .collect()
@@ -194,6 +194,6 @@ mod tests {
         let planes: Vec<Plane> = (0..5)
             .map(|k| Raster::from_fn(4, 3, |x, y| (k * 100 + y * 4 + x) as f32))
             .collect();
-        assert_eq!(unpack(&pack(&planes), 5), planes);
+        assert_eq!(unpack_planes(&pack_planes(&planes), 5), planes);
     }
 }

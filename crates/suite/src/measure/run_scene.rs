@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use frame::Alignment;
+use store::LADDER;
 use tracer::{Family, RenderSettings, Scene};
 
 use crate::Error;
-use crate::ingest::engine_scene::EngineScene;
-use crate::render::ladders::{LADDER, SHARP, needed_rungs};
+use crate::engine_scene::EngineScene;
+use crate::render::ladders::{SHARP, needed_rungs};
 use crate::render::memory::{check_measuring_memory, measuring_memory};
 use crate::render::settings::frame_settings;
 use crate::run::case::Drawn;
@@ -81,7 +82,7 @@ impl<'a> RunScene<'a> {
     pub fn alignments(self, planned: Vec<Alignment>) -> Vec<Alignment> {
         match self {
             Self::Traced(_) => planned,
-            Self::Drawn(scene) => vec![scene.alignment()],
+            Self::Drawn(scene) => vec![scene.alignment],
         }
     }
 

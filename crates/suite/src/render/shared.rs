@@ -4,11 +4,11 @@ use std::ops::Range;
 use std::path::Path;
 
 use frame::Alignment;
+use store::scene_folder;
 use tracer::{RenderSettings, Scene, TruthTracer};
 
 use super::memory::check_memory;
 use super::replicates::ReplicateFiles;
-use crate::folder::scene_folder::scene_folder;
 use crate::{Error, Monitor};
 
 const SHARED: [Alignment; 2] = [Alignment::Trailing, Alignment::Centred];

@@ -8,7 +8,9 @@ use std::collections::BTreeSet;
 
 use clap::Args;
 use serde_json::json;
-use suite::{Error, Evaluator, Objective, SceneScore, Sharing, evaluate_candidate};
+use store::Sharing;
+use suite::Error;
+use tune::{Evaluator, Objective, SceneScore, evaluate_candidate};
 
 use self::inbox::{Inbox, ScoreRequest};
 use self::reply::print_reply;

@@ -1,0 +1,158 @@
+//! Next trial of a tuning: asks the search for a candidate, scores it and rates it.
+
+use std::collections::BTreeMap;
+
+use filters::{FilterError, Settings};
+use suite::Error;
+use tracer::TraceError;
+
+use crate::cost::Stopwatch;
+use crate::evaluator::Evaluator;
+use crate::loss::{FAILED, bounds_penalty, log_ratio, mean_log_ratio, penalty, worst_bleed};
+use crate::objective::Objective;
+use crate::options::TuneOptions;
+use crate::search::Search;
+use crate::selection::ChoiceLimits;
+use crate::target::SceneScore;
+use crate::trial::{Trial, TrialOutcome};
+use crate::wilcoxon::signed_rank_p_value;
+
+/// Scenes that a candidate runs on before it can be dropped.
+const RACE_FROM: usize = 6;
+/// Scenes between later checks: as many as are worked on at once.
+const RACE_STEP: usize = 2;
+/// A candidate is dropped if chance alone would make it look this bad less often than this.
+const RACE_LEVEL: f64 = 0.1;
+
+/// Asks the search for the next candidate and runs it. A candidate that the filter fails on is a failed trial, unless it is the
+/// start.
+pub fn run_next_trial(
+    options: &TuneOptions,
+    evaluator: &mut Evaluator,
+    search: &Search,
+    trials: &[Trial],
+) -> Result<Trial, Error> {
+    let losses: Vec<f64> = trials.iter().map(|trial| trial.loss).collect();
+    let settings = match trials.len() {
+        0 => options.space.start.clone(),
+        _ => options.space.settings(&search.ask(&losses)),
+    };
+    let values = (options.space.axes.iter())
+        .map(|axis| (axis.name.clone(), settings.values[&axis.name].clone()))
+        .collect();
+    let mut trial = Trial {
+        trial: trials.len(),
+        values,
+        outcome: TrialOutcome::Done,
+        loss: FAILED,
+        error: None,
+        bleed: None,
+        cost: None,
+        scenes: BTreeMap::new(),
+    };
+    match measure_trial(options, evaluator, trials, &settings, &mut trial) {
+        Ok(()) => Ok(trial),
+        Err(error @ (Error::Trace(_) | Error::Filter(FilterError::Interrupted))) => Err(error),
+        Err(error) if trials.is_empty() => Err(error),
+        Err(error) => {
+            trial.outcome = TrialOutcome::Failed {
+                reason: error.to_string(),
+            };
+            trial.loss = FAILED;
+            trial.error = None;
+            Ok(trial)
+        }
+    }
+}
+
+/// Scores a candidate on scene after scene, and fills in the trial.
+fn measure_trial(
+    options: &TuneOptions,
+    evaluator: &mut Evaluator,
+    trials: &[Trial],
+    settings: &Settings,
+    trial: &mut Trial,
+) -> Result<(), Error> {
+    let all: Vec<usize> = (0..evaluator.targets.len()).collect();
+    let best = (trials.iter().filter(|trial| trial.is_done()))
+        .min_by(|a, b| a.loss.total_cmp(&b.loss))
+        .filter(|_| options.race);
+    let mut met = 0;
+    while met < all.len() {
+        let until = match (best, met) {
+            (None, _) => all.len(),
+            (Some(_), 0) => RACE_FROM.min(all.len()),
+            (Some(_), _) => (met + RACE_STEP).min(all.len()),
+        };
+        let scores = evaluator.score_candidate(settings, &all[met..until], |_, _| {
+            !(options.monitor.interrupted)()
+        })?;
+        if scores.len() < until - met {
+            return Err(TraceError::Cancelled.into());
+        }
+        for (target, score) in evaluator.targets[met..until].iter().zip(scores) {
+            trial.scenes.insert(target.scene.name.clone(), score);
+        }
+        met = until;
+        if met < all.len() && best.is_some_and(|best| is_clearly_worse(&trial.scenes, &best.scenes))
+        {
+            trial.outcome = TrialOutcome::Dropped;
+            break;
+        }
+    }
+    let start = trials.first().map_or(&trial.scenes, |trial| &trial.scenes);
+    let error = mean_log_ratio(&trial.scenes, start, |_| true).expect("there are scenes");
+    let excess: f64 = (evaluator.targets.iter())
+        .filter_map(|target| {
+            let name = &target.scene.name;
+            Some(target.excess(trial.scenes.get(name)?, &start[name]))
+        })
+        .sum::<f64>()
+        / trial.scenes.len() as f64;
+    trial.error = Some(error);
+    trial.bleed = worst_bleed(&trial.scenes);
+    if options.measures(Objective::Cost) && trial.is_done() {
+        trial.cost = Some(measure_cost(evaluator, settings, trial, trials)?);
+    }
+    let limits = match trials.is_empty() {
+        true => ChoiceLimits::default(),
+        false => options.choice_limits(&trials[0]),
+    };
+    trial.loss = error
+        + bounds_penalty(excess)
+        + penalty(trial.bleed, limits.bleed)
+        + penalty(trial.cost, limits.cost);
+    Ok(())
+}
+
+fn is_clearly_worse(
+    scores: &BTreeMap<String, SceneScore>,
+    best: &BTreeMap<String, SceneScore>,
+) -> bool {
+    let differences: Vec<f64> = (scores.iter())
+        .map(|(scene, score)| log_ratio(score, &best[scene]))
+        .collect();
+    signed_rank_p_value(&differences) < RACE_LEVEL
+}
+
+/// Measures the cost relative to the start: 1 for the start itself, and the earlier result for values that were tried before.
+fn measure_cost(
+    evaluator: &Evaluator,
+    settings: &Settings,
+    trial: &Trial,
+    trials: &[Trial],
+) -> Result<f64, Error> {
+    let same = trials.iter().find(|other| other.values == trial.values);
+    if trials.is_empty() {
+        return Ok(1.0);
+    }
+    if let Some(cost) = same.and_then(|same| same.cost) {
+        return Ok(cost);
+    }
+    let stopwatch = Stopwatch {
+        gpu: evaluator.gpu.expect("only kernels are timed"),
+        choice: &evaluator.choice,
+        frame: &evaluator.targets[0].scene.frame,
+    };
+    Ok(stopwatch.measure_ratio(settings)?)
+}
