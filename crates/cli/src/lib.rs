@@ -1,5 +1,12 @@
 //! The program `shuttertruth`: its arguments, its commands, and what they print.
 
+/// Returns from a function with an error about the use of the program.
+macro_rules! refuse {
+    ($($text:tt)*) => {
+        return Err(suite::Error::Usage(format!($($text)*)))
+    };
+}
+
 mod arguments;
 mod commands;
 #[cfg(test)]

@@ -40,14 +40,14 @@ pub use filter::shutter_rule::ShutterRule;
 pub use filter::velocity_format::VelocityFormat;
 pub use measure::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use measure::estimate::{
-    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,
+    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
 };
 pub use measure::job_costs::{JobCost, SceneJobs, estimate_jobs, estimate_report};
 pub use measure::part::Part;
 pub use measure::plan::RunPlan;
 pub use measure::probes::{pack_planes, unpack_planes};
 pub use measure::references::{TruthReferences, scene_viewing};
-pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
+pub use measure::scenes::measure_scenes;
 pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use merge::{MergedRun, holds_run, merge_runs};
 pub use monitor::{Monitor, Step};

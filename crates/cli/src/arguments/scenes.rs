@@ -78,9 +78,9 @@ impl SceneArgs {
     pub fn names(&self) -> Result<Vec<String>, Error> {
         let names = self.rates.add_to(self.variant_names()?)?;
         match names.iter().find(|name| has_shutter_time(name)) {
-            Some(name) if self.exposure.is_some() => Err(Error::Usage(format!(
+            Some(name) if self.exposure.is_some() => refuse!(
                 "--exposure: {name} has its shutter time in its name; allowed: one of the two; leave --exposure or the shutter time out"
-            ))),
+            ),
             _ => Ok(names),
         }
     }
@@ -95,9 +95,9 @@ impl SceneArgs {
         (self.scenes.iter())
             .map(|name| match split_variant(name).1 {
                 None => Ok(format!("{}@seal{seed}", name.trim_end_matches(['/', '\\']))),
-                Some(_) => Err(Error::Usage(format!(
+                Some(_) => refuse!(
                     "--seal: {name} is a variant; allowed: scenes in their default variant, which sealed ones are made of"
-                ))),
+                ),
             })
             .collect()
     }

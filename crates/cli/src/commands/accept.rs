@@ -35,16 +35,13 @@ pub struct AcceptArgs {
 pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
     let in_ci = std::env::var("CI").is_ok_and(|value| value == "true" || value == "1");
     if in_ci && !args.force {
-        return Err(Error::Usage(
+        refuse!(
             "CI is set: a check would accept itself; accept on a machine of your own and commit the baseline, or add --force"
-                .to_owned(),
-        ));
+        );
     }
     let reason = args.reason.trim();
     if reason.is_empty() || reason.contains('\n') {
-        return Err(Error::Usage(
-            "--reason: needs one line on why these scores are right".to_owned(),
-        ));
+        refuse!("--reason: needs one line on why these scores are right");
     }
     let path = args.out.join("run.json");
     let run = Run::read(&path)?;

@@ -45,10 +45,10 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
         print_note(note);
     }
     let Some(name) = args.scene.as_ref().or(capture.description.scene.as_ref()) else {
-        return Err(Error::Usage(format!(
+        refuse!(
             "{}: names no scene; an audit needs the scene that the engine drew: add scene = \"railing\", or give --scene",
             args.capture.join("capture.toml").display()
-        )));
+        );
     };
     let scene = load_drawn_scene(&args.scenes_dir, name)?;
     let (audit, expected) = audit_capture(&capture, &scene)?;

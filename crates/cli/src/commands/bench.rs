@@ -61,10 +61,10 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     // Programs are refused below, for another reason.
     let filters = select_filters(&args.filters, None, &[], Programs::Allowed)?;
     if let Some(choice) = filters.iter().find(|it| it.filter.command.is_some()) {
-        return Err(Error::Usage(format!(
+        refuse!(
             "filter {} is a program, which has no passes to time; leave it out of --filter",
             choice.filter.name
-        )));
+        );
     }
     let gpu = open_adapter(args.adapter.adapter.as_deref(), make_monitor())?;
     let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {

@@ -137,19 +137,19 @@ fn list_frames(args: &BlurArgs) -> Result<Vec<FrameFiles>, Error> {
         }]);
     }
     if out.extension().is_some_and(|ending| ending == "exr") {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--out: {} is the name of one picture, and {} are written; name a folder for them",
             out.display(),
             args.frames
-        )));
+        );
     }
     if args.frame_index.checked_add(args.frames - 1).is_none() {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--frame-index {}: each of the {} frames has the next one; allowed: up to {}",
             args.frame_index,
             args.frames,
             u32::MAX - (args.frames - 1)
-        )));
+        );
     }
     let is_folder = args.frame.is_dir();
     let frames = (0..args.frames).map(|frame| FrameFiles {
@@ -201,10 +201,10 @@ impl Buffers {
             Some(exposure) => exposure,
             None if file.attributes.contains_key("exposure") => file.get("exposure")?,
             None => {
-                return Err(Error::Usage(format!(
+                refuse!(
                     "{}: has no attribute \"exposure\"; give one with --exposure (0.5 = 180 degrees)",
                     path.display()
-                )));
+                );
             }
         };
         check_exposure(exposure)?;
@@ -233,7 +233,7 @@ impl Buffers {
     ) -> Result<(), Error> {
         match self.size() == size {
             true => Ok(()),
-            false => Err(Error::Usage(format!(
+            false => refuse!(
                 "{}: has {}x{} pixels, {} has {}x{}; the frames of a sequence have one size",
                 own.file.display(),
                 self.size().0,
@@ -241,7 +241,7 @@ impl Buffers {
                 first.file.display(),
                 size.0,
                 size.1
-            ))),
+            ),
         }
     }
 

@@ -44,11 +44,11 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let out = &args.measure.scenes.out;
     let (mut plan, bounds) = make_plan(&args.measure, out.clone())?;
     if let Some(scene) = plan.engine_scenes.first() {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--scenes: {} was drawn by an engine, and does not change from run to run; write its bounds by hand into {}",
             scene.name,
             scene.folder.join(BOUNDS_FILE).display()
-        )));
+        );
     }
     refuse_single_frames(args)?;
     plan.frames = args.sequence.frames();
@@ -93,10 +93,10 @@ fn print_expected_runs(args: &CalibrateArgs, plan: &RunPlan) {
 fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
     let is_of_sequence = |metric: &&Metric| matches!(metric, Metric::Sequence(_));
     match args.metrics.iter().find(is_of_sequence) {
-        Some(metric) if args.sequence.frames().is_one() => Err(Error::Usage(format!(
+        Some(metric) if args.sequence.frames().is_one() => refuse!(
             "--metrics: {metric} is a score of a sequence, and single frames would be measured; say of how many frames with \
              --frames"
-        ))),
+        ),
         _ => Ok(()),
     }
 }
@@ -106,9 +106,9 @@ fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
     let last = u64::MAX - u64::from(runs);
     match first <= last {
         true => Ok(()),
-        false => Err(Error::Usage(format!(
+        false => refuse!(
             "--seed {first}: each of the {runs} runs has the next one; allowed: up to {last}"
-        ))),
+        ),
     }
 }
 

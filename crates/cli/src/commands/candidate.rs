@@ -63,13 +63,13 @@ pub fn print_expected_scoring(
     candidates: usize,
     limit: f64,
 ) {
-    let renders: Vec<_> = (scenes.iter()).map(|(scene, _)| (scene, *render)).collect();
-    let scores = candidates * scenes.len();
-    let scoring = scores as f64 * estimate_case_seconds(render);
+    let count = scenes.len() as f64;
+    let rendering = count * estimate_render_seconds(render, 1);
+    let scoring = candidates as f64 * count * estimate_case_seconds(render);
     let candidates = count_text(candidates, "candidate", "candidates");
     let scenes = count_text(scenes.len(), "scene", "scenes");
     print_expected_time(
-        estimate_render_seconds(&renders, 1) + scoring.min(limit),
+        rendering + scoring.min(limit),
         &format!("{candidates} on {scenes}"),
     );
 }

@@ -237,12 +237,12 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
     let bounds = read_run_bounds(&run, root)?;
     let mut findings = judge(&run, &bounds);
     if findings.is_empty() && !compared {
-        return Err(Error::Usage(format!(
+        refuse!(
             "{}: no score of it has a bound, and no check is no success; bounds are looked for in {} and beside each scene \
              below it: name another folder with --scenes-dir",
             path.display(),
             root.join(BOUNDS_FILE)
-        )));
+        );
     }
     if args.evidence {
         add_evidence(&run, &mut findings, &folder)?;
@@ -291,9 +291,9 @@ fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
 fn find_summary_file() -> Result<PathBuf, Error> {
     match std::env::var_os("GITHUB_STEP_SUMMARY") {
         Some(path) if !path.is_empty() => Ok(path.into()),
-        _ => Err(Error::Usage(
-            "--github: GITHUB_STEP_SUMMARY is not set; it is in a step of GitHub Actions, or set it to a file".to_owned(),
-        )),
+        _ => refuse!(
+            "--github: GITHUB_STEP_SUMMARY is not set; it is in a step of GitHub Actions, or set it to a file"
+        ),
     }
 }
 

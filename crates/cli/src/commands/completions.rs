@@ -20,9 +20,9 @@ pub fn execute(args: &CompletionsArgs, mut program: clap::Command) -> Result<(),
     clap_complete::generate(args.shell, &mut program, "shuttertruth", &mut text);
     // As it is: a script is no table, and goes to a file.
     match std::io::stdout().write_all(&text) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::Usage(format!(
-            "standard output: cannot write: {error}"
-        ))),
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            refuse!("standard output: cannot write: {error}")
+        }
         _ => Ok(()),
     }
 }

@@ -54,9 +54,9 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
 fn unlit_name(name: &str) -> Result<String, Error> {
     match name.contains('@') {
         false => Ok(format!("{name}@unlit")),
-        true => Err(Error::Usage(format!(
+        true => refuse!(
             "--unlit: {name} is a variant; allowed: scenes in their default variant, which `unlit` is a variant of"
-        ))),
+        ),
     }
 }
 

@@ -63,10 +63,10 @@ fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
     let out = name_folder(&args.capture, args.out.as_ref(), "out/engine")?;
     let capture = args.capture.canonicalize().ok();
     match out.canonicalize().is_ok_and(|out| Some(out) == capture) {
-        true => Err(Error::Usage(format!(
+        true => refuse!(
             "--out {}: is the capture itself, whose files would be overwritten; name another folder",
             out.display()
-        ))),
+        ),
         false => Ok(out),
     }
 }

@@ -18,7 +18,7 @@ pub fn check_truths(truths: &Path) -> Result<(), Error> {
     match truths.is_file() {
         true => Ok(Pack::open(truths).map(drop)?),
         false if truths.is_dir() => Ok(()),
-        false => Err(Error::Usage(format!(
+        false => refuse!(
             "--truths {}: {}; allowed: a folder into which `shuttertruth truths render --ladders` or `run` \
              wrote, or a pack",
             truths.display(),
@@ -26,7 +26,7 @@ pub fn check_truths(truths: &Path) -> Result<(), Error> {
                 true => "is neither a folder nor a regular file",
                 false => "there is no such folder or file",
             }
-        ))),
+        ),
     }
 }
 

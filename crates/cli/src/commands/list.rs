@@ -144,9 +144,9 @@ fn find_named(what: &str, scenes: &[SceneListing], listing: &mut Listing) -> Res
     };
     if names.is_empty() || !names.iter().all(|name| known.contains(name)) {
         let suggestion = suggest_names(what, &known);
-        return Err(Error::Usage(format!(
+        refuse!(
             "list: no scene and no filter \"{what}\"; {suggestion} A filter of your own is listed by --filter FOLDER"
-        )));
+        );
     }
     let named = scenes.iter().filter(|scene| names.contains(&scene.name));
     listing.scenes.extend(named.cloned());

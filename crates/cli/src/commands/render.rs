@@ -63,10 +63,10 @@ pub struct RenderArgs {
 /// Renders each scene's frame and truths, or a part of them, and prints their folders and noise.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     if args.most_replicates > MOST_REPLICATES {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--most-replicates {}; allowed: up to {MOST_REPLICATES}",
             args.most_replicates
-        )));
+        );
     }
     let mut noisy = Vec::new();
     let choices = select_scenes(&args.scenes.scenes_dir, &args.scenes.names()?)?;
@@ -81,10 +81,9 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
         match &args.replicates {
             Replicates::All(count) => noisy.extend(render_whole(args, &scene, *count)?),
             Replicates::Part(_) if args.ladders => {
-                return Err(Error::Usage(
+                refuse!(
                     "--ladders needs whole truths: give --replicates a number, not a part A..B"
-                        .to_owned(),
-                ));
+                );
             }
             Replicates::Part(indices) if args.noise.is_none() => {
                 let settings = scene_settings(args, &scene, RenderSettings::default().replicates)?;
@@ -101,10 +100,9 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
                 print(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
             }
             Replicates::Part(_) => {
-                return Err(Error::Usage(
+                refuse!(
                     "--noise needs whole truths: give --replicates a number to start from, not a part A..B"
-                        .to_owned(),
-                ));
+                );
             }
         }
     }
@@ -134,11 +132,12 @@ fn print_expected_renders(args: &RenderArgs, choices: &[SceneChoice]) -> Result<
         Replicates::All(count) => *count,
         Replicates::Part(indices) => (indices.len() as u32).next_multiple_of(2),
     };
-    let renders = (choices.iter())
-        .map(|choice| Ok((&choice.scene, scene_settings(args, &choice.scene, count)?)))
-        .collect::<Result<Vec<_>, Error>>()?;
-    let seconds = estimate_render_seconds(&renders, args.alignments.len());
-    let seconds = f64::from(args.frames) * seconds;
+    let mut seconds = 0.0;
+    for choice in choices {
+        let settings = scene_settings(args, &choice.scene, count)?;
+        seconds += estimate_render_seconds(&settings, args.alignments.len());
+    }
+    seconds *= f64::from(args.frames);
     let scenes = count_text(choices.len(), "scene", "scenes");
     print_expected_time(seconds, &scenes);
     Ok(())

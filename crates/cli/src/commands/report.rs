@@ -113,10 +113,10 @@ fn write_tuning_report(args: &ReportArgs, folder: &Path) -> Result<Vec<WrittenFi
         ("--gallery", args.gallery.is_some()),
     ];
     if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
-        return Err(Error::Usage(format!(
+        refuse!(
             "{option}: {} is a tuning, which keeps no pictures; give the folder of a run",
             folder.display()
-        )));
+        );
     }
     let page = tuning_page(&TuneFolder::read(folder)?)?;
     let html = args

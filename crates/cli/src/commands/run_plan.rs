@@ -120,11 +120,12 @@ fn leave_out_filters(
         .collect();
     match filters.is_empty() {
         false => Ok(filters),
-        true => Err(Error::Usage(format!(
+        true => refuse!(
             "--filter: no filter is left that {} can be measured with; allowed: filters with a {} shutter that need no \
              camera motion",
-            engine_scenes[0].name, engine_scenes[0].alignment
-        ))),
+            engine_scenes[0].name,
+            engine_scenes[0].alignment
+        ),
     }
 }
 
@@ -145,11 +146,11 @@ fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Er
     ];
     match given.iter().find(|(_, given)| *given) {
         None => Ok(()),
-        Some((option, _)) => Err(Error::Usage(format!(
+        Some((option, _)) => refuse!(
             "{option}: {} is as {} drew it, and is not rendered; leave the option out, or leave out the scene",
             scene.name,
             engine_name(&scene.engine)
-        ))),
+        ),
     }
 }
 
@@ -169,11 +170,11 @@ fn refuse_sequence_limits(file: &BoundsFile) -> Result<(), Error> {
     let mut all = std::iter::once(&file.default).chain(tables).flatten();
     match all.find(|(_, bound)| bound.length.is_some()) {
         None => Ok(()),
-        Some((metric, bound)) => Err(Error::Usage(format!(
+        Some((metric, bound)) => refuse!(
             "{}: {metric} is a score of a sequence, and an engine drew one frame here, so that nothing would judge its limit; \
              remove it",
             bound.place
-        ))),
+        ),
     }
 }
 
@@ -252,8 +253,8 @@ fn load_filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
 pub fn check_replicates_for_intervals(replicates: u32) -> Result<(), Error> {
     match replicates {
         FEWEST_REPLICATES.. => Ok(()),
-        few => Err(Error::Usage(format!(
+        few => refuse!(
             "--replicates {few}: {FEWEST_REPLICATES} or more are needed to tell how sure a score is"
-        ))),
+        ),
     }
 }

@@ -84,10 +84,10 @@ fn check_scenes(
     for (path, scene) in std::iter::once(frame).chain(ladder) {
         let truth_scene = &truth.provenance.scene;
         if scene != truth_scene {
-            return Err(Error::Usage(format!(
+            refuse!(
                 "{}: was rendered from the scene {scene}, the truth from {truth_scene}; render both from one",
                 path.display()
-            )));
+            );
         }
     }
     Ok(())

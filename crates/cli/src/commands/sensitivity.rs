@@ -45,10 +45,10 @@ pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = select_candidate(candidate)?;
     if args.rows < 2 {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--rows {}; allowed: 2 or more; a single row has no variance",
             args.rows
-        )));
+        );
     }
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let scenes = load_candidate_scenes(candidate)?;

@@ -85,9 +85,7 @@ pub struct TuneArgs {
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let choice = select_candidate(&args.candidate)?;
     if args.budget == 0 {
-        return Err(Error::Usage(
-            "--budget 0; allowed: 1 or more; the first trial is the start itself".to_owned(),
-        ));
+        refuse!("--budget 0; allowed: 1 or more; the first trial is the start itself");
     }
     let options = make_options(args, choice)?;
     options.check()?;

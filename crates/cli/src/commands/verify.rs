@@ -86,11 +86,11 @@ pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
 /// Checks a pack and unpacks it into a temporary folder; none for what is no file.
 fn unpack(truths: &Path) -> Result<Option<tempfile::TempDir>, Error> {
     if !truths.exists() {
-        return Err(Error::Usage(format!(
+        refuse!(
             "{}: there is no such file or folder; allowed: a pack, or a folder into which `shuttertruth run`, `check` or `truths render` \
              wrote",
             truths.display()
-        )));
+        );
     }
     if truths.is_dir() {
         return Ok(None);

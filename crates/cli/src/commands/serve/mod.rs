@@ -102,9 +102,7 @@ fn scene_indices(known: &[String], names: Option<Vec<String>>) -> Result<Vec<usi
     };
     let mut seen = BTreeSet::new();
     if let Some(twin) = names.iter().find(|name| !seen.insert(*name)) {
-        return Err(Error::Usage(format!(
-            "scenes: \"{twin}\" is named twice; allowed: each once"
-        )));
+        refuse!("scenes: \"{twin}\" is named twice; allowed: each once");
     }
     (names.iter())
         .map(|name| {
