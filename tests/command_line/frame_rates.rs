@@ -164,7 +164,7 @@ fn rates_are_kept_and_stay_in_the_run() {
 #[test]
 fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
     let bench = Bench::new();
-    let rules = "--shutter-rule right,in_frames,in_time,in_time_capped,share_falls";
+    let rules = "--input rule=right,in_frames,in_time,in_time_capped,share_falls";
     let words = format!(
         "--filters velocity_gather:fine --frame-rate 24,144 --shutter-time 1/120,1/19.2 {rules}"
     );
@@ -354,7 +354,7 @@ fn rates_that_are_none_are_refused() {
             2,
             ["plate@24fps", "a frame rate of its own"],
         ),
-        ("--shutter-rule always", 2, ["always", "in_time_capped"]),
+        ("--input rule=always", 2, ["always", "in_time_capped"]),
     ] {
         let words = [&["--scenes", "plate"][..], &split(words)].concat();
         let words = match words.iter().filter(|word| **word == "--scenes").count() {

@@ -62,16 +62,16 @@ impl Fixture {
         fixture.write("scenes/plate/plate.mtl", MTL);
         fixture.write("scenes/bounds.toml", BOUNDS);
         let filters = "velocity_gather:departure,mcguire:paper";
-        fixture.render("run", &["--filters", filters, "--out", "out"]);
+        fixture.render(&["run"], &["--filters", filters, "--out", "out"]);
         let words = "bench --quiet --size 16x16 --filters velocity_gather:departure --out out";
         fixture.shuttertruth(&words.split(' ').collect::<Vec<_>>());
-        let words = "accept --out out --reason first --baseline base.json --force";
+        let words = "limits accept --out out --reason first --baseline base.json --force";
         fixture.shuttertruth(&words.split(' ').collect::<Vec<_>>());
         let candidate = ["--filter", "velocity_gather", "--objective", "flip"];
         let tune = [&candidate[..], &["--out", "tuned", "--budget", "4"]].concat();
-        fixture.render("tune", &tune);
+        fixture.render(&["tune", "search"], &tune);
         let study = [&candidate[..], &["--out", "study", "--rows", "2"]].concat();
-        fixture.render("sensitivity", &study);
+        fixture.render(&["tune", "sensitivity"], &study);
         fixture
     }
 
@@ -86,8 +86,8 @@ impl Fixture {
         fs::write(path, text).unwrap();
     }
 
-    fn render(&self, command: &str, more: &[&str]) {
-        self.shuttertruth(&[&[command], &RENDER[..], more].concat());
+    fn render(&self, command: &[&str], more: &[&str]) {
+        self.shuttertruth(&[command, &RENDER[..], more].concat());
     }
 
     fn shuttertruth(&self, words: &[&str]) {

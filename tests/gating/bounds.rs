@@ -83,7 +83,7 @@ fn limits_hold_only_at_their_own_size() {
     let refused = size(&[&small], Some((320, 180))).unwrap_err();
     for part in [
         "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and the pictures are to have 320x180",
-        "`shuttertruth calibrate`",
+        "`shuttertruth limits calibrate`",
     ] {
         assert!(refused.contains(part), "{refused}");
     }

@@ -149,8 +149,8 @@ fn truths(table: &CaseTable) -> Markup {
 #[test]
 fn a_command_line_of_thousands_of_parts_is_cut() {
     assert_eq!(
-        shorten("shuttertruth merge a b".to_owned()),
-        "shuttertruth merge a b"
+        shorten("shuttertruth truths merge a b".to_owned()),
+        "shuttertruth truths merge a b"
     );
     let long = shorten("ü".repeat(LONGEST_COMMAND + 1));
     assert_eq!(

@@ -62,7 +62,7 @@ impl EngineScene {
         let path = folder.join(INGESTED_FILE);
         let refuse = |reason: String| {
             Err(Error::Usage(format!(
-                "{}: {reason}; make the folder anew with `shuttertruth ingest`",
+                "{}: {reason}; make the folder anew with `shuttertruth engine ingest`",
                 path.display()
             )))
         };

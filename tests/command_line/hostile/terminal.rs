@@ -54,7 +54,7 @@ fn names_of_files_are_printed_without_control_codes() {
         (vec!["run", "--out", "o", "--size", HOSTILE], 2),
         (
             vec![
-                "blur", "--filter", "identity", "--frame", HOSTILE, "--out", "b.exr",
+                "engine", "blur", "--filter", "identity", "--frame", HOSTILE, "--out", "b.exr",
             ],
             2,
         ),

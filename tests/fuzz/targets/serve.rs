@@ -42,7 +42,7 @@ impl Service {
         place.copy("out");
         let mut child = Command::new(PROGRAM)
             .current_dir(&place.folder)
-            .arg("serve")
+            .args(["tune", "serve"])
             .args(RENDER)
             .args([
                 "--filter",

@@ -56,9 +56,9 @@ impl FrameRateArgs {
             let own = name.trim_end_matches(['/', '\\']);
             let variant = split_variant(own).1;
             if variant.is_some_and(|variant| FrameRate::split_variant(variant).1.is_some()) {
-                return Err(Error::Usage(format!(
+                refuse!(
                     "--frame-rate: {name} has a frame rate of its own; allowed: scenes and variants without one"
-                )));
+                );
             }
             let at_rates = rates.iter().map(|rate| format!("{own}@{}", rate.word()));
             let at_rates: Vec<String> = at_rates.collect();
@@ -72,10 +72,10 @@ impl FrameRateArgs {
 fn refuse_twins(option: &str, all: &[f64], text: impl Fn(&f64) -> String) -> Result<(), Error> {
     for (index, value) in all.iter().enumerate() {
         if all[..index].contains(value) {
-            return Err(Error::Usage(format!(
+            refuse!(
                 "{option}: {} is named twice; allowed: each once",
                 text(value)
-            )));
+            );
         }
     }
     Ok(())

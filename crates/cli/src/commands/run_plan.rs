@@ -15,7 +15,9 @@ use tracer::{FrameRate, Location, RenderSettings, Scene, Seal};
 
 use super::kept_truths::check_truths;
 use super::render_settings::make_render_settings;
-use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
+use crate::arguments::measure::MeasureArgs;
+use crate::arguments::run_options::RunOptions;
+use crate::arguments::scenes::SceneArgs;
 use crate::output::count::count_text;
 use crate::output::print::{print_note, print_scene_notes};
 use crate::output::progress::make_monitor;
@@ -47,7 +49,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
         engine_scenes,
         filters,
-        inputs: args.forms.input_forms().one_by_one(),
+        inputs: args.forms.one_by_one(),
         jitter_frames: args.jitter_frames,
         frames: Frames::default(),
         render: make_render_settings(&args.scenes, size, args.replicates)?,
@@ -118,11 +120,12 @@ fn leave_out_filters(
         .collect();
     match filters.is_empty() {
         false => Ok(filters),
-        true => Err(Error::Usage(format!(
+        true => refuse!(
             "--filter: no filter is left that {} can be measured with; allowed: filters with a {} shutter that need no \
              camera motion",
-            engine_scenes[0].name, engine_scenes[0].alignment
-        ))),
+            engine_scenes[0].name,
+            engine_scenes[0].alignment
+        ),
     }
 }
 
@@ -143,11 +146,11 @@ fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Er
     ];
     match given.iter().find(|(_, given)| *given) {
         None => Ok(()),
-        Some((option, _)) => Err(Error::Usage(format!(
+        Some((option, _)) => refuse!(
             "{option}: {} is as {} drew it, and is not rendered; leave the option out, or leave out the scene",
             scene.name,
             engine_name(&scene.engine)
-        ))),
+        ),
     }
 }
 
@@ -167,11 +170,11 @@ fn refuse_sequence_limits(file: &BoundsFile) -> Result<(), Error> {
     let mut all = std::iter::once(&file.default).chain(tables).flatten();
     match all.find(|(_, bound)| bound.length.is_some()) {
         None => Ok(()),
-        Some((metric, bound)) => Err(Error::Usage(format!(
+        Some((metric, bound)) => refuse!(
             "{}: {metric} is a score of a sequence, and an engine drew one frame here, so that nothing would judge its limit; \
              remove it",
             bound.place
-        ))),
+        ),
     }
 }
 
@@ -250,8 +253,8 @@ fn load_filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
 pub fn check_replicates_for_intervals(replicates: u32) -> Result<(), Error> {
     match replicates {
         FEWEST_REPLICATES.. => Ok(()),
-        few => Err(Error::Usage(format!(
+        few => refuse!(
             "--replicates {few}: {FEWEST_REPLICATES} or more are needed to tell how sure a score is"
-        ))),
+        ),
     }
 }

@@ -10,7 +10,7 @@ use suite::{
 use tracer::Scene;
 
 use super::convention::read_convention;
-use crate::arguments::ScoreArgs;
+use super::score::ScoreArgs;
 use crate::output::print::{print, print_json};
 use crate::selection::select_scenes;
 use crate::tables::sequence::score_sequence_table;
@@ -49,12 +49,12 @@ fn read_truth(args: &ScoreArgs, frame: u32) -> Result<SequenceTruth, Error> {
     let own = file_at_frame(&args.frame, frame);
     let frame = Frame::read(&own)?;
     if frame.provenance.scene != truth.provenance.scene {
-        return Err(Error::Usage(format!(
+        refuse!(
             "{}: was rendered from the scene {}, the truth from {}; render both from one",
             own.display(),
             frame.provenance.scene,
             truth.provenance.scene
-        )));
+        );
     }
     Ok(SequenceTruth { frame, truth, path })
 }
@@ -65,7 +65,7 @@ fn load_scene(args: &ScoreArgs, first: &SequenceTruth) -> Result<Scene, Error> {
     let name = printable(&provenance.scene).into_owned();
     let refuse = |reason: &str| {
         let path = printable_path(&first.path);
-        Err(Error::Usage(format!("{path}: {reason}")))
+        refuse!("{path}: {reason}")
     };
     if provenance.engine.is_some() {
         return refuse("an engine drew it, which makes one frame; leave --frames out");

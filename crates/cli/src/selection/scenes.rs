@@ -30,10 +30,10 @@ pub fn select_scenes(
     let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
         true => Vec::new(),
         false if !root.is_dir() => {
-            return Err(Error::Usage(format!(
+            refuse!(
                 "{}: there is no such folder of scenes; name one with --scenes-dir, or a scene by its path with --scenes",
                 root
-            )));
+            );
         }
         false => list_scenes(root)?,
     };
@@ -101,11 +101,11 @@ fn find_folders(root: &Location, name: &str, known: &[String]) -> Result<Vec<Loc
     if Path::new(name).is_dir() {
         return Ok(vec![Path::new(name).into()]);
     }
-    Err(Error::Usage(format!(
+    refuse!(
         "--scenes: no scene \"{name}\" in {root}; {}{} A scene elsewhere is named by its path, such as ./{name}",
         suggest_names(name, known),
         suggest_built_in(root, name)
-    )))
+    )
 }
 
 /// Says how to get a scene of the program's own, where another folder of scenes hides it.
@@ -139,10 +139,10 @@ fn is_of_all(variant: &str) -> bool {
 fn load_all_variants(folder: &Location, all: &str) -> Result<Vec<SceneChoice>, Error> {
     let variants = list_scene(folder)?.variants;
     if variants.is_empty() {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--scenes: {} has no variants for @all; name the scene without it",
             folder
-        )));
+        );
     }
     (variants.iter())
         .map(|variant| load_choice(folder, Some(&all.replacen(ALL, variant, 1))))
@@ -162,11 +162,12 @@ fn refuse_duplicates(scenes: &[SceneChoice]) -> Result<(), Error> {
 }
 
 fn refuse_twins<T>(name: &str, [one, other]: [&Location; 2]) -> Result<T, Error> {
-    Err(Error::Usage(format!(
+    refuse!(
         "--scenes: {name} is named twice, as {} and {}; allowed: each name once; rename one of the folders, or \
          run them into two --out folders",
-        one, other
-    )))
+        one,
+        other
+    )
 }
 
 fn load_choice(folder: &Location, variant: Option<&str>) -> Result<SceneChoice, Error> {
@@ -176,16 +177,16 @@ fn load_choice(folder: &Location, variant: Option<&str>) -> Result<SceneChoice, 
         .unwrap_or_default()
         .to_string_lossy();
     if own.contains('@') {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant; rename it",
             folder
-        )));
+        );
     }
     if folder.on_disk().is_some_and(EngineScene::is_in) {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--scenes: {} holds what an engine drew, and nothing to render; `run` and `check` measure it",
             folder
-        )));
+        );
     }
     Ok(SceneChoice {
         folder: folder.clone(),

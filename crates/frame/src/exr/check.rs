@@ -15,7 +15,7 @@ impl ExrFile {
             Some(found) => Err(self.foreign(format!("is a {found}; a {kind} is needed"))),
             None => Err(self.foreign(format!(
                 "was not written by shuttertruth (no attribute \"kind\"); a {kind} is needed: make one with \
-                 `shuttertruth render`"
+                 `shuttertruth truths render`"
             ))),
         }
     }

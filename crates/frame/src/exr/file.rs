@@ -110,7 +110,7 @@ impl ExrFile {
         if !self.has_channel("samples") {
             return Err(self.foreign(
                 "holds no channel \"samples\", which older versions of shuttertruth did not write; make it anew with \
-                 `shuttertruth render`"
+                 `shuttertruth truths render`"
                     .to_owned(),
             ));
         }

@@ -144,11 +144,11 @@ fn check_truth(case: &Case, baseline: &Baseline) -> Result<(), String> {
         Some(hash) if *hash == case.truth_hash => Ok(()),
         Some(_) => Err(format!(
             "its truth of {} ({}) is another: scene, size, samples, seed or tracer have changed; measure with the settings of \
-             the baseline, or accept a run with the new truth: shuttertruth accept",
+             the baseline, or accept a run with the new truth: shuttertruth limits accept",
             case.scene, case.alignment
         )),
         None => Err(format!(
-            "knows no truth of {} ({}); accept a run with it: shuttertruth accept",
+            "knows no truth of {} ({}); accept a run with it: shuttertruth limits accept",
             case.scene, case.alignment
         )),
     }
@@ -162,7 +162,7 @@ fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option
         (filters.get(&case.name())).or_else(|| filters.get(&case.preset_name()))
     }) else {
         return Err(format!(
-            "has no scores of {} on {}; accept a run with them: shuttertruth accept",
+            "has no scores of {} on {}; accept a run with them: shuttertruth limits accept",
             case.name(),
             case.scene
         ));

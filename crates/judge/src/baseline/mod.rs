@@ -46,7 +46,7 @@ impl Baseline {
         let parsed = check_strings(&text).and_then(|()| serde_json::from_str(&text));
         let baseline: Self = parsed.map_err(|error| {
             Error::Usage(format!(
-                "{}: no baseline: {error}; `shuttertruth accept` writes one",
+                "{}: no baseline: {error}; `shuttertruth limits accept` writes one",
                 path.display()
             ))
         })?;

@@ -23,7 +23,7 @@ impl DepthOfField {
     pub(crate) fn check(self, scene: &Scene) -> Result<(), Error> {
         match (self, scene.camera.lens) {
             (Self::After, None) => Err(Error::Usage(format!(
-                "--depth-of-field {}: the camera of {} has no lens; give it aperture and focus, or leave out the option or the scene",
+                "depth_of_field={}: the camera of {} has no lens; give it aperture and focus, or leave out the form or the scene",
                 self.name(),
                 scene.name
             ))),

@@ -1,31 +1,34 @@
-//! Options as this command line gives them, for the command lines of other processes.
+//! Options as this command line gives them, for the command lines of jobs.
 
 use std::ffi::OsString;
 
 use clap::parser::ValueSource;
-use clap::{Arg, ArgMatches, CommandFactory};
+use clap::{Arg, ArgMatches, Args, Command};
 use suite::Error;
 
-use super::Cli;
-use super::groups::visible_command_line;
+use super::PlanArgs;
+use crate::output::verbosity::OutputArgs;
 
-/// Lists the options of this command line that the command `name` has as well, each with its values, but for those whose long
-/// names are in `but`.
+/// Name of the command.
+const PLAN: &str = "plan";
+
+/// Lists the options of this command line that the command with the arguments `A` has as well, each with its values, but for those
+/// whose long names are in `but`.
 ///
 /// # Errors
 /// A value is not UTF-8.
-pub fn given_options(name: &str, but: &[&str]) -> Result<Vec<String>, Error> {
-    let matches = visible_command_line().get_matches_from(std::env::args_os());
-    let (_, given) = matches.subcommand().expect("a command runs");
-    let program = Cli::command();
-    let command = program.find_subcommand(name).expect("it is a command");
+pub fn given_options<A: Args>(but: &[&str]) -> Result<Vec<String>, Error> {
+    let own = std::env::args_os().skip_while(|word| word != PLAN);
+    let plan = OutputArgs::augment_args(PlanArgs::augment_args(Command::new(PLAN)));
+    let given = plan.get_matches_from(own);
+    let command = A::augment_args(Command::new("job"));
     let mut words = Vec::new();
     for option in command.get_arguments() {
         if let Some(long) = option.get_long()
             && !but.contains(&long)
-            && is_given(given, option)
+            && is_given(&given, option)
         {
-            push_option(&mut words, given, option, long)?;
+            push_option(&mut words, &given, option, long)?;
         }
     }
     Ok(words)
@@ -53,8 +56,7 @@ fn push_option(
         .into_iter()
         .flatten()
     {
-        let value = text_of(value.to_owned())?;
-        words.extend([format!("--{long}"), value]);
+        words.extend([format!("--{long}"), text_of(value.to_owned())?]);
     }
     Ok(())
 }
@@ -63,11 +65,11 @@ fn push_option(
 ///
 /// # Errors
 /// A word is not UTF-8.
-pub fn words_behind(name: &str, but: &[(&str, bool)]) -> Result<Vec<String>, Error> {
-    let all = std::env::args_os()
+pub fn words_behind(but: &[(&str, bool)]) -> Result<Vec<String>, Error> {
+    let mut behind = (std::env::args_os().skip_while(|word| word != PLAN).skip(1))
         .map(text_of)
-        .collect::<Result<Vec<String>, Error>>()?;
-    let mut behind = all.into_iter().skip_while(|word| word != name).skip(1);
+        .collect::<Result<Vec<String>, Error>>()?
+        .into_iter();
     let mut words = Vec::new();
     while let Some(word) = behind.next() {
         let left_out = but.iter().find(|(long, has_value)| {

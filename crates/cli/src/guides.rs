@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{CommandFactory, Parser};
 
-use super::Cli;
+use crate::program::Cli;
 
 #[test]
 fn the_command_line_is_consistent() {
@@ -41,7 +41,7 @@ fn find_commands(page: &str) -> Vec<Vec<String>> {
         .lines()
         .flat_map(|line| line.split('`').skip(1).step_by(2))
         // A command by its name alone is spoken of, and not shown.
-        .filter(|text| text.split_whitespace().count() > 2);
+        .filter(|text| text.split_whitespace().count() > 3);
     (lines.chain(quoted))
         .filter(is_command)
         .map(split_words)
