@@ -1,6 +1,6 @@
 //! Errors of loading and running filters.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Error of a filter. Every message names the place, what was found, what is allowed, and the way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -137,4 +137,19 @@ pub enum FilterError {
         /// Message of wgpu.
         reason: String,
     },
+}
+
+impl FilterError {
+    /// Makes an error of a file in a filter folder, and of a line in it if it has one.
+    pub(crate) fn in_file(
+        path: &Path,
+        line: impl Into<Option<usize>>,
+        reason: impl Into<String>,
+    ) -> Self {
+        Self::Folder {
+            path: path.to_owned(),
+            line: line.into(),
+            reason: reason.into(),
+        }
+    }
 }

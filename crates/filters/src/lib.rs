@@ -16,6 +16,7 @@
 
 mod command;
 mod error;
+mod expression;
 mod filter;
 mod gpu;
 mod input;
@@ -27,11 +28,12 @@ mod translate;
 
 pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
 pub use error::FilterError;
+pub use expression::Expression;
 pub use filter::{
-    Binding, BindingPlace, Code, Command, Convention, DepthKind, Expression, Filter, Growth,
-    History, Holds, Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, Rounding,
-    SamplerFilter, Sampling, Scale, Settings, Source, Stage, Texture, TuningRecord, Unit, Value,
-    VelocitySign, VelocityTime, VelocityUnit, VertexShader, VerticalDirection, Wrap,
+    Binding, BindingPlace, Code, Command, Convention, DepthKind, Filter, Growth, History, Holds,
+    Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, Rounding, Scale, Settings,
+    Source, Stage, Texture, TuningRecord, Unit, Value, VelocitySign, VelocityTime, VelocityUnit,
+    VertexShader, VerticalDirection,
 };
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,
@@ -40,4 +42,6 @@ pub use gpu::{
 pub use input::Input;
 pub use load::{MAX_KERNEL_BYTES, MAX_MANIFEST_BYTES};
 pub use manifest::{MAX_CHOICES, MAX_DISPATCHES, MAX_ENTRIES, MAX_MIPS};
-pub use shader::{Format, MAX_INLINED, MAX_INVOCATION_BYTES, MAX_NESTING};
+pub use shader::{
+    Format, MAX_INLINED, MAX_INVOCATION_BYTES, MAX_NESTING, SamplerFilter, Sampling, Wrap,
+};

@@ -222,19 +222,20 @@ impl Convention {
     pub fn resolved(self) -> Self {
         Self {
             velocity_scale: self.velocity_scale.or(Some(1.0)),
-            velocity_format: Some(self.input_format("velocity")),
-            depth_format: Some(self.input_format("depth")),
+            velocity_format: Some(self.format_of("velocity")),
+            depth_format: Some(self.format_of("depth")),
             color_scale: self.color_scale.or(Some(1.0)),
-            color_format: Some(self.input_format("color")),
+            color_format: Some(self.format_of("color")),
             ..self
         }
     }
 
-    /// Returns the format of a texture that every filter has, but for `output`.
-    pub(crate) fn input_format(&self, name: &str) -> Format {
-        match name {
+    /// Returns the format of a texture that every filter has; that of `output` is for fragment shaders.
+    pub(crate) fn format_of(&self, name: &str) -> Format {
+        match name.strip_suffix("_before").unwrap_or(name) {
             "color" => self.color_format.unwrap_or(Format::Rgba32Float),
             "velocity" => self.velocity_format.unwrap_or(Format::Rg32Float),
+            "output" => self.output_format.unwrap_or(Format::Rgba32Float),
             _ => self.depth_format.unwrap_or(Format::R32Float),
         }
     }

@@ -4,7 +4,6 @@ mod command;
 mod convention;
 mod conversion;
 mod definition;
-mod expression;
 mod history;
 mod lines;
 mod parameter;
@@ -22,19 +21,16 @@ pub use convention::{
 };
 pub use definition::Filter;
 pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS};
-pub use expression::Expression;
 pub use history::History;
 pub(crate) use lines::Lines;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
 pub use pass::{Holds, Pass, Repeat, Rounding, Texture};
-pub use pass_shader::{
-    Binding, BindingPlace, PassShader, SamplerFilter, Sampling, Stage, VertexShader, Wrap,
-};
+pub use pass_shader::{Binding, BindingPlace, PassShader, Stage, VertexShader};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
 pub use reach::{Growth, Length, ReachBy};
 pub use settings::Settings;
 pub(crate) use values::{
     MATRICES, MATRIX_NUMBERS, count_numbers, explain_unknown, find_matrix, list_values,
-    name_element, split_element,
+    split_element,
 };

@@ -1,8 +1,7 @@
 //! Passes of a filter, and the textures between them.
 
-use super::expression::Expression;
 use super::pass_shader::PassShader;
-use crate::Format;
+use crate::{Expression, Format};
 
 /// Texture that one pass writes for another.
 #[derive(Clone, Debug, PartialEq)]

@@ -39,18 +39,11 @@ impl Limits {
         for pass in &filter.passes {
             let entry = filter.entry_point(pass);
             let shader = filter.shader(pass);
-            let broken = self.find_broken(shader, entry);
-            let of_vertex = || {
-                let (shader, entry) = (filter.vertex_shader(pass)?, filter.vertex_entry(pass)?);
-                self.find_broken(shader, entry)
-            };
-            let broken = broken.or_else(of_vertex);
+            let mut stages = filter.stages(pass).into_iter();
+            let broken = stages.find_map(|(shader, entry)| self.find_broken(shader, entry));
             if let Some(reason) = broken.or_else(|| self.find_uninterpolated(filter, pass)) {
-                return Err(FilterError::Folder {
-                    path: shader.path.clone(),
-                    line: entry.line,
-                    reason: format!("pass \"{}\": {reason}", pass.entry),
-                });
+                let reason = format!("pass \"{}\": {reason}", pass.entry);
+                return Err(FilterError::in_file(&shader.path, entry.line, reason));
             }
         }
         Ok(())
@@ -64,14 +57,7 @@ impl Limits {
         let variables = &filter.shader(pass).variables;
         let interpolated = filter.entry_point(pass).interpolated.iter();
         let mut names = interpolated.map(|index| &variables[*index].resource);
-        let name = names.find(|name| {
-            let declared = filter
-                .textures
-                .iter()
-                .find(|texture| texture.name == **name);
-            let format = declared.map_or(filter.convention.input_format(name), |it| it.format);
-            format.is_full_float()
-        })?;
+        let name = names.find(|name| filter.read_format(name).is_full_float())?;
         Some(format!(
             "a sampler interpolates the 32-bit floats of \"{name}\", not allowed by {}; give the texture a format of \
              16-bit floats ([convention] has color_format, velocity_format and depth_format), or take sampler = \"nearest\"",

@@ -19,14 +19,8 @@ impl LoopCounts {
     pub fn new(gpu: &Gpu, limit: LoopLimit, dispatches: u32) -> Self {
         let alignment = gpu.device.limits().min_storage_buffer_offset_alignment;
         let stride = u64::from(alignment.max(4));
-        let buffer = |usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("loop iterations"),
-                size: stride * u64::from(dispatches.max(1)),
-                usage,
-                mapped_at_creation: false,
-            })
-        };
+        let size = stride * u64::from(dispatches.max(1));
+        let buffer = |usage| gpu.create_buffer("loop iterations", size, usage);
         Self {
             limit,
             counts: buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC),

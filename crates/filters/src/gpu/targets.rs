@@ -40,14 +40,10 @@ fn describe_targets<'f>(
     settings: &Settings,
     size: [u32; 2],
 ) -> Result<Vec<TargetDescription<'f>>, String> {
-    let inputs = INPUTS.map(|name| (name, filter.convention.input_format(name)));
-    let before = filter.history.iter().map(|history| {
-        let format = filter.convention.input_format(history.input());
-        (history.texture(), format)
-    });
+    let before = filter.history.iter().map(|history| history.texture());
+    let inputs = INPUTS.into_iter().chain(before);
     let builtin = inputs
-        .into_iter()
-        .chain(before)
+        .map(|name| (name, filter.convention.format_of(name)))
         .chain([("output", output_format(filter))]);
     let builtin = builtin.map(|(name, format)| TargetDescription {
         name,
@@ -121,17 +117,13 @@ pub(super) fn output_format(filter: &Filter) -> Format {
         Role::Write(format) => Some(format),
         _ => None,
     });
-    let by_convention = filter.convention.output_format;
-    stored
-        .next()
-        .or(by_convention)
-        .unwrap_or(Format::Rgba32Float)
+    (stored.next()).unwrap_or(filter.convention.format_of("output"))
 }
 
 /// Lists the formats of the render targets of a pass, by location.
 pub(super) fn list_target_formats(filter: &Filter, pass: &Pass) -> Vec<wgpu::TextureFormat> {
     let format = |name: &String| {
-        let declared = filter.textures.iter().find(|texture| texture.name == *name);
+        let declared = filter.texture(name);
         declared
             .map_or(output_format(filter), |texture| texture.format)
             .wgpu()

@@ -172,7 +172,7 @@ pub(super) fn to_texels(color: &Image, scale: f32) -> Vec<f32> {
 pub(super) fn velocity_texels(convention: &Convention, input: &Input) -> Vec<f32> {
     let convention = convention.at_rate(input.frames_per_second);
     let velocity = convention.convert_velocity(input.velocity, input.exposure);
-    match convention.input_format("velocity").components() {
+    match convention.format_of("velocity").components() {
         4 => (velocity.pixels.iter())
             .flat_map(|[x, y]| [*x, *y, 0.0, 1.0])
             .collect(),
@@ -263,12 +263,8 @@ impl Gpu {
         let (width, height) = (target.texture.width(), target.texture.height());
         let padded = row_bytes(width, target.format);
         let buffer = self.catch_errors(place, || {
-            let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("read back"),
-                size: padded * u64::from(height),
-                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-                mapped_at_creation: false,
-            });
+            let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+            let buffer = self.create_buffer("read back", padded * u64::from(height), usage);
             let mut encoder = self.device.create_command_encoder(&Default::default());
             encoder.copy_texture_to_buffer(
                 target.texture.as_image_copy(),

@@ -6,11 +6,9 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::file::{File, MAX_ENTRIES};
-use crate::filter::{
-    Binding, BindingPlace, Expression, SamplerFilter, Sampling, Wrap, count_numbers,
-    explain_unknown, list_values,
-};
-use crate::{Convention, FilterError, Parameter, Texture};
+use crate::filter::{Binding, BindingPlace, count_numbers, explain_unknown, list_values};
+use crate::shader::{SamplerFilter, Sampling, Wrap};
+use crate::{Convention, Expression, FilterError, Parameter, Texture};
 
 /// `[[pass.binding]]`.
 #[derive(Deserialize)]

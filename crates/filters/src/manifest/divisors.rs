@@ -5,8 +5,7 @@ use serde::Deserialize;
 use super::file::is_identifier;
 use super::parameters::check_count;
 use super::reach_by::LengthEntry;
-use crate::Parameter;
-use crate::filter::Expression;
+use crate::{Expression, Parameter};
 
 #[derive(Deserialize)]
 #[serde(

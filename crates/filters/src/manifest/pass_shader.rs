@@ -7,9 +7,9 @@ use toml::Spanned;
 
 use super::bindings::{BindingEntry, Names, NumberEntry, read_binding, read_level};
 use super::file::File;
-use crate::FilterError;
-use crate::filter::{Binding, Expression, PassShader, Stage, VertexShader};
+use crate::filter::{Binding, PassShader, Stage, VertexShader};
 use crate::translate::Language;
+use crate::{Expression, FilterError};
 
 /// Keys of a pass that are for shaders of its own.
 pub(super) struct ShaderKeys<'m> {
@@ -67,11 +67,9 @@ pub(super) fn read_shader<T>(
             language.name()
         )));
     }
-    if let Some(compiler) = keys
-        .compiler
-        .filter(|it| !language.compilers().contains(it))
-    {
-        let (name, known) = (language.name(), language.compilers().join(", "));
+    let known: Vec<&str> = language.compilers().iter().map(|it| it.program).collect();
+    if let Some(compiler) = keys.compiler.filter(|it| !known.contains(it)) {
+        let (name, known) = (language.name(), known.join(", "));
         return Err(refuse(match known.is_empty() {
             true => format!("compiler = \"{compiler}\"; {name} needs no compiler; leave it out"),
             false => format!("compiler = \"{compiler}\"; allowed for {name}: {known}"),

@@ -20,14 +20,14 @@ pub(super) fn check_nesting(path: &Path, kernels: &str) -> Result<(), FilterErro
             continue;
         }
         if nesting.enter(token) > MAX_NESTING {
-            return Err(FilterError::Folder {
-                path: path.to_owned(),
-                line: Some(line),
-                reason: format!(
+            return Err(FilterError::in_file(
+                path,
+                line,
+                format!(
                     "more than {MAX_NESTING} operators, brackets or else-branches lie within one another here; allowed: \
                      at most {MAX_NESTING}; divide the expression among several statements"
                 ),
-            });
+            ));
         }
     }
     Ok(())

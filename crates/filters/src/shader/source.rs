@@ -60,11 +60,7 @@ impl<'a> Source<'a> {
             ),
             line => (line, reason),
         };
-        FilterError::Folder {
-            path: self.path.to_owned(),
-            line,
-            reason,
-        }
+        FilterError::in_file(self.path, line, reason)
     }
 
     /// Refuses `override`, which nothing sets and which leaves sizes unknown.

@@ -12,11 +12,8 @@ mod constants;
 #[cfg(test)]
 mod deep;
 mod entry;
-mod fallback;
-mod formats;
 mod includes;
 mod language;
-mod levels;
 mod matrices;
 mod members;
 mod module;
@@ -30,19 +27,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::filter::PassShader;
-use crate::shader::{Shader, run_on_large_stack};
+use crate::printable::escape_controls;
+use crate::shader::{Shader, run_on_large_stack, try_each};
 use crate::{Filter, FilterError, Settings};
 use bind::{bind, check_places};
 use compile::list_installed;
-use fallback::try_each;
-use module::{OpenModule, compile_shader, read};
+use compiler::Compiler;
+use module::{OpenModule, compile_shader, find_language, read};
 
-pub(crate) use fallback::CompiledBy;
 pub(crate) use language::Language;
-pub(crate) use sources::stays_below;
-
-/// Largest shader that is read, in bytes.
-pub(crate) const MAX_SHADER_BYTES: u64 = compiler::MAX_MODULE_BYTES;
+pub(crate) use sources::{MAX_MODULE_BYTES, stays_below};
+pub(crate) use textures::check_texture;
 
 /// Function that reads a file of the filter's folder: its path, and its bytes.
 pub(crate) type ReadFile<'a> = dyn Fn(&Path) -> Result<(PathBuf, Vec<u8>), FilterError> + 'a;
@@ -71,12 +66,15 @@ pub(crate) fn translate(
             translate_with(filter, (shader, own), vertex, compiler)
         })
     };
-    let language = Language::of(&shader.file).map_err(|reason| refuse(&path, reason))?;
+    let language = find_language(shader, &path)?;
     if language.compilers().is_empty() {
         return attempt(None);
     }
     let installed = list_installed(language, shader, &path)?;
-    let (mut made, compiled_by) = try_each(&installed, |program| attempt(Some(program)))?;
+    let (mut made, compiled_by) =
+        try_each(installed.iter().map(|it| (it.program, *it)), |compiler| {
+            attempt(Some(compiler))
+        })?;
     made.shader.compiled_by = Some(compiled_by);
     Ok(made)
 }
@@ -89,7 +87,7 @@ fn translate_with(
     filter: &Filter,
     (shader, (path, bytes)): (&PassShader, File),
     vertex: Option<(File, &PassShader)>,
-    compiler: Option<&str>,
+    compiler: Option<&Compiler>,
 ) -> Result<Translated, FilterError> {
     let constants = list_constants(filter, shader, &filter.settings(None)?);
     let compile = |stage: &PassShader, (path, bytes): File| {
@@ -165,32 +163,13 @@ fn guard<T: Send>(
     work: impl FnOnce() -> Result<T, FilterError> + Send,
 ) -> Result<T, FilterError> {
     run_on_large_stack(work).unwrap_or_else(|panic| {
-        Err(refuse(
+        let panic = escape_controls(&panic);
+        Err(FilterError::in_file(
             path,
+            None,
             format!(
-                "naga, which translates it, fails on it: {}; write it otherwise, or make it smaller",
-                crate::printable::escape_controls(&panic)
+                "naga, which translates it, fails on it: {panic}; write it otherwise, or make it smaller"
             ),
         ))
     })
-}
-
-/// Makes an error that names a shader.
-fn refuse(path: &Path, reason: String) -> FilterError {
-    FilterError::Folder {
-        path: path.to_owned(),
-        line: None,
-        reason,
-    }
-}
-
-/// Joins the messages of an error and of its causes.
-fn explain(error: &dyn std::error::Error) -> String {
-    let mut said = error.to_string();
-    let mut cause = error.source();
-    while let Some(inner) = cause {
-        said += &format!(": {inner}");
-        cause = inner.source();
-    }
-    crate::printable::escape_controls(&said.replace('\n', " "))
 }

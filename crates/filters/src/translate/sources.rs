@@ -5,12 +5,14 @@ use std::path::{Component, Path, PathBuf};
 
 use frame::read_bounded;
 
-use super::Language;
 use super::closed::check_closed;
-use super::compiler::MAX_MODULE_BYTES;
 use super::includes::{list_includes, make_plain};
+use super::language::Language;
 use super::packages::name_packages;
 use crate::FilterError;
+
+/// Largest shader or module that is read, in bytes.
+pub(crate) const MAX_MODULE_BYTES: u64 = 4 << 20;
 
 /// Upper limit on files of one shader.
 const MAX_FILES: usize = 256;
@@ -108,7 +110,7 @@ impl Collector<'_> {
         let mut lines: Vec<String> = text.split('\n').map(str::to_owned).collect();
         let (mut resolved, mut places) = (Vec::new(), Vec::new());
         for include in list_includes(text) {
-            let refuse = |reason: String| self.refuse_line(file, include.line, reason);
+            let refuse = |reason: String| self.refuse(file, include.line, reason);
             let Some(path) = include.path.as_deref() else {
                 return Err(refuse(
                     "#include names its file by a macro; allowed: the path itself, in quotes"
@@ -155,7 +157,7 @@ impl Collector<'_> {
         }
         let text = lines.join("\n");
         check_closed(&text, self.language, &resolved)
-            .map_err(|(line, reason)| self.refuse_line(file, line, reason))?;
+            .map_err(|(line, reason)| self.refuse(file, line, reason))?;
         Ok((text, places))
     }
 
@@ -166,12 +168,13 @@ impl Collector<'_> {
         )
     }
 
-    fn refuse_line(&self, file: &Path, line: usize, reason: String) -> FilterError {
-        FilterError::Folder {
-            path: self.folder.join(file),
-            line: Some(line),
-            reason,
-        }
+    fn refuse(
+        &self,
+        place: &Path,
+        line: impl Into<Option<usize>>,
+        reason: impl Into<String>,
+    ) -> FilterError {
+        FilterError::in_file(&self.folder.join(place), line, reason)
     }
 
     /// Finds a file beside the one that names it, or beside the shader; none where neither is there. A module may go without its
@@ -209,7 +212,7 @@ impl Collector<'_> {
         let path = self.folder.join(below);
         let listed = std::fs::read_dir(&path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
         let mut entries =
-            listed.map_err(|error| self.refuse(below, format!("cannot be read: {error}")))?;
+            listed.map_err(|error| self.refuse(below, None, format!("cannot be read: {error}")))?;
         entries.sort_by_key(std::fs::DirEntry::file_name);
         for entry in entries {
             let name = below.join(entry.file_name());
@@ -219,7 +222,8 @@ impl Collector<'_> {
                 if !stays_below(self.folder, &path) {
                     return Err(self.refuse(
                         &name,
-                        "is a link to a file outside of the filter's folder; copy the file in its place".into(),
+                        None,
+                        "is a link to a file outside of the filter's folder; copy the file in its place",
                     ));
                 }
                 self.read(&name)?;
@@ -232,27 +236,20 @@ impl Collector<'_> {
 
     fn read(&mut self, place: &Path) -> Result<(), FilterError> {
         let bytes = read_bounded(&self.folder.join(place), MAX_MODULE_BYTES)
-            .map_err(|error| self.refuse(place, error.to_string()))?;
+            .map_err(|error| self.refuse(place, None, error.to_string()))?;
         let text = String::from_utf8(bytes)
-            .map_err(|_| self.refuse(place, "is not UTF-8; save it as UTF-8".into()))?;
+            .map_err(|_| self.refuse(place, None, "is not UTF-8; save it as UTF-8"))?;
         self.texts.insert(place.to_owned(), text);
         match self.texts.len() > MAX_FILES {
             true => Err(self.refuse(
                 place,
+                None,
                 format!(
                     "is one of more than {MAX_FILES} files of a shader in {}; leave files out that it does not need",
                     self.language.name()
                 ),
             )),
             false => Ok(()),
-        }
-    }
-
-    fn refuse(&self, place: &Path, reason: String) -> FilterError {
-        FilterError::Folder {
-            path: self.folder.join(place),
-            line: None,
-            reason,
         }
     }
 }

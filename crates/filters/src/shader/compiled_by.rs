@@ -18,14 +18,14 @@ struct Failure {
     error: FilterError,
 }
 
-/// Tries compilers until one makes what is wanted.
-pub(super) fn try_each<T>(
-    programs: &[&'static str],
-    attempt: impl Fn(&'static str) -> Result<T, FilterError>,
+/// Tries compilers, each with its program, until one makes what is wanted.
+pub(crate) fn try_each<C, T>(
+    compilers: impl Iterator<Item = (&'static str, C)>,
+    attempt: impl Fn(C) -> Result<T, FilterError>,
 ) -> Result<(T, CompiledBy), FilterError> {
     let mut failed = Vec::new();
-    for program in programs {
-        match attempt(program) {
+    for (program, compiler) in compilers {
+        match attempt(compiler) {
             Ok(made) => return Ok((made, CompiledBy { program, failed })),
             Err(error) => failed.push(Failure { program, error }),
         }
