@@ -69,7 +69,11 @@ impl Pass {
 }
 
 /// Number of times that a pass runs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize)]
+#[serde(
+    untagged,
+    expecting = "repeat is a count from 1 or the name of an integer parameter"
+)]
 pub enum Repeat {
     /// A fixed number.
     Times(u32),

@@ -3,8 +3,8 @@
 mod bindings;
 mod command;
 mod convention;
-mod divisors;
 mod file;
+mod number;
 mod parameters;
 mod parse;
 mod pass_shader;
@@ -12,7 +12,6 @@ mod passes;
 mod presets;
 mod reach_by;
 mod source;
-mod time_limit;
 
 pub use file::MAX_ENTRIES;
 pub use parameters::MAX_CHOICES;

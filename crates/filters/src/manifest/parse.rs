@@ -9,14 +9,14 @@ use toml::Spanned;
 
 use super::command::{add_environment, read_command};
 use super::convention::read_convention;
-use super::file::{File, IDENTIFIER, is_identifier};
+use super::file::File;
+use super::number::{IDENTIFIER, Names, is_identifier};
 use super::parameters::{ParameterEntry, read_parameters};
 use super::passes::{PassEntry, TextureEntry, read_passes, read_textures};
 use super::presets::{PresetEntry, read_presets};
-use super::reach_by::{ReachEntry, read_reach_by};
-use super::time_limit::read_time_limit;
-use crate::filter::{History, Lines};
-use crate::{Convention, Filter, FilterError};
+use super::reach_by::check_reach_by;
+use crate::filter::{DEFAULT_TIME_LIMIT, History, Lines};
+use crate::{Convention, Filter, FilterError, ReachBy};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,7 +25,7 @@ struct Manifest {
     summary: Spanned<String>,
     source: Option<Spanned<String>>,
     reach: Option<Spanned<String>>,
-    reach_by: Option<Spanned<ReachEntry>>,
+    reach_by: Option<Spanned<ReachBy>>,
     cannot: Option<Spanned<String>>,
     #[serde(deserialize_with = "read_alignment")]
     alignment: Alignment,
@@ -55,10 +55,7 @@ fn read_alignment<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Alignmen
 /// Parses `filter.toml` into a filter that still lacks its kernels.
 pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     let file = File { path, text };
-    let manifest: Manifest = toml::from_str(text).map_err(|error| {
-        let start = error.span().map(|span| span.start);
-        file.refuse(start, error.message().to_owned())
-    })?;
+    let manifest: Manifest = file.read("")?;
     let name = manifest.name.get_ref();
     if !is_identifier(name) {
         return Err(file.at(
@@ -80,12 +77,18 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         .map(|words| read_command(&file, words, &parameters))
         .transpose()?;
     let command = add_environment(&file, manifest.environment.as_ref(), command)?;
-    let textures = read_textures(&file, &manifest.texture, &parameters)?;
-    let convention = read_convention(
-        &file,
-        manifest.convention.as_ref(),
-        manifest.command.is_some(),
-    )?;
+    let is_command = command.is_some();
+    let convention = read_convention(&file, manifest.convention.as_ref(), is_command)?;
+    let mut names = Names {
+        textures: &[],
+        parameters: &parameters,
+        convention: &convention,
+    };
+    let textures = read_textures(&file, &manifest.texture, names)?;
+    names.textures = &textures;
+    if let Some(reach_by) = &manifest.reach_by {
+        check_reach_by(&file, reach_by, names)?;
+    }
     Ok(Filter {
         name: name.clone(),
         presets: read_presets(
@@ -94,12 +97,12 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
             &parameters,
             manifest.reference_width.as_ref(),
         )?,
-        passes: read_passes(&file, &manifest.pass, &textures, &parameters, &convention)?,
+        passes: read_passes(&file, &manifest.pass, names)?,
         convention,
         history: read_history(&file, &manifest)?,
         command,
         time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
-        reach_by: read_reach_by(&file, manifest.reach_by.as_ref(), &parameters)?,
+        reach_by: manifest.reach_by.map(Spanned::into_inner),
         textures,
         parameters,
         summary: check_sentence("summary", Some(&manifest.summary))?,
@@ -117,6 +120,21 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
             passes: file.lines(&manifest.pass),
         },
     })
+}
+
+/// Reads the seconds that one run of a program, or one pass of kernels, may take: at most a day.
+fn read_time_limit(file: &File, limit: Option<&Spanned<f64>>) -> Result<f64, FilterError> {
+    let longest = 86_400.0;
+    let Some(spanned) = limit else {
+        return Ok(DEFAULT_TIME_LIMIT);
+    };
+    match *spanned.get_ref() {
+        limit if limit > 0.0 && limit <= longest => Ok(limit),
+        limit => Err(file.at(
+            spanned,
+            format!("time_limit = {limit}; allowed: seconds, above 0 and at most {longest}"),
+        )),
+    }
 }
 
 /// Reads the inputs of the frame before, each of which may stand once. A program gets none of them.

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::file::{File, IDENTIFIER, is_identifier};
+use super::file::File;
+use super::number::{IDENTIFIER, is_identifier};
 use super::parameters::read_value;
 use super::source::{SourceEntry, read_source};
 use crate::{FilterError, Parameter, Preset, TuningRecord};

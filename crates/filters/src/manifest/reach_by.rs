@@ -1,66 +1,28 @@
-//! `[reach_by]` of filter.toml, and lengths in pixels that a parameter may hold.
+//! `[reach_by]` of filter.toml.
 
-use serde::Deserialize;
 use toml::Spanned;
 
 use super::file::File;
-use super::parameters::check_count;
-use crate::{FilterError, Growth, Length, Parameter, ReachBy};
+use super::number::Names;
+use crate::{FilterError, Length, ReachBy};
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ReachEntry {
-    parameter: String,
-    growth: Growth,
-    unit: Option<LengthEntry>,
-}
-
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "a length is a number of pixels or the name of an integer parameter"
-)]
-pub(super) enum LengthEntry {
-    Pixels(u32),
-    Parameter(String),
-}
-
-/// Reads the parameter that bounds the reach.
-pub(super) fn read_reach_by(
+/// Refuses a reach that does not come from integer parameters.
+pub(super) fn check_reach_by(
     file: &File,
-    entry: Option<&Spanned<ReachEntry>>,
-    parameters: &[Parameter],
-) -> Result<Option<ReachBy>, FilterError> {
-    let Some(spanned) = entry else {
-        return Ok(None);
-    };
-    let ReachEntry {
-        parameter,
-        growth,
-        unit,
+    spanned: &Spanned<ReachBy>,
+    names: Names,
+) -> Result<(), FilterError> {
+    let ReachBy {
+        parameter, unit, ..
     } = spanned.get_ref();
-    let refuse = |reason: String| file.at(spanned, format!("reach_by: {reason}"));
-    check_count(parameters, parameter).map_err(|reason| refuse(format!("parameter = {reason}")))?;
-    let unit = unit
-        .as_ref()
-        .map(|entry| read_length(parameters, entry))
-        .transpose()
-        .map_err(|reason| refuse(format!("unit = {reason}")))?;
-    Ok(Some(ReachBy {
-        parameter: parameter.clone(),
-        growth: *growth,
-        unit: unit.unwrap_or(Length::Pixels(1)),
-    }))
-}
-
-/// Reads a length.
-fn read_length(parameters: &[Parameter], entry: &LengthEntry) -> Result<Length, String> {
-    match entry {
-        LengthEntry::Pixels(0) => Err("0; allowed: 1 pixel or more".to_owned()),
-        LengthEntry::Pixels(pixels) => Ok(Length::Pixels(*pixels)),
-        LengthEntry::Parameter(parameter) => {
-            check_count(parameters, parameter)?;
-            Ok(Length::Parameter(parameter.clone()))
-        }
-    }
+    let unit = match unit {
+        Length::Pixels(0) => Err("0; allowed: 1 pixel or more".to_owned()),
+        Length::Pixels(_) => Ok(()),
+        Length::Parameter(parameter) => names.check_count(parameter),
+    };
+    let parameter = names.check_count(parameter);
+    parameter
+        .map_err(|reason| format!("parameter = {reason}"))
+        .and(unit.map_err(|reason| format!("unit = {reason}")))
+        .map_err(|reason| file.at(spanned, format!("reach_by: {reason}")))
 }

@@ -25,13 +25,6 @@ pub(super) fn fill_block(
         |member: &Member, name: &str| name == member.name || name == format!("@{}", member.offset);
     let is_known =
         |name: &str| name == OTHERS || members.iter().any(|member| is_called(member, name));
-    if let Some((name, _)) = given.iter().find(|(name, _)| !is_known(name)) {
-        let names: Vec<&str> = members.iter().map(|member| &member.name[..]).collect();
-        return Err(format!(
-            "`values` names \"{name}\", which is no member; it has: {}",
-            names.join(", ")
-        ));
-    }
     let mut numbers = Vec::new();
     for member in &members {
         let own = given.iter().find(|(name, _)| is_called(member, name));
@@ -68,6 +61,13 @@ pub(super) fn fill_block(
             kind: *kind,
             value: value.clone(),
         }));
+    }
+    if let Some((name, _)) = given.iter().find(|(name, _)| !is_known(name)) {
+        let names: Vec<&str> = members.iter().map(|member| &member.name[..]).collect();
+        return Err(format!(
+            "`values` names \"{name}\", which is no member; it has: {}",
+            names.join(", ")
+        ));
     }
     UniformBlock::new(module, block, numbers)
 }

@@ -19,18 +19,21 @@ pub(crate) fn check_texture(filter: &Filter, role: Role, texture: &str) -> Resul
         }
         (Role::Read(Texel::Uint), None) => Err("holds floats: texture_2d<f32>".into()),
         (Role::Read(texel), Some(format)) if Texel::of(format) != texel => Err(format!(
-            "does not fit the declared format {format:?}: r32uint is read as texture_2d<u32>, every other as \
-             texture_2d<f32>"
+            "does not fit the declared format {}: r32uint is read as texture_2d<u32>, every other as texture_2d<f32>",
+            format.name()
         )),
         (Role::Write(_), None) if texture != "output" => Err(format!(
             "writes \"{texture}\", which is an input; allowed: output, or a [[texture]]"
         )),
         (Role::Write(Format::Rgba32Float | Format::Rgba16Float), None) => Ok(()),
-        (Role::Write(_), None) => {
-            Err("has another format than the image: rgba32float or rgba16float".into())
-        }
+        (Role::Write(found), None) => Err(format!(
+            "writes \"output\" as {}; allowed: rgba32float or rgba16float",
+            found.name()
+        )),
         (Role::Write(found), Some(format)) if format != found => Err(format!(
-            "has format {found:?}; texture \"{texture}\" is declared as {format:?}"
+            "writes texture \"{texture}\" as {}; it is declared as {}",
+            found.name(),
+            format.name()
         )),
         _ => Ok(()),
     }
