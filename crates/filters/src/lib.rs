@@ -28,7 +28,7 @@ mod translate;
 
 pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
 pub use error::FilterError;
-pub use expression::Expression;
+pub use expression::{Expression, Function};
 pub use filter::{
     Binding, BindingPlace, Code, Command, Convention, DepthKind, Filter, Growth, History, Holds,
     Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, Rounding, Scale, Settings,

@@ -55,16 +55,16 @@ impl PassShader {
         constants.chain(levels).chain(&self.level)
     }
 
-    /// Returns the vertex stage as a shader of its own.
-    pub(crate) fn vertex_stage(&self) -> Option<PassShader> {
-        let vertex = self.vertex.as_ref()?;
-        Some(PassShader {
+    /// Lists its stages, each as a shader of its own: itself, then the vertex stage if it names one.
+    pub(crate) fn stages(&self) -> Vec<PassShader> {
+        let vertex = self.vertex.as_ref().map(|vertex| PassShader {
             file: vertex.file.clone(),
             entry: vertex.entry.clone(),
             stage: Stage::Vertex,
             targets: Vec::new(),
             ..self.clone()
-        })
+        });
+        [self.clone()].into_iter().chain(vertex).collect()
     }
 }
 

@@ -87,11 +87,10 @@ impl<'g> Kernels<'g> {
             let Some(shader) = pass.shader.as_ref().filter(|_| own != kept) else {
                 continue;
             };
-            let make = |shader, made| specialise(&self.filter, shader, made, settings);
-            filter.shaders[pass.shader_index] = make(shader, self.filter.shader(pass))?;
-            let vertex = shader.vertex_stage().zip(pass.vertex_index);
-            if let Some((vertex, index)) = vertex {
-                filter.shaders[index] = make(&vertex, &self.filter.shaders[index])?;
+            let indices = [Some(pass.shader_index), pass.vertex_index];
+            for (stage, index) in shader.stages().iter().zip(indices.into_iter().flatten()) {
+                let made = &self.filter.shaders[index];
+                filter.shaders[index] = specialise(&self.filter, stage, made, settings)?;
             }
         }
         let made = Arc::new(compile(self.gpu, filter, constants, Some(&first))?);

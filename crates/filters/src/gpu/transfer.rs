@@ -10,25 +10,6 @@ use crate::shader::Texel;
 use crate::{Convention, FilterError, Format, Input};
 
 impl Format {
-    /// Converts the format to that of wgpu.
-    pub(in crate::gpu) fn wgpu(self) -> wgpu::TextureFormat {
-        match self {
-            Format::R32Uint => wgpu::TextureFormat::R32Uint,
-            Format::R32Float => wgpu::TextureFormat::R32Float,
-            Format::Rg32Float => wgpu::TextureFormat::Rg32Float,
-            Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
-            Format::R16Float => wgpu::TextureFormat::R16Float,
-            Format::Rg16Float => wgpu::TextureFormat::Rg16Float,
-            Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
-            Format::R8Unorm => wgpu::TextureFormat::R8Unorm,
-            Format::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
-            Format::Rgb10a2Unorm => wgpu::TextureFormat::Rgb10a2Unorm,
-            Format::Rg11b10Ufloat => wgpu::TextureFormat::Rg11b10Ufloat,
-        }
-    }
-}
-
-impl Format {
     /// Encodes numbers; those of `r32uint` are given as the floats of their bits.
     fn encode(self, values: &[f32]) -> Vec<u8> {
         match self {

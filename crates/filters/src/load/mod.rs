@@ -8,7 +8,7 @@ use frame::{FileError, read_bounded};
 use include_dir::{Dir, include_dir};
 
 use crate::shader::Shader;
-use crate::translate::{MAX_MODULE_BYTES, Translated, stays_below, translate};
+use crate::translate::{MAX_MODULE_BYTES, stays_below, translate};
 use crate::{Filter, FilterError, manifest};
 use agreement::check_agreement;
 
@@ -90,15 +90,14 @@ fn parse_filter(
                 let bytes = read_file(&path, MAX_MODULE_BYTES)?;
                 Ok((path, bytes))
             };
-            let Translated { mut shader, vertex } = translate(&filter, shader, &read_shader)?;
-            let mut corners = vertex.iter().flat_map(|vertex| &vertex.entry_points);
-            let is_noisy = corners.any(|corner| corner.draws_noise);
-            (shader.entry_points.iter_mut()).for_each(|entry| entry.draws_noise |= is_noisy);
-            shaders.push(shader);
+            let mut stages = translate(&filter, shader, &read_shader)?;
+            let mut entries = stages.iter().flat_map(|stage| &stage.entry_points);
+            let is_noisy = entries.any(|entry| entry.draws_noise);
+            (stages[0].entry_points.iter_mut()).for_each(|entry| entry.draws_noise = is_noisy);
             let pass = &mut filter.passes[index];
-            pass.shader_index = shaders.len() - 1;
-            pass.vertex_index = vertex.as_ref().map(|_| shaders.len());
-            shaders.extend(vertex);
+            pass.shader_index = shaders.len();
+            pass.vertex_index = (stages.len() > 1).then_some(shaders.len() + 1);
+            shaders.extend(stages);
         }
     }
     filter.shaders = shaders;

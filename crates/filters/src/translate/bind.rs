@@ -10,7 +10,6 @@ use super::entry::{keep_entry_point, set_constants, validate};
 use super::members::fill_block;
 use super::module::{OpenModule, PUSH_CONSTANTS};
 use super::textures::{check_texture, describe_image};
-use super::words::Place;
 use crate::filter::{Binding, BindingPlace, PassShader, Stage};
 use crate::shader::{
     Code, Role, Shader, UniformBlock, Variable, find_entry_points, find_image_role, written_texture,
@@ -35,11 +34,10 @@ pub(super) fn bind(
     open: OpenModule,
     constants: &[(String, f64)],
 ) -> Result<Shader, FilterError> {
-    let owners = find_owners(&open);
     let OpenModule {
         mut module,
+        owners,
         by_rows,
-        ..
     } = open;
     validate(path, &module)?;
     keep_entry_point(shader, path, &mut module)?;
@@ -75,14 +73,6 @@ pub(super) fn bind(
     })
 }
 
-/// Finds the places of variables that were split from others. They are explained where those are.
-fn find_owners(open: &OpenModule) -> BTreeMap<BindingPlace, BindingPlace> {
-    let bound_at = |(group, binding): Place| BindingPlace::Bound { group, binding };
-    (open.owners.iter())
-        .map(|(split, owner)| (bound_at(*split), bound_at(*owner)))
-        .collect()
-}
-
 /// Refuses a binding of filter.toml that none of the stages of a pass has.
 pub(super) fn check_places(
     filter: &Filter,
@@ -92,7 +82,7 @@ pub(super) fn check_places(
 ) -> Result<(), FilterError> {
     let mut declared: Vec<(&Module, &GlobalVariable, BindingPlace)> = Vec::new();
     for open in stages {
-        let (module, owners) = (&open.module, find_owners(open));
+        let OpenModule { module, owners, .. } = open;
         let placed = (module.global_variables.iter())
             .filter_map(|(_, variable)| Some((module, variable, find_place(variable)?)));
         declared.extend(placed.filter(|(.., place)| !owners.contains_key(place)));

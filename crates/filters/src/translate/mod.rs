@@ -42,80 +42,62 @@ pub(crate) use textures::check_texture;
 /// Function that reads a file of the filter's folder: its path, and its bytes.
 pub(crate) type ReadFile<'a> = dyn Fn(&Path) -> Result<(PathBuf, Vec<u8>), FilterError> + 'a;
 
-/// Shaders of a pass: its own, and that of its vertex stage if it names one.
-pub(crate) struct Translated {
-    pub shader: Shader,
-    pub vertex: Option<Shader>,
-}
-
-/// Translates the shaders of a pass with the specialisation constants of its first preset.
+/// Translates the stages of a pass with the specialisation constants of its first preset.
 pub(crate) fn translate(
     filter: &Filter,
     shader: &PassShader,
     read_file: &ReadFile,
-) -> Result<Translated, FilterError> {
-    let (path, bytes) = read_file(&shader.file)?;
-    let vertex = shader.vertex_stage();
-    let vertex = vertex.map(|stage| Ok::<_, FilterError>((read_file(&stage.file)?, stage)));
-    let vertex = vertex.transpose()?;
-    let own = (path.as_path(), &bytes[..]);
-    let vertex = vertex.as_ref();
-    let vertex = vertex.map(|((path, bytes), stage)| ((path.as_path(), &bytes[..]), stage));
-    let attempt = |compiler| {
-        guard(&path, || {
-            translate_with(filter, (shader, own), vertex, compiler)
-        })
-    };
-    let language = find_language(shader, &path)?;
+) -> Result<Vec<Shader>, FilterError> {
+    let stages = shader.stages().into_iter().map(|stage| {
+        let (path, bytes) = read_file(&stage.file)?;
+        Ok(Stage { stage, path, bytes })
+    });
+    let stages = stages.collect::<Result<Vec<_>, FilterError>>()?;
+    let path = &stages[0].path;
+    let attempt = |compiler| guard(path, || translate_with(filter, &stages, compiler));
+    let language = find_language(shader, path)?;
     if language.compilers().is_empty() {
         return attempt(None);
     }
-    let installed = list_installed(language, shader, &path)?;
-    let (mut made, compiled_by) =
-        try_each(installed.iter().map(|it| (it.program, *it)), |compiler| {
-            attempt(Some(compiler))
-        })?;
-    made.shader.compiled_by = Some(compiled_by);
+    let installed = list_installed(language, shader, path)?;
+    let installed = installed.into_iter().map(|it| (it.program, it));
+    let (mut made, by) = try_each(installed, |compiler| attempt(Some(compiler)))?;
+    made[0].compiled_by = Some(by);
     Ok(made)
 }
 
-/// Path and bytes of a shader.
-type File<'f> = (&'f Path, &'f [u8]);
+/// A stage of a pass, and the file of its shader.
+struct Stage {
+    stage: PassShader,
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
 
-/// Translates the shaders of a pass by one compiler, if their language needs one.
+/// Translates the stages of a pass by one compiler, if their language needs one.
 fn translate_with(
     filter: &Filter,
-    (shader, (path, bytes)): (&PassShader, File),
-    vertex: Option<(File, &PassShader)>,
+    stages: &[Stage],
     compiler: Option<&Compiler>,
-) -> Result<Translated, FilterError> {
+) -> Result<Vec<Shader>, FilterError> {
+    let shader = &stages[0].stage;
     let constants = list_constants(filter, shader, &filter.settings(None)?);
-    let compile = |stage: &PassShader, (path, bytes): File| {
+    let compile = |Stage { stage, path, bytes }: &Stage| {
         let compiled = compile_shader(filter, stage, path, bytes, compiler)?;
         let open = read(filter, stage, path, &compiled, &constants)?;
-        Ok::<_, FilterError>((compiled, open))
+        Ok((compiled, open))
     };
-    let own = compile(shader, (path, bytes))?;
-    let vertex = vertex
-        .map(|(file, stage)| Ok((compile(stage, file)?, file.0, stage)))
-        .transpose()?;
-    let corners = vertex.as_ref().map(|((_, open), ..)| open);
-    let stages: Vec<&OpenModule> = [&own.1].into_iter().chain(corners).collect();
-    check_places(filter, shader, path, &stages)?;
+    let made = (stages.iter().map(compile)).collect::<Result<Vec<_>, FilterError>>()?;
+    let modules: Vec<&OpenModule> = made.iter().map(|(_, open)| open).collect();
+    check_places(filter, shader, &stages[0].path, &modules)?;
     // Kept where a parameter changes the module.
     let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
-    let bind_stage = |(compiled, open), path: &Path, stage: &PassShader| {
-        let bound = bind(filter, stage, path, open, &constants)?;
-        Ok::<_, FilterError>(Shader {
+    let bound = stages.iter().zip(made).map(|(stage, (compiled, open))| {
+        Ok(Shader {
             compiled: is_open.then(|| Arc::new(compiled)),
-            ..bound
+            ..bind(filter, &stage.stage, &stage.path, open, &constants)?
         })
-    };
-    let vertex = vertex.map(|(made, path, stage)| bind_stage(made, path, stage));
-    Ok(Translated {
-        vertex: vertex.transpose()?,
-        shader: bind_stage(own, path, shader)?,
-    })
+    });
+    bound.collect()
 }
 
 /// Makes a translated shader again, with the specialisation constants of settings.

@@ -22,7 +22,7 @@ use crate::{Filter, FilterError, Format};
 pub(super) struct OpenModule {
     pub module: Module,
     /// Places of variables that were split from others, each with the place of the other.
-    pub owners: BTreeMap<Place, Place>,
+    pub owners: BTreeMap<BindingPlace, BindingPlace>,
     /// Names and offsets of members that hold the rows of a matrix one after the other.
     pub by_rows: BTreeSet<(String, u32)>,
 }
@@ -186,9 +186,11 @@ fn read_spirv(
         choose(place, name).filter(|_| is_hlsl || is_open)
     });
     owners.extend(images.owners);
+    let bound = |(group, binding): Place| BindingPlace::Bound { group, binding };
+    let owners = owners.into_iter();
     Ok(OpenModule {
         module,
-        owners,
+        owners: (owners.map(|(split, owner)| (bound(split), bound(owner)))).collect(),
         by_rows,
     })
 }
