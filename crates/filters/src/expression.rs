@@ -2,7 +2,7 @@
 
 /// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `ceil(..)`, `min(.., ..)` and `max(.., ..)`.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Expression {
+pub(crate) enum Expression {
     /// A number.
     Number(f64),
     /// A parameter or a value of the frame.
@@ -13,7 +13,7 @@ pub enum Expression {
 
 /// Function or operator of an expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Function {
+pub(crate) enum Function {
     /// The first argument with the other sign.
     Negative,
     /// The largest whole number that is not larger.

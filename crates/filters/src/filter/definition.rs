@@ -1,11 +1,12 @@
 //! Definition of a filter: everything that `filter.toml` and its kernels declare.
 
+use std::path::PathBuf;
+
 use frame::Alignment;
 
 use super::command::Command;
 use super::convention::Convention;
 use super::history::History;
-use super::lines::Lines;
 use super::parameter::Parameter;
 use super::pass::{Pass, Texture};
 use super::preset::Preset;
@@ -53,13 +54,23 @@ pub struct Filter {
     /// Inputs of the frame before that its kernels read, each once.
     pub history: Vec<History>,
     /// Passes, in the order in which they run.
-    pub passes: Vec<Pass>,
+    pub(crate) passes: Vec<Pass>,
     /// Form in which its shaders expect the frame.
     pub convention: Convention,
     /// Kernels: those of its WGSL file, and one shader for each pass that names its own.
     pub(crate) shaders: Vec<Shader>,
     /// Lines of filter.toml that declare it all.
     pub(crate) lines: Lines,
+}
+
+/// Lines of declarations in `filter.toml`, from 1, for messages.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lines {
+    pub path: PathBuf,
+    pub parameters: Vec<usize>,
+    pub presets: Vec<usize>,
+    pub textures: Vec<usize>,
+    pub passes: Vec<usize>,
 }
 
 impl Filter {

@@ -5,7 +5,6 @@ mod convention;
 mod conversion;
 mod definition;
 mod history;
-mod lines;
 mod parameter;
 mod pass;
 mod pass_shader;
@@ -20,15 +19,16 @@ pub use convention::{
     Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
 pub use definition::Filter;
-pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS};
+pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS, Lines};
 pub use history::History;
-pub(crate) use lines::Lines;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
-pub use pass::{Holds, Pass, Repeat, Rounding, Texture};
-pub use pass_shader::{Binding, BindingPlace, PassShader, Stage, VertexShader};
+pub use pass::{Holds, Texture};
+pub(crate) use pass::{Pass, Repeat, Rounding};
+pub(crate) use pass_shader::{Binding, BindingPlace, PassShader, Stage, VertexShader};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
-pub use reach::{Growth, Length, ReachBy};
+pub use reach::ReachBy;
+pub(crate) use reach::Length;
 pub use settings::Settings;
 pub(crate) use values::{
     MATRICES, MATRIX_NUMBERS, count_numbers, explain_unknown, find_matrix, list_values,

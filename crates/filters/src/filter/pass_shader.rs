@@ -8,7 +8,7 @@ use crate::shader::Sampling;
 /// Stage of a shader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Stage {
+pub(crate) enum Stage {
     /// One invocation per texel writes storage textures.
     #[default]
     Compute,
@@ -21,7 +21,7 @@ pub enum Stage {
 
 /// A shader in a file of its own, with bindings that filter.toml explains.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PassShader {
+pub(crate) struct PassShader {
     /// The file, relative to the filter's folder.
     pub file: PathBuf,
     /// Entry point.
@@ -70,7 +70,7 @@ impl PassShader {
 
 /// Vertex stage of a fragment shader.
 #[derive(Clone, Debug, PartialEq)]
-pub struct VertexShader {
+pub(crate) struct VertexShader {
     /// The file, relative to the filter's folder.
     pub file: PathBuf,
     /// Entry point.
@@ -79,7 +79,7 @@ pub struct VertexShader {
 
 /// Meaning of one binding of a shader.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Binding {
+pub(crate) struct Binding {
     /// Place in the shader.
     pub place: BindingPlace,
     /// Texture that it reads or writes: `color`, `velocity`, `depth`, `output` or a [[texture]].
@@ -96,7 +96,7 @@ pub struct Binding {
 
 /// Place of a resource in a shader.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum BindingPlace {
+pub(crate) enum BindingPlace {
     /// `@group` and `@binding` of WGSL, `set` and `binding` of GLSL.
     Bound {
         /// Group or set.

@@ -8,7 +8,7 @@ use serde::Deserialize;
     untagged,
     expecting = "a length is a number of pixels or the name of an integer parameter"
 )]
-pub enum Length {
+pub(crate) enum Length {
     /// A fixed number.
     Pixels(u32),
     /// The value of this integer parameter.
@@ -22,10 +22,10 @@ pub struct ReachBy {
     /// An integer parameter.
     pub parameter: String,
     /// Growth of the reach with it.
-    pub growth: Growth,
+    pub(crate) growth: Growth,
     /// The reach when the parameter is 1; a pixel if left out.
     #[serde(default = "one_pixel")]
-    pub unit: Length,
+    pub(crate) unit: Length,
 }
 
 fn one_pixel() -> Length {
@@ -35,7 +35,7 @@ fn one_pixel() -> Length {
 /// Growth of the reach with a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Growth {
+pub(crate) enum Growth {
     /// Reach = unit x value: the side of a tile.
     Linear,
     /// Reach = unit x 2^(value - 1): the steps of a flood.

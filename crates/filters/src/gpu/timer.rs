@@ -2,8 +2,7 @@
 
 use std::time::Instant;
 
-use super::clock::Clock;
-use super::device::Gpu;
+use super::device::{Clock, Gpu};
 use super::place::Place;
 use crate::FilterError;
 use crate::filter::DEFAULT_TIME_LIMIT;

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use crate::filter::{INPUTS, Lines, PassShader};
-use crate::shader::{EntryPoint, Role, Shader, Variable, written_texture};
+use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, written_texture};
 use crate::translate::check_texture;
-use crate::{Expression, Filter, FilterError, Parameter, Pass, Repeat, Stage};
+use crate::{Expression, Filter, FilterError, Pass, Repeat, Stage};
 
 /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
 /// passes read and write.
@@ -27,7 +27,7 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    /// Checks the variables of the WGSL file, which are bound by name, and the parameters.
+    /// Checks the variables of the WGSL file, which are bound by name, and the uniform of parameters.
     fn check_kernels(&self, kernels: &Shader) -> Result<(), FilterError> {
         let mut uniforms = kernels.variables.iter().filter_map(|it| match it.role {
             Role::Block(block) => Some((it, &kernels.blocks[block])),
@@ -36,21 +36,7 @@ impl Check<'_> {
         let uniform = uniforms.find(|(variable, _)| variable.name == "parameters");
         let members = uniform.map_or(&[][..], |(_, block)| &block.numbers);
         let line = uniform.and_then(|(variable, _)| variable.line);
-        let parameters = &self.filter.parameters;
-        for index in 0..parameters.len().max(members.len()) {
-            let found = members.get(index).map(|member| {
-                let name = match &member.value {
-                    Expression::Name(name) => &name[..],
-                    _ => unreachable!("numbers of a kernel are called after members"),
-                };
-                (name, member.kind.name(), member.offset as usize)
-            });
-            self.check_parameter(index, parameters.get(index), found)
-                .map_err(|(of_kernels, reason)| match of_kernels {
-                    true => self.refuse_kernel(line, reason),
-                    false => self.refuse_manifest(self.lines.parameters[index], reason),
-                })?;
-        }
+        self.check_members(members, line)?;
         for variable in &kernels.variables {
             self.check_variable(variable).map_err(|reason| {
                 self.refuse_kernel(variable.line, format!("\"{}\" {reason}", variable.name))
@@ -59,52 +45,60 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// Compares a parameter with a number of the uniform: its name, type and offset. The error says whether it is one of the kernels.
-    fn check_parameter(
+    /// Compares the parameters with the numbers of their uniform: names, types and offsets. `line` is that of the uniform.
+    fn check_members(
         &self,
-        index: usize,
-        declared: Option<&Parameter>,
-        found: Option<(&str, &str, usize)>,
-    ) -> Result<(), (bool, String)> {
+        members: &[BlockNumber],
+        line: Option<usize>,
+    ) -> Result<(), FilterError> {
+        let name = |member: &BlockNumber| match &member.value {
+            Expression::Name(name) => name.clone(),
+            _ => unreachable!("numbers of a kernel are called after members"),
+        };
         let manifest = self.lines.path.display();
-        match (declared, found) {
-            (Some(parameter), Some(found)) => {
-                let wanted = (&parameter.name[..], parameter.kind.wgsl_type(), 4 * index);
-                if wanted == found {
-                    return Ok(());
-                }
-                Err((
-                    true,
-                    format!(
-                        "member {} of the uniform parameters is {}: {} at byte {}; {manifest}:{} declares {}: {} at byte {} \
-                         there",
-                        index + 1,
-                        found.0,
-                        found.1,
-                        found.2,
-                        self.lines.parameters[index],
-                        wanted.0,
-                        wanted.1,
-                        wanted.2,
-                    ),
-                ))
-            }
-            (None, Some((name, ..))) => Err((
-                true,
-                format!(
-                    "the uniform parameters has a member \"{name}\" that {manifest} does not declare; add a [[parameter]] \
-                     in the same order"
-                ),
-            )),
-            (Some(Parameter { name, kind, .. }), None) => Err((
-                false,
-                format!(
-                    "parameter \"{name}\" is not a member of the uniform parameters in {}; add `{name}: {},` to its struct",
+        let parameters = &self.filter.parameters;
+        for (index, parameter) in parameters.iter().enumerate() {
+            let declared = self.lines.parameters[index];
+            let wanted = (
+                parameter.name.clone(),
+                parameter.kind.wgsl_type(),
+                4 * index,
+            );
+            let Some(member) = members.get(index) else {
+                let reason = format!(
+                    "parameter \"{0}\" is not a member of the uniform parameters in {1}; add `{0}: {2},` to its struct",
+                    wanted.0,
                     self.kernel_path().display(),
-                    kind.wgsl_type(),
-                ),
-            )),
-            (None, None) => Ok(()),
+                    wanted.1,
+                );
+                return Err(self.refuse_manifest(declared, reason));
+            };
+            let found = (name(member), member.kind.name(), member.offset as usize);
+            if wanted != found {
+                let reason = format!(
+                    "member {} of the uniform parameters is {}: {} at byte {}; {manifest}:{declared} declares {}: {} at byte \
+                     {} there",
+                    index + 1,
+                    found.0,
+                    found.1,
+                    found.2,
+                    wanted.0,
+                    wanted.1,
+                    wanted.2,
+                );
+                return Err(self.refuse_kernel(line, reason));
+            }
+        }
+        match members.get(parameters.len()) {
+            None => Ok(()),
+            Some(member) => {
+                let reason = format!(
+                    "the uniform parameters has a member \"{}\" that {manifest} does not declare; add a [[parameter]] in \
+                     the same order",
+                    name(member)
+                );
+                Err(self.refuse_kernel(line, reason))
+            }
         }
     }
 

@@ -14,9 +14,8 @@ use super::number::{IDENTIFIER, Names, is_identifier};
 use super::parameters::{ParameterEntry, read_parameters};
 use super::passes::{PassEntry, TextureEntry, read_passes, read_textures};
 use super::presets::{PresetEntry, read_presets};
-use super::reach_by::check_reach_by;
 use crate::filter::{DEFAULT_TIME_LIMIT, History, Lines};
-use crate::{Convention, Filter, FilterError, ReachBy};
+use crate::{Convention, Filter, FilterError, Length, ReachBy};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -68,9 +67,10 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     file.check_number("preset", &manifest.preset)?;
     file.check_number("texture", &manifest.texture)?;
     file.check_number("pass", &manifest.pass)?;
-    let check_sentence = |name: &str, text: Option<&Spanned<String>>| match text {
-        Some(text) => file.check_line(text, name, text.get_ref()),
-        None => Ok(String::new()),
+    let check_sentence = |name: &str, text: Option<&Spanned<String>>| {
+        text.map_or(Ok(String::new()), |text| {
+            file.check_line(text, name, text.get_ref())
+        })
     };
     let parameters = read_parameters(&file, &manifest.parameter)?;
     let command = (manifest.command.as_ref())
@@ -120,6 +120,27 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
             passes: file.lines(&manifest.pass),
         },
     })
+}
+
+/// Refuses a reach that does not come from integer parameters.
+fn check_reach_by(
+    file: &File,
+    spanned: &Spanned<ReachBy>,
+    names: Names,
+) -> Result<(), FilterError> {
+    let ReachBy {
+        parameter, unit, ..
+    } = spanned.get_ref();
+    let unit = match unit {
+        Length::Pixels(0) => Err("0; allowed: 1 pixel or more".to_owned()),
+        Length::Pixels(_) => Ok(()),
+        Length::Parameter(parameter) => names.check_count(parameter),
+    };
+    let parameter = names.check_count(parameter);
+    parameter
+        .map_err(|reason| format!("parameter = {reason}"))
+        .and(unit.map_err(|reason| format!("unit = {reason}")))
+        .map_err(|reason| file.at(spanned, format!("reach_by: {reason}")))
 }
 
 /// Reads the seconds that one run of a program, or one pass of kernels, may take: at most a day.

@@ -37,15 +37,11 @@ pub(crate) fn try_each<C, T>(
 fn join(mut failed: Vec<Failure>) -> FilterError {
     failed.dedup_by(|a, b| a.error == b.error);
     let reasons: Vec<String> = failed.iter().map(Failure::reason).collect();
-    let first = failed.into_iter().next().expect("a compiler was tried");
-    match (reasons.len(), first.error) {
-        (2.., FilterError::Folder { path, line, .. }) => FilterError::Folder {
-            path,
-            line,
-            reason: reasons.join("\n"),
-        },
-        (_, error) => error,
+    let mut error = (failed.into_iter().next().expect("a compiler was tried")).error;
+    if let (2.., FilterError::Folder { reason, .. }) = (reasons.len(), &mut error) {
+        *reason = reasons.join("\n");
     }
+    error
 }
 
 impl Failure {

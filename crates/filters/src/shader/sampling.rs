@@ -2,7 +2,7 @@
 
 /// Reading of a texture between and beyond its texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Sampling {
+pub(crate) struct Sampling {
     /// Between texels.
     pub filter: SamplerFilter,
     /// Between mip levels.
@@ -31,7 +31,7 @@ impl Sampling {
 /// Value of a texture between its texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum SamplerFilter {
+pub(crate) enum SamplerFilter {
     /// That of the nearest texel.
     Nearest,
     /// Interpolated between the four texels around.
@@ -42,7 +42,7 @@ pub enum SamplerFilter {
 /// Value of a texture beyond its border.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Wrap {
+pub(crate) enum Wrap {
     /// That of the border.
     #[default]
     Clamp,

@@ -137,7 +137,7 @@ fn find_stored_format(
 /// Explains an error in the WGSL that WESL became, whose lines are not those of the file.
 fn in_compiled(path: &Path, error: &FilterError) -> FilterError {
     let reason = match error {
-        FilterError::Kernels { reason, .. } | FilterError::Folder { reason, .. } => reason.clone(),
+        FilterError::Folder { reason, .. } => reason.clone(),
         other => other.to_string(),
     };
     let reason = format!("after its imports and conditions: {reason}");

@@ -20,45 +20,48 @@ const MAX_FILES: usize = 256;
 /// Upper limit on folders within one another that modules are looked for in.
 const MAX_DEPTH: usize = 8;
 
-/// Texts by their paths in the filter's folder.
-pub(super) struct Sources {
+/// Texts of a shader and of what it needs.
+pub(super) struct Sources<'a> {
+    /// The filter's folder.
+    folder: &'a Path,
+    language: Language,
     /// The shader itself.
     pub shader: PathBuf,
+    /// Texts by their paths in the folder.
     pub texts: BTreeMap<PathBuf, String>,
 }
 
-impl Sources {
+impl<'a> Sources<'a> {
     /// Reads what the shader in `file` of a filter's folder needs. `text` is its own.
     pub fn collect(
-        folder: &Path,
+        folder: &'a Path,
         file: &Path,
         text: &str,
         language: Language,
     ) -> Result<Self, FilterError> {
-        let mut collector = Collector {
+        let is_name = |part: &Component| matches!(part, Component::Normal(_));
+        let shader: PathBuf = file.components().filter(is_name).collect();
+        let base = folder_of(&shader).to_owned();
+        let mut sources = Sources {
             folder,
             language,
             texts: BTreeMap::new(),
+            shader: shader.clone(),
         };
-        let file: PathBuf = file.components().filter(is_name).collect();
-        let base = file.parent().unwrap_or(Path::new("")).to_owned();
         let endings: &[&str] = match language {
             Language::Slang => &["slang"],
             Language::Wesl => &["wesl", "wgsl"],
             _ => &[],
         };
         if !endings.is_empty() {
-            collector.add_modules(&base, endings, 0)?;
+            sources.add_modules(&base, endings, 0)?;
         }
-        collector.texts.insert(file.clone(), text.to_owned());
+        sources.texts.insert(shader, text.to_owned());
         match language {
-            Language::Wesl => name_packages(&base, &mut collector.texts),
-            _ => collector.resolve_all(&base)?,
+            Language::Wesl => name_packages(&base, &mut sources.texts),
+            _ => sources.resolve_all(&base)?,
         }
-        Ok(Self {
-            shader: file,
-            texts: collector.texts,
-        })
+        Ok(sources)
     }
 
     /// Writes all files below a folder.
@@ -69,19 +72,7 @@ impl Sources {
             std::fs::write(path, text)
         })
     }
-}
 
-fn is_name(part: &Component) -> bool {
-    matches!(part, Component::Normal(_))
-}
-
-struct Collector<'a> {
-    folder: &'a Path,
-    language: Language,
-    texts: BTreeMap<PathBuf, String>,
-}
-
-impl Collector<'_> {
     /// Resolves what each file names, and adds what is new, until there is nothing new.
     fn resolve_all(&mut self, base: &Path) -> Result<(), FilterError> {
         let mut waiting: Vec<PathBuf> = self.texts.keys().cloned().collect();
