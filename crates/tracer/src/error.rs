@@ -2,8 +2,7 @@
 
 use frame::ShutterError;
 
-use crate::film::sampler::MOST_SAMPLES;
-use crate::limits::{LARGEST_COORDINATE, LARGEST_SIDE, LARGEST_VALUE, MOST_PIXELS};
+use crate::limits::{LARGEST_COORDINATE, LARGEST_SIDE, LARGEST_VALUE, MOST_PIXELS, MOST_SAMPLES};
 
 /// A refusal to render, or the end of a render.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,9 +1,8 @@
-//! Scenes at other frame rates than that of their files.
+//! Frame rates, as names of scenes state them.
 
 use serde::{Deserialize, Serialize};
 
 use crate::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
-use crate::scene::Scene;
 
 /// A frame rate, and the rule by which the shutter follows it. Names have it as the last word behind the scene and its variant:
 /// `fan@144fps`, `fan@unlit@24fps_1-48s`.
@@ -110,30 +109,6 @@ impl FrameRate {
             None => written,
             Some(count) => self.per_second / count,
         }
-    }
-}
-
-impl Scene {
-    /// Takes the scene at another frame rate. Whatever its file says about a time happens at the same time in seconds; so does the
-    /// delay of a rolling shutter. The instant stays. Name and hash stay the caller's to set.
-    pub(crate) fn at_rate(mut self, rate: FrameRate) -> Self {
-        let frames = rate.frames_per_written_frame();
-        let objects = self.objects.iter_mut().map(|object| &mut object.motion);
-        for motion in objects.chain([&mut self.camera.motion]) {
-            for key in &mut motion.keys {
-                key.time *= frames;
-            }
-        }
-        for (time, _) in &mut self.camera.vertical_fov {
-            *time *= frames;
-        }
-        for shape in self.meshes.iter_mut().flat_map(|mesh| &mut mesh.shapes) {
-            shape.time *= frames;
-        }
-        self.shutter_profile.rolling *= frames;
-        self.exposure = rate.exposure(self.exposure);
-        self.rate = rate;
-        self
     }
 }
 

@@ -9,6 +9,9 @@ pub const LARGEST_SIDE: u32 = 16_384;
 /// Most pixels of a picture: 8192 x 8192.
 pub const MOST_PIXELS: u64 = 67_108_864;
 
+/// Most samples per pixel of one replicate, as many as the tables of the Sobol sequence hold.
+pub const MOST_SAMPLES: u32 = 65_536;
+
 /// Largest scene.toml, in bytes.
 pub const LARGEST_SCENE_FILE: u64 = 16_777_216;
 

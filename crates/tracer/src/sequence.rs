@@ -1,11 +1,10 @@
-//! A scene at later frames of its own clock.
+//! A scene at later frames of its own clock, and at other frame rates than that of its file.
 
 use glam::DVec3;
 
 use crate::error::TraceError;
 use crate::frame_rate::FrameRate;
-use crate::motion::keys::Motion;
-use crate::scene::{Mesh, Scene};
+use crate::scene::{Mesh, Motion, Scene};
 
 impl Scene {
     /// Makes the scene as it is `frame` frames later: what happens at that time happens at time 0 of the result, of which
@@ -29,18 +28,18 @@ impl Scene {
     /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its name and its hash stay: nothing that is made
     /// of it may be kept in files.
     pub fn later_by(mut self, later: f64) -> Self {
-        let objects = self.objects.iter_mut().map(|object| &mut object.motion);
-        for motion in objects.chain([&mut self.camera.motion]) {
-            for key in &mut motion.keys {
-                key.time -= later;
-            }
-        }
-        for (time, _) in &mut self.camera.vertical_fov {
-            *time -= later;
-        }
-        for shape in self.meshes.iter_mut().flat_map(|mesh| &mut mesh.shapes) {
-            shape.time -= later;
-        }
+        self.change_times(|time| time - later);
+        self
+    }
+
+    /// Takes the scene at another frame rate. Whatever its file says about a time happens at the same time in seconds; so does the
+    /// delay of a rolling shutter. The instant stays. Name and hash stay the caller's to set.
+    pub(crate) fn at_rate(mut self, rate: FrameRate) -> Self {
+        let frames = rate.frames_per_written_frame();
+        self.change_times(|time| time * frames);
+        self.shutter_profile.rolling *= frames;
+        self.exposure = rate.exposure(self.exposure);
+        self.rate = rate;
         self
     }
 

@@ -4,8 +4,7 @@ use frame::{Alignment, FrameOptions, Shutter};
 use serde::{Deserialize, Serialize};
 
 use crate::error::TraceError;
-use crate::film::sampler::MOST_SAMPLES;
-use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
+use crate::limits::{LARGEST_SIDE, MOST_PIXELS, MOST_SAMPLES};
 use crate::motion::velocity::earliest_time;
 use crate::scene::Scene;
 

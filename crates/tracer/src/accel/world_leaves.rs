@@ -55,8 +55,7 @@ mod tests {
     use glam::{DVec3, Vec3};
 
     use super::*;
-    use crate::motion::keys::{Key, Motion, Turn};
-    use crate::scene::{Mesh, Object, Parent};
+    use crate::scene::{Key, Mesh, Motion, Object, Parent, Turn};
     use crate::test_scene::load_test_scene;
 
     /// A fan of so many triangles, two metres wide.

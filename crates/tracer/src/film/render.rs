@@ -11,11 +11,11 @@ use crate::film::at_instant::{InstantMeans, InstantPoint, InstantSums, InstantVi
 use crate::film::canvas::Canvas;
 use crate::film::eye::Eye;
 use crate::film::sample_counts::SampleCounts;
-use crate::film::sampler::{Sampler, Stream, pixel_seed};
 use crate::film::shutter_sampler::ShutterSampler;
-use crate::light::integrator::Integrator;
-use crate::light::stops::visit_layers;
+use crate::path::integrator::Integrator;
+use crate::path::stops::visit_layers;
 use crate::progress::Meter;
+use crate::sampler::{Sampler, Stream, pixel_seed};
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
 pub(crate) const PIXELS_PER_TASK: usize = 32;

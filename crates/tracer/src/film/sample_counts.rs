@@ -3,7 +3,7 @@
 use frame::Plane;
 
 use crate::film::canvas::Canvas;
-use crate::film::sampler::MOST_SAMPLES;
+use crate::limits::MOST_SAMPLES;
 
 /// Fewest and most samples of a pixel, relative to the mean.
 const RANGE: [f64; 2] = [0.125, 8.0];

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use crate::geometry::aabb::Aabb;
 use crate::motion::extent::Extent;
-use crate::motion::keys::{Motion, Segment, times_within};
-use crate::scene::{Mesh, Scene};
+use crate::motion::keys::{Segment, times_within};
+use crate::scene::{Mesh, Motion, Scene};
 
 /// Upper limits for all points of a mesh within an interval.
 #[derive(Clone, Copy)]
@@ -133,9 +133,7 @@ mod tests {
     use glam::{DQuat, Vec3};
 
     use super::*;
-    use crate::motion::curve::Interpolation;
-    use crate::motion::keys::{Key, Turn};
-    use crate::scene::{Camera, Object, Parent, Shape};
+    use crate::scene::{Camera, Interpolation, Key, Object, Parent, Shape, Turn};
     use crate::test_scene::load_test_scene;
 
     /// SplitMix64 in [-1, 1): enough to vary poses.

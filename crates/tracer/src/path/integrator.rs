@@ -2,17 +2,17 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::film::sampler::Sampler;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::{LIFT, Ray};
 use crate::light::light_sample::{LightSample, density_per_steradian, power_heuristic};
 use crate::light::lights::Emitters;
-use crate::light::stops::{Stop, find_stop};
 use crate::material::brdf::Brdf;
 use crate::material::brdf_sample::{BrdfSample, BrdfValue};
 use crate::material::passage::Passage;
 use crate::material::surface::Surface;
 use crate::motion::poses::Poses;
+use crate::path::stops::{Stop, find_stop};
+use crate::sampler::Sampler;
 use crate::stage::Stage;
 
 /// Bounce at which roulette begins; before it every path goes on.
