@@ -37,21 +37,43 @@ impl Default for FlipExposures {
 /// Upper limit on the stops of a display or of FLIP, up or down. Radiance times `2^stops` stays a number.
 pub const MOST_STOPS: f32 = 32.0;
 
-impl Display {
+/// Upper limit on the exposures of HDR-FLIP.
+const MOST_FLIP_EXPOSURES: u32 = 128;
+
+/// Refuses more stops than can be shown or compared.
+fn check_stops(what: &str, stops: f32) -> Result<(), String> {
+    match stops.abs() <= MOST_STOPS {
+        true => Ok(()),
+        false => Err(format!(
+            "{what} = {stops}; allowed: stops from -{MOST_STOPS} to {MOST_STOPS}"
+        )),
+    }
+}
+
+impl FlipExposures {
     /// Refuses too many stops, an empty range, and a count that FLIP does not take.
-    fn check(&self) -> Result<(), String> {
-        let Self { stops, flip } = self;
-        let FlipExposures { start, stop, count } = flip;
-        let bounded = [stops, start, stop]
-            .iter()
-            .all(|value| value.abs() <= MOST_STOPS);
-        if bounded && start <= stop && (2..=128).contains(count) {
-            return Ok(());
+    pub fn check(&self) -> Result<(), String> {
+        let Self { start, stop, count } = self;
+        if !(2..=MOST_FLIP_EXPOSURES).contains(count) {
+            return Err(format!(
+                "flip has {count} exposures; allowed: 2 to {MOST_FLIP_EXPOSURES}"
+            ));
         }
-        Err(format!(
-            "attributes display_stops, flip_start, flip_stop and flip_count hold {stops}, {start}, {stop} and {count}; \
-             allowed: stops from -{MOST_STOPS} to {MOST_STOPS}, a start not above the stop, 2 to 128 exposures"
-        ))
+        check_stops("flip start", *start)?;
+        check_stops("flip stop", *stop)?;
+        match start < stop {
+            true => Ok(()),
+            false => Err(format!(
+                "flip starts at {start} and stops at {stop}; stop must be above start"
+            )),
+        }
+    }
+}
+
+impl Display {
+    /// Refuses more stops than can be shown or compared.
+    pub fn check_stops(&self) -> Result<(), String> {
+        check_stops("stops", self.stops)
     }
 
     pub(crate) fn set(&self, file: &mut ExrFile) {
@@ -70,7 +92,8 @@ impl Display {
                 count: file.get("flip_count")?,
             },
         };
-        display.check().map_err(|reason| file.foreign(reason))?;
+        let checked = display.check_stops().and(display.flip.check());
+        checked.map_err(|reason| file.foreign(format!("display: {reason}")))?;
         Ok(display)
     }
 }

@@ -102,9 +102,6 @@ pub const SMALLEST_SUN: f64 = 0.001;
 /// Brightest radiance.
 pub const BRIGHTEST: f32 = 1e12;
 
-/// Most exposures of HDR-FLIP.
-pub const MOST_FLIP_EXPOSURES: u32 = 128;
-
 /// Greatest coordinate of anything that is rendered, in metres: the areas of boxes must be 32-bit numbers, and positions
 /// exact to less than a metre.
 pub const LARGEST_COORDINATE: f64 = 1e15;

@@ -103,7 +103,8 @@ impl RenderSettings {
     }
 }
 
-fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
+/// Refuses a size that no picture has.
+pub(crate) fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
     let allowed = 1..=LARGEST_SIDE;
     let pixels = u64::from(width) * u64::from(height);
     if allowed.contains(&width) && allowed.contains(&height) && pixels <= MOST_PIXELS {

@@ -38,6 +38,20 @@ enum Traversal {
     Portable,
 }
 
+/// Runs a query of the tree of a stage by its instructions.
+macro_rules! traverse {
+    ($stage:ident.$query:ident($($argument:ident),*)) => {
+        match $stage.traversal {
+            #[cfg(target_arch = "x86_64")]
+            Traversal::Avx2(lanes) => lanes.run(
+                #[inline(always)]
+                || $stage.tree.$query(lanes, $($argument),*),
+            ),
+            Traversal::Portable => $stage.tree.$query(Portable, $($argument),*),
+        }
+    };
+}
+
 impl<'a> Stage<'a> {
     /// Prepares the scene for rays at times in `[from, to]` (frames). Panics where [`Stage::try_new`] refuses.
     pub fn new(scene: &'a Scene, from: f64, to: f64) -> Self {
@@ -100,26 +114,12 @@ impl<'a> Stage<'a> {
         ray: &Ray,
         sight: Sight,
     ) -> Option<Hit> {
-        match self.traversal {
-            #[cfg(target_arch = "x86_64")]
-            Traversal::Avx2(lanes) => lanes.run(
-                #[inline(always)]
-                || self.tree.closest(lanes, poses, ray, sight),
-            ),
-            Traversal::Portable => self.tree.closest(Portable, poses, ray, sight),
-        }
+        traverse!(self.closest(poses, ray, sight))
     }
 
     /// Finds the nearest surface behind a hit of the same ray.
     pub(crate) fn closest_behind(&self, poses: &mut Poses, ray: &Ray, last: &Hit) -> Option<Hit> {
-        match self.traversal {
-            #[cfg(target_arch = "x86_64")]
-            Traversal::Avx2(lanes) => lanes.run(
-                #[inline(always)]
-                || self.tree.closest_behind(lanes, poses, ray, last),
-            ),
-            Traversal::Portable => self.tree.closest_behind(Portable, poses, ray, last),
-        }
+        traverse!(self.closest_behind(poses, ray, last))
     }
 
     /// Returns true if any surface is translucent.
@@ -153,14 +153,7 @@ impl<'a> Stage<'a> {
 
     /// Returns true if anything opaque lies at `0 < t < limit`.
     pub fn is_blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
-        match self.traversal {
-            #[cfg(target_arch = "x86_64")]
-            Traversal::Avx2(lanes) => lanes.run(
-                #[inline(always)]
-                || self.tree.is_blocked(lanes, poses, ray, limit),
-            ),
-            Traversal::Portable => self.tree.is_blocked(Portable, poses, ray, limit),
-        }
+        traverse!(self.is_blocked(poses, ray, limit))
     }
 
     /// Returns true if anything opaque lies at `0 < t < limit`, for a ray that nothing blocks which stands still.
@@ -168,14 +161,7 @@ impl<'a> Stage<'a> {
         if !self.tree.has_few_movers() {
             return self.is_blocked(poses, ray, limit);
         }
-        match self.traversal {
-            #[cfg(target_arch = "x86_64")]
-            Traversal::Avx2(lanes) => lanes.run(
-                #[inline(always)]
-                || self.tree.is_blocked_by_mover(lanes, poses, ray, limit),
-            ),
-            Traversal::Portable => self.tree.is_blocked_by_mover(Portable, poses, ray, limit),
-        }
+        traverse!(self.is_blocked_by_mover(poses, ray, limit))
     }
 
     /// Returns true if an object keeps its place and its shape.

@@ -95,18 +95,6 @@ impl<'a> TruthTracer<'a> {
         })
     }
 
-    /// Memory that a pixel takes while a replicate of every truth is traced, in bytes: its means, those at the instant, and
-    /// the support.
-    pub fn bytes_per_pixel(&self) -> usize {
-        let coverages = self.stage.scene.objects.len() + 1;
-        let masks = coverages + 2;
-        let each = size_of::<PixelMean>()
-            + coverages * size_of::<f32>()
-            + size_of::<InstantMeans>()
-            + masks * size_of::<bool>();
-        self.shutters.len() * each + size_of::<u32>()
-    }
-
     /// Renders one replicate of every truth, in the order of the alignments. The index seeds its random numbers and changes
     /// nothing else; it may exceed the number of replicates in the settings.
     pub fn trace(&self, index: u32, watch: Watch) -> Result<Vec<Replicate>, TraceError> {

@@ -10,15 +10,15 @@ use toml::Spanned;
 use super::document::Document;
 use super::error::{SceneError, join_names};
 use super::files::Files;
-use super::key_shapes::build_deforming_mesh;
+use super::key_shapes::{Slot, build_mesh};
 use super::material::change_material;
 use super::material_list::MaterialList;
 use super::mesh_sources::{MeshKey, MeshSource, read_mesh_sources};
-use super::obj::{ObjFile, Slot};
+use super::obj::ObjFile;
 use super::schema::ObjectTable;
 use super::texture::Textures;
 use super::translucency::Alpha;
-use crate::limits::MOST_TRIANGLES;
+use crate::limits::{LARGEST_MESH_FILE, MOST_TRIANGLES};
 use crate::{Material, Mesh};
 
 /// Loader of meshes, materials and textures, each once.
@@ -87,7 +87,7 @@ impl<'a> MeshLoader<'a> {
         let mesh = match self.loaded.get(&key) {
             Some(mesh) => mesh.clone(),
             None => {
-                let mesh = Rc::new(self.add_mesh(&sources, table, group)?);
+                let mesh = Rc::new(self.add_mesh(&sources, group)?);
                 self.loaded.entry(key).or_insert(mesh).clone()
             }
         };
@@ -161,12 +161,11 @@ impl<'a> MeshLoader<'a> {
     fn add_mesh(
         &mut self,
         sources: &[MeshSource],
-        table: &ObjectTable,
         group: Option<&str>,
     ) -> Result<LoadedMesh, SceneError> {
         let first = &self.obj_files[&sources[0].path];
         let parts = first.parts_of(group);
-        self.triangles += parts.map(|part| part.indices.len() / 3).sum::<usize>();
+        self.triangles += parts.map(|(_, part)| part.count_triangles()).sum::<usize>();
         if self.triangles > MOST_TRIANGLES {
             let reason = format!(
                 "with {} the scene has {} triangles; allowed: {MOST_TRIANGLES}; simplify its meshes",
@@ -175,15 +174,10 @@ impl<'a> MeshLoader<'a> {
             );
             return Err(self.document.error(sources[0].place.clone(), reason));
         }
-        let (mesh, slots) = if table.shapes.is_none() {
-            first.build_mesh(group)?
-        } else {
-            let shapes: Vec<_> = sources
-                .iter()
-                .map(|source| (source.time, &self.obj_files[&source.path]))
-                .collect();
-            build_deforming_mesh(&shapes, group)?
-        };
+        let files: Vec<_> = (sources.iter())
+            .map(|source| (source.time, &self.obj_files[&source.path]))
+            .collect();
+        let (mesh, slots) = build_mesh(&files, group)?;
         let mut triangles = vec![0; slots.len()];
         for slot in &mesh.slots {
             triangles[*slot as usize] += 1;
@@ -201,11 +195,12 @@ impl<'a> MeshLoader<'a> {
     fn read_obj(&mut self, source: &MeshSource) -> Result<(), SceneError> {
         let path = &source.path;
         if !self.obj_files.contains_key(path) {
-            let obj = ObjFile::read(&mut self.files, &mut self.textures, path);
-            let obj = obj.map_err(|error| {
+            let text = self.files.read_text(path, LARGEST_MESH_FILE);
+            let text = text.map_err(|error| {
                 let reason = format!("mesh {} cannot be read: {error}", path.display());
                 self.document.error(source.place.clone(), reason)
-            })??;
+            })?;
+            let obj = ObjFile::read(&mut self.files, &mut self.textures, path, &text)?;
             self.obj_files.insert(path.clone(), obj);
         }
         Ok(())

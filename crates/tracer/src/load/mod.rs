@@ -6,6 +6,7 @@ mod camera;
 mod document;
 mod environment;
 mod error;
+mod face;
 mod faces;
 mod files;
 mod finish;
@@ -20,7 +21,6 @@ mod mesh_sources;
 mod meshes;
 mod mtl;
 mod obj;
-mod obj_check;
 mod object_motion;
 mod objects;
 mod parents;
@@ -33,7 +33,6 @@ mod statements;
 mod texture;
 mod transform_range;
 mod translucency;
-mod variant_changes;
 mod variants;
 
 use std::path::PathBuf;
@@ -49,7 +48,7 @@ use scene_folder::{folder_name, read_document};
 use schema::SceneTable;
 use variants::ParsedScene;
 
-use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
+use crate::settings::check_size;
 use crate::{FrameRate, Location, Scene, Seal};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
@@ -169,19 +168,8 @@ fn check_picture(document: &Document, table: &SceneTable) -> Result<(), SceneErr
         .shutter(*table.exposure.get_ref())
         .map_err(|error| document.error(table.exposure.span(), error.to_string()))?;
     let [width, height] = *table.size.get_ref();
-    let allowed = 1..=LARGEST_SIDE;
-    if !allowed.contains(&width) || !allowed.contains(&height) {
-        let reason =
-            format!("size is [{width}, {height}]; allowed: 1 to {LARGEST_SIDE} pixels each");
-        return Err(document.error(table.size.span(), reason));
-    }
-    let pixels = u64::from(width) * u64::from(height);
-    if pixels > MOST_PIXELS {
-        let reason = format!(
-            "size is [{width}, {height}], {pixels} pixels; allowed: {MOST_PIXELS}; give a smaller size"
-        );
-        return Err(document.error(table.size.span(), reason));
-    }
+    check_size(width, height)
+        .map_err(|error| document.error(table.size.span(), error.to_string()))?;
     if table.object.is_empty() {
         let reason = "no objects; a scene needs at least one [object.name] with a mesh";
         return Err(SceneError::in_file(&document.path, reason));

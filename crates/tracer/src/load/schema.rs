@@ -30,6 +30,19 @@ pub(super) struct SceneTable {
     pub(super) _variant: Option<IgnoredAny>,
 }
 
+/// Keys that a variant may change. Only their check needs them.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(dead_code, reason = "reading checks them")]
+pub(super) struct VariantTable {
+    background: Option<BackgroundTable>,
+    camera: Option<CameraTable>,
+    exposure: Option<f64>,
+    object: Option<BTreeMap<String, ObjectTable>>,
+    shutter: Option<ShutterTable>,
+    sun: Option<SunTable>,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ShutterTable {

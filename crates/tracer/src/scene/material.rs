@@ -55,6 +55,23 @@ pub struct Translucency {
     pub in_buffers: bool,
 }
 
+impl Default for Material {
+    /// A black surface without a name.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            finish: Finish::Diffuse,
+            diffuse: Vec3::ZERO,
+            diffuse_texture: None,
+            emission: Vec3::ZERO,
+            emission_texture: None,
+            opacity: 1.0,
+            opacity_texture: None,
+            translucency: None,
+        }
+    }
+}
+
 impl Translucency {
     /// All light passes.
     pub const CLEAR: Self = Self {

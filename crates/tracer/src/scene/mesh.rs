@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use glam::{Vec2, Vec3};
 
 /// Triangles in object space.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// The OBJ file.
     pub path: PathBuf,
