@@ -77,6 +77,8 @@ impl Replicate {
             || self.samples != other.samples
         {
             Some("number of samples")
+        } else if self.support != other.support {
+            Some("support")
         } else {
             None
         }

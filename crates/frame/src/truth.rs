@@ -74,17 +74,8 @@ pub enum TruthError {
     Unlike {
         /// Index of the replicate.
         index: u32,
-        /// Difference: `size`, `list of objects`, `shutter`, `number of samples`.
+        /// Difference: `size`, `list of objects`, `shutter`, `number of samples`, `support`.
         what: &'static str,
-    },
-    /// Replicates that name one origin and were altered since.
-    #[error(
-        "replicate {index} has another support than replicate 0, though both name one content hash; replicates of one \
-         scene, size and shutter have one support: remove both files and render them anew"
-    )]
-    Support {
-        /// Index of the replicate.
-        index: u32,
     },
 }
 
@@ -112,9 +103,6 @@ impl Truth {
             }
             if let Some(what) = first.find_difference(replicate) {
                 return Err(TruthError::Unlike { index, what });
-            }
-            if replicate.support != first.support {
-                return Err(TruthError::Support { index });
             }
         }
         let half = |first: usize| {

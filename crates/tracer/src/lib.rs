@@ -35,8 +35,7 @@ pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use defocus::{Defocus, trace_defocus};
 pub use error::TraceError;
 pub use frame_rate::FrameRate;
-pub use geometry::hit::Hit;
-pub use geometry::ray::Ray;
+pub use geometry::ray::{Hit, Ray};
 pub use instant::{
     PointLayers, trace_frame, trace_frame_on, trace_frame_tile, trace_motion, trace_motion_on,
 };

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::error::TraceError;
 use crate::frame_rate::FrameRate;
-use crate::scene::{Mesh, Motion, Scene};
+use crate::scene::{Motion, Scene};
 
 impl Scene {
     /// Makes the scene as it is `frame` frames later: what happens at that time happens at time 0 of the result, of which
@@ -51,38 +51,58 @@ impl Scene {
     /// Refuses times at which the scene is not defined, `open` to `close` in frames after the instant: of a later frame those beyond
     /// the end of its keys, and at another frame rate those before their begin as well.
     pub(crate) fn check_defined(&self, open: f64, close: f64) -> Result<(), TraceError> {
-        if self.rate != FrameRate::WRITTEN {
-            self.check_begin(open)?;
-        } else if self.frame == 0 {
+        let is_own_rate = self.rate == FrameRate::WRITTEN;
+        if is_own_rate && self.frame == 0 {
             return Ok(());
         }
-        self.check_end(close)
-    }
-
-    /// Refuses a time before the begin of a path or of key shapes.
-    fn check_begin(&self, time: f64) -> Result<(), TraceError> {
-        let paths = (self.named_motions().into_iter()).map(|(what, motion)| {
-            let first = begin_of_path(&motion.keys, |key| key.time);
-            (format!("the motion of {what}"), first)
-        });
-        let view = begin_of_path(&self.camera.vertical_fov, |(time, _)| *time);
-        let shapes = self.objects.iter().map(|object| {
-            let first = self.meshes[object.mesh].shapes.first();
-            let what = format!("the shapes of object {}", object.name);
-            (what, first.map(|shape| shape.time))
-        });
-        let view = ("the camera's field of view".to_owned(), view);
-        for (what, first) in paths.chain([view]).chain(shapes) {
-            if let Some(first) = first.filter(|first| *first > time) {
-                return Err(TraceError::BeforeKeys {
-                    scene: self.name.clone(),
+        let refuse = |what: String, time: f64, edge: String| {
+            Err(TraceError::Undefined {
+                scene: self.name.clone(),
+                what,
+                edge,
+                time,
+            })
+        };
+        let frame = f64::from(self.frame);
+        let ends = |last: f64| format!("end at frame {}", last + frame);
+        for (what, first, last) in self.list_timelines() {
+            if !is_own_rate && first > open {
+                return refuse(
                     what,
-                    first,
-                    time,
-                });
+                    open,
+                    format!("begin at frame {first} of this frame rate"),
+                );
+            }
+            if last < close {
+                return refuse(what, close + frame, ends(last));
+            }
+        }
+        for (what, motion) in self.named_motions() {
+            if let Some(last) = end_of_scale(motion, close) {
+                return refuse(format!("the scale of {what}"), close + frame, ends(last));
             }
         }
         Ok(())
+    }
+
+    /// Lists what is defined from its first key or shape to its last, with the times of both: paths and key shapes. Steady motions
+    /// go on for ever.
+    fn list_timelines(&self) -> Vec<(String, f64, f64)> {
+        let motions = (self.named_motions().into_iter()).map(|(what, motion)| {
+            let times = motion.keys.iter().map(|key| key.time).collect();
+            (format!("the motion of {what}"), STEADY_KEYS, times)
+        });
+        let views = self.camera.vertical_fov.iter().map(|(time, _)| *time);
+        let view = "the camera's field of view".to_owned();
+        let shapes = self.objects.iter().map(|object| {
+            let what = format!("the shapes of object {}", object.name);
+            (what, 0, self.meshes[object.mesh].shape_times().collect())
+        });
+        (motions.chain([(view, STEADY_KEYS, views.collect())]))
+            .chain(shapes)
+            .filter(|(_, most, times): &(_, _, Vec<f64>)| times.len() > *most)
+            .map(|(what, _, times)| (what, times[0], times[times.len() - 1]))
+            .collect()
     }
 
     /// Lists all motions, each with its name for messages.
@@ -94,58 +114,10 @@ impl Scene {
         let camera = ("the camera".to_owned(), &self.camera.motion);
         objects.chain([camera]).collect()
     }
-
-    /// Refuses a time beyond the end of a path or of key shapes, or beyond the last at which a scale keeps its sign.
-    fn check_end(&self, time: f64) -> Result<(), TraceError> {
-        let refuse = |what: String, last: f64| TraceError::Undefined {
-            scene: self.name.clone(),
-            what,
-            last: last + f64::from(self.frame),
-            time: time + f64::from(self.frame),
-        };
-        for (what, motion) in self.named_motions() {
-            if let Some(last) = end_of_path(motion).filter(|last| *last < time) {
-                return Err(refuse(format!("the motion of {what}"), last));
-            }
-            if let Some(last) = end_of_scale(motion, time) {
-                return Err(refuse(format!("the scale of {what}"), last));
-            }
-        }
-        if let [.., (last, _)] = self.camera.vertical_fov[..]
-            && self.camera.vertical_fov.len() > STEADY_KEYS
-            && last < time
-        {
-            return Err(refuse("the camera's field of view".to_owned(), last));
-        }
-        for object in &self.objects {
-            if let Some(last) = end_of_shapes(&self.meshes[object.mesh])
-                && last < time
-            {
-                return Err(refuse(
-                    format!("the shapes of object {}", object.name),
-                    last,
-                ));
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Keys that make a steady motion, which goes on for ever. More of them make a path, which ends at the last.
 const STEADY_KEYS: usize = 2;
-
-/// Finds the time at which a motion's path ends; none where it stands still or is steady.
-fn end_of_path(motion: &Motion) -> Option<f64> {
-    let keys = &motion.keys;
-    let is_path = keys.len() > STEADY_KEYS;
-    keys.last().filter(|_| is_path).map(|key| key.time)
-}
-
-/// Finds the time at which a path begins; none of keys that are steady.
-fn begin_of_path<T>(keys: &[T], time: impl Fn(&T) -> f64) -> Option<f64> {
-    let is_path = keys.len() > STEADY_KEYS;
-    keys.first().filter(|_| is_path).map(time)
-}
 
 /// Finds the last key of a motion whose scale passes 0 between that key and `time`; none where it keeps its sign.
 fn end_of_scale(motion: &Motion, time: f64) -> Option<f64> {
@@ -153,11 +125,6 @@ fn end_of_scale(motion: &Motion, time: f64) -> Option<f64> {
     let segment = motion.segment(time.max(last.time));
     let scale: DVec3 = segment.scale.at(segment.since(time.max(last.time)));
     ((last.scale * scale).min_element() <= 0.0).then_some(last.time)
-}
-
-/// Finds the time of the last key shape; none of a rigid mesh.
-fn end_of_shapes(mesh: &Mesh) -> Option<f64> {
-    mesh.shapes.last().map(|shape| shape.time)
 }
 
 #[cfg(test)]

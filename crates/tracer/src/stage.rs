@@ -7,8 +7,7 @@ use crate::accel::lanes::Avx2;
 use crate::accel::lanes::{Lanes, Portable};
 use crate::accel::scene_tree::SceneTree;
 use crate::error::TraceError;
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::Ray;
+use crate::geometry::ray::{Hit, Ray};
 use crate::light::sky::Sky;
 use crate::material::glossy_material::GlossyMaterial;
 use crate::material::passage::Passage;
@@ -24,11 +23,13 @@ pub struct Stage<'a> {
     pub(crate) scene: &'a Scene,
     tree: SceneTree<'a>,
     /// Glossy part of each material of the scene; none where it is diffuse.
-    glossy_materials: Vec<Option<GlossyMaterial>>,
-    sky: Sky<'a>,
+    pub(crate) glossy_materials: Vec<Option<GlossyMaterial>>,
+    /// Background as a light.
+    pub(crate) sky: Sky<'a>,
     poses: Poses<'a>,
     traversal: Traversal,
-    has_translucency: bool,
+    /// True if any surface is translucent.
+    pub(crate) has_translucency: bool,
 }
 
 /// The instructions that traverse the trees. All find the same hits.
@@ -86,16 +87,6 @@ impl<'a> Stage<'a> {
             && !self.scene.materials.iter().any(is_glass)
     }
 
-    /// The glossy part of a material; none where it is diffuse.
-    pub(crate) fn glossy_material(&self, material: usize) -> Option<&GlossyMaterial> {
-        self.glossy_materials[material].as_ref()
-    }
-
-    /// The background as a light.
-    pub(crate) fn sky(&self) -> &Sky<'a> {
-        &self.sky
-    }
-
     /// A store of poses, for one path at a time.
     pub fn poses(&self) -> Poses<'a> {
         self.poses.clone()
@@ -120,11 +111,6 @@ impl<'a> Stage<'a> {
     /// Finds the nearest surface behind a hit of the same ray.
     pub(crate) fn closest_behind(&self, poses: &mut Poses, ray: &Ray, last: &Hit) -> Option<Hit> {
         traverse!(self.closest_behind(poses, ray, last))
-    }
-
-    /// Returns true if any surface is translucent.
-    pub(crate) fn has_translucency(&self) -> bool {
-        self.has_translucency
     }
 
     /// The share of the light that passes along a ray at `0 < t < limit`: the product of what all surfaces let pass. It does

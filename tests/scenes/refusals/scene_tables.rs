@@ -70,7 +70,7 @@ const SCENE_SLIPS: &[Slip] = &[
     ("too few numbers", "position = [0, 0, 5]", "position = [0, 5]", 
         "scene.toml:7: invalid length 2; allowed: an array of length 3"),
     ("bad family", "family = \"translation\"", "family = \"spin\"", 
-        "scene.toml:2: unknown family `spin`; allowed: `translation`, `rotation`, `camera`, `thin`, `overlap`, `deforming`, `limits`"),
+        "scene.toml:2: unknown word `spin`; allowed: `translation`, `rotation`, `camera`, `thin`, `overlap`, `deforming`, `limits`"),
     ("empty sentence", "exposes = \"A square that slides.\"", "exposes = \" \"", 
         "scene.toml:1: exposes is empty; say in one sentence what the scene exposes"),
     ("NaN", "constant = [0, 0, 0]", "constant = [0, nan, 0]", 

@@ -45,13 +45,13 @@ pub(crate) fn open_regular(path: &Path, limit: u64) -> Result<(File, u64), FileE
 
 fn refuse_unfit(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), FileError> {
     if !metadata.is_file() {
-        return Err(FileError::Foreign {
-            path: path.to_owned(),
-            reason: format!(
+        return Err(FileError::foreign(
+            path,
+            format!(
                 "is {}, where a regular file is expected; name a file",
                 kind_of(metadata)
             ),
-        });
+        ));
     }
     if metadata.len() > limit {
         return Err(too_large(path, metadata.len(), limit));
@@ -60,10 +60,10 @@ fn refuse_unfit(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), File
 }
 
 fn too_large(path: &Path, found: u64, limit: u64) -> FileError {
-    FileError::Foreign {
-        path: path.to_owned(),
-        reason: format!("holds {found} bytes, and at most {limit} are read; use a smaller file"),
-    }
+    FileError::foreign(
+        path,
+        format!("holds {found} bytes, and at most {limit} are read; use a smaller file"),
+    )
 }
 
 /// Names what is no regular file, with its article.

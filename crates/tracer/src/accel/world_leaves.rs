@@ -50,8 +50,6 @@ pub(crate) fn collect_world_leaves(
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
-
     use glam::{DVec3, Vec3};
 
     use super::*;
@@ -65,15 +63,12 @@ mod tests {
             Vec3::new(cosine, sine, 0.0)
         });
         Mesh {
-            path: PathBuf::new(),
             positions: std::iter::once(Vec3::Z).chain(rim).collect(),
-            normals: Vec::new(),
-            texcoords: Vec::new(),
             triangles: (1..=triangles)
                 .map(|corner| [0, corner, corner + 1])
                 .collect(),
             slots: vec![0; triangles as usize],
-            shapes: Vec::new(),
+            ..Mesh::default()
         }
     }
 

@@ -4,8 +4,7 @@ use glam::{DVec2, DVec3, Vec3};
 
 use crate::film::canvas::Canvas;
 use crate::film::eye::EyeRay;
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::{LIFT, Ray};
+use crate::geometry::ray::{Hit, LIFT, Ray};
 use crate::motion::camera::View;
 use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;

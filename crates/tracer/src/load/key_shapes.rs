@@ -33,76 +33,103 @@ pub(super) fn build_mesh(
         check_faces(first, file)?;
         check_parts(first, file)?;
     }
-    let with_normals = first.parts_of(group).any(|(_, part)| part.has_normals());
-    let with_texcoords = first.parts_of(group).any(|(_, part)| part.has_texcoords());
-    let mut mesh = Mesh {
-        path: first.path.clone(),
-        ..Mesh::default()
+    let mut building = Building {
+        mesh: Mesh {
+            path: first.path.clone(),
+            ..Mesh::default()
+        },
+        shapes: (files.iter())
+            .map(|(time, _)| Shape {
+                time: *time,
+                positions: Vec::new(),
+                normals: Vec::new(),
+            })
+            .collect(),
+        flat_triangles: Vec::new(),
+        with_normals: first.parts_of(group).any(|(_, part)| part.has_normals()),
+        with_texcoords: first.parts_of(group).any(|(_, part)| part.has_texcoords()),
     };
-    let mut shapes: Vec<Shape> = (files.iter())
-        .map(|(time, _)| Shape {
-            time: *time,
-            positions: Vec::new(),
-            normals: Vec::new(),
-        })
-        .collect();
     let mut materials = MaterialList::default();
     let mut textured: Vec<bool> = Vec::new();
-    let mut flat_triangles = Vec::new();
     for (index, part) in first.parts_of(group) {
         let slot = materials.add(first.material(part));
         textured.resize(materials.list.len(), true);
         textured[slot] &= part.has_texcoords();
-        let is_flat = with_normals && !part.has_normals();
+        building.add_part(files, index, slot as u32);
+    }
+    let mesh = building.finish();
+    check_area(&mesh)?;
+    let slots = materials.list.into_iter().zip(textured);
+    let slots = slots.map(|(material, textured)| Slot { material, textured });
+    Ok((mesh, slots.collect()))
+}
+
+/// Mesh under construction.
+struct Building {
+    mesh: Mesh,
+    /// Shape of each file.
+    shapes: Vec<Shape>,
+    /// Triangles that get flat normals.
+    flat_triangles: Vec<[u32; 3]>,
+    with_normals: bool,
+    with_texcoords: bool,
+}
+
+impl Building {
+    /// Adds the faces of a part, by its index in every file.
+    fn add_part(&mut self, files: &[(f64, &ObjFile)], index: usize, slot: u32) {
+        let (_, first) = files[0];
+        let part = &first.parts[index];
+        let is_flat = self.with_normals && !part.has_normals();
         let numbers = match is_flat {
             // Flat faces share no vertices.
             true => (0..3 * part.count_triangles() as u32).collect(),
             false => number_vertices(files.iter().map(|(_, file)| &file.parts[index])),
         };
-        let start = shapes[0].positions.len() as u32;
-        for (shape, (_, file)) in shapes.iter_mut().zip(files) {
+        let start = self.shapes[0].positions.len() as u32;
+        for (shape, (_, file)) in self.shapes.iter_mut().zip(files) {
             for corner in list_vertices(&file.parts[index], &numbers) {
-                shape
-                    .positions
-                    .push(file.positions[corner.position as usize]);
-                if with_normals {
+                let position = file.positions[corner.position as usize];
+                shape.positions.push(position);
+                if self.with_normals {
                     let normal = corner.normal.map(|normal| file.normals[normal as usize]);
                     shape.normals.push(normal.unwrap_or(Vec3::ZERO));
                 }
             }
         }
-        if with_texcoords {
-            mesh.texcoords
-                .extend(list_vertices(part, &numbers).map(|corner| {
-                    let texcoord = corner
-                        .texcoord
-                        .map(|texcoord| first.texcoords[texcoord as usize]);
-                    texcoord.unwrap_or(Vec2::ZERO)
-                }));
+        if self.with_texcoords {
+            let texcoords = list_vertices(part, &numbers).map(|corner| {
+                let texcoord = corner
+                    .texcoord
+                    .map(|texcoord| first.texcoords[texcoord as usize]);
+                texcoord.unwrap_or(Vec2::ZERO)
+            });
+            self.mesh.texcoords.extend(texcoords);
         }
         for corners in numbers.chunks_exact(3) {
             let triangle = [0, 1, 2].map(|corner| start + corners[corner]);
-            flat_triangles.extend(is_flat.then_some(triangle));
-            mesh.triangles.push(triangle);
-            mesh.slots.push(slot as u32);
+            self.flat_triangles.extend(is_flat.then_some(triangle));
+            self.mesh.triangles.push(triangle);
+            self.mesh.slots.push(slot);
         }
     }
-    mesh.positions.clone_from(&shapes[0].positions);
-    mesh.normals.clone_from(&shapes[0].normals);
-    for triangle in flat_triangles {
-        // A face without area has no direction, and no ray hits it.
-        let normal = find_area_normal(&mesh, triangle).normalize_or(DVec3::Y);
-        for vertex in triangle {
-            mesh.normals[vertex as usize] = normal.as_vec3();
+
+    fn finish(self) -> Mesh {
+        let mut mesh = self.mesh;
+        mesh.positions.clone_from(&self.shapes[0].positions);
+        mesh.normals.clone_from(&self.shapes[0].normals);
+        for triangle in self.flat_triangles {
+            // A face without area has no direction, and no ray hits it.
+            let normal = find_area_normal(&mesh, triangle).normalize_or(DVec3::Y);
+            for vertex in triangle {
+                mesh.normals[vertex as usize] = normal.as_vec3();
+            }
         }
+        if self.shapes.len() > 1 {
+            mesh.shapes = self.shapes;
+        }
+        mesh
     }
-    check_area(&mesh)?;
-    if files.len() > 1 {
-        mesh.shapes = shapes;
-    }
-    let slots = materials.list.into_iter().zip(textured);
-    let slots = slots.map(|(material, textured)| Slot { material, textured });
-    Ok((mesh, slots.collect()))
 }
 
 /// Numbers the corners of triangles, in the order in which they are first met. Corners that are one vertex in every file have one

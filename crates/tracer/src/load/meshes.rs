@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use glam::DVec3;
 use toml::Spanned;
 
 use super::document::Document;
@@ -13,7 +12,7 @@ use super::files::Files;
 use super::key_shapes::{Slot, build_mesh};
 use super::material::change_material;
 use super::material_list::MaterialList;
-use super::mesh_sources::{MeshKey, MeshSource, read_mesh_sources};
+use super::mesh_sources::{MeshKey, MeshSource, mesh_key, read_mesh_sources};
 use super::obj::ObjFile;
 use super::schema::ObjectTable;
 use super::texture::Textures;
@@ -83,7 +82,7 @@ impl<'a> MeshLoader<'a> {
             self.check_group(table, &source.path)?;
         }
         let group = table.group.as_ref().map(|group| group.get_ref().as_str());
-        let key = MeshKey::new(&sources, group);
+        let key = mesh_key(&sources, group);
         let mesh = match self.loaded.get(&key) {
             Some(mesh) => mesh.clone(),
             None => {
@@ -237,11 +236,6 @@ fn farthest_vertex(mesh: &Mesh, [from, to]: [f64; 2]) -> f64 {
         times.extend(mesh.shape_times().filter(|time| from < *time && *time < to));
         times.push(to);
     }
-    times
-        .into_iter()
-        .map(|time| {
-            let positions = mesh.at(time).positions();
-            positions.map(DVec3::length).fold(0.0, f64::max)
-        })
-        .fold(0.0, f64::max)
+    let radii = times.into_iter().map(|time| mesh.at(time).radius());
+    radii.fold(0.0, f64::max)
 }

@@ -72,20 +72,12 @@ pub fn load_scene_and_files(
     let folder = folder.path.as_path();
     let document = read_document(&mut files, folder)?;
     let parsed = ParsedScene::parse(&document)?;
-    let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
-    let (from_file, rate) = match variant.filter(|name| !own(name)) {
-        Some(made) => FrameRate::split_variant(made),
-        None => (variant, None),
-    };
-    let rate = rate.unwrap_or_default();
+    let choice = Choice::new(&parsed, variant);
+    let (rate, seed) = (choice.rate, choice.seed);
     if let Err(reason) = rate.check() {
         return Err(SceneError::in_file(&document.path, reason));
     }
-    let made = from_file.filter(|name| !own(name));
-    let is_unlit = made == Some(UNLIT);
-    let seed = made.and_then(Seal::seed_in);
-    let is_made = is_unlit || seed.is_some();
-    let table = parsed.read(from_file.filter(|_| !is_made))?;
+    let table = parsed.read(choice.of_file)?;
     parsed.check_variants()?;
     check_picture(&document, &table)?;
 
@@ -134,11 +126,41 @@ pub fn load_scene_and_files(
         hash: meshes.files.hash(variant),
     };
     let scene = match seed {
-        _ if is_unlit => scene.unlit(),
+        _ if choice.is_unlit => scene.unlit(),
         Some(seed) => Seal::new(seed, &name).apply(scene),
         None => scene,
     };
     Ok((scene.at_rate(rate), paths))
+}
+
+/// Meaning of a variant's name.
+struct Choice<'a> {
+    /// Variant of the file.
+    of_file: Option<&'a str>,
+    is_unlit: bool,
+    /// Seed of a sealed variant.
+    seed: Option<u64>,
+    rate: FrameRate,
+}
+
+impl<'a> Choice<'a> {
+    /// Takes a name apart. Names of the file come first; other names may be those of variants that are made of any scene.
+    fn new(parsed: &ParsedScene, variant: Option<&'a str>) -> Self {
+        let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
+        let (of_file, rate) = match variant.filter(|name| !own(name)) {
+            Some(made) => FrameRate::split_variant(made),
+            None => (variant, None),
+        };
+        let made = of_file.filter(|name| !own(name));
+        let is_unlit = made == Some(UNLIT);
+        let seed = made.and_then(Seal::seed_in);
+        Self {
+            of_file: of_file.filter(|_| !is_unlit && seed.is_none()),
+            is_unlit,
+            seed,
+            rate: rate.unwrap_or_default(),
+        }
+    }
 }
 
 /// Finds the times, in frames of the file, that a render may ask for: those of an open shutter, and a frame to either side.

@@ -8,7 +8,7 @@ use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use crate::Family;
+use crate::{Family, Interpolation};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -78,10 +78,10 @@ pub(super) struct CameraTable {
     pub(super) aperture: Option<Spanned<f64>>,
     pub(super) focus: Option<Spanned<f64>>,
     pub(super) keys: Option<Spanned<Vec<CameraKeyTable>>>,
-    pub(super) interpolation: Option<Spanned<String>>,
+    pub(super) interpolation: Option<Spanned<Interpolation>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CameraKeyTable {
     pub(super) time: Spanned<f64>,
@@ -129,9 +129,9 @@ pub(super) struct ObjectTable {
     pub(super) rotation: Option<Spanned<RotationTable>>,
     pub(super) scale: Option<Spanned<ScaleTable>>,
     pub(super) keys: Option<Spanned<Vec<KeyTable>>>,
-    pub(super) interpolation: Option<Spanned<String>>,
-    pub(super) alpha: Option<Spanned<String>>,
-    pub(super) buffers: Option<Spanned<String>>,
+    pub(super) interpolation: Option<Spanned<Interpolation>>,
+    pub(super) alpha: Option<AlphaWord>,
+    pub(super) buffers: Option<Spanned<BuffersWord>>,
     #[serde(default)]
     pub(super) material: BTreeMap<Spanned<String>, MaterialTable>,
 }
@@ -143,7 +143,7 @@ pub(super) struct ShapeTable {
     pub(super) mesh: Spanned<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct KeyTable {
     pub(super) time: Spanned<f64>,
@@ -166,6 +166,22 @@ pub(super) struct MaterialTable {
     pub(super) diffuse_texture: Option<Spanned<String>>,
     pub(super) emission_texture: Option<Spanned<String>>,
     pub(super) opacity_texture: Option<Spanned<String>>,
+}
+
+/// Meaning of an object's opacities.
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum AlphaWord {
+    Cutout,
+    Blended,
+}
+
+/// Surfaces that the buffers show where an object is translucent.
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum BuffersWord {
+    Behind,
+    Own,
 }
 
 /// `{ axis, degrees }` or a quaternion `[x, y, z, w]`.

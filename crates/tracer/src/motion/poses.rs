@@ -86,6 +86,10 @@ impl<'a> Poses<'a> {
                 }
             })
             .collect();
+        let radius = |mesh: &Mesh| match mesh.deforms() {
+            true => f64::INFINITY,
+            false => mesh.at(from).radius(),
+        };
         let radii: Vec<f64> = scene.meshes.iter().map(radius).collect();
         let objects = scene.objects.iter();
         let motions = PreparedMotions {
@@ -193,15 +197,6 @@ impl<'a> Poses<'a> {
         };
         self.poses[object] = (self.current, pose);
     }
-}
-
-/// The greatest distance of a vertex from the origin, metres; infinite where the mesh deforms.
-fn radius(mesh: &Mesh) -> f64 {
-    if mesh.deforms() {
-        return f64::INFINITY;
-    }
-    let lengths = mesh.positions.iter().map(|p| p.as_dvec3().length());
-    lengths.fold(0.0, f64::max)
 }
 
 /// Returns true if no motion between the object and the world changes anything within the interval.

@@ -127,10 +127,8 @@ fn segment_maxima(inner: PointMaxima, segment: &Segment, from: f64, to: f64) -> 
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::PI;
-    use std::path::PathBuf;
-
     use glam::{DQuat, Vec3};
+    use std::f64::consts::PI;
 
     use super::*;
     use crate::scene::{Camera, Interpolation, Key, Object, Parent, Shape, Turn};
@@ -221,13 +219,9 @@ mod tests {
                 lens: None,
             },
             meshes: vec![Mesh {
-                path: PathBuf::new(),
                 positions: corners,
-                normals: Vec::new(),
-                texcoords: Vec::new(),
-                triangles: Vec::new(),
-                slots: Vec::new(),
                 shapes,
+                ..Mesh::default()
             }],
             objects: vec![
                 object(numbers, Parent::World),

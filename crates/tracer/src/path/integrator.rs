@@ -2,8 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::{LIFT, Ray};
+use crate::geometry::ray::{Hit, LIFT, Ray};
 use crate::light::light_sample::{LightSample, density_per_steradian, power_heuristic};
 use crate::light::lights::Emitters;
 use crate::material::brdf::Brdf;
@@ -72,7 +71,7 @@ impl<'a> Integrator<'a> {
                 }
             } else {
                 radiance += throughput * self.emission(&surface, &ray, &hit, density);
-                let glossy = self.stage.glossy_material(surface.material);
+                let glossy = self.stage.glossy_materials[surface.material].as_ref();
                 let Some(brdf) = surface.brdf(glossy, &ray) else {
                     return (radiance, depth);
                 };
@@ -104,6 +103,7 @@ impl<'a> Integrator<'a> {
         }
         (radiance, MOST_BOUNCES)
     }
+
     /// Gathers the light that a surface scatters, of lights and of the sky, and draws the path's next direction.
     fn scatter(
         &self,
@@ -114,7 +114,7 @@ impl<'a> Integrator<'a> {
         sampler: &Sampler,
     ) -> ([Vec3; 2], Option<BrdfSample>) {
         let [u, v, _, choice] = sampler.bounce(depth);
-        let sky_numbers = match (brdf, self.stage.sky().is_sampled()) {
+        let sky_numbers = match (brdf, self.stage.sky.is_sampled()) {
             // Nothing asks for them.
             (Brdf::Diffuse { .. }, false) => [0.0; 4],
             _ => sampler.sky(depth),
@@ -125,7 +125,7 @@ impl<'a> Integrator<'a> {
             let points = sampler.lights(depth);
             light[0] = self.direct_light(poses, start, brdf, choice, points);
         }
-        if let Some(sky) = self.stage.sky().sample([sky_u, sky_v]) {
+        if let Some(sky) = self.stage.sky.sample([sky_u, sky_v]) {
             light[1] = self.light_from(poses, start, brdf, &sky, true);
         }
         (light, brdf.sample(lobe_choice, [u, v]))
@@ -139,7 +139,7 @@ impl<'a> Integrator<'a> {
     fn background_radiance(&self, ray: &Ray, density: RayDensity) -> Vec3 {
         let scene = self.stage.scene;
         let weight = density.map_or(1.0, |density| {
-            power_heuristic(density, self.stage.sky().density(ray.direction))
+            power_heuristic(density, self.stage.sky.density(ray.direction))
         });
         let background = scene.background.radiance(ray.direction) * weight as f32;
         match &scene.sun {

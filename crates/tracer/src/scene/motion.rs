@@ -37,7 +37,8 @@ pub struct Motion {
 }
 
 /// The path of a motion between keys.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Interpolation {
     /// Position and scale change at a constant rate, the orientation turns at a constant angular velocity. Velocities
     /// jump at keys.

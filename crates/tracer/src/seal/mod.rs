@@ -253,16 +253,6 @@ mod tests {
     }
 
     #[test]
-    fn a_mirrored_world_moves_as_in_a_mirror() {
-        let seal = Seal {
-            mirrored: true,
-            ..Seal::NOTHING
-        };
-        let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
-        assert_moves(&seal, |time| time, |pose| mirror * pose * mirror);
-    }
-
-    #[test]
     fn the_camera_turns_about_itself_and_zooms() {
         let seal = Seal {
             roll: 0.05,
