@@ -189,35 +189,6 @@ mod tests {
     }
 
     #[test]
-    fn a_path_and_key_shapes_end_at_their_last_key() {
-        let check = |name: &str, frame: u32, alignment| {
-            let scene = load_test_scene(name).at_frame(frame);
-            RenderSettings::default().check_truth(&scene, alignment)
-        };
-        // The shapes of the flag go from -1 to 1.
-        assert_eq!(check("flag", 1, Alignment::Trailing).err(), None);
-        let text = check("flag", 1, Alignment::Leading)
-            .unwrap_err()
-            .to_string();
-        assert!(
-            text.contains("the shapes of object cloth at frame 1.5"),
-            "{text}"
-        );
-        assert!(text.contains("end at frame 1"), "{text}");
-        let text = check("reversal", 1, Alignment::Trailing)
-            .unwrap_err()
-            .to_string();
-        assert!(
-            text.contains("the motion of object lorry at frame 1"),
-            "{text}"
-        );
-        // Two keys make a steady motion.
-        assert_eq!(check("fan", 900, Alignment::Leading).err(), None);
-        // At their own instant all scenes are as they were.
-        assert_eq!(check("flag", 0, Alignment::Leading).err(), None);
-    }
-
-    #[test]
     fn a_scale_does_not_pass_zero() {
         let mut scene = load_test_scene("fan");
         let shrink = |time: f64, scale: f64| crate::Key {

@@ -11,8 +11,7 @@ use crate::geometry::ray::{Hit, Ray};
 use crate::light::sky::Sky;
 use crate::material::glossy_material::GlossyMaterial;
 use crate::material::passage::Passage;
-use crate::material::sight::Sight;
-use crate::material::surface::Surface;
+use crate::material::surface::{Sight, Surface};
 use crate::motion::poses::Poses;
 use crate::scene::{Material, Scene};
 

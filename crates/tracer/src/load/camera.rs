@@ -1,4 +1,4 @@
-//! The camera of a scene.toml.
+//! The camera of a scene.toml, and its lens.
 
 use std::ops::Range;
 
@@ -8,11 +8,10 @@ use toml::Spanned;
 use super::document::Document;
 use super::error::SceneError;
 use super::keyed_motion::{Pose, build_motion, read_interpolation};
-use super::lens::read_lens;
 use super::rotation::Rotation;
 use super::schema::{CameraKeyTable, CameraTable};
-use crate::Camera;
-use crate::limits::NARROWEST_VIEW;
+use crate::limits::{NARROWEST_VIEW, NEAREST_FOCUS, WIDEST_LENS};
+use crate::{Camera, Lens};
 
 /// Reads the camera, still or moving.
 pub(super) fn read_camera(
@@ -140,4 +139,47 @@ fn read_look_at(
     };
     let axes = DMat3::from_cols(right, backward.cross(right), backward);
     Ok(Rotation::Quaternion(DQuat::from_mat3(&axes)))
+}
+
+/// Reads the lens; none of a pinhole.
+fn read_lens(document: &Document, camera: &CameraTable) -> Result<Option<Lens>, SceneError> {
+    let refuse = |number: &Spanned<f64>, reason: String| Err(document.error(number.span(), reason));
+    match (&camera.aperture, &camera.focus) {
+        (None, None) => Ok(None),
+        (Some(aperture), None) => {
+            let reason = "the camera has an aperture and no focus; give the distance in metres at which it is sharp, or leave \
+                          both out";
+            refuse(aperture, reason.to_owned())
+        }
+        (None, Some(focus)) => {
+            let reason = "the camera has a focus and no aperture; give the diameter of its lens in metres, or leave both out: a \
+                          pinhole is sharp at all distances";
+            refuse(focus, reason.to_owned())
+        }
+        (Some(aperture), Some(focus)) => {
+            let lens = Lens {
+                aperture: *aperture.get_ref(),
+                focus: *focus.get_ref(),
+            };
+            if lens.focus < NEAREST_FOCUS {
+                let found = lens.focus;
+                return refuse(
+                    focus,
+                    format!("focus is {found:?} m; allowed: {NEAREST_FOCUS:e} or more"),
+                );
+            }
+            if !(lens.aperture > 0.0 && lens.aperture <= WIDEST_LENS * lens.focus) {
+                let Lens {
+                    aperture: found,
+                    focus,
+                } = lens;
+                let reason = format!(
+                    "aperture is {found:?} m and focus {focus:?} m; allowed: an aperture above 0 and up to {WIDEST_LENS} times \
+                     the focus; leave both out for a pinhole"
+                );
+                return refuse(aperture, reason);
+            }
+            Ok(Some(lens))
+        }
+    }
 }

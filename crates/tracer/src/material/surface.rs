@@ -5,7 +5,6 @@ use glam::{DVec3, Vec2, Vec3, Vec4};
 use crate::geometry::ray::{Hit, Ray};
 use crate::material::brdf::Brdf;
 use crate::material::glossy_material::GlossyMaterial;
-use crate::material::sight::Sight;
 use crate::motion::pose::Pose;
 use crate::scene::{Material, Mesh, Scene};
 
@@ -27,6 +26,17 @@ pub(crate) struct Surface {
     pub emission: Vec3,
     /// Area of the whole triangle, square metres.
     pub area: f64,
+}
+
+/// The translucent surfaces that a ray sees; opaque ones it always sees, holes never.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sight {
+    /// All that change the light.
+    Everything,
+    /// Those that velocity, depth and object id are taken of.
+    Buffers,
+    /// None.
+    Opaque,
 }
 
 /// Tells of each object whether it is opaque everywhere, without holes cut out by opacity and without translucent parts.

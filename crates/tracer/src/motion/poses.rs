@@ -139,8 +139,7 @@ impl<'a> Poses<'a> {
     /// Returns true if a ray certainly misses an object. It is a quick test of objects whose pose is not yet known.
     #[inline(always)]
     pub(crate) fn is_missed(&self, object: usize, ray: &Ray) -> bool {
-        let stamp = self.poses[object].0;
-        if stamp == FOR_EVER || stamp == self.current {
+        if self.is_current(object) {
             return false;
         }
         match (
