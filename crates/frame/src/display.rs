@@ -113,20 +113,20 @@ pub fn display_srgb(image: &Image, stops: f32) -> Image {
     image.map(|pixel| pixel.map(|component| encode_srgb(component, stops)))
 }
 
-/// Decodes an sRGB value in [0, 1]: undoes [`encode_srgb`], except for its clamp.
-fn decode_srgb(srgb: f32, stops: f32) -> f32 {
-    let value = if srgb <= 0.040_45 {
+/// Decodes an sRGB value in [0, 1] (IEC 61966-2-1).
+pub fn decode_srgb(srgb: f32) -> f32 {
+    if srgb <= 0.040_45 {
         srgb / 12.92
     } else {
         ((srgb + 0.055) / 1.055).powf(2.4)
-    };
-    value * (-stops).exp2()
+    }
 }
 
 /// Converts display values in [0, 1] to a scene-linear image: decodes sRGB and undoes the photographic exposure of `stops`.
 /// Radiance above display white stays at display white.
 pub fn scene_linear(display: &Image, stops: f32) -> Image {
-    display.map(|pixel| pixel.map(|component| decode_srgb(component, stops)))
+    let factor = (-stops).exp2();
+    display.map(|pixel| pixel.map(|component| factor * decode_srgb(component)))
 }
 
 #[cfg(test)]
@@ -139,7 +139,7 @@ mod tests {
             let white = (-stops).exp2();
             for radiance in [0.0, 0.001, 0.0031308, 0.0032, 0.18, 0.999, 1.0, 3.0] {
                 let radiance = radiance * white;
-                let back = decode_srgb(encode_srgb(radiance, stops), stops);
+                let back = decode_srgb(encode_srgb(radiance, stops)) * white;
                 // A power and its inverse in 32-bit floats: a few roundings, relative to white.
                 let error = (back - radiance.min(white)).abs();
                 assert!(error < 1e-6 * white, "{radiance} at {stops}: {back}");

@@ -105,13 +105,10 @@ impl Truth {
                 return Err(TruthError::Unlike { index, what });
             }
         }
-        let half = |first: usize| {
-            Picture::mean(replicates.iter().skip(first).step_by(2).map(|r| &r.picture))
-        };
-        let halves = [half(0), half(1)];
-        let at_instant = [0, 1].map(|first| {
-            AtInstant::mean((replicates.iter().skip(first).step_by(2)).map(|r| &r.at_instant))
-        });
+        let half = |first: usize| replicates.iter().skip(first).step_by(2);
+        let halves = [0, 1].map(|first| Picture::mean(half(first).map(|own| &own.picture)));
+        let at_instant =
+            [0, 1].map(|first| AtInstant::mean(half(first).map(|own| &own.at_instant)));
         let count = replicates.len() as u32;
         Ok(Self {
             provenance: Provenance {

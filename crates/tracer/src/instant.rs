@@ -1,6 +1,6 @@
 //! The frame of the instant, as an engine would hand it to its motion blur.
 
-use frame::{ColorSampling, FAR_DEPTH, Frame, Plane, Raster, Tile, Vectors, VelocityKind};
+use frame::{FAR_DEPTH, Frame, Plane, Raster, Tile, Vectors, VelocityKind};
 use rayon::prelude::*;
 
 use crate::content_hash::{grid_hash, provenance};
@@ -8,7 +8,7 @@ use crate::error::TraceError;
 use crate::film::canvas::Canvas;
 use crate::film::finite::{check_layer, check_picture};
 use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
-use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
+use crate::film::render::{Film, PixelMean, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::frame_rate::FrameRate;
 use crate::material::surface::Sight;
@@ -107,10 +107,7 @@ fn trace_part(
     let make_film = |samples, replicates, stream| Film {
         integrator: Integrator::new(stage, 0.0),
         canvas,
-        places: match settings.options.color {
-            ColorSampling::Antialiased => Places::Area,
-            ColorSampling::Point => Places::Centre,
-        },
+        color: settings.options.color,
         times: &[Times::Instant],
         instant: None,
         shaded_again: 1,

@@ -42,8 +42,7 @@ pub use instant::{
 pub use ladder::{LadderTracer, trace_ladder};
 pub use limits::MOST_SAMPLES;
 pub use load::{
-    MOST_COINCIDENT, SceneError, SceneListing, list_scene, list_scenes, load_scene,
-    load_scene_and_files,
+    SceneError, SceneListing, list_scene, list_scenes, load_scene, load_scene_and_files,
 };
 pub use location::{Bundle, Location};
 pub use motion::camera::View;

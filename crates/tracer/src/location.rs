@@ -110,10 +110,10 @@ impl Location {
         let bytes = found.ok_or_else(missing)?;
         match bytes.len() as u64 <= limit {
             true => Ok(bytes),
-            false => Err(FileError::Foreign {
-                path: self.path.clone(),
-                reason: format!("has {} bytes; allowed: up to {limit}", bytes.len()),
-            }),
+            false => {
+                let reason = format!("has {} bytes; allowed: up to {limit}", bytes.len());
+                Err(FileError::foreign(&self.path, reason))
+            }
         }
     }
 

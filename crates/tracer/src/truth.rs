@@ -3,7 +3,9 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use frame::{Alignment, AtInstant, Raster, Replicate, Support, Tile, Truth, motion_margin};
+use frame::{
+    Alignment, AtInstant, ColorSampling, Raster, Replicate, Support, Tile, Truth, motion_margin,
+};
 
 use crate::aligned_shutter::{AlignedShutter, list_family};
 use crate::content_hash::{provenance, replicate_hash};
@@ -12,7 +14,7 @@ use crate::film::at_instant::{InstantMeans, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::finite::{check_at_instant, check_picture};
 use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
-use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
+use crate::film::render::{Film, PixelMean, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::support::trace_supports;
 use crate::path::integrator::Integrator;
@@ -145,7 +147,7 @@ impl<'a> TruthTracer<'a> {
             // Emitters are weighted at the instant, which belongs to every alignment.
             integrator: Integrator::new(&self.stage, 0.0),
             canvas,
-            places: Places::Area,
+            color: ColorSampling::Antialiased,
             times,
             instant: Some(InstantView::new(&self.stage, canvas)),
             shaded_again: SHADED_AGAIN,

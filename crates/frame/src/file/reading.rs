@@ -115,24 +115,4 @@ mod tests {
             .to_string();
         assert!(refusal.contains("none: cannot read"), "{refusal}");
     }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_device_and_a_fifo_are_refused_without_a_wait() {
-        let refusal = read_bounded(Path::new("/dev/zero"), 10)
-            .unwrap_err()
-            .to_string();
-        assert!(refusal.contains("is a device"), "{refusal}");
-
-        let folder = tempfile::tempdir().unwrap();
-        let fifo = folder.path().join("fifo");
-        let made = std::process::Command::new("mkfifo").arg(&fifo).status();
-        assert!(made.unwrap().success());
-        let refusal = read_bounded(&fifo, 10).unwrap_err().to_string();
-        assert!(refusal.contains("is a FIFO"), "{refusal}");
-
-        let link = folder.path().join("link");
-        std::os::unix::fs::symlink("/dev/zero", &link).unwrap();
-        assert!(read_bounded(&link, 10).is_err());
-    }
 }

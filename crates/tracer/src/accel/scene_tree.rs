@@ -96,7 +96,7 @@ impl<'a> SceneTree<'a> {
         let in_meshes = meshes.iter().flatten().map(MeshTree::stack_size).max();
         Ok(Self {
             scene,
-            stack_size: world.stack_size() + in_meshes.unwrap_or(0),
+            stack_size: world.tree.stack_size + in_meshes.unwrap_or(0),
             meshes,
             world,
             movers: (0..scene.objects.len())
@@ -112,7 +112,7 @@ impl<'a> SceneTree<'a> {
     /// Size of trees and triangles in memory, in bytes.
     pub fn bytes(&self) -> usize {
         let meshes: usize = self.meshes.iter().flatten().map(MeshTree::bytes).sum();
-        meshes + self.world.bytes()
+        meshes + self.world.tree.bytes()
     }
 
     /// Finds the nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.

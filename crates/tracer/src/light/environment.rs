@@ -80,7 +80,11 @@ impl EnvironmentSampler {
         let mut rows = Vec::with_capacity(height);
         let mut total = 0.0;
         for (row, weights) in weights.chunks(width).enumerate() {
-            let cumulative = running_sums(weights);
+            let sums = weights.iter().scan(0.0, |sum, weight| {
+                *sum += weight;
+                Some(*sum)
+            });
+            let cumulative: Vec<f64> = sums.collect();
             let sum = cumulative[width - 1];
             columns.extend(
                 cumulative
@@ -146,15 +150,6 @@ fn compute_weights(map: &EnvironmentMap) -> Vec<f64> {
         .map(|index| [index % width, index / width])
         .map(|[column, row]| (-1..=1).map(|down| at(column, row + down)).sum::<f64>() / 3.0)
         .collect()
-}
-
-fn running_sums(values: &[f64]) -> Vec<f64> {
-    let mut sum = 0.0;
-    let add = |value: &f64| {
-        sum += value;
-        sum
-    };
-    values.iter().map(add).collect()
 }
 
 /// Finds which of the intervals that end at these numbers holds `number`, and its place there as a part of the length.

@@ -18,7 +18,7 @@ use super::error::SceneError;
 use crate::scene::{Mesh, Object};
 
 /// Most faces of a mesh with the same three corners.
-pub const MOST_COINCIDENT: usize = 256;
+const MOST_COINCIDENT: usize = 256;
 
 /// Numbers of faces removed from a mesh.
 #[derive(Default)]

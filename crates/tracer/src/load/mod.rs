@@ -37,7 +37,6 @@ use std::path::PathBuf;
 
 use document::Document;
 pub use error::SceneError;
-pub use faces::MOST_COINCIDENT;
 use files::{Files, folder_name, read_document};
 pub use listing::{SceneListing, list_scene, list_scenes};
 use meshes::MeshLoader;

@@ -59,7 +59,9 @@ impl<'a> Integrator<'a> {
                 return (radiance, depth);
             };
             let surface = Surface::at(scene, poses.pose(hit.object), &ray, &hit);
-            let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
+            // The greatest length that the position was computed from.
+            let magnitude = surface.position.abs().max_element().max(hit.t);
+            let start = surface.position + LIFT * magnitude * surface.facet;
             let drawn = if mirrors {
                 let passage = Passage::at(scene, poses, &ray, &hit);
                 let weight = passage.map_or(Vec3::ZERO, |passage| passage.reflected);
@@ -121,7 +123,7 @@ impl<'a> Integrator<'a> {
         };
         let [sky_u, sky_v, lobe_choice, _] = sky_numbers;
         let mut light = [Vec3::ZERO; 2];
-        if self.has_lights() {
+        if self.stage.scene.sun.is_some() || !self.emitters.is_empty() {
             let points = sampler.lights(depth);
             light[0] = self.direct_light(poses, start, brdf, choice, points);
         }
@@ -129,10 +131,6 @@ impl<'a> Integrator<'a> {
             light[1] = self.light_from(poses, start, brdf, &sky, true);
         }
         (light, brdf.sample(lobe_choice, [u, v]))
-    }
-
-    fn has_lights(&self) -> bool {
-        self.stage.scene.sun.is_some() || !self.emitters.is_empty()
     }
 
     /// Radiance of the background and the sun's disc, weighted against the chance that light sampling drew the ray.
@@ -218,9 +216,4 @@ impl<'a> Integrator<'a> {
         };
         passed * (light.radiance * scattered * (weight / light.density) as f32)
     }
-}
-
-/// The greatest length that a hit's position was computed from, metres.
-fn magnitude(surface: &Surface, hit: &Hit) -> f64 {
-    surface.position.abs().max_element().max(hit.t)
 }
