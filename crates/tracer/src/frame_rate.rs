@@ -1,9 +1,8 @@
-//! Scenes at other frame rates than that of their files.
+//! Frame rates, as names of scenes state them.
 
 use serde::{Deserialize, Serialize};
 
 use crate::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
-use crate::scene::Scene;
 
 /// A frame rate, and the rule by which the shutter follows it. Names have it as the last word behind the scene and its variant:
 /// `fan@144fps`, `fan@unlit@24fps_1-48s`.
@@ -113,30 +112,6 @@ impl FrameRate {
     }
 }
 
-impl Scene {
-    /// Takes the scene at another frame rate. Whatever its file says about a time happens at the same time in seconds; so does the
-    /// delay of a rolling shutter. The instant stays. Name and hash stay the caller's to set.
-    pub(crate) fn at_rate(mut self, rate: FrameRate) -> Self {
-        let frames = rate.frames_per_written_frame();
-        let objects = self.objects.iter_mut().map(|object| &mut object.motion);
-        for motion in objects.chain([&mut self.camera.motion]) {
-            for key in &mut motion.keys {
-                key.time *= frames;
-            }
-        }
-        for (time, _) in &mut self.camera.vertical_fov {
-            *time *= frames;
-        }
-        for shape in self.meshes.iter_mut().flat_map(|mesh| &mut mesh.shapes) {
-            shape.time *= frames;
-        }
-        self.shutter_profile.rolling *= frames;
-        self.exposure = rate.exposure(self.exposure);
-        self.rate = rate;
-        self
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -183,27 +158,5 @@ mod tests {
         assert_eq!(FrameRate::of_name("fan@24fps_1-48s"), rate);
         assert_eq!(FrameRate::of_name("fan@unlit/0003"), None);
         assert_eq!(FrameRate::of_name("fan"), None);
-    }
-
-    #[test]
-    fn numbers_beyond_the_limits_are_refused() {
-        let check = |per_second, shutters_per_second| {
-            FrameRate {
-                per_second,
-                shutters_per_second,
-            }
-            .check()
-        };
-        assert_eq!(check(24.0, Some(48.0)), Ok(()));
-        assert_eq!(check(SLOWEST_RATE, Some(SLOWEST_SHUTTER)), Ok(()));
-        assert_eq!(check(FASTEST_RATE, Some(FASTEST_SHUTTER)), Ok(()));
-        for rate in [0.0, -24.0, 0.99, 1000.1, f64::NAN, f64::INFINITY] {
-            let reason = check(rate, None).unwrap_err();
-            assert!(reason.contains("allowed: 1 to 1000"), "{reason}");
-        }
-        for count in [0.0, -48.0, 0.5, 100_001.0, f64::NAN, f64::INFINITY] {
-            let reason = check(24.0, Some(count)).unwrap_err();
-            assert!(reason.contains("allowed: 1/1 to 1/100000"), "{reason}");
-        }
     }
 }

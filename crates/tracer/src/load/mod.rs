@@ -6,12 +6,12 @@ mod camera;
 mod document;
 mod environment;
 mod error;
+mod face;
 mod faces;
 mod files;
 mod finish;
 mod key_shapes;
 mod keyed_motion;
-mod lens;
 mod light;
 mod listing;
 mod material;
@@ -20,36 +20,31 @@ mod mesh_sources;
 mod meshes;
 mod mtl;
 mod obj;
-mod obj_check;
 mod object_motion;
 mod objects;
 mod parents;
 mod picture;
 mod rotation;
-mod scene_folder;
 mod schema;
 mod shutter;
 mod statements;
 mod texture;
 mod transform_range;
 mod translucency;
-mod variant_changes;
 mod variants;
 
 use std::path::PathBuf;
 
 use document::Document;
 pub use error::SceneError;
-pub use faces::MOST_COINCIDENT;
-use files::Files;
+use files::{Files, folder_name, read_document};
 pub use listing::{SceneListing, list_scene, list_scenes};
 use meshes::MeshLoader;
 use objects::ObjectLoader;
-use scene_folder::{folder_name, read_document};
 use schema::SceneTable;
 use variants::ParsedScene;
 
-use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
+use crate::settings::check_size;
 use crate::{FrameRate, Location, Scene, Seal};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
@@ -73,20 +68,12 @@ pub fn load_scene_and_files(
     let folder = folder.path.as_path();
     let document = read_document(&mut files, folder)?;
     let parsed = ParsedScene::parse(&document)?;
-    let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
-    let (from_file, rate) = match variant.filter(|name| !own(name)) {
-        Some(made) => FrameRate::split_variant(made),
-        None => (variant, None),
-    };
-    let rate = rate.unwrap_or_default();
+    let choice = Choice::new(&parsed, variant);
+    let (rate, seed) = (choice.rate, choice.seed);
     if let Err(reason) = rate.check() {
         return Err(SceneError::in_file(&document.path, reason));
     }
-    let made = from_file.filter(|name| !own(name));
-    let is_unlit = made == Some(UNLIT);
-    let seed = made.and_then(Seal::seed_in);
-    let is_made = is_unlit || seed.is_some();
-    let table = parsed.read(from_file.filter(|_| !is_made))?;
+    let table = parsed.read(choice.of_file)?;
     parsed.check_variants()?;
     check_picture(&document, &table)?;
 
@@ -135,11 +122,41 @@ pub fn load_scene_and_files(
         hash: meshes.files.hash(variant),
     };
     let scene = match seed {
-        _ if is_unlit => scene.unlit(),
+        _ if choice.is_unlit => scene.unlit(),
         Some(seed) => Seal::new(seed, &name).apply(scene),
         None => scene,
     };
     Ok((scene.at_rate(rate), paths))
+}
+
+/// Meaning of a variant's name.
+struct Choice<'a> {
+    /// Variant of the file.
+    of_file: Option<&'a str>,
+    is_unlit: bool,
+    /// Seed of a sealed variant.
+    seed: Option<u64>,
+    rate: FrameRate,
+}
+
+impl<'a> Choice<'a> {
+    /// Takes a name apart. Names of the file come first; other names may be those of variants that are made of any scene.
+    fn new(parsed: &ParsedScene, variant: Option<&'a str>) -> Self {
+        let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
+        let (of_file, rate) = match variant.filter(|name| !own(name)) {
+            Some(made) => FrameRate::split_variant(made),
+            None => (variant, None),
+        };
+        let made = of_file.filter(|name| !own(name));
+        let is_unlit = made == Some(UNLIT);
+        let seed = made.and_then(Seal::seed_in);
+        Self {
+            of_file: of_file.filter(|_| !is_unlit && seed.is_none()),
+            is_unlit,
+            seed,
+            rate: rate.unwrap_or_default(),
+        }
+    }
 }
 
 /// Finds the times, in frames of the file, that a render may ask for: those of an open shutter, and a frame to either side.
@@ -169,19 +186,8 @@ fn check_picture(document: &Document, table: &SceneTable) -> Result<(), SceneErr
         .shutter(*table.exposure.get_ref())
         .map_err(|error| document.error(table.exposure.span(), error.to_string()))?;
     let [width, height] = *table.size.get_ref();
-    let allowed = 1..=LARGEST_SIDE;
-    if !allowed.contains(&width) || !allowed.contains(&height) {
-        let reason =
-            format!("size is [{width}, {height}]; allowed: 1 to {LARGEST_SIDE} pixels each");
-        return Err(document.error(table.size.span(), reason));
-    }
-    let pixels = u64::from(width) * u64::from(height);
-    if pixels > MOST_PIXELS {
-        let reason = format!(
-            "size is [{width}, {height}], {pixels} pixels; allowed: {MOST_PIXELS}; give a smaller size"
-        );
-        return Err(document.error(table.size.span(), reason));
-    }
+    check_size(width, height)
+        .map_err(|error| document.error(table.size.span(), error.to_string()))?;
     if table.object.is_empty() {
         let reason = "no objects; a scene needs at least one [object.name] with a mesh";
         return Err(SceneError::in_file(&document.path, reason));

@@ -2,8 +2,7 @@
 
 use glam::Vec3;
 
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::Ray;
+use crate::geometry::ray::{Hit, Ray};
 use crate::material::passage::Passage;
 use crate::motion::poses::Poses;
 use crate::stage::Stage;
@@ -38,7 +37,7 @@ pub(crate) fn visit_layers(
 ) {
     let mut next = stage.closest(poses, ray);
     let (mut share, mut weight) = (1.0, Vec3::ONE);
-    if stage.has_translucency() {
+    if stage.has_translucency {
         while let Some(hit) = next {
             let Some(passage) = Passage::at(stage.scene, poses, ray, &hit) else {
                 break;
@@ -92,7 +91,7 @@ pub(crate) fn find_stop(
 ) -> (Option<Stop>, Vec3) {
     let mut next = stage.closest(poses, ray);
     let mut weight = Vec3::ONE;
-    if !stage.has_translucency() {
+    if !stage.has_translucency {
         return (next.map(scattering), weight);
     }
     let mut number = number();

@@ -2,17 +2,16 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::film::sampler::Sampler;
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::{LIFT, Ray};
+use crate::geometry::ray::{Hit, LIFT, Ray};
 use crate::light::light_sample::{LightSample, density_per_steradian, power_heuristic};
 use crate::light::lights::Emitters;
-use crate::light::stops::{Stop, find_stop};
 use crate::material::brdf::Brdf;
 use crate::material::brdf_sample::{BrdfSample, BrdfValue};
 use crate::material::passage::Passage;
 use crate::material::surface::Surface;
 use crate::motion::poses::Poses;
+use crate::path::stops::{Stop, find_stop};
+use crate::sampler::Sampler;
 use crate::stage::Stage;
 
 /// Bounce at which roulette begins; before it every path goes on.
@@ -60,7 +59,9 @@ impl<'a> Integrator<'a> {
                 return (radiance, depth);
             };
             let surface = Surface::at(scene, poses.pose(hit.object), &ray, &hit);
-            let start = surface.position + LIFT * magnitude(&surface, &hit) * surface.facet;
+            // The greatest length that the position was computed from.
+            let magnitude = surface.position.abs().max_element().max(hit.t);
+            let start = surface.position + LIFT * magnitude * surface.facet;
             let drawn = if mirrors {
                 let passage = Passage::at(scene, poses, &ray, &hit);
                 let weight = passage.map_or(Vec3::ZERO, |passage| passage.reflected);
@@ -72,7 +73,7 @@ impl<'a> Integrator<'a> {
                 }
             } else {
                 radiance += throughput * self.emission(&surface, &ray, &hit, density);
-                let glossy = self.stage.glossy_material(surface.material);
+                let glossy = self.stage.glossy_materials[surface.material].as_ref();
                 let Some(brdf) = surface.brdf(glossy, &ray) else {
                     return (radiance, depth);
                 };
@@ -104,6 +105,7 @@ impl<'a> Integrator<'a> {
         }
         (radiance, MOST_BOUNCES)
     }
+
     /// Gathers the light that a surface scatters, of lights and of the sky, and draws the path's next direction.
     fn scatter(
         &self,
@@ -114,32 +116,28 @@ impl<'a> Integrator<'a> {
         sampler: &Sampler,
     ) -> ([Vec3; 2], Option<BrdfSample>) {
         let [u, v, _, choice] = sampler.bounce(depth);
-        let sky_numbers = match (brdf, self.stage.sky().is_sampled()) {
+        let sky_numbers = match (brdf, self.stage.sky.is_sampled()) {
             // Nothing asks for them.
             (Brdf::Diffuse { .. }, false) => [0.0; 4],
             _ => sampler.sky(depth),
         };
         let [sky_u, sky_v, lobe_choice, _] = sky_numbers;
         let mut light = [Vec3::ZERO; 2];
-        if self.has_lights() {
+        if self.stage.scene.sun.is_some() || !self.emitters.is_empty() {
             let points = sampler.lights(depth);
             light[0] = self.direct_light(poses, start, brdf, choice, points);
         }
-        if let Some(sky) = self.stage.sky().sample([sky_u, sky_v]) {
+        if let Some(sky) = self.stage.sky.sample([sky_u, sky_v]) {
             light[1] = self.light_from(poses, start, brdf, &sky, true);
         }
         (light, brdf.sample(lobe_choice, [u, v]))
-    }
-
-    fn has_lights(&self) -> bool {
-        self.stage.scene.sun.is_some() || !self.emitters.is_empty()
     }
 
     /// Radiance of the background and the sun's disc, weighted against the chance that light sampling drew the ray.
     fn background_radiance(&self, ray: &Ray, density: RayDensity) -> Vec3 {
         let scene = self.stage.scene;
         let weight = density.map_or(1.0, |density| {
-            power_heuristic(density, self.stage.sky().density(ray.direction))
+            power_heuristic(density, self.stage.sky.density(ray.direction))
         });
         let background = scene.background.radiance(ray.direction) * weight as f32;
         match &scene.sun {
@@ -218,9 +216,4 @@ impl<'a> Integrator<'a> {
         };
         passed * (light.radiance * scattered * (weight / light.density) as f32)
     }
-}
-
-/// The greatest length that a hit's position was computed from, metres.
-fn magnitude(surface: &Surface, hit: &Hit) -> f64 {
-    surface.position.abs().max_element().max(hit.t)
 }

@@ -2,8 +2,6 @@
 
 use sobol_burley::sample_4d;
 
-/// Most samples of one sequence, a limit of the Sobol tables.
-pub const MOST_SAMPLES: u32 = 1 << 16;
 /// Four-dimensional sets per bounce: next direction, lights, sky.
 const SETS_PER_BOUNCE: u32 = 3;
 /// Bounces that share the camera's sequence.
