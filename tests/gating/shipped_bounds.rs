@@ -6,7 +6,7 @@ use suite::{
     judge, measure_scenes, read_bounds, size_for_bounds,
 };
 use tests::open_gpu;
-use tracer::RenderSettings;
+use tracer::{RenderSettings, SceneId};
 
 use crate::lock_truths;
 
@@ -29,7 +29,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
     let bounds: RunBounds = (choices.iter())
         .map(|choice| {
             let bounds = read_bounds(&root, &choice.folder, None).unwrap();
-            (choice.scene.name.clone(), bounds)
+            (choice.scene.id.clone(), bounds)
         })
         .collect();
     let (width, height) = (size_for_bounds(bounds.values(), &filters, None).unwrap()).unwrap();
@@ -61,7 +61,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
     for scene in &plan.scenes {
         for filter in GUARDED {
             for metric in ["flip_moving", "bleed_lateral"] {
-                assert_required(&checked, &scene.name, filter, metric);
+                assert_required(&checked, &scene.id, filter, metric);
             }
         }
     }
@@ -73,9 +73,9 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
     assert_eq!(checked.decision, Decision::Pass, "{}", not_kept.join("\n"));
 }
 
-fn assert_required(check: &Check, scene: &str, filter: &str, metric: &str) {
+fn assert_required(check: &Check, scene: &SceneId, filter: &str, metric: &str) {
     let required = (check.findings.iter()).any(|finding| {
-        (&finding.scene[..], &finding.filter[..]) == (scene, filter)
+        (&finding.scene, &finding.filter[..]) == (scene, filter)
             && finding.metric.name() == metric
             && finding.level == Level::Required
     });

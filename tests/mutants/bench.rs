@@ -40,7 +40,7 @@ impl Bench {
         let bounds = (scenes.iter())
             .map(|choice| {
                 let bounds = read_bounds(&tests::scenes(), &choice.folder, options.size)?;
-                Ok((choice.scene.name.clone(), bounds))
+                Ok((choice.scene.id.clone(), bounds))
             })
             .collect::<Result<RunBounds, Error>>()?;
         let size = match options.size {

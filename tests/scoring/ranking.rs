@@ -7,7 +7,7 @@ use frame::Alignment;
 use metrics::{ImageMetric, Measured, Metric, Reference, Region, Scores};
 use suite::{Case, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
-use tracer::{Family, RenderSettings};
+use tracer::{Family, RenderSettings, SceneId};
 
 /// Difficulty of a run's scenes relative to one another.
 const SCENES: [f64; 5] = [0.6, 0.8, 1.0, 1.2, 1.4];
@@ -59,7 +59,7 @@ fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common)
     moving.flip = Measured::score(common * SCENES[scene], 0.0);
     let (filter, preset) = name.split_once(':').unwrap_or((name, ""));
     Case {
-        scene: format!("scene_{scene}"),
+        scene: SceneId::new(format!("scene_{scene}"), None),
         family: Some(Family::Translation),
         drawn: None,
         exposes: "nothing".to_owned(),
@@ -228,7 +228,7 @@ fn skill_over_scenes_is_a_ratio_of_means() {
         .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
         .collect();
     // On the second scene nothing can be gained, and the filter's gain there is noise: ten times nearly nothing.
-    for case in cases.iter_mut().filter(|case| case.scene == "scene_1") {
+    for case in cases.iter_mut().filter(|case| case.scene.name == "scene_1") {
         let flip = match case.filter.as_str() {
             "identity" => 0.101,
             "scatter_oracle" => 0.100,
@@ -253,7 +253,7 @@ fn scenes_without_skill_are_counted() {
     assert!(!print_table(&run).contains("Scenes that skill applies to"));
     let centred = run.cases.iter_mut();
     for case in
-        centred.filter(|case| case.scene == "scene_2" && case.alignment == Alignment::Centred)
+        centred.filter(|case| case.scene.name == "scene_2" && case.alignment == Alignment::Centred)
     {
         case.scores.skill.flip = Measured::not_applicable("it serves a test");
     }

@@ -56,7 +56,7 @@ pub fn export_gltf(
     document.root.push(GltfScene {
         extensions: None,
         extras: None,
-        name: Some(scene.name.clone()),
+        name: Some(scene.id.to_string()),
         nodes: roots,
     });
     document.root.extensions_used = list_extensions(&document);
@@ -85,7 +85,7 @@ fn refuse_zoom(scene: &Scene, timeline: &Timeline) -> Result<(), ExportError> {
     let is_other = |time: &f64| (scene.camera.vertical_fov_at(*time) - own).abs() > 1e-9;
     match times.iter().any(is_other) {
         true => Err(ExportError::FieldOfView {
-            scene: scene.name.clone(),
+            scene: scene.id.to_string(),
             from: -timeline.reach,
             to: timeline.reach,
         }),

@@ -57,7 +57,11 @@ impl FilterId {
 
 /// Writes the address of a case: `railing/bevy:high`.
 pub fn case_anchor(case: &Case) -> String {
-    format!("{}/{}", escape(&case.scene), FilterId::of(case).anchor())
+    format!(
+        "{}/{}",
+        escape(&case.scene.to_string()),
+        FilterId::of(case).anchor()
+    )
 }
 
 /// Replaces what an address may not hold, or what ends a name in it: a space becomes `~20`.

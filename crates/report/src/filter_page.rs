@@ -99,7 +99,7 @@ fn weakest(table: &CaseTable, cases: &[&Case], thumbnails: &[String]) -> Markup 
                 }
                 tbody {
                     @for case in sorted {
-                        @let place = scenes.iter().position(|scene| *scene == case.scene);
+                        @let place = scenes.iter().position(|scene| **scene == case.scene);
                         tr {
                             th scope="row" {
                                 a.scene href=(format!("#{}", case_anchor(case))) {

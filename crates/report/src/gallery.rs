@@ -8,6 +8,7 @@ use metrics::Metric;
 
 use crate::case_strip::{read_output, read_truth, tile};
 use suite::{Case, Error, IDENTITY, Run};
+use tracer::SceneId;
 
 /// File name of the contact sheet.
 const SHEET: &str = "truths.png";
@@ -34,7 +35,7 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
     let mut page = introduction(run);
     for entry in &entries {
         let scene = &entry.best.scene;
-        let instant = read_png(&folder.join(scene).join("frame.png"))?;
+        let instant = read_png(&folder.join(scene.folder()).join("frame.png"))?;
         let truth = read_truth(folder, entry.best)?;
         let strip = [
             instant,
@@ -115,6 +116,6 @@ fn section(entry: &Entry) -> String {
     text
 }
 
-fn strip_name(scene: &str) -> String {
+fn strip_name(scene: &SceneId) -> String {
     format!("{scene}.png")
 }

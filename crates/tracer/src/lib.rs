@@ -21,6 +21,7 @@ mod motion;
 mod pixel_grid;
 mod progress;
 mod scene;
+mod scene_id;
 mod seal;
 mod sequence;
 mod settings;
@@ -56,6 +57,7 @@ pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Lens, Material,
     Mesh, Object, Parent, Scene, Shape, Sun, Texture, Translucency,
 };
+pub use scene_id::SceneId;
 pub use seal::Seal;
 pub use settings::RenderSettings;
 pub use stage::Stage;

@@ -10,23 +10,22 @@ use crate::scene::{Mesh, Scene};
 impl Scene {
     /// Makes the scene as it is `frame` frames later: what happens at that time happens at time 0 of the result, of which
     /// frame and truth are rendered. All keys and key shapes move; the settings, the seed and everything without keys stay.
-    /// The result has a name and a hash of its own. Frame 0 is the scene itself.
+    /// The result has an identity and a hash of its own. Frame 0 is the scene itself.
     ///
     /// Renders of a later frame refuse times at which the scene is not defined; see [`TraceError::Undefined`].
     pub fn at_frame(&self, frame: u32) -> Self {
-        assert_eq!(self.frame, 0, "frames are counted from the scene's own");
+        assert_eq!(self.id.frame, 0, "frames are counted from the scene's own");
         if frame == 0 {
             return self.clone();
         }
         let mut scene = self.clone().later_by(f64::from(frame));
-        scene.frame = frame;
-        scene.name = self.name_at_frame(frame);
+        scene.id.frame = frame;
         let text = format!("{} at frame {frame}", self.hash);
         scene.hash = blake3::hash(text.as_bytes()).to_hex().to_string();
         scene
     }
 
-    /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its name and its hash stay: nothing that is made
+    /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its identity and its hash stay: nothing that is made
     /// of it may be kept in files.
     pub fn later_by(mut self, later: f64) -> Self {
         let objects = self.objects.iter_mut().map(|object| &mut object.motion);
@@ -44,17 +43,12 @@ impl Scene {
         self
     }
 
-    /// Names a later frame: `fan/0003`. It is the path of its files as well.
-    pub fn name_at_frame(&self, frame: u32) -> String {
-        format!("{}/{frame:04}", self.name)
-    }
-
     /// Refuses times at which the scene is not defined, `open` to `close` in frames after the instant: of a later frame those beyond
     /// the end of its keys, and at another frame rate those before their begin as well.
     pub(crate) fn check_defined(&self, open: f64, close: f64) -> Result<(), TraceError> {
-        if self.rate != FrameRate::WRITTEN {
+        if self.rate() != FrameRate::WRITTEN {
             self.check_begin(open)?;
-        } else if self.frame == 0 {
+        } else if self.id.frame == 0 {
             return Ok(());
         }
         self.check_end(close)
@@ -76,7 +70,7 @@ impl Scene {
         for (what, first) in paths.chain([view]).chain(shapes) {
             if let Some(first) = first.filter(|first| *first > time) {
                 return Err(TraceError::BeforeKeys {
-                    scene: self.name.clone(),
+                    scene: self.id.to_string(),
                     what,
                     first,
                     time,
@@ -99,10 +93,10 @@ impl Scene {
     /// Refuses a time beyond the end of a path or of key shapes, or beyond the last at which a scale keeps its sign.
     fn check_end(&self, time: f64) -> Result<(), TraceError> {
         let refuse = |what: String, last: f64| TraceError::Undefined {
-            scene: self.name.clone(),
+            scene: self.id.to_string(),
             what,
-            last: last + f64::from(self.frame),
-            time: time + f64::from(self.frame),
+            last: last + f64::from(self.id.frame),
+            time: time + f64::from(self.id.frame),
         };
         for (what, motion) in self.named_motions() {
             if let Some(last) = end_of_path(motion).filter(|last| *last < time) {
@@ -205,7 +199,7 @@ mod tests {
                     }
                 }
                 assert_ne!(later.hash, scene.hash);
-                assert_eq!(later.name, format!("{name}/{frame:04}"));
+                assert_eq!(later.id.to_string(), format!("{name}/{frame:04}"));
             }
         }
     }
@@ -217,7 +211,7 @@ mod tests {
         let hash = |scene: &Scene| crate::truth_hash(scene, &settings, Alignment::Trailing);
         let first = scene.at_frame(0);
         assert_eq!(hash(&first), hash(&scene));
-        assert_eq!(first.name, scene.name);
+        assert_eq!(first.id, scene.id);
         assert_ne!(hash(&scene.at_frame(1)), hash(&scene));
         assert_ne!(hash(&scene.at_frame(1)), hash(&scene.at_frame(2)));
     }
@@ -286,7 +280,7 @@ mod tests {
                 .check_truth(&scene.at_frame(24), Alignment::Centred)
                 .is_err()
             {
-                ending.push(scene.name);
+                ending.push(scene.id.name);
             }
         }
         assert_eq!(ending, ["flag", "reversal"]);

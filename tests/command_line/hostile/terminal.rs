@@ -7,6 +7,7 @@ use std::process::{Output, Stdio};
 use cli::{annotations, check_text, summary};
 use frame::{Alignment, Frame, Truth};
 use suite::{CHECK_FORMAT, Check, Decision, Failure, printable_table};
+use tracer::SceneId;
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 
@@ -124,7 +125,7 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
         program: suite::PROGRAM.to_owned(),
         decision: Decision::Broken,
         failures: vec![Failure {
-            scene: hostile.to_owned(),
+            scene: SceneId::new(hostile, None),
             filter: hostile.to_owned(),
             alignment: Alignment::Trailing,
             reason: hostile.to_owned(),

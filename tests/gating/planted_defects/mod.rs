@@ -15,7 +15,7 @@ use suite::{
 };
 use tests::filter_folder::copy_changed_filter;
 use tests::limits::calibrate_scene;
-use tracer::{RenderSettings, Scene};
+use tracer::{RenderSettings, Scene, SceneId};
 
 use defects::{DEFECTS, Defect};
 
@@ -86,7 +86,7 @@ impl Bench {
         let metrics = METRICS.map(|name| name.parse::<Metric>().unwrap());
         for name in NAMES {
             let bounds = calibrate_scene(&runs, &metrics, name);
-            bench.bounds.insert(name.to_owned(), bounds);
+            bench.bounds.insert(SceneId::new(name, None), bounds);
         }
         bench
     }

@@ -6,6 +6,7 @@ use suite::{
     Capture, CaptureAudit, Error, Sharing, audit_capture, claim, printable_path,
     write_audit_picture,
 };
+use tracer::SceneId;
 
 use super::capture::{load_drawn_scene, name_folder};
 use super::ending::Ending;
@@ -19,13 +20,14 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     for note in &capture.notes {
         print_note(note);
     }
-    let Some(name) = args.scene.as_ref().or(capture.description.scene.as_ref()) else {
+    let described = capture.description.scene.as_ref().map(SceneId::to_string);
+    let Some(name) = args.scene.clone().or(described) else {
         return Err(Error::Usage(format!(
             "{}: names no scene; an audit needs the scene that the engine drew: add scene = \"railing\", or give --scene",
             args.capture.join("capture.toml").display()
         )));
     };
-    let scene = load_drawn_scene(&args.scenes_dir, name)?;
+    let scene = load_drawn_scene(&args.scenes_dir, &name)?;
     let (audit, expected) = audit_capture(&capture, &scene)?;
     let out = name_folder(&args.capture, args.out.as_ref(), "out/audit")?;
     let _claim = claim(&out, [], Sharing::Alone)?;

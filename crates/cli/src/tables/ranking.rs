@@ -68,9 +68,9 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     let first = groups[0][0].rate;
     let cases = list_summarized(cases).into_iter();
     let cases = cases.filter(|case| case.rate == first);
-    let scenes = list_once(cases.map(|case| case.scene.as_str()));
+    let scenes = list_once(cases.map(|case| &case.scene));
     let (title, columns) = match scenes.as_slice() {
-        [scene] => ((*scene).to_owned(), 2),
+        [scene] => (scene.to_string(), 2),
         scenes => (format!("mean over {} scenes", scenes.len()), 4),
     };
     let titles = [title.as_str(), "FLIP", "95 % CI", "worst scene"];

@@ -187,7 +187,7 @@ fn line(profile: &Profile) -> String {
 /// The ways to the overview, to other filters of the scene, and to the same filter in other scenes.
 fn neighbours(view: &CaseView, table: &CaseTable) -> Markup {
     let (run, index) = (view.run, view.index);
-    let scene = |index: usize| run.cases[index].scene.as_str();
+    let scene = |index: usize| &run.cases[index].scene;
     let filter = FilterId::of(view.case);
     let in_scene = |at: Option<usize>| table.case_on(&filter, table.scenes.get(at?)?);
     let of_scene =

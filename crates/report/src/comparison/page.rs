@@ -29,7 +29,7 @@ pub fn compare_page(
     for (scene, filter) in ranked.iter().take(SHOWN) {
         let pair = both
             .iter()
-            .find(|pair| pair.first.scene == *scene && filter_label(pair.first) == *filter);
+            .find(|pair| pair.first.scene == **scene && filter_label(pair.first) == *filter);
         let pair = pair.expect("a change is of a pair");
         shown.push(case(compared, pair, Pictures::read([first, second], pair)?));
     }

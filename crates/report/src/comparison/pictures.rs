@@ -36,7 +36,7 @@ impl Pictures {
         Ok(Some(Self {
             first: of_first,
             second: of_second,
-            truth: embed_file(&first.folder().join(&pair.first.scene).join(truth))?,
+            truth: embed_file(&first.folder().join(pair.first.scene.folder()).join(truth))?,
             change: change(sides, pair)?,
         }))
     }

@@ -1,10 +1,12 @@
 //! Settings of two runs side by side.
 
+use frame::Alignment;
 use maud::{Markup, html};
 
 use crate::run_facts::facts;
 use suite::Run;
 use suite::Side;
+use tracer::SceneId;
 
 /// Lists the settings of both runs, and the truths that they share.
 pub fn both_runs(first: &Side, second: &Side) -> Markup {
@@ -41,7 +43,7 @@ pub fn both_runs(first: &Side, second: &Side) -> Markup {
                         }
                     }
                     tbody {
-                        @for [scene, alignment, hash] in truths(&first.run, &second.run) {
+                        @for (scene, alignment, hash) in truths(&first.run, &second.run) {
                             tr { th scope="row" { (scene) } td.text { (alignment) } td.text { code { (hash) } } }
                         }
                     }
@@ -52,14 +54,14 @@ pub fn both_runs(first: &Side, second: &Side) -> Markup {
 }
 
 /// Scene, alignment and hash of what both have, each once.
-fn truths<'a>(first: &'a Run, second: &Run) -> Vec<[&'a str; 3]> {
+fn truths<'a>(first: &'a Run, second: &Run) -> Vec<(&'a SceneId, Alignment, &'a str)> {
     let mut truths = Vec::new();
     for case in &first.cases {
         let shared = second
             .cases
             .iter()
             .any(|own| own.scene == case.scene && own.truth_hash == case.truth_hash);
-        let truth = [case.scene.as_str(), case.alignment.name(), &case.truth_hash];
+        let truth = (&case.scene, case.alignment, case.truth_hash.as_str());
         if shared && !truths.contains(&truth) {
             truths.push(truth);
         }

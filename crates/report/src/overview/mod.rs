@@ -22,6 +22,7 @@ use headlines::{TABLE_SCORES, TableScore};
 use score_table::score_table;
 use sequences::sequence_winners;
 use suite::{Bench, Finding, Level, Outcome, RankedFilter, lag_text, rank_for_summary};
+use tracer::SceneId;
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
 pub fn overview(
@@ -120,7 +121,7 @@ fn counts(table: &CaseTable, views: &[CaseView]) -> Markup {
 
 /// Says which scenes an engine drew, and whose truth is whose.
 fn engines(table: &CaseTable) -> Markup {
-    let first = |scene: &&str| table.cases_on(scene).next();
+    let first = |scene: &&SceneId| table.cases_on(scene).next();
     let cases = table.scenes.iter().filter_map(first);
     html! {
         @for (case, drawn) in cases.filter_map(|(_, case)| Some((case, case.drawn.as_ref()?))) {

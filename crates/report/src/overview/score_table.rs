@@ -116,7 +116,7 @@ pub fn score_table(
                         @for (scene, picture) in scenes.iter().zip(thumbnails) {
                             th.scene scope="col" {
                                 img src=[Some(picture).filter(|own| !own.is_empty())] alt="";
-                                button { (breakable(scene)) }
+                                button { (breakable(&scene.to_string())) }
                             }
                         }
                         @if bench.is_some() { th scope="col" { button { "cost, ms" } } }

@@ -62,7 +62,7 @@ pub struct CaseFiles<'a> {
 impl SceneFiles {
     /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the scene, `folder` is the run's.
     pub fn read(run: &Run, cases: &[&Case], folder: &Path) -> Result<Self, Error> {
-        let own = folder.join(&cases[0].scene);
+        let own = folder.join(cases[0].scene.folder());
         let path = own.join("frame.exr");
         let frame = Frame::read(&path)?.cropped();
         check_size(&path, frame.size(), (run.render.width, run.render.height))?;
@@ -88,7 +88,7 @@ impl SceneFiles {
             objects: planes.add(&ids),
             truths: BTreeMap::new(),
             accumulations,
-            traced: find_traced(run, cases[0]).map(|case| folder.join(&case.scene)),
+            traced: find_traced(run, cases[0]).map(|case| folder.join(case.scene.folder())),
             folder: own,
             frame,
             planes,

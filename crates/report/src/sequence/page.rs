@@ -3,6 +3,7 @@
 use maud::{PreEscaped, html};
 use serde::Serialize;
 use suite::{CHANGE_PICTURE, Finding, RANKED_BY, Run, Sequence};
+use tracer::SceneId;
 
 use super::ranking::ranking_tables;
 use super::scores::score_tables;
@@ -51,7 +52,7 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     ];
     let mut sequences = run.sequences.iter();
     let first_filter = (sequences.position(|own| !own.is_reference)).unwrap_or(0);
-    let mut scenes: Vec<&str> = run.sequences.iter().map(|own| own.scene.as_str()).collect();
+    let mut scenes: Vec<&SceneId> = run.sequences.iter().map(|own| &own.scene).collect();
     scenes.dedup();
     let frames = run.frames;
     let rates = rates(frames.per_second);

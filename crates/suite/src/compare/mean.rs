@@ -4,7 +4,6 @@ use std::cmp::Ordering;
 
 use metrics::Metric;
 use serde::Serialize;
-use tracer::FrameRate;
 
 use super::change::{Change, ChangeKind};
 use crate::stats::scene_mean::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
@@ -87,7 +86,7 @@ pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
 
 /// Names filter and frame rate of a change, and its metric.
 fn key(change: &Change) -> (String, Metric) {
-    let filter = match FrameRate::of_name(&change.scene) {
+    let filter = match change.scene.rate {
         Some(rate) => format!("{} {}", change.filter, rate.word()),
         None => change.filter.clone(),
     };
@@ -128,12 +127,14 @@ fn average(changes: &[&Change]) -> MeanChange {
 #[cfg(test)]
 mod tests {
     use super::super::change::Basis;
+    use tracer::SceneId;
+
     use super::*;
 
     /// One filter on as many scenes as there are numbers, by which each is worse.
     fn changes(worse: &[f64]) -> Vec<Change> {
         let change = |(index, worse): (usize, &f64)| Change {
-            scene: format!("scene_{index}"),
+            scene: SceneId::new(format!("scene_{index}"), None),
             filter: "one:paper".to_owned(),
             bar: false,
             metric: Metric::FLIP,
@@ -194,7 +195,7 @@ mod tests {
     fn frame_rates_have_means_of_their_own() {
         let mut all = changes(&[0.1, 0.1, 0.3, 0.3]);
         for change in &mut all[2..] {
-            change.scene += "@24fps";
+            change.scene.rate = tracer::FrameRate::in_word("24fps");
         }
         let means = average_changes(&all);
         let found: Vec<(&str, usize)> = (means.iter())

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use frame::Alignment;
+use tracer::SceneId;
 
 use super::side::Side;
 use crate::{Case, Error, Run};
@@ -62,14 +63,14 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
         ));
     }
     if pairs.is_empty() {
-        let scenes = |side: &Side| names(side.run.cases.iter().map(|case| case.scene.as_str()));
+        let scenes = |side: &Side| names(side.run.cases.iter().map(|case| case.scene.to_string()));
         let filters = |side: &Side| {
             names(
                 side.run
                     .cases
                     .iter()
                     .filter(|case| !case.is_reference)
-                    .map(|case| case.filter.as_str()),
+                    .map(|case| case.filter.clone()),
             )
         };
         return refuse(format!(
@@ -96,7 +97,7 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
 }
 
 /// Key that is unique among the cases of one run.
-type Key<'a> = (&'a str, String, Alignment, bool);
+type Key<'a> = (&'a SceneId, String, Alignment, bool);
 
 fn key(case: &Case) -> Key<'_> {
     (&case.scene, case.name(), case.alignment, case.is_reference)
@@ -171,9 +172,9 @@ fn single_presets<'a>(
 }
 
 /// Lists names, each once and six at most.
-fn names<'a>(all: impl Iterator<Item = &'a str>) -> String {
+fn names(all: impl Iterator<Item = String>) -> String {
     const MOST: usize = 6;
-    let mut once: Vec<&str> = Vec::new();
+    let mut once: Vec<String> = Vec::new();
     for name in all {
         if !once.contains(&name) {
             once.push(name);

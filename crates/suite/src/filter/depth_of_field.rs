@@ -26,7 +26,7 @@ impl DepthOfField {
             (Self::After, None) => Err(Error::Usage(format!(
                 "--depth-of-field {}: the camera of {} has no lens; give it aperture and focus, or leave out the option or the scene",
                 self.name(),
-                scene.name
+                scene.id
             ))),
             _ => Ok(()),
         }
@@ -54,7 +54,7 @@ impl DepthOfField {
             return Ok(frame.clone());
         }
         let settings = settings_of(frame);
-        let label = format!("{} frame of a pinhole", seen.name);
+        let label = format!("{} frame of a pinhole", seen.id);
         Ok(monitor.watch(&label, |watch| trace_frame(seen, &settings, watch))?)
     }
 
@@ -72,7 +72,7 @@ impl DepthOfField {
             return Ok(None);
         }
         let settings = settings_of(frame);
-        let label = format!("{} depth of field", scene.name);
+        let label = format!("{} depth of field", scene.id);
         let pass = monitor.watch(&label, |watch| trace_defocus(scene, &settings, watch))?;
         Ok(Some(pass))
     }

@@ -15,6 +15,8 @@ mod worst;
 
 use std::collections::BTreeMap;
 
+use tracer::SceneId;
+
 use self::bounds::SceneBounds;
 use crate::run::sequence::Sequence;
 use crate::{Case, Run};
@@ -27,8 +29,8 @@ pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
 pub use outcome::{Outcome, badness_within};
 pub use worst::{BLOCK, CROP, Worst, worst_block};
 
-/// The bounds of a run's scenes, by the names that its cases give them.
-pub type RunBounds = BTreeMap<String, SceneBounds>;
+/// The bounds of a run's scenes.
+pub type RunBounds = BTreeMap<SceneId, SceneBounds>;
 
 /// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases, and
 /// behind those of a case the ones of its sequence.

@@ -9,8 +9,6 @@ use metrics::{
 };
 use tracer::Defocus;
 
-use tracer::FrameRate;
-
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
 use super::plan::RunPlan;
@@ -275,11 +273,11 @@ impl CaseContext<'_> {
         let convention = convention.filter(|it| *it != Convention::default());
         let truth = self.references.truth;
         let case = Case {
-            scene: self.scene.name().to_owned(),
+            scene: self.scene.id().clone(),
             family: self.scene.family(),
             exposes: self.scene.exposes(),
             drawn: self.scene.drawn(),
-            rate: FrameRate::of_name(self.scene.name()),
+            rate: self.scene.id().rate,
             exposure: self.frame.exposure,
             filter: planned.filter().to_owned(),
             preset: planned.preset(),
@@ -341,7 +339,7 @@ fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Me
 fn name_scene(error: FilterError, scene: RunScene) -> FilterError {
     match error {
         FilterError::Command { filter, reason } => FilterError::Command {
-            filter: format!("{filter} on {}", scene.name()),
+            filter: format!("{filter} on {}", scene.id()),
             reason,
         },
         other => other,

@@ -150,7 +150,7 @@ impl SceneContext<'_> {
         match &error {
             Error::Filter(FilterError::Gpu { .. } | FilterError::Command { .. })
             | Error::Measure(_) => Ok(Failure {
-                scene: self.scene.name().to_owned(),
+                scene: self.scene.id().clone(),
                 filter: planned.name(),
                 alignment: planned.alignment,
                 reason: error.to_string(),

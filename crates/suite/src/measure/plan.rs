@@ -128,7 +128,7 @@ impl RunPlan {
         match self.engine_scenes.first() {
             Some(scene) if count > 1 => Err(Error::Usage(format!(
                 "{}: an engine drew one frame, and {count} are asked for; leave it out of a sequence",
-                scene.name
+                scene.id
             ))),
             _ => Ok(()),
         }

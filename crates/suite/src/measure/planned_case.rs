@@ -1,6 +1,6 @@
 //! A case before it is measured.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use filters::AdapterDescription;
 use frame::Alignment;
@@ -152,7 +152,7 @@ impl<'a> PlannedCase<'a> {
         }
         parts.extend(self.input().change().map(|change| change.replace('=', "_")));
         parts.retain(|part| !part.is_empty());
-        Path::new(scene.name()).join(parts.join("_"))
+        scene.id().folder().join(parts.join("_"))
     }
 
     /// Writes out all that determines the scores, beside the program, the scene, its frame and its truths; none for a filter that

@@ -77,7 +77,7 @@ impl SceneContext<'_> {
         let frame = self.render(advance)?;
         let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();
-        let label = format!("{} blurs and scores", self.scene.name());
+        let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
         let measured = monitor.watch(&label, |watch| self.measure(&due, &frame, advance, watch))?;
         let mut measured = measured.into_iter();

@@ -126,7 +126,7 @@ fn verify_arrivals(
     }
     let [folder, shown] = [&arrivals, &pack.path].map(|root| scene_folder(root, scene));
     // All that was unpacked is verified, whether or not a truth came along: a run makes truths of replicates.
-    let kept = KeptScene::find(&scene.name, scene.frame, (&folder, &shown));
+    let kept = KeptScene::find(scene.id.clone(), (&folder, &shown));
     let kept = kept.expect("a file of it was unpacked");
     verify_scene(scene, &kept, verification, plan.monitor)
 }
@@ -143,7 +143,7 @@ fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
 /// Lists what the plan's folder lacks of a scene's frame and truths.
 fn list_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> BTreeSet<String> {
     let (has_frame, has_truths) = find_kept(scene, plan, alignments, &plan.out);
-    let name = &scene.name;
+    let name = &scene.id;
     let frame = (!has_frame).then(|| format!("frame of {name}"));
     let truths = (alignments.iter().zip(has_truths)).filter(|(_, is_there)| !is_there);
     let truths = truths.map(|(alignment, _)| format!("{alignment} truth of {name}"));

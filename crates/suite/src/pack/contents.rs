@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use frame::{Alignment, ExrFile, read_exr_header, rung_file, truth_hash};
 
 use super::manifest::PackedFile;
+use tracer::SceneId;
+
 use crate::Error;
 use crate::render::ladders::{ladder_folder, needed_rungs};
 use crate::render::replicates::replicates_folder;
@@ -42,7 +44,7 @@ pub(super) fn list_contents(
 
 /// Lists the chosen scenes and their later frames; leaves out those that engines drew, which have their truths elsewhere.
 fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
-    let mut truths: BTreeMap<&str, BTreeMap<Alignment, Option<String>>> = BTreeMap::new();
+    let mut truths: BTreeMap<&SceneId, BTreeMap<Alignment, Option<String>>> = BTreeMap::new();
     for case in run.cases.iter().filter(|case| case.drawn.is_none()) {
         let alignment = case.alignment;
         let own = truths.entry(&case.scene).or_default();
@@ -58,22 +60,17 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
         }
     }
     let mut scenes = Vec::new();
-    for name in chosen {
-        let Some(own) = truths.get(name.as_str()) else {
-            continue;
-        };
+    let is_chosen = |scene: &SceneId| chosen.contains(&scene.to_string());
+    for (scene, own) in (truths.iter()).filter(|(scene, _)| is_chosen(scene)) {
         let alignments: BTreeSet<Alignment> =
             own.keys().copied().chain([run.common_alignment]).collect();
         let ladders: BTreeSet<Alignment> = (alignments.iter().copied())
-            .filter(|alignment| has_accumulation(run, name, *alignment))
+            .filter(|alignment| has_accumulation(run, scene, *alignment))
             .collect();
         for frame in 0..run.frames.count {
             let hash = |alignment| own.get(&alignment).cloned().flatten();
             scenes.push(KeptScene {
-                folder: match frame {
-                    0 => PathBuf::from(name),
-                    later => Path::new(name).join(format!("{later:04}")),
-                },
+                folder: scene.at_frame(frame).folder(),
                 // Cases of later frames are not in run.json.
                 truths: (alignments.iter())
                     .map(|&alignment| (alignment, hash(alignment).filter(|_| frame == 0)))
@@ -92,12 +89,12 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
 }
 
 /// Tells whether a run compares with accumulations of several sub-frames in a scene, for one alignment.
-fn has_accumulation(run: &Run, scene: &str, alignment: Alignment) -> bool {
+fn has_accumulation(run: &Run, scene: &SceneId, alignment: Alignment) -> bool {
     (run.cases.iter()).any(|case| {
         case.is_reference
             && case.filter == ACCUMULATE
             && !case.is_sharp()
-            && case.scene == scene
+            && case.scene == *scene
             && case.alignment == alignment
     })
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 use frame::Alignment;
 use metrics::Metric;
 use serde::{Deserialize, Serialize};
-use tracer::{Family, Seal};
+use tracer::{Family, SceneId};
 
 pub use self::cost::ResultCost;
 use crate::json::file::read_text;
@@ -51,7 +51,7 @@ pub struct Results {
 #[serde(deny_unknown_fields)]
 pub struct ResultScores {
     /// Name of the scene, without the seal.
-    pub scene: String,
+    pub scene: SceneId,
     /// Family of the scene.
     pub family: Option<Family>,
     /// Name of the filter alone.
@@ -82,10 +82,7 @@ impl Results {
             adapter: adapter_of(first),
             size: [first.render.width, first.render.height],
             samples_per_pixel: first.render.samples_per_pixel,
-            seal: first
-                .cases
-                .first()
-                .and_then(|case| Seal::split_name(&case.scene).1),
+            seal: first.cases.first().and_then(|case| case.scene.seal),
             costs: BTreeMap::new(),
             scores: Vec::new(),
         };
@@ -124,7 +121,7 @@ impl Results {
             ]
         };
         let render = &run.render;
-        let seal = Seal::split_name(&case.scene).1;
+        let seal = case.scene.seal;
         let size = [render.width, render.height];
         let own = texts(size, render.samples_per_pixel, &adapter_of(run), seal);
         let first = texts(self.size, self.samples_per_pixel, &self.adapter, self.seal);
@@ -219,11 +216,11 @@ impl Results {
     }
 
     /// Lists the scenes in their order.
-    pub fn scenes(&self) -> Vec<&str> {
+    pub fn scenes(&self) -> Vec<&SceneId> {
         let mut scenes = Vec::new();
         for own in &self.scores {
-            if !scenes.contains(&own.scene.as_str()) {
-                scenes.push(own.scene.as_str());
+            if !scenes.contains(&&own.scene) {
+                scenes.push(&own.scene);
             }
         }
         scenes
@@ -257,7 +254,10 @@ impl ResultScores {
         let scores = (Metric::OF_MEANS.into_iter())
             .filter_map(|metric| Some((metric, rounded(case.estimate(metric)?))));
         Self {
-            scene: Seal::split_name(&case.scene).0.to_owned(),
+            scene: SceneId {
+                seal: None,
+                ..case.scene.clone()
+            },
             family: case.family,
             filter: case.filter.clone(),
             name: case.name(),

@@ -7,7 +7,7 @@ use filters::{Convention, Value};
 use frame::Alignment;
 use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
 use serde::{Deserialize, Serialize};
-use tracer::{Family, FrameRate};
+use tracer::{Family, FrameRate, SceneId};
 
 use crate::InputFormat;
 use crate::filter::choice::overrides_text;
@@ -20,8 +20,8 @@ pub type Intervals = BTreeMap<Metric, Interval>;
 /// One filter preset, or one reference picture, on one scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Case {
-    /// Scene, with its variant and its frame rate: `sliding_panel@64px_45deg`, `fan@144fps`.
-    pub scene: String,
+    /// Scene.
+    pub scene: SceneId,
     /// The scene's family; none of a scene that an engine drew.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family: Option<Family>,
@@ -86,7 +86,7 @@ pub struct Drawn {
     /// Engine and version.
     pub engine: String,
     /// Scene of the suite that it drew.
-    pub scene: Option<String>,
+    pub scene: Option<SceneId>,
     /// Number of sub-frames that the truth is the mean of.
     pub subframes: u32,
     /// Distance that 99 % of the moving pixels move at most between two of them, in pixels.

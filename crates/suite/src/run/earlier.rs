@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
+use tracer::SceneId;
 
 use super::Run;
 use super::case::Case;
@@ -46,7 +47,7 @@ impl EarlierCases {
         };
         let planned = planned_names(plan);
         let is_left_out =
-            |scene: &str, name: &str| !planned.contains(&(scene.to_owned(), name.to_owned()));
+            |scene: &SceneId, name: &str| !planned.contains(&(scene.clone(), name.to_owned()));
         let left_out = (run.cases.iter())
             .filter(|case| !case.is_reference && is_left_out(&case.scene, &case.preset_name()))
             .count();
@@ -95,9 +96,9 @@ impl EarlierCases {
 
     /// Adds the kept cases to a finished run: behind its own cases of each scene, references first.
     pub fn add_to(self, run: &Run) -> Run {
-        let mut scenes: Vec<&str> = Vec::new();
+        let mut scenes: Vec<&SceneId> = Vec::new();
         for case in run.cases.iter().chain(&self.cases) {
-            if !scenes.contains(&case.scene.as_str()) {
+            if !scenes.contains(&&case.scene) {
                 scenes.push(&case.scene);
             }
         }
@@ -106,7 +107,7 @@ impl EarlierCases {
             .flat_map(|scene| {
                 let of_scene = move |is_reference| {
                     all().filter(move |case| {
-                        case.scene == *scene && case.is_reference == is_reference
+                        case.scene == **scene && case.is_reference == is_reference
                     })
                 };
                 of_scene(true).chain(of_scene(false)).cloned()
@@ -175,7 +176,7 @@ fn read_earlier_run(path: &Path) -> Result<Option<Run>, Error> {
 }
 
 /// Names the filters of the plan on each of its scenes.
-fn planned_names(plan: &RunPlan) -> HashSet<(String, String)> {
+fn planned_names(plan: &RunPlan) -> HashSet<(SceneId, String)> {
     let keys = planned_keys(plan).into_iter().filter(|key| !key.3);
     keys.map(|(scene, name, ..)| (scene, name)).collect()
 }
@@ -185,7 +186,7 @@ fn planned_keys(plan: &RunPlan) -> HashSet<CaseKey> {
         let planned = PlannedCase::all(plan, &plan.filters, scene);
         let keys = planned.iter().map(|case| {
             (
-                scene.name().to_owned(),
+                scene.id().clone(),
                 case.preset_name(),
                 case.alignment,
                 case.is_reference(),
@@ -199,7 +200,7 @@ fn planned_keys(plan: &RunPlan) -> HashSet<CaseKey> {
 /// Tells whether a scene of the plan has changed since the case was measured.
 fn is_outdated(plan: &RunPlan, case: &Case) -> bool {
     let mut scenes = plan.all_scenes().into_iter();
-    let scene = scenes.find(|scene| scene.name() == case.scene);
+    let scene = scenes.find(|scene| *scene.id() == case.scene);
     scene.is_some_and(|scene| scene.truth_hash(&plan.render, case.alignment) != case.truth_hash)
 }
 

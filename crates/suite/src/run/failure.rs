@@ -2,14 +2,15 @@
 
 use frame::Alignment;
 use serde::{Deserialize, Serialize};
+use tracer::SceneId;
 
 use crate::Error;
 
 /// One filter preset that failed on one scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
-    /// Scene, with its variant.
-    pub scene: String,
+    /// Scene.
+    pub scene: SceneId,
     /// `filter:preset`, and behind that the form of its input where that is not the default.
     pub filter: String,
     /// The shutter alignment that the filter declares.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use frame::Alignment;
 use metrics::{Metric, SequenceScores};
 use serde::{Deserialize, Serialize};
-use tracer::FrameRate;
+use tracer::SceneId;
 
 use super::case::Intervals;
 
@@ -16,8 +16,8 @@ pub const MOST_FRAMES: u32 = 1000;
 /// The pictures of one filter preset, or of one reference, over all frames of a scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Sequence {
-    /// Scene, with its variant.
-    pub scene: String,
+    /// Scene.
+    pub scene: SceneId,
     /// `filter:preset`, and behind that the form of its input where that is not the default.
     pub filter: String,
     /// True for a reference picture.
@@ -73,9 +73,9 @@ impl Default for Frames {
 
 impl Frames {
     /// Returns the frames per second at which a scene is shown: those of its frame rate, or the run's for a scene as its file says.
-    pub fn shown(&self, scene: &str) -> f64 {
-        let rate = FrameRate::of_name(scene).unwrap_or_default();
-        match rate.per_second == FrameRate::WRITTEN.per_second {
+    pub fn shown(&self, scene: &SceneId) -> f64 {
+        let rate = scene.rate.unwrap_or_default();
+        match rate.per_second == tracer::FrameRate::WRITTEN.per_second {
             true => self.per_second,
             false => rate.per_second,
         }

@@ -5,7 +5,7 @@ use metrics::Metric;
 
 use super::scene_mean::{TWO_SIDED, plain_mean};
 use crate::{Case, InputFormat};
-use tracer::FrameRate;
+use tracer::{FrameRate, SceneId};
 
 /// A filter preset in the ranking of its shutter.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub struct RankedFilter {
     /// Number of scenes that have a score.
     pub scenes: usize,
     /// Scene with the largest score, and that score.
-    pub worst: (String, f64),
+    pub worst: (SceneId, f64),
     /// Number of ranked presets of the filter, this one included.
     pub presets: usize,
 }
@@ -37,7 +37,7 @@ pub struct RankedFilter {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankedScore {
     /// Name of the scene.
-    pub scene: String,
+    pub scene: SceneId,
     /// Name of the filter alone.
     pub filter: String,
     /// `jump_flood:paper`, followed by what is not as usual.
@@ -108,7 +108,7 @@ impl RankedScore {
 pub(crate) fn rank_by_score(scores: &[RankedScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for score in scores {
-        let rate = FrameRate::of_name(&score.scene);
+        let rate = score.scene.rate;
         let group = (groups.iter()).position(|group| {
             let ranked = &group[0].ranked;
             ranked.alignment == score.alignment && ranked.rate == rate
@@ -134,12 +134,12 @@ fn new_entry(score: &RankedScore) -> Entry {
             name: score.name.clone(),
             filter: score.filter.clone(),
             alignment: score.alignment,
-            rate: FrameRate::of_name(&score.scene),
+            rate: score.scene.rate,
             ranks: [1, 1],
             mean: 0.0,
             interval: None,
             scenes: 0,
-            worst: (String::new(), 0.0),
+            worst: (SceneId::default(), 0.0),
             presets: 1,
         },
         scores: vec![score.clone()],
@@ -245,7 +245,7 @@ mod tests {
         .flat_map(|(name, values)| {
             (["fan", "flag", "creep"].into_iter().zip(values)).map(move |(scene, value)| {
                 RankedScore {
-                    scene: scene.to_owned(),
+                    scene: SceneId::new(scene, None),
                     ..score(name, value)
                 }
             })
@@ -262,7 +262,7 @@ mod tests {
 
     fn score(name: &str, value: f64) -> RankedScore {
         RankedScore {
-            scene: "fan".to_owned(),
+            scene: SceneId::new("fan", None),
             filter: name.to_owned(),
             name: format!("{name}:default"),
             alignment: Alignment::Centred,

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, FileError};
 
+use tracer::SceneId;
+
 use crate::Error;
 use crate::render::ladders::ladder_folder;
 use crate::render::replicates::replicates_folder;
@@ -11,10 +13,8 @@ use crate::render::replicates::replicates_folder;
 /// The kept frame, truths, replicates and ladders of one scene, or of a later frame of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeptScene {
-    /// Name of the scene, with its variant.
-    pub scene: String,
-    /// Frame of the scene's own clock.
-    pub frame: u32,
+    /// Scene, of which the frame may be a later one.
+    pub scene: SceneId,
     /// Folder of its files.
     pub folder: PathBuf,
     /// Name of this folder in messages: that in a pack, for files that were unpacked somewhere.
@@ -32,16 +32,18 @@ pub fn list_kept_scenes(root: &Path, shown: &Path) -> Result<Vec<KeptScene>, Err
     let mut kept = Vec::new();
     for (scene, folder) in list_folders(root)? {
         let shown = shown.join(&scene);
-        let own = KeptScene::find(&scene, 0, (&folder, &shown));
+        let Ok(id) = scene.parse::<SceneId>() else {
+            continue;
+        };
+        let own = KeptScene::find(id, (&folder, &shown));
         let mut later: Vec<KeptScene> = list_folders(&folder)?
             .into_iter()
-            .filter(|(name, _)| name.len() >= 4)
             .filter_map(|(name, folder)| {
-                let folders = (&*folder, &*shown.join(&name));
-                KeptScene::find(&scene, name.parse().ok()?, folders)
+                let id = format!("{scene}/{name}").parse().ok()?;
+                KeptScene::find(id, (&folder, &shown.join(&name)))
             })
             .collect();
-        later.sort_by_key(|kept| kept.frame);
+        later.sort_by_key(|kept| kept.scene.frame);
         kept.extend(own.into_iter().chain(later));
     }
     match kept.is_empty() {
@@ -55,7 +57,7 @@ pub fn list_kept_scenes(root: &Path, shown: &Path) -> Result<Vec<KeptScene>, Err
 
 impl KeptScene {
     /// Finds what is kept in the folder of a scene; none where nothing of a render lies there.
-    pub(crate) fn find(scene: &str, frame: u32, (folder, shown): (&Path, &Path)) -> Option<Self> {
+    pub(crate) fn find(scene: SceneId, (folder, shown): (&Path, &Path)) -> Option<Self> {
         let has = |alignment: &Alignment| {
             folder.join(format!("truth_{alignment}.exr")).is_file()
                 || replicates_folder(folder, *alignment).is_dir()
@@ -63,8 +65,7 @@ impl KeptScene {
         };
         let alignments: Vec<Alignment> = Alignment::ALL.into_iter().filter(has).collect();
         (!alignments.is_empty() || folder.join("frame.exr").is_file()).then(|| Self {
-            scene: scene.to_owned(),
-            frame,
+            scene,
             folder: folder.to_owned(),
             shown: shown.to_owned(),
             alignments,

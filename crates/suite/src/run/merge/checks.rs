@@ -3,6 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use frame::Alignment;
+use tracer::SceneId;
 
 use super::run_part::RunPart;
 use crate::Error;
@@ -11,8 +12,8 @@ use crate::run::failure::Failure;
 
 /// Refuses two cases of one scene and shutter that were measured against different truths, or with different exposures.
 pub(super) fn check_truths(cases: &[(Case, &RunPart)]) -> Result<(), Error> {
-    let mut truths: HashMap<(&str, Alignment), &(Case, &RunPart)> = HashMap::new();
-    let mut exposures: HashMap<&str, &(Case, &RunPart)> = HashMap::new();
+    let mut truths: HashMap<(&SceneId, Alignment), &(Case, &RunPart)> = HashMap::new();
+    let mut exposures: HashMap<&SceneId, &(Case, &RunPart)> = HashMap::new();
     for found in cases {
         let (case, part) = found;
         let (first, first_part) = truths.entry((&case.scene, case.alignment)).or_insert(found);
@@ -46,9 +47,9 @@ pub(super) fn check_complete(
             .map(|(case, _)| case)
             .filter(|case| case.drawn.is_none())
     };
-    let scenes: BTreeSet<&str> = rendered().map(|case| case.scene.as_str()).collect();
+    let scenes: BTreeSet<&SceneId> = rendered().map(|case| &case.scene).collect();
     let mut names: BTreeSet<(bool, String, Alignment)> = BTreeSet::new();
-    let mut found: BTreeSet<(&str, bool, String, Alignment)> = BTreeSet::new();
+    let mut found: BTreeSet<(&SceneId, bool, String, Alignment)> = BTreeSet::new();
     for case in rendered() {
         names.insert((case.is_reference, case.name(), case.alignment));
         found.insert((&case.scene, case.is_reference, case.name(), case.alignment));

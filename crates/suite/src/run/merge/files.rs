@@ -60,12 +60,11 @@ fn check_pictures(part: &RunPart, files: &Files) -> Result<(), Error> {
 }
 
 /// Lists the cases of a run, and of all frames of its sequences, each as the folder of its scene, its own folder, and its shutter.
-fn list_cases(run: &Run) -> impl Iterator<Item = (&Path, &Path, Alignment)> {
-    let cases =
-        (run.cases.iter()).map(|case| (Path::new(&case.scene), &*case.folder, case.alignment));
+fn list_cases(run: &Run) -> impl Iterator<Item = (PathBuf, &Path, Alignment)> {
+    let cases = (run.cases.iter()).map(|case| (case.scene.folder(), &*case.folder, case.alignment));
     let frames = run.sequences.iter().flat_map(|sequence| {
         let frames = sequence.frames.iter();
-        frames.map(|frame| (&*frame.scene, &*frame.folder, sequence.alignment))
+        frames.map(|frame| (frame.scene.clone(), &*frame.folder, sequence.alignment))
     });
     cases.chain(frames)
 }
@@ -83,10 +82,10 @@ fn list_folders(part: &RunPart) -> BTreeSet<PathBuf> {
     let mut folders: BTreeSet<PathBuf> = BTreeSet::new();
     for (scene, case, _) in list_cases(&part.run) {
         for alignment in Alignment::ALL {
-            folders.insert(replicates_folder(scene, alignment));
+            folders.insert(replicates_folder(&scene, alignment));
             folders.insert(scene.join(ladder_folder(alignment)));
         }
-        folders.extend([scene, case].map(Path::to_owned));
+        folders.extend([scene, case.to_owned()]);
     }
     folders
 }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use frame::Alignment;
+use tracer::SceneId;
 
 use super::case_order::CaseOrder;
 use super::checks::{check_complete, check_truths};
@@ -169,7 +170,7 @@ fn text_of(one: &impl serde::Serialize) -> String {
     serde_json::to_string(one).expect("a run is plain data")
 }
 
-fn sequence_key(sequence: &Sequence) -> (String, String, Alignment, bool) {
+fn sequence_key(sequence: &Sequence) -> (SceneId, String, Alignment, bool) {
     (
         sequence.scene.clone(),
         sequence.filter.clone(),
