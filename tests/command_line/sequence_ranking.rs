@@ -3,7 +3,7 @@
 use std::fs;
 
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use suite::{Case, RANKED_BY, RankedSequence, Run, rank_sequences, rank_sequences_on};
+use suite::{RANKED_BY, RankedSequence, Run, rank_sequences, rank_sequences_on};
 use tracer::SceneId;
 
 use crate::bench::{Bench, assert_done, stdout};
@@ -26,10 +26,9 @@ fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
     for scene in 0..6 {
         let name = SceneId::new(format!("scene{scene}"), None);
         for case in run.cases.iter().filter(|case| case.scene == "plate") {
-            made.cases.push(Case {
-                scene: name.clone(),
-                ..case.clone()
-            });
+            let mut case = case.clone();
+            case.id.scene.clone_from(&name);
+            made.cases.push(case);
         }
         for own in run.sequences.iter().filter(|own| own.scene == "plate") {
             let mut own = own.clone();

@@ -2,8 +2,8 @@
 
 use cli::{Programs, select_filters, select_scenes};
 use suite::{
-    Check, Decision, Finding, InputFormat, Level, Monitor, Outcome, RunBounds, RunPlan, check,
-    judge, measure_scenes, read_bounds, size_for_bounds,
+    Check, Decision, Finding, Level, Outcome, RunBounds, RunPlan, check, judge, measure_scenes,
+    read_bounds, size_for_bounds,
 };
 use tests::open_gpu;
 use tracer::{RenderSettings, SceneId};
@@ -36,11 +36,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
     let (out, _own) = lock_truths();
     let plan = RunPlan {
         scenes: choices.into_iter().map(|choice| choice.scene).collect(),
-        engine_scenes: Vec::new(),
         filters,
-        inputs: vec![InputFormat::default()],
-        frames: suite::Frames::default(),
-        jitter_frames: 0,
         render: RenderSettings {
             width,
             height,
@@ -50,11 +46,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
         intervals: true,
         // No limit is on equivalent sub-frames; `check` renders none either.
         ladders: false,
-        no_cache: false,
-        common: None,
-        part: suite::Part::default(),
-        truths: None,
-        monitor: Monitor::SILENT,
+        ..RunPlan::default()
     };
     let finished = measure_scenes(&plan, Some(&gpu), Vec::new()).unwrap();
     let checked = check(&finished, judge(&finished, &bounds), Vec::new());

@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use cli::{SceneChoice, select_scenes};
 use filters::Gpu;
 use suite::{
-    Error, FilterChoice, InputFormat, Monitor, Run, RunBounds, RunPlan, measure_scenes,
-    read_bounds, size_for_bounds,
+    Error, FilterChoice, Run, RunBounds, RunPlan, measure_scenes, read_bounds, size_for_bounds,
 };
 use tests::scenes;
 use tracer::{RenderSettings, Scene};
@@ -92,11 +91,7 @@ impl Bench {
     ) -> Result<Run, Error> {
         let plan = RunPlan {
             scenes: vec![scene.clone()],
-            engine_scenes: Vec::new(),
             filters,
-            inputs: vec![InputFormat::default()],
-            frames: suite::Frames::default(),
-            jitter_frames: 0,
             render: RenderSettings {
                 seed,
                 ..self.render
@@ -105,11 +100,7 @@ impl Bench {
             intervals: true,
             // No limit is on equivalent sub-frames.
             ladders: false,
-            no_cache: false,
-            common: None,
-            part: suite::Part::default(),
-            truths: None,
-            monitor: Monitor::SILENT,
+            ..RunPlan::default()
         };
         measure_scenes(&plan, Some(&self.gpu), Vec::new())
     }

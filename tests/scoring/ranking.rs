@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use cli::run_table;
 use frame::Alignment;
 use metrics::{ImageMetric, Measured, Metric, Reference, Region, Scores};
-use suite::{Case, FORMAT, InputFormat, Overall, Run, overall};
+use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
 use tracer::{Family, RenderSettings, SceneId};
 
@@ -59,23 +59,25 @@ fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common)
     moving.flip = Measured::score(common * SCENES[scene], 0.0);
     let (filter, preset) = name.split_once(':').unwrap_or((name, ""));
     Case {
-        scene: SceneId::new(format!("scene_{scene}"), None),
+        id: CaseId {
+            scene: SceneId::new(format!("scene_{scene}"), None),
+            filter: filter.to_owned(),
+            preset: preset.to_owned(),
+            is_reference: bar,
+            input: InputFormat::default(),
+            overrides: BTreeMap::new(),
+            alignment,
+        },
         family: Some(Family::Translation),
         drawn: None,
         exposes: "nothing".to_owned(),
         rate: None,
         exposure: 0.5,
-        filter: filter.to_owned(),
-        preset: preset.to_owned(),
-        is_reference: bar,
-        input: InputFormat::default(),
         parameters: BTreeMap::new(),
-        overrides: BTreeMap::new(),
         reference_width: None,
         command: None,
         convention: None,
         nonlinearity: None,
-        alignment,
         truth_hash: alignment.to_string(),
         scores,
         intervals: BTreeMap::new(),

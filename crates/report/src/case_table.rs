@@ -2,8 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::filter_id::FilterId;
-use suite::{Case, Run};
+use suite::{Case, FilterId, Run};
 use tracer::SceneId;
 
 /// A run's cases with a row per filter and a column per scene: it finds a case without a walk over all.
@@ -33,7 +32,7 @@ impl<'a> CaseTable<'a> {
             places: HashMap::new(),
         };
         for (index, case) in run.cases.iter().enumerate() {
-            let filter = FilterId::of(case);
+            let filter = case.filter_id();
             let row = table.rows.entry(filter.clone()).or_default();
             if row.is_empty() {
                 table.filters.push(filter.clone());

@@ -5,10 +5,10 @@ use maud::{Markup, html};
 use metrics::Metric;
 
 use crate::case_table::CaseTable;
-use crate::filter_id::{FilterId, case_anchor};
+use crate::filter_id::{case_anchor, section_anchor};
 use crate::numbers::value_text;
 use crate::overview::costs::{cost_of, cost_text};
-use suite::{Bench, Case};
+use suite::{Bench, Case, FilterId};
 
 /// Scores beside the error in the table of scenes.
 const SCORES: [(Metric, &str); 6] = [
@@ -39,7 +39,7 @@ pub fn filter_section(
             .all(|parameter| first.parameters.contains_key(&parameter.name))
     });
     html! {
-        article.filter id=(filter.section_anchor()) data-title=(filter.name) {
+        article.filter id=(section_anchor(filter)) data-title=(filter.name) {
             noscript {
                 div.case_head {
                     h2 tabindex="-1" { (filter.name) }

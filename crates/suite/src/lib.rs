@@ -10,6 +10,7 @@ mod compare;
 mod error;
 mod filter;
 mod folder;
+mod identity;
 mod import;
 mod ingest;
 mod json;
@@ -41,7 +42,7 @@ pub use capture::folder::Capture;
 pub use compare::{
     Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
     Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
-    compare_sizes, compare_with_last, filter_label, pair_cases, rank_changes, score_change,
+    compare_sizes, compare_with_last, pair_cases, rank_changes, score_change,
 };
 pub use error::Error;
 pub use filter::border::Border;
@@ -62,6 +63,7 @@ pub use folder::numbered::{find_numbered, numbered_file};
 pub use folder::placed_file::MOST_TAKEN_BYTES;
 pub use folder::scene_folder::scene_folder;
 pub use folder::tracked::refuse_tracked;
+pub use identity::{CaseId, FilterId};
 pub use import::{ImportPlan, Imported, Motions, Up, import};
 pub use ingest::engine_scene::{EngineScene, INGESTED_FILE, engine_name};
 pub use ingest::{Ingested, ingest};

@@ -10,8 +10,8 @@ use cli::{Programs, select_filters, select_scenes};
 use filters::Gpu;
 use metrics::Metric;
 use suite::{
-    Case, Check, Decision, FilterChoice, InputFormat, Monitor, Run, RunBounds, RunPlan, check,
-    judge, measure_scenes, open_gpu,
+    Case, Check, Decision, FilterChoice, Monitor, Run, RunBounds, RunPlan, check, judge,
+    measure_scenes, open_gpu,
 };
 use tests::filter_folder::copy_changed_filter;
 use tests::limits::calibrate_scene;
@@ -99,11 +99,7 @@ impl Bench {
             .collect();
         let plan = RunPlan {
             scenes,
-            engine_scenes: Vec::new(),
             filters,
-            inputs: vec![InputFormat::default()],
-            frames: suite::Frames::default(),
-            jitter_frames: 0,
             render: RenderSettings {
                 width: 128,
                 height: 72,
@@ -116,11 +112,7 @@ impl Bench {
             intervals: true,
             // No limit is on equivalent sub-frames.
             ladders: false,
-            no_cache: false,
-            common: None,
-            part: suite::Part::default(),
-            truths: None,
-            monitor: Monitor::SILENT,
+            ..RunPlan::default()
         };
         measure_scenes(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
     }

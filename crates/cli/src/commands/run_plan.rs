@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use frame::FrameOptions;
 use suite::{
     BOUNDS_FILE, BoundsFile, Case, Claim, EngineScene, Error, FEWEST_REPLICATES, FilterChoice,
-    Frames, RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
+    RunBounds, RunPlan, SceneBounds, Sharing, claim, engine_name, read_bounds,
     read_bounds_beside_scenes, read_bounds_file,
 };
 use tracer::{Location, RenderSettings, Scene, SceneId};
@@ -46,16 +46,12 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         filters,
         inputs: args.forms.input_forms().one_by_one(),
         jitter_frames: args.jitter_frames,
-        frames: Frames::default(),
         render: make_render_settings(&args.scenes, size, args.replicates)?,
         out,
-        intervals: false,
-        ladders: true,
         no_cache: args.no_cache,
-        common: None,
-        part: suite::Part::default(),
         truths: args.truths.clone(),
         monitor: make_monitor(),
+        ..RunPlan::default()
     };
     if let Some(truths) = &plan.truths {
         check_truths(truths)?;

@@ -114,7 +114,7 @@ const LAG: &str = "lag behind the frame";
 /// the frame.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
-    let names: Vec<String> = references().map(Case::name).collect();
+    let names: Vec<String> = references().map(|case| case.name()).collect();
     let names = list_once(names.iter().map(String::as_str));
     if names.is_empty() {
         return String::new();

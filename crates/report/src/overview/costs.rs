@@ -8,7 +8,8 @@ use metrics::Metric;
 
 use super::pareto::{Point, pareto_chart};
 use crate::case_table::CaseTable;
-use crate::filter_id::{FilterId, mean};
+use crate::filter_id::mean;
+use suite::FilterId;
 use suite::read_text;
 use suite::{BASELINE, BENCH_FORMAT, CaseCost, GROWTH_FROM, REACHES, Spread};
 use suite::{Bench, Error, SIDES};
@@ -169,7 +170,7 @@ fn points(table: &CaseTable, bench: &Bench) -> Vec<Point> {
     let timed = table.filters.iter().filter_map(|filter| {
         let cost = cost_of(table, Some(bench), filter)?;
         Some(Point {
-            title: filter.title(),
+            title: filter.to_string(),
             milliseconds: 1e3 * cost.seconds.median,
             quartiles: [cost.seconds.lower_quartile, cost.seconds.upper_quartile]
                 .map(|seconds| 1e3 * seconds),
@@ -183,7 +184,7 @@ fn points(table: &CaseTable, bench: &Bench) -> Vec<Point> {
 fn references(table: &CaseTable) -> Vec<(String, f64)> {
     let all = table.filters.iter();
     all.filter(|filter| filter.is_reference)
-        .filter_map(|own| Some((own.title(), mean_error(table, own)?)))
+        .filter_map(|own| Some((own.to_string(), mean_error(table, own)?)))
         .collect()
 }
 
@@ -197,7 +198,7 @@ fn mean_error(table: &CaseTable, filter: &FilterId) -> Option<f64> {
 fn find_timed<'a>(table: &CaseTable, bench: &'a Bench) -> Vec<(String, &'a CaseCost)> {
     let timed = table.filters.iter();
     timed
-        .filter_map(|filter| Some((filter.title(), cost_of(table, Some(bench), filter)?)))
+        .filter_map(|filter| Some((filter.to_string(), cost_of(table, Some(bench), filter)?)))
         .collect()
 }
 

@@ -13,7 +13,7 @@ use metrics::Metric;
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
-use crate::filter_id::{FilterId, case_anchor};
+use crate::filter_id::{case_anchor, section_anchor};
 use crate::numbers::counted;
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
@@ -21,7 +21,7 @@ use costs::costs;
 use headlines::{TABLE_SCORES, TableScore};
 use score_table::score_table;
 use sequences::sequence_winners;
-use suite::{Bench, Finding, Level, Outcome, RankedFilter, lag_text, rank_for_summary};
+use suite::{Bench, FilterId, Finding, Level, Outcome, RankedFilter, lag_text, rank_for_summary};
 use tracer::SceneId;
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
@@ -179,7 +179,7 @@ fn id_of(ranked: &RankedFilter) -> FilterId {
 
 /// Links a filter to its section.
 fn link(ranked: &RankedFilter) -> Markup {
-    html! { a href=(format!("#{}", id_of(ranked).section_anchor())) { (ranked.name) } }
+    html! { a href=(format!("#{}", section_anchor(&id_of(ranked)))) { (ranked.name) } }
 }
 
 fn panel(

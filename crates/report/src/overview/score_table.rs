@@ -9,8 +9,8 @@ use super::headlines::TableScore;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
-use crate::filter_id::{FilterId, list_alignments, mean, mean_floor};
-use suite::{Bench, Case, Level, Outcome, Overall, list_summarized};
+use crate::filter_id::{list_alignments, mean, mean_floor, section_anchor};
+use suite::{Bench, Case, FilterId, Level, Outcome, Overall, list_summarized};
 use tracer::FrameRate;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
@@ -39,7 +39,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
         .filter(|own| own.metric == metric && Some(own.rate) == rate)
         .collect();
     let row = |filter: &FilterId| {
-        let overall = means.iter().find(|own| filter.is_of(own)).copied();
+        let overall = means.iter().find(|own| own.filter_id() == *filter).copied();
         let of_rate = |case: &Case| rate.is_none_or(|rate| case.rate == rate);
         let scores = (table.cases_of(filter)).filter(|(_, case)| of_rate(case));
         let only = mean(scores.filter_map(|(_, case)| case.estimate(metric)));
@@ -181,7 +181,7 @@ fn is_failing(table: &CaseTable, views: &[CaseView], filter: &FilterId) -> bool 
 fn name(metric: Metric, filter: &FilterId) -> Markup {
     html! {
         @if filter.is_reference { (filter.name) }
-        @else { a href=(format!("#{}", filter.section_anchor())) { (breakable(&filter.name)) } }
+        @else { a href=(format!("#{}", section_anchor(filter))) { (breakable(&filter.name)) } }
         @if metric.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
     }
 }

@@ -4,7 +4,7 @@ use metrics::{Ideal, Measured, Metric};
 use serde::Serialize;
 use tracer::SceneId;
 
-use super::pairing::{Pair, filter_label};
+use super::pairing::Pair;
 
 /// A score that both runs have.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -116,7 +116,7 @@ impl Change {
         let interval = uncertainty.map_or([worse - floor, worse + floor], |own| own.interval);
         Some(Self {
             scene: pair.first.scene.clone(),
-            filter: filter_label(pair.first),
+            filter: pair.first.filter_id().to_string(),
             bar: pair.first.is_reference,
             metric,
             first: first.value,

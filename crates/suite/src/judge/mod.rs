@@ -58,9 +58,5 @@ pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
 
 /// Finds the sequence that a case is the first frame of.
 pub(crate) fn find_sequence<'a>(run: &'a Run, case: &Case) -> Option<&'a Sequence> {
-    let name = case.name();
-    run.sequences.iter().find(|own| {
-        !own.is_reference
-            && (own.scene == case.scene && own.filter == name && own.alignment == case.alignment)
-    })
+    run.sequences.iter().find(|own| own.is_of(case))
 }

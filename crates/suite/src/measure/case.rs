@@ -255,7 +255,7 @@ impl CaseContext<'_> {
         };
         let ended = self.plan.monitor.ended;
         ended("common truth");
-        let folder = planned.folder(self.scene);
+        let folder = planned.id.folder();
         let files = write_case(
             &self.plan.out.join(&folder),
             self.frame,
@@ -273,23 +273,17 @@ impl CaseContext<'_> {
         let convention = convention.filter(|it| *it != Convention::default());
         let truth = self.references.truth;
         let case = Case {
-            scene: self.scene.id().clone(),
+            id: planned.id.clone(),
             family: self.scene.family(),
             exposes: self.scene.exposes(),
             drawn: self.scene.drawn(),
             rate: self.scene.id().rate,
             exposure: self.frame.exposure,
-            filter: planned.filter().to_owned(),
-            preset: planned.preset(),
-            is_reference: planned.is_reference(),
-            input: planned.input(),
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
-            overrides: choice.map_or_else(BTreeMap::new, |choice| choice.overrides.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),
             command: command.map(Command::words),
             convention: convention.map(Convention::resolved),
             nonlinearity: measured.nonlinearity,
-            alignment: truth.alignment,
             truth_hash: truth.provenance.content_hash.clone(),
             common,
             jitter: measured.jitter,

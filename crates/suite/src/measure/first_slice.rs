@@ -6,14 +6,11 @@ use std::time::Instant;
 use frame::Alignment;
 use tracer::{Progress, RenderSettings, Scene, TruthTracer, trace_frame};
 
-use super::part::Part;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
-use crate::filter::input_format::InputFormat;
 use crate::render::settings::SIDES;
-use crate::run::sequence::Frames;
 
 /// Pixels of the small picture.
 const PIXELS: f64 = 1500.0;
@@ -84,21 +81,13 @@ pub(super) fn measure_first_cases(scene: &SceneContext) -> Option<(f64, usize)> 
     let first = filters.find(|choice| choice.filter.command.is_none())?;
     let folder = tempfile::tempdir().ok()?;
     let plan = RunPlan {
-        scenes: Vec::new(),
-        engine_scenes: Vec::new(),
-        frames: Frames::default(),
         filters: vec![first.clone()],
-        inputs: vec![InputFormat::default()],
         jitter_frames: scene.plan.jitter_frames,
         render: small_settings(&scene.plan.render),
         out: folder.path().to_owned(),
-        intervals: false,
         ladders: scene.plan.ladders,
-        no_cache: false,
-        common: None,
-        part: Part::default(),
-        truths: None,
         monitor: scene.plan.monitor.without_progress(),
+        ..RunPlan::default()
     };
     let filters = plan.scaled_filters();
     let scene = SceneContext {

@@ -236,13 +236,13 @@ impl SceneContext<'_> {
         let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
             return Vec::new();
         };
-        let alignments = [planned.alignment, self.plan.common_alignment()];
+        let alignments = [planned.id.alignment, self.plan.common_alignment()];
         let key = |ladder: &bool| keys.case(&own, alignments, *ladder);
         ladders.iter().map(key).collect()
     }
 
     pub(super) fn case_record(&self, planned: &PlannedCase) -> PathBuf {
-        let folder = self.plan.out.join(planned.folder(self.scene));
+        let folder = self.plan.out.join(planned.id.folder());
         folder.join(CASE_RECORD)
     }
 

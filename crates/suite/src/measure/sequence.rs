@@ -70,11 +70,7 @@ pub(super) fn measure_sequences(
 impl FrameCases {
     /// Lists the cases of all frames that are like one of the first; none where a frame lacks it.
     fn all_of<'a>(&'a self, first: &'a Case) -> Option<Vec<&'a Case>> {
-        let like = |case: &&Case| {
-            case.is_reference == first.is_reference
-                && case.name() == first.name()
-                && case.alignment == first.alignment
-        };
+        let like = |case: &&Case| case.filter_id() == first.filter_id();
         (self.cases.iter())
             .map(|cases| cases.iter().find(like))
             .collect()

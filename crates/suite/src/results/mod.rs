@@ -2,7 +2,7 @@
 
 mod cost;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use frame::Alignment;
@@ -86,7 +86,7 @@ impl Results {
             costs: BTreeMap::new(),
             scores: Vec::new(),
         };
-        let mut known = BTreeSet::new();
+        let mut known = HashSet::new();
         for run in runs {
             refuse_failures(&run.failures)?;
             for case in &run.cases {
@@ -95,11 +95,10 @@ impl Results {
                 if case.is_reference || !is_plain {
                     continue;
                 }
-                if !known.insert((case.scene.clone(), case.name())) {
+                if !known.insert(&case.id) {
                     return Err(Error::Usage(format!(
-                        "{} / {} is in two runs; allowed: each case once",
-                        case.scene,
-                        case.name()
+                        "{} is in two runs; allowed: each case once",
+                        case.id
                     )));
                 }
                 results.scores.push(ResultScores::of(case));

@@ -9,12 +9,11 @@ use tracer::SceneId;
 
 use super::Run;
 use super::case::Case;
-use super::case_key::{CaseKey, key};
 use super::failure::Failure;
 use super::sequence::{Frames, Sequence};
+use crate::identity::CaseId;
 use crate::measure::plan::RunPlan;
 use crate::measure::planned_case::PlannedCase;
-use crate::measure::run_scene::RunScene;
 use crate::render::settings::list_settings;
 use crate::stats::overall::overall;
 use crate::{Error, PROGRAM};
@@ -45,11 +44,14 @@ impl EarlierCases {
         let Some(run) = read_earlier_run(&path)? else {
             return Ok(None);
         };
-        let planned = planned_names(plan);
-        let is_left_out =
-            |scene: &SceneId, name: &str| !planned.contains(&(scene.clone(), name.to_owned()));
+        let planned = list_planned(plan);
+        let names: HashSet<(&SceneId, String)> = (planned.iter())
+            .filter(|id| !id.is_reference)
+            .map(|id| (&id.scene, id.name()))
+            .collect();
+        let is_left_out = |scene: &SceneId, name: &str| !names.contains(&(scene, name.to_owned()));
         let left_out = (run.cases.iter())
-            .filter(|case| !case.is_reference && is_left_out(&case.scene, &case.preset_name()))
+            .filter(|case| !case.is_reference && is_left_out(&case.scene, &case.of_preset().name()))
             .count();
         if left_out == 0 {
             return Ok(None);
@@ -66,8 +68,8 @@ impl EarlierCases {
             )));
         }
         plan.common = Some(run.common_alignment);
-        let planned = planned_keys(plan);
-        let kept = (run.cases.into_iter()).filter(|case| !planned.contains(&key(case)));
+        let planned = list_planned(plan);
+        let kept = (run.cases.into_iter()).filter(|case| !planned.contains(&case.of_preset()));
         let (cases, outdated): (Vec<Case>, Vec<Case>) =
             kept.partition(|case| !is_outdated(plan, case));
         let failures = (run.failures.into_iter())
@@ -175,26 +177,11 @@ fn read_earlier_run(path: &Path) -> Result<Option<Run>, Error> {
     })
 }
 
-/// Names the filters of the plan on each of its scenes.
-fn planned_names(plan: &RunPlan) -> HashSet<(SceneId, String)> {
-    let keys = planned_keys(plan).into_iter().filter(|key| !key.3);
-    keys.map(|(scene, name, ..)| (scene, name)).collect()
-}
-
-fn planned_keys(plan: &RunPlan) -> HashSet<CaseKey> {
-    let of_scene = |scene: RunScene| {
-        let planned = PlannedCase::all(plan, &plan.filters, scene);
-        let keys = planned.iter().map(|case| {
-            (
-                scene.id().clone(),
-                case.preset_name(),
-                case.alignment,
-                case.is_reference(),
-            )
-        });
-        keys.collect::<Vec<_>>()
-    };
-    plan.all_scenes().into_iter().flat_map(of_scene).collect()
+/// Lists the presets of the plan on each of its scenes.
+fn list_planned(plan: &RunPlan) -> HashSet<CaseId> {
+    let of_scene = |scene| PlannedCase::all(plan, &plan.filters, scene);
+    let planned = plan.all_scenes().into_iter().flat_map(of_scene);
+    planned.map(|case| case.id.of_preset()).collect()
 }
 
 /// Tells whether a scene of the plan has changed since the case was measured.

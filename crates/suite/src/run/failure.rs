@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use tracer::SceneId;
 
 use crate::Error;
+use crate::identity::FilterId;
 
 /// One filter preset that failed on one scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,6 +18,17 @@ pub struct Failure {
     pub alignment: Alignment,
     /// The error, and its place.
     pub reason: String,
+}
+
+impl Failure {
+    /// Returns the identity of the filter.
+    pub fn filter_id(&self) -> FilterId {
+        FilterId {
+            is_reference: false,
+            name: self.filter.clone(),
+            alignment: self.alignment,
+        }
+    }
 }
 
 /// Returns the error that ends a command whose run has failures.

@@ -56,12 +56,11 @@ fn parse(text: &str) -> Result<Run, String> {
     run.sequences.iter().try_for_each(check_sequence)?;
     let mut folders = HashSet::new();
     for case in &run.cases {
-        check_case(case).map_err(|reason| format!("{} / {}: {reason}", case.scene, case.name()))?;
+        check_case(case).map_err(|reason| format!("{}: {reason}", case.id))?;
         if !folders.insert(&case.folder) {
             return Err(format!(
-                "{} / {}: folder \"{}\" belongs to two cases; allowed: one case each",
-                case.scene,
-                case.name(),
+                "{}: folder \"{}\" belongs to two cases; allowed: one case each",
+                case.id,
                 case.folder.display()
             ));
         }

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use tracer::SceneId;
 
 use super::case::Intervals;
+use crate::identity::{CaseId, FilterId};
 
 /// Upper limit on the frames of a sequence.
 pub const MOST_FRAMES: u32 = 1000;
@@ -35,6 +36,22 @@ pub struct Sequence {
     pub worst_frames: BTreeMap<Metric, u32>,
     /// Frames, from the first on.
     pub frames: Vec<SequenceFrame>,
+}
+
+impl Sequence {
+    /// Returns the identity of the filter or reference.
+    pub fn filter_id(&self) -> FilterId {
+        FilterId {
+            is_reference: self.is_reference,
+            name: self.filter.clone(),
+            alignment: self.alignment,
+        }
+    }
+
+    /// Tells whether it starts with a case.
+    pub fn is_of(&self, case: &CaseId) -> bool {
+        self.scene == case.scene && self.filter_id() == case.filter_id()
+    }
 }
 
 /// One picture of a sequence. Its `case.json` has all scores of the single frame.

@@ -2,11 +2,11 @@
 
 use std::collections::HashMap;
 
-use frame::Alignment;
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
 
 use super::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};
 use super::scene_mean::{SceneMean, TWO_SIDED, plain_mean};
+use crate::identity::FilterId;
 use crate::run::sequence::Sequence;
 use crate::{Case, InputFormat, Run};
 use tracer::SceneId;
@@ -50,17 +50,12 @@ pub fn rank_sequences_on(run: &Run, scene: &SceneId) -> Vec<Vec<RankedSequence>>
 /// Lists the sequences of filters, each with the case of its first frame.
 fn list_filters(run: &Run) -> Vec<(&Sequence, &Case)> {
     let filters = run.cases.iter().filter(|case| !case.is_reference);
-    let cases: HashMap<(&SceneId, Alignment, String), &Case> = filters
-        .map(|case| {
-            let key = (&case.scene, case.alignment, case.name());
-            (key, case)
-        })
+    let cases: HashMap<(&SceneId, FilterId), &Case> = filters
+        .map(|case| ((&case.scene, case.filter_id()), case))
         .collect();
     let sequences = run.sequences.iter().filter(|own| !own.is_reference);
-    let with_case = sequences.filter_map(|own| {
-        let key = (&own.scene, own.alignment, own.filter.clone());
-        Some((own, *cases.get(&key)?))
-    });
+    let with_case =
+        sequences.filter_map(|own| Some((own, *cases.get(&(&own.scene, own.filter_id()))?)));
     with_case.collect()
 }
 

@@ -7,6 +7,7 @@ use tracer::SceneId;
 
 use super::run_part::RunPart;
 use crate::Error;
+use crate::identity::FilterId;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 
@@ -48,43 +49,34 @@ pub(super) fn check_complete(
             .filter(|case| case.drawn.is_none())
     };
     let scenes: BTreeSet<&SceneId> = rendered().map(|case| &case.scene).collect();
-    let mut names: BTreeSet<(bool, String, Alignment)> = BTreeSet::new();
-    let mut found: BTreeSet<(&SceneId, bool, String, Alignment)> = BTreeSet::new();
-    for case in rendered() {
-        names.insert((case.is_reference, case.name(), case.alignment));
-        found.insert((&case.scene, case.is_reference, case.name(), case.alignment));
-    }
-    for (failure, _) in failures {
-        found.insert((
-            &failure.scene,
-            false,
-            failure.filter.clone(),
-            failure.alignment,
-        ));
-    }
-    let has_references =
-        |alignment: Alignment| names.iter().any(|name| name.0 && name.2 == alignment);
-    let shutters = names.iter().filter(|name| !name.0).map(|name| name.2);
-    let shutters: BTreeSet<Alignment> = shutters
+    let names: BTreeSet<FilterId> = rendered().map(|case| case.filter_id()).collect();
+    let found: BTreeSet<(&SceneId, FilterId)> = rendered()
+        .map(|case| (&case.scene, case.filter_id()))
+        .chain(
+            failures
+                .iter()
+                .map(|(failure, _)| (&failure.scene, failure.filter_id())),
+        )
+        .collect();
+    let has_references = |alignment: &Alignment| {
+        (names.iter()).any(|name| name.is_reference && name.alignment == *alignment)
+    };
+    let shutters = names.iter().filter(|name| !name.is_reference);
+    let shutters: BTreeSet<Alignment> = (shutters.map(|name| name.alignment))
         .chain((!names.is_empty()).then_some(common))
         .collect();
-    if let Some(missing) = shutters
-        .into_iter()
-        .find(|alignment| !has_references(*alignment))
-    {
+    if let Some(missing) = shutters.iter().find(|alignment| !has_references(alignment)) {
         return Err(Error::Usage(format!(
             "no part holds the references of the {missing} shutter; add the part that `shuttertruth run --part references` writes \
              with the same filters"
         )));
     }
-    for scene in &scenes {
-        for (is_reference, name, alignment) in &names {
-            if !found.contains(&(scene, *is_reference, name.clone(), *alignment)) {
-                return Err(Error::Usage(format!(
-                    "no part holds {scene} / {name} ({alignment} shutter), which other scenes have; add the part that measured it"
-                )));
-            }
-        }
+    let mut all = (scenes.iter()).flat_map(|scene| names.iter().map(|name| (*scene, name.clone())));
+    if let Some((scene, missing)) = all.find(|one| !found.contains(one)) {
+        return Err(Error::Usage(format!(
+            "no part holds {scene} / {} ({} shutter), which other scenes have; add the part that measured it",
+            missing.name, missing.alignment
+        )));
     }
     Ok(())
 }
