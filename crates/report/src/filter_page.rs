@@ -3,10 +3,10 @@
 use filters::{Filter, Source};
 use maud::{Markup, html};
 use metrics::Metric;
-use suite::{Bench, Case};
+use suite::{Bench, Case, FilterId};
 
 use crate::case_table::CaseTable;
-use crate::filter_id::{FilterId, case_anchor};
+use crate::filter_id::{case_anchor, section_anchor};
 use crate::numbers::value_text;
 use crate::overview::bench_file::cost_of;
 use crate::overview::costs::cost_text;
@@ -41,7 +41,7 @@ pub fn filter_section(
             .all(|parameter| first.parameters.contains_key(&parameter.name))
     });
     html! {
-        article.filter id=(filter.section_anchor()) data-title=(filter.name) {
+        article.filter id=(section_anchor(filter)) data-title=(filter.name) {
             noscript {
                 div.case_head {
                     h2 tabindex="-1" { (filter.name) }
@@ -93,7 +93,7 @@ fn weakest(table: &CaseTable, cases: &[&Case], thumbnails: &[String]) -> Markup 
     let rows = html! {
         tbody {
             @for case in sorted {
-                @let place = table.scenes.iter().position(|scene| *scene == case.scene);
+                @let place = table.scenes.iter().position(|scene| **scene == case.scene);
                 tr {
                     th scope="row" {
                         a.scene href=(format!("#{}", case_anchor(case))) {

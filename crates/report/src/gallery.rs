@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use frame::{read_png, write_atomically, write_png};
 use metrics::Metric;
 use suite::{Case, Error, IDENTITY, Run};
+use tracer::SceneId;
 
 use crate::case_strip::{read_output, read_truth, tile};
 use crate::run_facts::command;
@@ -28,7 +29,7 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
     let mut truths = Vec::new();
     let mut page = introduction(run);
     for [best, worst] in entries {
-        let instant = read_png(&folder.join(&best.scene).join("frame.png"))?;
+        let instant = read_png(&folder.join(best.scene.folder()).join("frame.png"))?;
         let truth = read_truth(folder, best)?;
         let strip = [
             instant,
@@ -104,6 +105,6 @@ fn section(best: &Case, worst: &Case) -> String {
     text
 }
 
-fn strip_name(scene: &str) -> String {
+fn strip_name(scene: &SceneId) -> String {
     format!("{scene}.png")
 }

@@ -27,6 +27,7 @@ use frame::write_atomically;
 use judge::Finding;
 use maud::{Markup, PreEscaped};
 use suite::{Case, Error, Run};
+use tracer::SceneId;
 
 use case::case_view::CaseView;
 use case::{CaseTables, case_section};
@@ -132,7 +133,7 @@ impl<'a> Parts<'a> {
         &mut self,
         scene: usize,
         table: &CaseTable<'a>,
-        findings: &HashMap<&str, Vec<&Finding>>,
+        findings: &HashMap<&SceneId, Vec<&Finding>>,
         folder: &Path,
     ) -> Result<(), Error> {
         let own = || table.cases_on(table.scenes[scene]);
@@ -163,8 +164,8 @@ impl<'a> Parts<'a> {
 const CASE_BYTES: usize = 25_000;
 
 /// Groups findings by scene.
-fn group_findings(findings: &[Finding]) -> HashMap<&str, Vec<&Finding>> {
-    let mut groups: HashMap<&str, Vec<&Finding>> = HashMap::new();
+fn group_findings(findings: &[Finding]) -> HashMap<&SceneId, Vec<&Finding>> {
+    let mut groups: HashMap<&SceneId, Vec<&Finding>> = HashMap::new();
     for finding in findings {
         groups.entry(&finding.scene).or_default().push(finding);
     }
@@ -172,8 +173,8 @@ fn group_findings(findings: &[Finding]) -> HashMap<&str, Vec<&Finding>> {
 }
 
 /// Lists the findings about a case; there are none about a reference.
-fn findings_about(case: &Case, findings: &HashMap<&str, Vec<&Finding>>) -> Vec<Finding> {
-    let own = findings.get(case.scene.as_str()).into_iter().flatten();
+fn findings_about(case: &Case, findings: &HashMap<&SceneId, Vec<&Finding>>) -> Vec<Finding> {
+    let own = findings.get(&case.scene).into_iter().flatten();
     own.filter(|finding| !case.is_reference && finding.is_of(case))
         .map(|finding| (*finding).clone())
         .collect()

@@ -1,6 +1,7 @@
 //! Settings that a run's scores depend on.
 
 use std::collections::HashSet;
+use tracer::SceneId;
 
 use filters::AdapterDescription;
 use frame::Alignment;
@@ -128,7 +129,7 @@ pub fn truth_text(case: &Case) -> String {
 
 /// Writes a row per scene and shutter.
 fn truths(table: &CaseTable) -> Markup {
-    let mut shown: HashSet<(&str, Alignment)> = HashSet::new();
+    let mut shown: HashSet<(&SceneId, Alignment)> = HashSet::new();
     let cases = table.scenes.iter().flat_map(|scene| table.cases_on(scene));
     html! {
         tbody {

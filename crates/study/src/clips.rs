@@ -183,7 +183,7 @@ fn list_items(run: &Run) -> Vec<Item> {
             .filter(|sequence| !sequence.is_reference);
         return own
             .map(|sequence| Item {
-                scene: sequence.scene.clone(),
+                scene: sequence.scene.to_string(),
                 filter: sequence.filter.clone(),
                 alignment: sequence.alignment,
                 frames: (sequence.frames.iter())
@@ -198,11 +198,11 @@ fn list_items(run: &Run) -> Vec<Item> {
     }
     let own = run.cases.iter().filter(|case| !case.is_reference);
     own.map(|case| Item {
-        scene: case.scene.clone(),
+        scene: case.scene.to_string(),
         filter: case.name(),
         alignment: case.alignment,
         frames: vec![ItemFrame {
-            scene: PathBuf::from(&case.scene),
+            scene: case.scene.folder(),
             folder: case.folder.clone(),
             truth_hash: case.truth_hash.clone(),
         }],

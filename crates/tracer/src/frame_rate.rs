@@ -1,5 +1,7 @@
 //! Frame rates, as names of scenes state them.
 
+use std::hash::{Hash, Hasher};
+
 use serde::{Deserialize, Serialize};
 
 use crate::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
@@ -14,6 +16,15 @@ pub struct FrameRate {
     /// interval.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shutters_per_second: Option<f64>,
+}
+
+// No number of a rate is NaN.
+impl Eq for FrameRate {}
+
+impl Hash for FrameRate {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.word().hash(state);
+    }
 }
 
 impl Default for FrameRate {
@@ -59,25 +70,7 @@ impl FrameRate {
             shutters_per_second: shutter.map(str::parse).transpose().ok()?,
         };
         // One rate has one name.
-        (own.word() == word).then_some(own)
-    }
-
-    /// Takes the variant of a scene's name apart into the variant of its file and the rate: `unlit@24fps` into `unlit` and 24.
-    pub fn split_variant(variant: &str) -> (Option<&str>, Option<Self>) {
-        let (rest, word) = match variant.rsplit_once('@') {
-            Some((rest, word)) => (Some(rest), word),
-            None => (None, variant),
-        };
-        match Self::in_word(word) {
-            Some(rate) => (rest, Some(rate)),
-            None => (Some(variant), None),
-        }
-    }
-
-    /// Finds the rate in the name of a scene, which may be that of a later frame: `fan@24fps/0003`. None where the name has none.
-    pub fn of_name(scene: &str) -> Option<Self> {
-        let (_, variant) = scene.split_once('@')?;
-        Self::split_variant(variant.split('/').next()?).1
+        (own.per_second.is_finite() && own.word() == word).then_some(own)
     }
 
     /// Refuses numbers beyond the limits; the reason says what is allowed.
@@ -146,17 +139,24 @@ mod tests {
     }
 
     #[test]
-    fn a_name_ends_with_its_rate() {
-        let rate = FrameRate::in_word("24fps_1-48s");
-        assert_eq!(
-            FrameRate::split_variant("unlit@24fps_1-48s"),
-            (Some("unlit"), rate)
-        );
-        assert_eq!(FrameRate::split_variant("24fps_1-48s"), (None, rate));
-        assert_eq!(FrameRate::split_variant("seal7"), (Some("seal7"), None));
-        assert_eq!(FrameRate::of_name("fan@unlit@24fps_1-48s/0003"), rate);
-        assert_eq!(FrameRate::of_name("fan@24fps_1-48s"), rate);
-        assert_eq!(FrameRate::of_name("fan@unlit/0003"), None);
-        assert_eq!(FrameRate::of_name("fan"), None);
+    fn numbers_beyond_the_limits_are_refused() {
+        let check = |per_second, shutters_per_second| {
+            FrameRate {
+                per_second,
+                shutters_per_second,
+            }
+            .check()
+        };
+        assert_eq!(check(24.0, Some(48.0)), Ok(()));
+        assert_eq!(check(SLOWEST_RATE, Some(SLOWEST_SHUTTER)), Ok(()));
+        assert_eq!(check(FASTEST_RATE, Some(FASTEST_SHUTTER)), Ok(()));
+        for rate in [0.0, -24.0, 0.99, 1000.1, f64::NAN, f64::INFINITY] {
+            let reason = check(rate, None).unwrap_err();
+            assert!(reason.contains("allowed: 1 to 1000"), "{reason}");
+        }
+        for count in [0.0, -48.0, 0.5, 100_001.0, f64::NAN, f64::INFINITY] {
+            let reason = check(24.0, Some(count)).unwrap_err();
+            assert!(reason.contains("allowed: 1/1 to 1/100000"), "{reason}");
+        }
     }
 }

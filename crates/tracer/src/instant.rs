@@ -137,7 +137,7 @@ fn trace_part(
             grid_hash(scene, settings, grid),
         ),
         exposure: settings.exposure(scene),
-        frames_per_second: Some(scene.rate.per_second)
+        frames_per_second: Some(scene.rate().per_second)
             .filter(|rate| *rate != FrameRate::WRITTEN.per_second),
         options: settings.options,
         guard_band: settings.guard_band,

@@ -23,6 +23,7 @@ mod pixel_grid;
 mod progress;
 mod sampler;
 mod scene;
+mod scene_id;
 mod seal;
 mod sequence;
 mod settings;
@@ -54,6 +55,7 @@ pub use scene::{
     Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Interpolation, Key,
     Lens, Material, Mesh, Motion, Object, Parent, Scene, Shape, Sun, Texture, Translucency, Turn,
 };
+pub use scene_id::SceneId;
 pub use seal::Seal;
 pub use settings::RenderSettings;
 pub use stage::Stage;

@@ -9,23 +9,22 @@ use crate::scene::{Motion, Scene};
 impl Scene {
     /// Makes the scene as it is `frame` frames later: what happens at that time happens at time 0 of the result, of which
     /// frame and truth are rendered. All keys and key shapes move; the settings, the seed and everything without keys stay.
-    /// The result has a name and a hash of its own. Frame 0 is the scene itself.
+    /// The result has an identity and a hash of its own. Frame 0 is the scene itself.
     ///
     /// Renders of a later frame refuse times at which the scene is not defined; see [`TraceError::Undefined`].
     pub fn at_frame(&self, frame: u32) -> Self {
-        assert_eq!(self.frame, 0, "frames are counted from the scene's own");
+        assert_eq!(self.id.frame, 0, "frames are counted from the scene's own");
         if frame == 0 {
             return self.clone();
         }
         let mut scene = self.clone().later_by(f64::from(frame));
-        scene.frame = frame;
-        scene.name = self.name_at_frame(frame);
+        scene.id.frame = frame;
         let text = format!("{} at frame {frame}", self.hash);
         scene.hash = blake3::hash(text.as_bytes()).to_hex().to_string();
         scene
     }
 
-    /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its name and its hash stay: nothing that is made
+    /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its identity and its hash stay: nothing that is made
     /// of it may be kept in files.
     pub fn later_by(mut self, later: f64) -> Self {
         self.change_times(|time| time - later);
@@ -33,37 +32,31 @@ impl Scene {
     }
 
     /// Takes the scene at another frame rate. Whatever its file says about a time happens at the same time in seconds; so does the
-    /// delay of a rolling shutter. The instant stays. Name and hash stay the caller's to set.
+    /// delay of a rolling shutter. The instant stays. Identity and hash stay the caller's to set.
     pub(crate) fn at_rate(mut self, rate: FrameRate) -> Self {
         let frames = rate.frames_per_written_frame();
         self.change_times(|time| time * frames);
         self.shutter_profile.rolling *= frames;
         self.exposure = rate.exposure(self.exposure);
-        self.rate = rate;
         self
-    }
-
-    /// Names a later frame: `fan/0003`. It is the path of its files as well.
-    pub fn name_at_frame(&self, frame: u32) -> String {
-        format!("{}/{frame:04}", self.name)
     }
 
     /// Refuses times at which the scene is not defined, `open` to `close` in frames after the instant: of a later frame those beyond
     /// the end of its keys, and at another frame rate those before their begin as well.
     pub(crate) fn check_defined(&self, open: f64, close: f64) -> Result<(), TraceError> {
-        let is_own_rate = self.rate == FrameRate::WRITTEN;
-        if is_own_rate && self.frame == 0 {
+        let is_own_rate = self.rate() == FrameRate::WRITTEN;
+        if is_own_rate && self.id.frame == 0 {
             return Ok(());
         }
         let refuse = |what: String, time: f64, edge: String| {
             Err(TraceError::Undefined {
-                scene: self.name.clone(),
+                scene: self.id.to_string(),
                 what,
                 edge,
                 time,
             })
         };
-        let frame = f64::from(self.frame);
+        let frame = f64::from(self.id.frame);
         let ends = |last: f64| format!("end at frame {}", last + frame);
         for (what, first, last) in self.list_timelines() {
             if !is_own_rate && first > open {
@@ -171,7 +164,7 @@ mod tests {
                     }
                 }
                 assert_ne!(later.hash, scene.hash);
-                assert_eq!(later.name, format!("{name}/{frame:04}"));
+                assert_eq!(later.id.to_string(), format!("{name}/{frame:04}"));
             }
         }
     }
@@ -183,7 +176,7 @@ mod tests {
         let hash = |scene: &Scene| crate::truth_hash(scene, &settings, Alignment::Trailing);
         let first = scene.at_frame(0);
         assert_eq!(hash(&first), hash(&scene));
-        assert_eq!(first.name, scene.name);
+        assert_eq!(first.id, scene.id);
         assert_ne!(hash(&scene.at_frame(1)), hash(&scene));
         assert_ne!(hash(&scene.at_frame(1)), hash(&scene.at_frame(2)));
     }
@@ -223,7 +216,7 @@ mod tests {
                 .check_truth(&scene.at_frame(24), Alignment::Centred)
                 .is_err()
             {
-                ending.push(scene.name);
+                ending.push(scene.id.name);
             }
         }
         assert_eq!(ending, ["flag", "reversal"]);

@@ -134,7 +134,7 @@ fn check_field_of_view(scene: &Scene, from: f64, to: f64) -> Result<(), TraceErr
         let fov = scene.camera.vertical_fov_at(time);
         if !(fov > 0.0 && fov < std::f64::consts::PI) {
             return Err(TraceError::FieldOfView {
-                scene: scene.name.clone(),
+                scene: scene.id.to_string(),
                 degrees: fov.to_degrees(),
                 time,
             });

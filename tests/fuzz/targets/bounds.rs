@@ -52,7 +52,7 @@ fn run(place: &mut Place, input: &[u8]) {
     drop(check_names(&root, std::iter::once(&bounds), filters));
     drop(require_bounds(
         &root,
-        std::iter::once(("plate", &bounds)),
+        std::iter::once((&tracer::SceneId::new("plate", None), &bounds)),
         filters,
         Frames::default(),
     ));

@@ -86,7 +86,7 @@ const INGESTED_TEXT: &str = r#"{
 
 /// Panics if a run would write elsewhere than into one folder of a scene, and in it one of the engine.
 fn check_names(scene: &EngineScene) {
-    for name in [&scene.name, scene.filter_name()] {
+    for name in [&*scene.id.to_string(), scene.filter_name()] {
         let parts: Vec<Component> = Path::new(name).components().collect();
         assert!(
             matches!(parts.as_slice(), [Component::Normal(_)]),

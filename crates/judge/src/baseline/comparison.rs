@@ -159,7 +159,7 @@ fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option
     let filters = baseline.scores.get(&case.scene);
     let Some(scores) = filters.and_then(|filters| {
         // A parameter with a value of its own is judged by its preset.
-        (filters.get(&case.name())).or_else(|| filters.get(&case.preset_name()))
+        (filters.get(&case.name())).or_else(|| filters.get(&case.of_preset().name()))
     }) else {
         return Err(format!(
             "has no scores of {} on {}; accept a run with them: shuttertruth limits accept",

@@ -44,7 +44,7 @@ mod tests {
 
     fn change(metric: Metric, worse: f64, kind: ChangeKind) -> Change {
         Change {
-            scene: "fan".to_owned(),
+            scene: tracer::SceneId::new("fan", None),
             filter: "one:paper".to_owned(),
             bar: false,
             metric,

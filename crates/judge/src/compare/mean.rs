@@ -1,11 +1,11 @@
 //! Changes of means over all scenes between two runs.
 
 use std::cmp::Ordering;
+use tracer::SceneId;
 
 use metrics::Metric;
 use serde::Serialize;
 use suite::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
-use tracer::FrameRate;
 
 use crate::compare::change::{Change, ChangeKind};
 
@@ -87,7 +87,7 @@ pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
 
 /// Names filter and frame rate of a change, and its metric.
 fn key(change: &Change) -> (String, Metric) {
-    let filter = match FrameRate::of_name(&change.scene) {
+    let filter = match change.scene.rate {
         Some(rate) => format!("{} {}", change.filter, rate.word()),
         None => change.filter.clone(),
     };
@@ -133,7 +133,7 @@ mod tests {
     /// One filter on as many scenes as there are numbers, by which each is worse.
     fn changes(worse: &[f64]) -> Vec<Change> {
         let change = |(index, worse): (usize, &f64)| Change {
-            scene: format!("scene_{index}"),
+            scene: SceneId::new(format!("scene_{index}"), None),
             filter: "one:paper".to_owned(),
             bar: false,
             metric: Metric::FLIP,
@@ -194,7 +194,7 @@ mod tests {
     fn frame_rates_have_means_of_their_own() {
         let mut all = changes(&[0.1, 0.1, 0.3, 0.3]);
         for change in &mut all[2..] {
-            change.scene += "@24fps";
+            change.scene.rate = tracer::FrameRate::in_word("24fps");
         }
         let means = average_changes(&all);
         let found: Vec<(&str, usize)> = (means.iter())

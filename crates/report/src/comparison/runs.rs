@@ -1,8 +1,10 @@
 //! Settings of two runs side by side.
 
+use frame::Alignment;
 use judge::Side;
 use maud::{Markup, html};
 use suite::Run;
+use tracer::SceneId;
 
 use crate::run_facts::facts;
 use crate::table::{Column, scroll_table};
@@ -24,7 +26,7 @@ pub fn both_runs(first: &Side, second: &Side) -> Markup {
     };
     let hashes = html! {
         tbody {
-            @for [scene, alignment, hash] in truths(&first.run, &second.run) {
+            @for (scene, alignment, hash) in truths(&first.run, &second.run) {
                 tr { th scope="row" { (scene) } td.text { (alignment) } td.text { code { (hash) } } }
             }
         }
@@ -49,14 +51,14 @@ pub fn both_runs(first: &Side, second: &Side) -> Markup {
 }
 
 /// Scene, alignment and hash of what both have, each once.
-fn truths<'a>(first: &'a Run, second: &Run) -> Vec<[&'a str; 3]> {
+fn truths<'a>(first: &'a Run, second: &Run) -> Vec<(&'a SceneId, Alignment, &'a str)> {
     let mut truths = Vec::new();
     for case in &first.cases {
         let shared = second
             .cases
             .iter()
             .any(|own| own.scene == case.scene && own.truth_hash == case.truth_hash);
-        let truth = [case.scene.as_str(), case.alignment.name(), &case.truth_hash];
+        let truth = (&case.scene, case.alignment, case.truth_hash.as_str());
         if shared && !truths.contains(&truth) {
             truths.push(truth);
         }

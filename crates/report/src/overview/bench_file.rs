@@ -7,7 +7,7 @@ use store::read_text;
 use suite::{BENCH_FORMAT, Bench, CaseCost, Error, REACHES, SIDES};
 
 use crate::case_table::CaseTable;
-use crate::filter_id::FilterId;
+use suite::FilterId;
 
 /// Name of the file that `shuttertruth bench` writes.
 const BENCH_FILE: &str = "bench.json";

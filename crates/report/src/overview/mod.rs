@@ -15,11 +15,13 @@ use maud::{Markup, html};
 use metrics::Metric;
 use score_table::score_table;
 use suite::Bench;
+use tracer::SceneId;
 use winners::{sequence_winners, winners};
 
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
+use crate::filter_id::section_anchor;
 use crate::finding_text::Tally;
 use crate::numbers::counted;
 use crate::pixels::scene_files::find_traced;
@@ -102,7 +104,7 @@ fn counts(table: &CaseTable, targets: &Tally) -> Markup {
 
 /// Says which scenes an engine drew, and whose truth is whose.
 fn engines(table: &CaseTable) -> Markup {
-    let first = |scene: &&str| table.cases_on(scene).next();
+    let first = |scene: &&SceneId| table.cases_on(scene).next();
     let cases = table.scenes.iter().filter_map(first);
     html! {
         @for (case, drawn) in cases.filter_map(|(_, case)| Some((case, case.drawn.as_ref()?))) {

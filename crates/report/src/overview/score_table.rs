@@ -3,8 +3,9 @@
 use judge::{Level, list_summarized};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
-use suite::{Bench, Case, Overall};
+use suite::{Bench, Case, FilterId, Overall};
 use tracer::FrameRate;
+use tracer::SceneId;
 
 use super::bench_file::cost_of;
 use super::cell::{Colors, cell};
@@ -12,7 +13,7 @@ use super::costs::cost_text;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
-use crate::filter_id::{FilterId, mean};
+use crate::filter_id::{mean, section_anchor};
 use crate::finding_text::Tally;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
@@ -41,7 +42,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
         .filter(|own| own.metric == metric && Some(own.rate) == rate)
         .collect();
     let row = |filter: &FilterId| {
-        let overall = means.iter().find(|own| filter.is_of(own)).copied();
+        let overall = means.iter().find(|own| own.filter_id() == *filter).copied();
         let of_rate = |case: &Case| rate.is_none_or(|rate| case.rate == rate);
         let scores = (table.cases_of(filter)).filter(|(_, case)| of_rate(case));
         let only = mean(scores.filter_map(|(_, case)| case.estimate(metric)));
@@ -127,7 +128,7 @@ pub fn score_table(
 
 /// Writes the headings of the columns; `ends` of the means' scale are none where there are no means.
 fn heading(
-    scenes: &[&str],
+    scenes: &[&SceneId],
     thumbnails: &[String],
     ends: Option<Markup>,
     bench: Option<&Bench>,
@@ -143,7 +144,7 @@ fn heading(
             @for (index, scene) in scenes.iter().enumerate() {
                 th.scene scope="col" {
                     img src=[thumbnails.get(index)] alt="";
-                    button { (breakable(scene)) }
+                    button { (breakable(&scene.to_string())) }
                 }
             }
             @if bench.is_some() { th scope="col" { button { "cost, ms" } } }
@@ -188,7 +189,7 @@ fn is_failing(table: &CaseTable, views: &[CaseView], filter: &FilterId) -> bool 
 fn name(metric: Metric, filter: &FilterId) -> Markup {
     html! {
         @if filter.is_reference { (filter.name) }
-        @else { a href=(format!("#{}", filter.section_anchor())) { (breakable(&filter.name)) } }
+        @else { a href=(format!("#{}", section_anchor(filter))) { (breakable(&filter.name)) } }
         @if metric.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
     }
 }

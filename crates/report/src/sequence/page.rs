@@ -6,6 +6,7 @@ use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
 use serde::Serialize;
 use suite::{CHANGE_PICTURE, Run, Sequence};
+use tracer::SceneId;
 
 use super::ranking::ranking_tables;
 use super::scores::score_tables;
@@ -52,7 +53,7 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     }
     let played: Vec<Played> = run.sequences.iter().map(play).collect();
     let data = serde_json::to_string(&played).expect("it is plain data");
-    let mut scenes: Vec<&str> = run.sequences.iter().map(|own| own.scene.as_str()).collect();
+    let mut scenes: Vec<&SceneId> = run.sequences.iter().map(|own| &own.scene).collect();
     scenes.dedup();
     let frames = run.frames;
     let document = Document {

@@ -73,7 +73,7 @@ fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> 
         Some(free) if free < needed => Err(Error::Usage(format!(
             "scene {}: needs about {} for {}x{} pixels of color and {} coverages, {} are free; choose a smaller size, \
              fewer replicates or a scene of fewer objects, or free memory",
-            scene.name,
+            scene.id,
             gibibytes(needed),
             settings.width,
             settings.height,

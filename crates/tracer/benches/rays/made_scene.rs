@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
 use tracer::{
-    Background, Camera, Display, Family, FrameRate, Key, Material, Mesh, Motion, Object, Parent,
-    Scene, Turn,
+    Background, Camera, Display, Family, Key, Material, Mesh, Motion, Object, Parent, Scene,
+    SceneId, Turn,
 };
 
 /// Quads along each side of the ground.
@@ -42,12 +42,10 @@ pub fn made_scene(moving: bool) -> Scene {
         });
     }
     Scene {
-        name: "made".into(),
-        frame: 0,
+        id: SceneId::new("made", None),
         exposes: "the speed of rays".into(),
         family: Family::Limits,
         exposure: 1.0,
-        rate: FrameRate::WRITTEN,
         written_exposure: 1.0,
         shutter_profile: ShutterProfile::default(),
         width: 1920,

@@ -371,7 +371,7 @@ fn check_coordinates(scene: &Scene, slices: &[Vec<Aabb>]) -> Result<(), TraceErr
             .or(Some(own[object.mesh]).filter(too_large))
         {
             return Err(TraceError::TooFar {
-                scene: scene.name.clone(),
+                scene: scene.id.to_string(),
                 object: object.name.clone(),
                 coordinate,
             });

@@ -45,7 +45,7 @@ use schema::SceneTable;
 use variants::ParsedScene;
 
 use crate::settings::check_size;
-use crate::{FrameRate, Location, Scene, Seal};
+use crate::{FrameRate, Location, Scene, SceneId, Seal};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
 const UNLIT: &str = "unlit";
@@ -68,12 +68,15 @@ pub fn load_scene_and_files(
     let folder = folder.path.as_path();
     let document = read_document(&mut files, folder)?;
     let parsed = ParsedScene::parse(&document)?;
-    let choice = Choice::new(&parsed, variant);
-    let (rate, seed) = (choice.rate, choice.seed);
+    let id = SceneId::new(folder_name(folder)?, variant);
+    let rate = id.rate.unwrap_or_default();
     if let Err(reason) = rate.check() {
         return Err(SceneError::in_file(&document.path, reason));
     }
-    let table = parsed.read(choice.of_file)?;
+    let from_file = id.variant.as_deref();
+    let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
+    let is_unlit = from_file == Some(UNLIT) && !own(UNLIT);
+    let table = parsed.read(from_file.filter(|_| !is_unlit))?;
     parsed.check_variants()?;
     check_picture(&document, &table)?;
 
@@ -85,7 +88,7 @@ pub fn load_scene_and_files(
         .as_ref()
         .map(|sun| light::read_sun(&document, sun));
     let display = light::read_display(&document, &table.display)?;
-    let interval = rendered_interval(&table, shutter_profile.rolling, seed.is_some(), rate);
+    let interval = rendered_interval(&table, shutter_profile.rolling, id.seal.is_some(), rate);
     let meshes = MeshLoader::new(&document, folder, files, interval);
     let mut loader = ObjectLoader::new(&document, meshes, interval);
     loader.add_objects(&table.camera, &camera, &table.object)?;
@@ -97,15 +100,11 @@ pub fn load_scene_and_files(
     let notes = faces::remove_redundant_faces(&mut meshes.meshes, &objects)?;
 
     let [width, height] = *table.size.get_ref();
-    let name = folder_name(folder)?;
     let paths = meshes.files.paths();
     let scene = Scene {
-        name: variant.map_or_else(|| name.clone(), |variant| format!("{name}@{variant}")),
-        frame: 0,
         exposes: table.exposes.into_inner(),
         family: table.family,
         exposure: *table.exposure.get_ref(),
-        rate: FrameRate::WRITTEN,
         written_exposure: *table.exposure.get_ref(),
         shutter_profile,
         width,
@@ -120,43 +119,14 @@ pub fn load_scene_and_files(
         objects,
         notes,
         hash: meshes.files.hash(variant),
+        id,
     };
-    let scene = match seed {
-        _ if choice.is_unlit => scene.unlit(),
-        Some(seed) => Seal::new(seed, &name).apply(scene),
+    let scene = match scene.id.seal {
+        _ if is_unlit => scene.unlit(),
+        Some(seed) => Seal::new(seed, &scene.id.name).apply(scene),
         None => scene,
     };
     Ok((scene.at_rate(rate), paths))
-}
-
-/// Meaning of a variant's name.
-struct Choice<'a> {
-    /// Variant of the file.
-    of_file: Option<&'a str>,
-    is_unlit: bool,
-    /// Seed of a sealed variant.
-    seed: Option<u64>,
-    rate: FrameRate,
-}
-
-impl<'a> Choice<'a> {
-    /// Takes a name apart. Names of the file come first; other names may be those of variants that are made of any scene.
-    fn new(parsed: &ParsedScene, variant: Option<&'a str>) -> Self {
-        let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
-        let (of_file, rate) = match variant.filter(|name| !own(name)) {
-            Some(made) => FrameRate::split_variant(made),
-            None => (variant, None),
-        };
-        let made = of_file.filter(|name| !own(name));
-        let is_unlit = made == Some(UNLIT);
-        let seed = made.and_then(Seal::seed_in);
-        Self {
-            of_file: of_file.filter(|_| !is_unlit && seed.is_none()),
-            is_unlit,
-            seed,
-            rate: rate.unwrap_or_default(),
-        }
-    }
 }
 
 /// Finds the times, in frames of the file, that a render may ask for: those of an open shutter, and a frame to either side.

@@ -6,7 +6,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::document::Document;
 use super::error::{SceneError, check_name, join_names};
 use super::schema::{SceneTable, VariantTable};
-use crate::FrameRate;
+use crate::SceneId;
 use crate::limits::{MOST_OBJECTS, MOST_VARIANTS};
 
 /// Keys of an object that give a still pose.
@@ -204,9 +204,9 @@ fn read_variant_names(document: &Document, variants: &DeTable) -> Result<Vec<Str
     for (index, name) in names.iter().enumerate() {
         check_name(name.get_ref())
             .map_err(|reason| document.error(name.span(), format!("variant {reason}")))?;
-        if FrameRate::in_word(name.get_ref()).is_some() {
+        if SceneId::new("", Some(name.get_ref())).variant.is_none() {
             let reason = format!(
-                "variant \"{}\" has the name of a frame rate, which every scene can be taken at; rename it",
+                "variant \"{}\" has the name of a frame rate or of a sealed variant, which every scene has; rename it",
                 name.get_ref()
             );
             return Err(document.error(name.span(), reason));

@@ -10,6 +10,7 @@ pub use frame::{Display, FlipExposures};
 use glam::Vec3;
 
 use crate::frame_rate::FrameRate;
+use crate::scene_id::SceneId;
 pub use light::{Background, EnvironmentMap, Sun};
 pub use material::{Finish, Material, Texture, Translucency};
 pub use mesh::{Mesh, Shape};
@@ -18,19 +19,14 @@ pub use motion::{Interpolation, Key, Motion, Turn};
 /// The input of a render. Indices are valid, numbers finite, meshes not empty.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Folder name, with the variant and the frame rate if they were chosen, and the frame if it is a later one:
-    /// `sliding_panel@64px_45deg`, `fan@24fps`, `fan/0003`.
-    pub name: String,
-    /// Frames of the scene's own clock at its instant; above 0 for what [`Scene::at_frame`] made.
-    pub frame: u32,
+    /// Identity, of which the frame is above 0 for what [`Scene::at_frame`] made.
+    pub id: SceneId,
     /// Defect that the scene exposes, in one sentence.
     pub exposes: String,
     /// Family, for leave-one-family-out cross-validation.
     pub family: Family,
     /// Exposure in frames; 0.5 = 180 degrees.
     pub exposure: f64,
-    /// Frame rate that times and exposure are for.
-    pub rate: FrameRate,
     /// Exposure of the scene's file, in frames of the file.
     pub written_exposure: f64,
     /// Opening and closing of the shutter, and the delay from row to row.
@@ -162,6 +158,11 @@ impl Scene {
             let is_glass = own.translucency.is_some_and(|own| own.glass.is_some());
             own.finish == Finish::Diffuse && own.diffuse == Vec3::ZERO && !is_glass
         })
+    }
+
+    /// Returns the frame rate that times and exposure are for.
+    pub fn rate(&self) -> FrameRate {
+        self.id.rate.unwrap_or_default()
     }
 
     /// Takes the camera's lens away: everything is sharp.
