@@ -1,6 +1,5 @@
 //! Addresses of filters and cases in a page, and lists of filters.
 
-use frame::Alignment;
 use suite::{CaseId, FilterId};
 
 /// Writes the name of a filter, which no other shares, as a part of an address: `bevy:high`, `identity@trailing`.

@@ -1,7 +1,6 @@
 //! Changes of means over all scenes between two runs.
 
 use std::cmp::Ordering;
-use tracer::SceneId;
 
 use metrics::Metric;
 use serde::Serialize;

@@ -21,7 +21,6 @@ use winners::{sequence_winners, winners};
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
-use crate::filter_id::section_anchor;
 use crate::finding_text::Tally;
 use crate::numbers::counted;
 use crate::pixels::scene_files::find_traced;
