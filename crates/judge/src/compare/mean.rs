@@ -126,6 +126,8 @@ fn average(changes: &[&Change]) -> MeanChange {
 
 #[cfg(test)]
 mod tests {
+    use tracer::SceneId;
+
     use super::*;
     use crate::compare::change::Basis;
 
