@@ -27,14 +27,15 @@ pub static FORMAT: Format = Format {
 
 /// Flips a bit, writes a byte or number at a limit, or inserts equal bytes.
 pub fn edit(bytes: &mut Vec<u8>, random: &mut Rng) {
-    let end = match random.bool() {
-        true => bytes.len(),
+    let kind = random.u8(..4);
+    let end = match kind == 2 && random.bool() {
         // Lengths lie in headers.
-        false => bytes.len().min(64),
+        true => bytes.len().min(64),
+        false => bytes.len(),
     };
     let at = random.usize(..=end);
     let changed = &mut bytes[at..];
-    match (random.u8(..4), changed.first_mut()) {
+    match (kind, changed.first_mut()) {
         (0, Some(byte)) => *byte ^= 1 << random.u32(..8),
         (1, Some(byte)) => {
             *byte = random
@@ -47,10 +48,8 @@ pub fn edit(bytes: &mut Vec<u8>, random: &mut Rng) {
                 true => number.to_le_bytes(),
                 false => number.to_be_bytes(),
             };
-            changed
-                .iter_mut()
-                .zip(number)
-                .for_each(|(to, from)| *to = from);
+            let count = changed.len().min(4);
+            changed[..count].copy_from_slice(&number[..count]);
         }
         _ => {
             let count = magnitude(64, random);

@@ -41,7 +41,7 @@ pub fn mutate(target: &Target, place: &Place, seeds: &[&[u8]], random: &mut Rng)
         let format = match target.shape {
             Shape::Text(_) => match random.u8(..8) {
                 0 => &bytes::FORMAT,
-                1..=3 => &text::LINES,
+                1 | 2 => &text::LINES,
                 _ => &text::WORDS,
             },
             Shape::CommandLine => &text::COMMAND_LINE,

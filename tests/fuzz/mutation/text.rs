@@ -30,13 +30,13 @@ pub const LINES: Format = Format {
             false => lines[at] = line,
         }
     },
-    moves: 6,
+    moves: 7,
 };
 
-/// Words, quoted texts, and every other byte alone.
+/// Words, and every other byte alone. In half of the cases a text with its quotes is one piece.
 pub static WORDS: Format = Format {
     header: 0,
-    cut: |input, _| cut_words(input),
+    cut: |input, random| cut_words(input, random.bool()),
     write: |input, word| input.extend(word),
     edit: edit_words,
     moves: 1,
@@ -57,11 +57,13 @@ fn is_part_of_word(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || b"_-.+".contains(&byte)
 }
 
-fn cut_words(mut rest: &[u8]) -> Vec<Vec<u8>> {
+fn cut_words(mut rest: &[u8], has_texts: bool) -> Vec<Vec<u8>> {
     let mut words = Vec::new();
     while let [first, more @ ..] = rest {
         let length = match *first {
-            b'"' => (more.iter().position(|byte| *byte == b'"')).map_or(1, |at| at + 2),
+            b'"' if has_texts => {
+                (more.iter().position(|byte| *byte == b'"')).map_or(1, |at| at + 2)
+            }
             byte if is_part_of_word(byte) => rest
                 .iter()
                 .take_while(|byte| is_part_of_word(**byte))
@@ -79,8 +81,8 @@ fn cut_words(mut rest: &[u8]) -> Vec<Vec<u8>> {
 fn edit_words(pieces: &mut Vec<Vec<u8>>, source: &Source, random: &mut Rng) {
     let kind = random.u8(..16);
     let suits = |word: &[u8]| match (kind, word.first()) {
-        (0..6, first) => matches!(first, Some(b'0'..=b'9' | b'-' | b'.')),
-        (6..9, first) => first == Some(&b'"') && word.len() > 1,
+        (0..5, first) => matches!(first, Some(b'0'..=b'9' | b'-' | b'.')),
+        (5..9, first) => first == Some(&b'"') && word.len() > 1,
         (9..13, first) => first.is_some_and(|byte| is_part_of_word(*byte)),
         (13, first) => first.is_some_and(|byte| b"[]{}(),:=\"'\n".contains(byte)),
         _ => true,
@@ -92,8 +94,8 @@ fn edit_words(pieces: &mut Vec<Vec<u8>>, source: &Source, random: &mut Rng) {
     };
     let old = &pieces[at];
     pieces[at] = match kind {
-        0..6 => make_number(random).into(),
-        6..9 => format!("\"{}\"", make_text(random)).into(),
+        0..5 => make_number(random).into(),
+        5..9 => format!("\"{}\"", make_text(random)).into(),
         9..12 if random.bool() => pick_word(source, random).trim_end().into(),
         9..12 => pieces[random.usize(..pieces.len())].clone(),
         12 => nest(old, random),
