@@ -1,12 +1,12 @@
 //! Settings that a run's scores depend on.
 
 use std::collections::HashSet;
-use tracer::SceneId;
 
 use filters::AdapterDescription;
 use frame::Alignment;
 use maud::{Markup, html};
 use suite::{Case, Run};
+use tracer::SceneId;
 
 use crate::case_table::CaseTable;
 use crate::table::{Column, scroll_table};

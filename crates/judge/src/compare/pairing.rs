@@ -2,10 +2,9 @@
 
 use std::collections::HashMap;
 
-use suite::{Case, Error, Run};
+use suite::{Case, CaseId, Error, Run};
 
 use crate::compare::side::Side;
-use suite::CaseId;
 
 /// A case that two runs have.
 #[derive(Clone, Copy, Debug)]

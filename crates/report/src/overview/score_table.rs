@@ -4,8 +4,7 @@ use judge::{Level, list_summarized};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
 use suite::{Bench, Case, FilterId, Overall};
-use tracer::FrameRate;
-use tracer::SceneId;
+use tracer::{FrameRate, SceneId};
 
 use super::bench_file::cost_of;
 use super::cell::{Colors, cell};
