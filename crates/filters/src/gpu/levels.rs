@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::targets::Targets;
+use crate::filter::PassShader;
 use crate::shader::{EntryPoint, Role, Shader, Variable};
 use crate::{Expression, Filter, Pass};
 
@@ -54,10 +55,9 @@ impl<'a> Levels<'a> {
                 Role::Block(_) | Role::Sampler(_) => {}
             }
         }
-        if let Some(drawn) = &pass.shader {
-            let level = drawn.level.as_ref().map(evaluate).transpose()?;
-            let drawn = drawn.targets.iter();
-            written.extend(drawn.map(|name| (&name[..], level.unwrap_or(0))));
+        if let Some(PassShader { level, targets, .. }) = &pass.shader {
+            let level = level.as_ref().map(evaluate).transpose()?;
+            written.extend(targets.iter().map(|name| (&name[..], level.unwrap_or(0))));
         }
         Ok(Self { variables, written })
     }
