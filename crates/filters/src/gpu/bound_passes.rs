@@ -155,9 +155,8 @@ impl Binder<'_> {
             if !levels.are_there(&self.targets) {
                 continue;
             }
-            (levels.check(shader, entry, &self.targets, &self.ready))
-                .map_err(|reason| place.refuse(reason))?;
-            levels.add_to(&mut self.ready);
+            let ready = levels.write(shader, entry, &self.targets, &mut self.ready);
+            ready.map_err(|reason| place.refuse(reason))?;
             let (groups, blocks) =
                 gpu.catch_errors(place, || self.bind_stages(pass, compiled, &levels))?;
             let targets = &self.targets;
