@@ -3,7 +3,6 @@
 use std::collections::HashSet;
 
 use serde::{Deserialize, Serialize};
-
 use suite::{Frames, MOST_FRAMES};
 
 /// Upper limit on the filters of one shutter that people compare.
@@ -44,7 +43,8 @@ pub struct StudyShutter {
     /// Hashes of the truths' inputs: per scene those of its frames.
     pub truth_hashes: Vec<Vec<String>>,
     /// Numbers of the scenes where the truth clearly differs from the sharp frame.
-    pub telling_scenes: Vec<usize>,
+    #[serde(rename = "telling_scenes")]
+    pub blurred_scenes: Vec<usize>,
 }
 
 impl Study {
@@ -75,23 +75,18 @@ impl Study {
                 self.scenes.len()
             ));
         }
-        refuse_twice("scene", &self.scenes)?;
+        refuse_twice("scene", self.scenes.iter())?;
         if !(1..=MOST_FRAMES).contains(&self.frames.count) || !self.shows_at_a_rate() {
             return Err(format!(
                 "has {} frames at {} per second; allowed: 1 to {MOST_FRAMES}, above 0 per second",
                 self.frames.count, self.frames.per_second
             ));
         }
-        let alignments: Vec<String> = (self.shutters.iter())
-            .map(|own| own.alignment.clone())
-            .collect();
-        refuse_twice("shutter", &alignments)?;
+        refuse_twice("shutter", self.shutters.iter().map(|own| &own.alignment))?;
         if self.shutters.is_empty() {
             return Err("asks about no filter; allowed: two or more of one shutter".to_owned());
         }
-        self.shutters
-            .iter()
-            .try_for_each(|own| self.check_shutter(own))?;
+        (self.shutters.iter()).try_for_each(|own| self.check_shutter(own))?;
         match self.most_pairs >= self.fewest_pairs() {
             true => Ok(()),
             false => Err(format!(
@@ -114,22 +109,19 @@ impl Study {
                 own.filters.len()
             ));
         }
-        refuse_twice("filter", &own.filters)?;
+        refuse_twice("filter", own.filters.iter())?;
         if let Some(name) = own.filters.iter().find(|name| name.starts_with('[')) {
             return Err(format!(
                 "asks about a filter \"{name}\"; brackets stand for the truth and the sharp frame"
             ));
         }
-        let counts = own.truth_hashes.iter().map(Vec::len);
-        let are_all = own.truth_hashes.len() == self.scenes.len()
-            && counts
-                .into_iter()
-                .all(|count| count == self.frames.count as usize);
-        if !are_all {
+        let frames = self.frames.count as usize;
+        let are_whole = own.truth_hashes.iter().all(|hashes| hashes.len() == frames);
+        if !are_whole || own.truth_hashes.len() != self.scenes.len() {
             return Err(format!("lacks hashes of truths of the {alignment} shutter"));
         }
         let is_scene = |scene: &usize| *scene < self.scenes.len();
-        match !own.telling_scenes.is_empty() && own.telling_scenes.iter().all(is_scene) {
+        match !own.blurred_scenes.is_empty() && own.blurred_scenes.iter().all(is_scene) {
             true => Ok(()),
             false => Err(format!(
                 "has no scene on which the truth of the {alignment} shutter differs from the sharp frame"
@@ -138,7 +130,7 @@ impl Study {
     }
 }
 
-/// Counts the pairs of a round: filters that stand in a circle, each beside the one at this distance.
+/// Counts the pairs of a round: filters in a circle, each compared with the one at this distance.
 pub(super) fn round_size(filters: usize, distance: usize) -> usize {
     match 2 * distance == filters {
         true => distance,
@@ -146,9 +138,9 @@ pub(super) fn round_size(filters: usize, distance: usize) -> usize {
     }
 }
 
-fn refuse_twice(what: &str, names: &[String]) -> Result<(), String> {
+fn refuse_twice<'a>(what: &str, mut names: impl Iterator<Item = &'a String>) -> Result<(), String> {
     let mut seen = HashSet::new();
-    match names.iter().find(|name| !seen.insert(*name)) {
+    match names.find(|name| !seen.insert(*name)) {
         None => Ok(()),
         Some(name) => Err(format!("asks about the {what} \"{name}\" twice")),
     }

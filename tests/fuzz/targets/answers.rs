@@ -73,7 +73,7 @@ fn study() -> Study {
             alignment: "centred".to_owned(),
             filters: filters.map(str::to_owned).to_vec(),
             truth_hashes: vec![vec!["0".repeat(64)], vec!["1".repeat(64)]],
-            telling_scenes: vec![0],
+            blurred_scenes: vec![0],
         }],
         most_pairs: 6,
         pictures: "2".repeat(64),

@@ -79,11 +79,8 @@ pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
 /// Finds the required bound on a case's score, and the score's status; none where it has no such bound, or does not apply.
 fn find_judged<'a>(headline: Headline, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
     let name = headline.metric(&view.case.scores)?.name();
-    let mut required = view
-        .findings
-        .iter()
-        .filter(|own| own.level == Level::Required);
-    let finding = required.find(|finding| finding.metric == name)?;
+    let mut findings = view.findings.iter();
+    let finding = findings.find(|own| own.level == Level::Required && own.metric == name)?;
     Some((finding, Status::of(finding.outcome)?))
 }
 
@@ -109,9 +106,7 @@ mod tests {
         assert_eq!([good, bad], ["good", "bad"]);
         assert!(strong + weak > 40.0, "{strong} {weak}");
         assert_eq!(colors.of(9.0), Some(("bad", 100.0)));
-        assert_eq!(
-            Colors::over(Ideal::Highest, [3.0].into_iter()).of(3.0),
-            None
-        );
+        let single = Colors::over(Ideal::Highest, [3.0].into_iter());
+        assert_eq!(single.of(3.0), None);
     }
 }

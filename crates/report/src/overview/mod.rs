@@ -21,16 +21,11 @@ use costs::costs;
 use headlines::{TABLE_SCORES, better, meaning};
 use judge::{Level, lag_text};
 use score_table::score_table;
-use suite::{Bench, Headline};
+use suite::Headline;
 use winners::{sequence_winners, winners};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
-pub fn overview(
-    table: &CaseTable,
-    views: &[CaseView],
-    thumbnails: &[String],
-    bench: Option<&Bench>,
-) -> Markup {
+pub fn overview(table: &CaseTable, views: &[CaseView], thumbnails: &[String]) -> Markup {
     let findings = || views.iter().flat_map(|view| &view.findings);
     let required = Tally::of(findings(), Level::Required);
     let is_checked = required.all > 0;
@@ -59,14 +54,14 @@ pub fn overview(
                 }
                 label.check { input type="checkbox" name="references"; " References" }
             }
-            @for score in TABLE_SCORES { (panel(table, views, thumbnails, score, bench)) }
+            @for score in TABLE_SCORES { (panel(table, views, thumbnails, score)) }
             p.nothing hidden { "No filter of this name." }
             (key(is_checked))
             div.peek hidden aria-hidden="true" {
                 p {}
                 @for title in ["truth", "output", "FLIP"] { figure { canvas width="48" height="48" {} figcaption { (title) } } }
             }
-            (costs(table, bench))
+            (costs(table))
             (provenance(table))
         }
     }
@@ -120,7 +115,6 @@ fn panel(
     views: &[CaseView],
     thumbnails: &[String],
     (headline, title): (Headline, &str),
-    bench: Option<&Bench>,
 ) -> Markup {
     // One copy of the pictures is enough: the script moves them to the table that is seen.
     let is_first = headline == TABLE_SCORES[0].0;
@@ -129,7 +123,7 @@ fn panel(
             strong { (title) } ": " (meaning(headline)) "; " (better(headline)) "."
             @if let Some(lag) = lag_text(&table.run.cases).filter(|_| headline == Headline::SKILL) { " " (lag) }
         }
-        (score_table(table, views, if is_first { thumbnails } else { &[] }, (headline, title), bench))
+        (score_table(table, views, if is_first { thumbnails } else { &[] }, (headline, title)))
     };
     html! {
         div.panel data-metric=(headline.name()) {
