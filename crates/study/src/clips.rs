@@ -86,8 +86,9 @@ pub fn make_study(
         scenes,
         shutters,
         most_pairs: choice.most_pairs,
-        pictures: hash_pictures(&clips, run)?,
+        pictures: String::new(),
     };
+    study.pictures = hash_pictures(&study, &clips)?;
     find_blurred_scenes(&mut study, &clips)?;
     study.check().map_err(|reason| {
         Error::Usage(format!(
@@ -109,9 +110,9 @@ impl Study {
         1 + clips.sum::<usize>()
     }
 
-    /// Upper limit on the bytes of one of its pictures.
+    /// Upper limit on the bytes of one of its PNG files.
     pub fn most_picture_bytes(&self) -> u64 {
-        most_bytes(self.width, self.height)
+        (1 << 16) + 16 * u64::from(self.width) * u64::from(self.height)
     }
 
     /// Numbers of the truths' clips on the first scene, by shutter. The filters follow each.
@@ -192,21 +193,14 @@ fn find_item<'a>(items: &[&'a Item], scene: &str, filter: &str) -> Result<&'a It
     })
 }
 
-/// Hashes all pictures, and refuses those of another size than the run's.
-fn hash_pictures(clips: &[Vec<ClipFiles>], run: &Run) -> Result<String, Error> {
-    let (width, height) = (run.render.width, run.render.height);
+fn hash_pictures(study: &Study, clips: &[Vec<ClipFiles>]) -> Result<String, Error> {
     let mut hasher = blake3::Hasher::new();
     for path in clips.iter().flatten().flatten() {
-        let bytes = read_bounded(path, most_bytes(width, height))?;
+        let bytes = read_bounded(path, study.most_picture_bytes())?;
         hasher.update(&(bytes.len() as u64).to_le_bytes());
         hasher.update(&bytes);
     }
     Ok(hasher.finalize().to_hex().to_string())
-}
-
-/// Upper limit on the bytes of a PNG of this size.
-fn most_bytes(width: u32, height: u32) -> u64 {
-    (1 << 16) + 16 * u64::from(width) * u64::from(height)
 }
 
 /// Finds the scenes on which truth and sharp frame differ by half as much as where they differ most, or by more.

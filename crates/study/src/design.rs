@@ -61,7 +61,8 @@ pub fn draw_session(study: &Study, question: Question, seed: u64) -> Vec<ShownPa
             });
         }
     }
-    for check in 0..count_checks(trials.len()) {
+    let checks = trials.len().div_ceil(PAIRS_PER_CHECK).max(FEWEST_CHECKS);
+    for check in 0..checks {
         trials.push(draw_check(study, question, check, &mut random));
     }
     shuffle(&mut trials, &mut random);
@@ -100,10 +101,6 @@ fn draw_rounds(study: &Study, random: &mut Random) -> Vec<[usize; 3]> {
         }
     }
     rounds
-}
-
-fn count_checks(pairs: usize) -> usize {
-    pairs.div_ceil(PAIRS_PER_CHECK).max(FEWEST_CHECKS)
 }
 
 /// Draws a check. Whether the truth looks better than the sharp frame is a matter of taste: no check asks for that.

@@ -180,20 +180,18 @@ fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
                 expected.join(" / ")
             ));
         }
-        check_numbers(answer).map_err(|reason| format!("{} {reason}", place()))?;
+        let Answer {
+            milliseconds, zoom, ..
+        } = answer;
+        if !milliseconds.is_finite() || *milliseconds < 0.0 || *zoom < 1 {
+            return Err(format!(
+                "{} took {milliseconds} milliseconds at zoom {zoom}; allowed: 0 or more, and 1 or more",
+                place()
+            ));
+        }
     }
     let choices = file.answers.iter().map(|answer| answer.choice);
     Ok(trials.into_iter().zip(choices).collect())
-}
-
-fn check_numbers(answer: &Answer) -> Result<(), String> {
-    match answer.milliseconds.is_finite() && answer.milliseconds >= 0.0 && answer.zoom >= 1 {
-        true => Ok(()),
-        false => Err(format!(
-            "took {} milliseconds at zoom {}; allowed: 0 or more, and 1 or more",
-            answer.milliseconds, answer.zoom
-        )),
-    }
 }
 
 /// Names what a trial shows: scene, alignment, left and right.

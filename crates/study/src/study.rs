@@ -76,10 +76,11 @@ impl Study {
             ));
         }
         refuse_twice("scene", self.scenes.iter())?;
-        if !(1..=MOST_FRAMES).contains(&self.frames.count) || !self.shows_at_a_rate() {
+        let rate = self.frames.per_second;
+        if !(1..=MOST_FRAMES).contains(&self.frames.count) || !rate.is_finite() || rate <= 0.0 {
             return Err(format!(
                 "has {} frames at {} per second; allowed: 1 to {MOST_FRAMES}, above 0 per second",
-                self.frames.count, self.frames.per_second
+                self.frames.count, rate
             ));
         }
         refuse_twice("shutter", self.shutters.iter().map(|own| &own.alignment))?;
@@ -95,10 +96,6 @@ impl Study {
                 self.fewest_pairs()
             )),
         }
-    }
-
-    fn shows_at_a_rate(&self) -> bool {
-        self.frames.per_second.is_finite() && self.frames.per_second > 0.0
     }
 
     fn check_shutter(&self, own: &StudyShutter) -> Result<(), String> {
