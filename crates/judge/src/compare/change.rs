@@ -10,10 +10,11 @@ use crate::compare::pairing::{Pair, filter_label};
 pub struct Change {
     /// Scene, with its variant.
     pub scene: String,
-    /// `jump_flood:paper`; a bar with its alignment.
+    /// `jump_flood:paper`; a reference picture with its alignment.
     pub filter: String,
-    /// True for a bar, false for a filter.
-    pub bar: bool,
+    /// True for a reference picture, false for a filter.
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
     /// Name of the metric.
     pub metric: String,
     /// Score in the first run, in the metric's unit.
@@ -52,7 +53,7 @@ pub enum Basis {
 pub enum ChangeKind {
     /// Equal to the last bit.
     Same,
-    /// No more than the truth's noise could make.
+    /// No more than the truth's noise can explain.
     WithinNoise,
     /// More than noise, and less than the margin.
     BelowMargin,
@@ -103,10 +104,8 @@ impl Change {
         weight: f64,
         uncertainty: Option<Uncertainty>,
     ) -> Option<Self> {
-        let (Measured::Score(first), Measured::Score(second)) = (
-            pair.first.scores.get(metric),
-            pair.second.scores.get(metric),
-        ) else {
+        let [first, second] = [pair.first, pair.second].map(|case| case.scores.get(metric));
+        let (Measured::Score(first), Measured::Score(second)) = (first, second) else {
             return None;
         };
         let badness = |value: f64| metric.ideal().badness(value);
@@ -116,7 +115,7 @@ impl Change {
         Some(Self {
             scene: pair.first.scene.clone(),
             filter: filter_label(pair.first),
-            bar: pair.first.is_reference,
+            is_reference: pair.first.is_reference,
             metric: metric.name(),
             first: first.value,
             second: second.value,
@@ -193,8 +192,27 @@ fn classify(worse: f64, [low, high]: [f64; 2]) -> ChangeKind {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// Makes a change from 0.5 of one filter.
+    pub fn change(scene: &str, metric: &str, worse: f64, kind: ChangeKind) -> Change {
+        Change {
+            scene: scene.to_owned(),
+            filter: "one:paper".to_owned(),
+            is_reference: false,
+            metric: metric.to_owned(),
+            first: 0.5,
+            second: 0.5 + worse,
+            worse,
+            estimates: [0.5, 0.5 + worse],
+            weight: 1.0,
+            interval: None,
+            standard_error: None,
+            basis: Basis::Floor,
+            kind,
+        }
+    }
 
     #[test]
     fn a_change_is_what_its_interval_leaves_no_doubt_of() {

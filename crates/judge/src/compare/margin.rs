@@ -1,4 +1,4 @@
-//! Margins below which a change does not matter, however surely it is told from noise.
+//! Margins below which a change does not matter, however certain it is.
 
 use std::collections::BTreeMap;
 
@@ -16,21 +16,19 @@ impl RunComparison {
     /// Marks changes that are smaller than their margin: those of bounds.toml, or else the usual ones.
     pub fn apply_margins(&mut self, margins: &BTreeMap<String, Margin>) {
         let margin = |metric: &str| {
-            let usual = USUAL_MARGINS
-                .iter()
-                .find(|(headline, _)| headline.name() == metric);
+            let mut usual = USUAL_MARGINS.iter();
+            let usual = usual.find(|(headline, _)| headline.name() == metric);
             let own = margins.get(metric).map(|margin| margin.width);
             own.or(usual.map(|(_, width)| *width)).unwrap_or(0.0)
         };
         for change in &mut self.changes {
-            let is_told = matches!(change.kind, ChangeKind::Better | ChangeKind::Worse);
-            if is_told && change.estimate().abs() < margin(&change.metric) {
+            if change.is_beyond_noise() && change.estimate().abs() < margin(&change.metric) {
                 change.kind = ChangeKind::BelowMargin;
             }
         }
         for mean in &mut self.means {
-            let is_told = matches!(mean.kind, MeanKind::Better | MeanKind::Worse);
-            if is_told && mean.worse.abs() < margin(&mean.metric) {
+            let is_decided = matches!(mean.kind, MeanKind::Better | MeanKind::Worse);
+            if is_decided && mean.worse.abs() < margin(&mean.metric) {
                 mean.kind = MeanKind::BelowMargin;
             }
         }
@@ -41,36 +39,18 @@ impl RunComparison {
 mod tests {
     use super::*;
     use crate::compare::COMPARE_FORMAT;
-    use crate::compare::change::{Basis, Change};
+    use crate::compare::change::tests::change;
     use suite::PROGRAM;
-
-    fn change(metric: &str, worse: f64, kind: ChangeKind) -> Change {
-        Change {
-            scene: "fan".to_owned(),
-            filter: "one:paper".to_owned(),
-            bar: false,
-            metric: metric.to_owned(),
-            first: 30.0,
-            second: 30.0 + worse,
-            worse,
-            estimates: [30.0, 30.0 + worse],
-            weight: 1.0,
-            interval: None,
-            standard_error: None,
-            basis: Basis::Floor,
-            kind,
-        }
-    }
 
     #[test]
     fn a_change_counts_from_its_margin_on() {
         let psnr = Headline::PSNR.name();
         let changes = vec![
-            change(&psnr, -4e-7, ChangeKind::Better),
-            change(&psnr, -0.2, ChangeKind::Better),
-            change("flip_moving", 0.004, ChangeKind::Worse),
-            change("flip_moving", 0.006, ChangeKind::Worse),
-            change("flip_moving", 0.001, ChangeKind::WithinNoise),
+            change("fan", &psnr, -4e-7, ChangeKind::Better),
+            change("fan", &psnr, -0.2, ChangeKind::Better),
+            change("fan", "flip_moving", 0.004, ChangeKind::Worse),
+            change("fan", "flip_moving", 0.006, ChangeKind::Worse),
+            change("fan", "flip_moving", 0.001, ChangeKind::WithinNoise),
         ];
         let margin = Margin {
             width: 0.005,

@@ -3,10 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-use suite::Error;
-use suite::Headline;
-use suite::Random;
-use suite::{SceneMean, TWO_SIDED, plain_mean};
+use suite::{Error, Headline, Random, SceneMean, TWO_SIDED, plain_mean};
 
 use crate::results::Results;
 
@@ -112,17 +109,16 @@ fn compare_group(
         .filter(|own| own.score(headline).is_some())
         .map(|own| own.scene.as_str())
         .collect();
-    let badness: Vec<Badness> = (results.iter())
-        .map(|results| {
-            (names.iter())
-                .map(|name| {
-                    (scenes.iter())
-                        .map(|scene| find(results, scene, name, headline))
-                        .collect()
-                })
+    let read = |results: &&Results| -> Result<Badness, Error> {
+        let filter = |name: &&str| {
+            let scenes = scenes.iter();
+            scenes
+                .map(|scene| find(results, scene, name, headline))
                 .collect()
-        })
-        .collect::<Result<_, Error>>()?;
+        };
+        names.iter().map(filter).collect()
+    };
+    let badness: Vec<Badness> = results.iter().map(read).collect::<Result<_, Error>>()?;
     let at_largest = badness.last().expect("there are results");
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let mut filters: Vec<FilterAtSizes> = (names.iter().enumerate())
@@ -149,16 +145,14 @@ fn compare_group(
 /// Finds how bad a filter is on a scene.
 fn find(results: &Results, scene: &str, name: &str, headline: Headline) -> Result<f64, Error> {
     let found = (results.scores.iter()).find(|own| own.scene == scene && own.name == name);
-    let value = found.and_then(|own| own.score(headline));
-    value
-        .map(|value| headline.ideal().badness(value))
-        .ok_or_else(|| {
-            Error::Usage(format!(
-                "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
-                results.file_name(),
-                headline.name()
-            ))
-        })
+    let value = found.and_then(|own| own.score(headline)).ok_or_else(|| {
+        Error::Usage(format!(
+            "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
+            results.file_name(),
+            headline.name()
+        ))
+    })?;
+    Ok(headline.ideal().badness(value))
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -197,11 +191,10 @@ fn compare_order(names: &[String], here: &Badness, largest: &Badness) -> Agreeme
                 (None, Some(_)) => agreement.only_at_largest += 1,
                 (Some(own), Some(others)) if own == others => agreement.alike += 1,
                 (Some(side), Some(_)) => {
-                    let (better, worse) = match side {
-                        Ordering::Greater => (first, second),
-                        _ => (second, first),
+                    let (better, worse, sign) = match side {
+                        Ordering::Greater => (first, second, 1.0),
+                        _ => (second, first, -1.0),
                     };
-                    let sign = if better == first { 1.0 } else { -1.0 };
                     agreement.reversed.push(Reversal {
                         better_here: names[better].clone(),
                         better_at_largest: names[worse].clone(),
