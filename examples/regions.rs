@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 use std::process::ExitCode;
 
 use frame::{Alignment, Frame, Image, Picture, Raster, Truth};
+use judge::make_wrong_pictures;
 use metrics::{MeasureError, Reference};
 use rayon::prelude::*;
-use suite::{Error, make_wrong_pictures, scatter_oracle};
+use suite::{Error, scatter_oracle};
 use tracer::{Progress, RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
 
 /// FLIP over *moving* and over *support*.
@@ -66,7 +67,7 @@ fn measure_scenes(settings: &RenderSettings, names: &[String]) -> Result<Vec<Row
         let truth = trace_truth(&scene, settings, Alignment::Centred, &unwatched)?;
         if truth.support.moving.pixels.contains(&true) {
             rows.push(measure(&scene, &frame, &truth)?);
-            eprintln!("{}", scene.name);
+            eprintln!("{}", scene.id);
         }
     }
     Ok(rows)
@@ -103,7 +104,7 @@ fn measure(scene: &Scene, frame: &Frame, truth: &Truth) -> Result<Row, MeasureEr
         Ok((name.clone(), flips))
     });
     Ok(Row {
-        scene: scene.name.clone(),
+        scene: scene.id.to_string(),
         errors: errors.collect::<Result<_, MeasureError>>()?,
     })
 }

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use cli::{main_results, picture_name, results_filter_pages, results_page};
+use judge::Results;
 use report::{read_bench, write_case_strip};
-use suite::{Case, Error, Results, Run};
+use suite::{Case, Error, Run};
 
 const FOLDER: &str = "results";
 

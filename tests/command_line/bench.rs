@@ -167,8 +167,8 @@ impl Bench {
     }
 
     /// Reads the findings about the last run.
-    pub fn read_findings(&self) -> Vec<suite::Finding> {
-        let judgement = suite::Judgement::read(&self.read_run(), &self.path("out")).unwrap();
+    pub fn read_findings(&self) -> Vec<judge::Finding> {
+        let judgement = judge::Judgement::read(&self.read_run(), &self.path("out")).unwrap();
         judgement.expect("the run was judged").findings
     }
 

@@ -1,6 +1,7 @@
 //! Measurements beside the filters' own scores: references, a common shutter, noise, coarser frames.
 
-use frame::{Frame, Ladder, Picture, Truth};
+use frame::{Alignment, Frame, Ladder, Picture, Truth};
+use metrics::Metric;
 use suite::{Case, DepthFormat, FinishedPicture, Overall, Run, VelocityFormat};
 
 use crate::bench::{Bench, SCENE, assert_done, assert_refused, quick_command, split, stdout};
@@ -8,7 +9,7 @@ use crate::bench::{Bench, SCENE, assert_done, assert_refused, quick_command, spl
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
     found.unwrap_or_else(|| {
-        let names: Vec<String> = cases.iter().map(Case::name).collect();
+        let names: Vec<String> = cases.iter().map(|case| case.name()).collect();
         panic!("no {name} among {names:?}")
     })
 }
@@ -22,23 +23,23 @@ fn filters_of_two_alignments_share_a_common_shutter() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy"]));
     let run = bench.read_run();
-    assert_eq!(run.common_alignment, "centred");
+    assert_eq!(run.common_alignment, Alignment::Centred);
     for case in &run.cases {
         let own = case.common == case.scores.moving;
-        assert_eq!(own, case.alignment == "centred", "{}", case.name());
+        assert_eq!(own, case.alignment == Alignment::Centred, "{}", case.name());
     }
     // The mean of many sub-frames, half an exposure early, does not match the common interval.
     let bars = run.cases.iter().filter(|case| case.preset == "64");
     let many: Vec<&Case> = bars.collect();
     assert_eq!(many.len(), 2, "64 sub-frames of each alignment");
-    assert_eq!(many[0].alignment, "trailing");
+    assert_eq!(many[0].alignment, Alignment::Trailing);
     let late = many[0].common.flip.value().unwrap();
     assert!(late > 4.0 * flip(many[0]), "{late}");
     // A narrower run keeps the cases of the wider one, and so their common shutter.
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    assert_eq!(bench.read_run().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, Alignment::Centred);
     assert_done(&bench.run(&["--filters", "velocity_gather:fine", "--no-cache"]));
-    assert_eq!(bench.read_run().common_alignment, "trailing");
+    assert_eq!(bench.read_run().common_alignment, Alignment::Trailing);
 }
 
 #[test]
@@ -48,25 +49,25 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
     let filters = ["--filters", "velocity_gather:fine,bevy"];
     let text = bench.execute(&[&quick_command("run", "64")[..], &filters].concat());
     let run = bench.read_run();
-    let find = |bar: &str, alignment: &str| {
+    let find = |bar: &str, alignment: Alignment| {
         let mut found = run.cases.iter();
         found.find(|case| case.name() == bar && case.alignment == alignment)
     };
     // Skill is measured from a sharp picture of the shutter's middle to the one-frame oracle.
     for (bar, alignment, expected) in [
-        ("accumulate:1", "trailing", 0.0),
-        ("identity", "centred", 0.0),
-        ("scatter_oracle", "trailing", 1.0),
-        ("scatter_oracle", "centred", 1.0),
+        ("accumulate:1", Alignment::Trailing, 0.0),
+        ("identity", Alignment::Centred, 0.0),
+        ("scatter_oracle", Alignment::Trailing, 1.0),
+        ("scatter_oracle", Alignment::Centred, 1.0),
     ] {
         let found = find(bar, alignment).unwrap();
         let skill = found.scores.get("skill_flip".parse().unwrap());
         assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
     }
-    assert!(find("accumulate:1", "centred").is_none());
+    assert!(find("accumulate:1", Alignment::Centred).is_none());
     // The lag behind the frame has a row of its own.
-    let lag = flip(find("identity", "trailing").unwrap())
-        - flip(find("accumulate:1", "trailing").unwrap());
+    let lag = flip(find("identity", Alignment::Trailing).unwrap())
+        - flip(find("accumulate:1", Alignment::Trailing).unwrap());
     assert!(lag > 0.05, "{lag}");
     let row = text
         .lines()
@@ -146,7 +147,7 @@ fn variance_is_measured_for_filters_with_noise() {
 fn defects_of_velocity_cost_what_they_take_away() {
     let bench = Bench::new();
     let output = bench.run(&split(
-        "--filters identity,velocity_gather:fine --velocity-defect zero,double,lag,no_object,jittered",
+        "--filters identity,velocity_gather:fine --input defect=zero,double,lag,no_object,jittered",
     ));
     assert_done(&output);
     let cases = bench.read_filter_cases();
@@ -174,21 +175,17 @@ fn defects_of_velocity_cost_what_they_take_away() {
     assert!(row.ends_with(&due), "{told}");
     // The ranking is of the right buffer alone.
     assert!(!told.contains("velocity_gather:fine defect"), "{told}");
-    let camera_only = split("--filters identity --velocity camera_only --velocity-defect lag");
+    let camera_only = split("--filters identity --velocity camera_only --input defect=lag");
     let refused = bench.run(&camera_only);
-    assert_refused(
-        &refused,
-        2,
-        &["--velocity-defect lag", "--velocity camera_only"],
-    );
+    assert_refused(&refused, 2, &["defect=lag", "the camera alone"]);
 }
 
 #[test]
 fn coarser_buffers_raise_the_error() {
     let bench = Bench::new();
     let output = bench.run(&split(
-        "--filters identity,velocity_gather:fine --velocity-format float16,linear8,kino10,tile_clamped \
-         --depth-format float16",
+        "--filters identity,velocity_gather:fine --input velocity=float16,linear8,kino10,tile_clamped \
+         --input depth=float16",
     ));
     assert_done(&output);
     let cases = bench.read_filter_cases();
@@ -221,7 +218,12 @@ fn coarser_buffers_raise_the_error() {
 #[test]
 fn a_clamped_border_is_cropped_before_scoring() {
     let bench = Bench::new();
-    let words = ["--filters", "velocity_gather:fine", "--border", "clamp"];
+    let words = [
+        "--filters",
+        "velocity_gather:fine",
+        "--input",
+        "border=clamp",
+    ];
     assert_done(&bench.run(&words));
     let cases = bench.read_filter_cases();
     let clamped = find_case(&cases, "velocity_gather:fine border=clamp");
@@ -229,7 +231,7 @@ fn a_clamped_border_is_cropped_before_scoring() {
     let whole = find_case(&cases, "velocity_gather:fine");
     assert_eq!(clamped.scores.full, whole.scores.full);
     assert_eq!(clamped.scores.objects, whole.scores.objects);
-    let output = bench.run(&["--border", "mirror"]);
+    let output = bench.run(&["--input", "border=mirror"]);
     assert_refused(&output, 2, &["mirror", "leave, clamp"]);
 }
 
@@ -291,6 +293,6 @@ fn identity_overall(run: &Run) -> ([f64; 2], Overall) {
     let mean = run
         .overall
         .iter()
-        .find(|mean| (&mean.filter[..], &mean.metric[..]) == ("identity:default", "flip_moving"));
+        .find(|mean| (&mean.filter[..], mean.metric) == ("identity:default", Metric::FLIP));
     (scores.try_into().unwrap(), mean.unwrap().clone())
 }

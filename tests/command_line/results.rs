@@ -5,8 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use cli::{main_results, picture_name, results_filter_pages, results_page};
-use suite::{Headline, Results, Run};
+use judge::Results;
+use metrics::Metric;
+use suite::Run;
 use tests::filter_folder::copy_changed_filter;
+use tracer::SceneId;
 use tracer::Seal;
 
 use crate::bench::{Bench, assert_done};
@@ -114,12 +117,13 @@ fn results_of_two_runs_are_those_of_one() {
     let whole = Results::from_runs(&[both]).unwrap();
     let joined = Results::from_runs(&[plate.clone(), slow]).unwrap();
     assert_eq!(joined, whole);
-    assert_eq!(whole.scenes(), ["plate", "slow"]);
+    let named = ["plate", "slow"].map(|name| SceneId::new(name, None));
+    assert_eq!(whole.scenes(), named.each_ref());
     assert_eq!(whole.scores.len(), 6);
 
     let case = plate.cases.iter().find(|case| !case.is_reference).unwrap();
-    let flip = Headline::FLIP.estimate(case).unwrap();
-    let kept = whole.scores[0].score(Headline::FLIP).unwrap();
+    let flip = case.estimate(Metric::FLIP).unwrap();
+    let kept = whole.scores[0].score(Metric::FLIP).unwrap();
     assert!((kept / flip - 1.0).abs() < 1e-3, "{kept} {flip}");
 
     let refused = |runs: &[Run]| Results::from_runs(runs).unwrap_err().to_string();
@@ -135,7 +139,8 @@ fn results_of_two_runs_are_those_of_one() {
         "{mixed}"
     );
     let sealed = Results::from_runs(&[sealed]).unwrap();
-    assert_eq!((sealed.seal, sealed.scenes()), (Some(3), vec!["slow"]));
+    assert_eq!(sealed.seal, Some(3));
+    assert_eq!(sealed.scenes(), [&SceneId::new("slow", None)]);
     assert!(
         sealed.file_name().ends_with("_seal3.json"),
         "{}",
@@ -145,7 +150,7 @@ fn results_of_two_runs_are_those_of_one() {
     // A filter that was measured later joins those of its scene.
     let without = |scene: &str, name: &str| {
         let mut results = whole.clone();
-        (results.scores).retain(|own| (own.scene.as_str(), own.name.as_str()) != (scene, name));
+        (results.scores).retain(|own| own.scene != scene || own.name != name);
         results
     };
     let mut part = without("plate", "velocity_gather:coarse");

@@ -1,9 +1,10 @@
 //! The packed jump flood, which must equal the jump flood.
 
-use crate::fields::{Field, noise, rectangles};
 use filters::{Blur, Filter, Gpu, Settings};
 use frame::{FAR_DEPTH, Image, Raster};
 use tests::open_gpu;
+
+use crate::fields::{Field, noise, rectangles};
 
 /// Names of parameters and their values.
 type Changes = &'static [(&'static str, &'static str)];

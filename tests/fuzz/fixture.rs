@@ -17,9 +17,9 @@ pub const RENDER: &str = "--quiet --scenes plate --size 16x16 --samples-per-pixe
 const COMMANDS: [&str; 5] = [
     "run RENDER --filters velocity_gather:departure,mcguire:paper --out out",
     "bench --quiet --size 16x16 --filters velocity_gather:departure --out out",
-    "accept --out out --reason first --baseline base.json --force",
-    "tune RENDER --filter velocity_gather --objective flip --out tuned --budget 4",
-    "sensitivity RENDER --filter velocity_gather --objective flip --out study --rows 2",
+    "limits accept --out out --reason first --baseline base.json --force",
+    "tune search RENDER --filter velocity_gather --objective flip --out tuned --budget 4",
+    "tune sensitivity RENDER --filter velocity_gather --objective flip --out study --rows 2",
 ];
 
 /// Makes the fixture in a temporary folder.

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use cli::SceneChoice;
 use frame::{Alignment, Picture};
+use judge::{JudgedScore, Outcome};
 use metrics::{Measured, Reference};
-use suite::{JudgedScore, Monitor, Outcome};
+use suite::Monitor;
 use tests::scenes;
 use tracer::RenderSettings;
 
@@ -29,11 +30,11 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     let ladder = suite::LadderFiles::new(scene, &settings, &truth, out);
     let rung = ladder.read_or_render(64, Monitor::SILENT).unwrap();
     let reference = Reference::new(&frame, &truth, None, &suite::scene_viewing(scene)).unwrap();
-    let bounds = suite::read_bounds(scenes(), &choice.folder, Some((160, 90))).unwrap();
+    let bounds = judge::read_bounds(scenes(), &choice.folder, Some((160, 90))).unwrap();
     // Bounds for all filters, required or not.
     let bounds = bounds.of("identity", "default");
     let judged = |picture: &Picture| {
-        suite::judge_scores(&reference.measure(picture).unwrap().scores, None, &bounds)
+        judge::judge_scores(&reference.measure(picture).unwrap().scores, None, &bounds)
     };
     let identity = Picture {
         color: frame.color.clone(),
@@ -70,10 +71,10 @@ fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none
             |judged: &[JudgedScore]| judged.iter().any(|one| one.outcome == Outcome::Broken);
         let noisy =
             |judged: &[JudgedScore]| judged.iter().any(|one| one.outcome == Outcome::TooNoisy);
-        let name = &choice.scene.name;
+        let name = &choice.scene.id;
         println!("{name}, identity:\n{}", describe(&identity));
         println!("{name}, 64 sub-frames:\n{}", describe(&accumulation));
-        if HARDLY_MOVING.contains(&name.as_str()) {
+        if HARDLY_MOVING.contains(&name.name.as_str()) {
             assert!(!broken(&identity), "{name} is no exception");
         } else if !broken(&identity) {
             failures.push(format!("{name}: the identity keeps every bound"));

@@ -3,12 +3,13 @@
 use std::path::Path;
 
 use cli::{Programs, paired_table, select_filters, select_scenes};
-use suite::{
-    Evaluator, LEAST_BLEED, Monitor, PairedComparison, Preference, SceneBounds, compare_candidates,
-    read_bounds, render_scenes,
-};
+use judge::{SceneBounds, read_bounds};
+use suite::Monitor;
 use tests::open_gpu;
 use tracer::{RenderSettings, Scene};
+use tune::{
+    Evaluator, LEAST_BLEED, PairedComparison, Preference, compare_candidates, render_scenes,
+};
 
 const TUNED: [&str; 2] = ["jump_flood", "mcguire"];
 
@@ -16,7 +17,7 @@ const TUNED: [&str; 2] = ["jump_flood", "mcguire"];
 fn scenes_but(left_out: &[String]) -> Vec<(Scene, SceneBounds)> {
     let root = tests::scenes();
     let all = select_scenes(&root, &[]).unwrap().into_iter();
-    all.filter(|choice| !left_out.contains(&choice.scene.name))
+    all.filter(|choice| !left_out.contains(&choice.scene.id.to_string()))
         .map(|choice| {
             let bounds = read_bounds(&root, &choice.folder, None).unwrap();
             (choice.scene, bounds)

@@ -15,12 +15,12 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use clap::Parser;
-use suite::Error;
 
 use bench::Bench;
 use journal::Journal;
 use options::Options;
 use subject::Subject;
+use suite::Error;
 use verdict::find_verdicts;
 
 fn main() -> ExitCode {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use suite::number;
+use judge::number;
 use tests::mutants::Operator;
 
 use crate::bench::Bench;

@@ -25,7 +25,7 @@ fn n_subframes_are_worth_n() {
     };
     let frame = trace_frame(&scene, &coarse, watch).unwrap();
     let truth = trace_truth(&scene, &settings, Alignment::Trailing, watch).unwrap();
-    let ladder = trace_ladder(&scene, &settings, &truth, &suite::LADDER, watch).unwrap();
+    let ladder = trace_ladder(&scene, &settings, &truth, &store::LADDER, watch).unwrap();
     let reference =
         Reference::new(&frame, &truth, Some(&ladder), &suite::scene_viewing(&scene)).unwrap();
     // Another seed than the reference's.

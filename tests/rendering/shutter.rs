@@ -1,8 +1,5 @@
 //! Alignments, gradual shutters and rolling shutters, against closed forms.
 
-use crate::moving_shapes::{
-    DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, pixel_corner, render_truth, truth_settings,
-};
 use frame::{Alignment, Efficiency, Shutter, ShutterError, ShutterProfile};
 use glam::{DQuat, DVec2, DVec3};
 use tests::half_plane::{area, half_plane};
@@ -10,6 +7,10 @@ use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
     Interpolation, Key, Motion, Scene, TraceError, replicate_hash, trace_ladder, trace_truth,
+};
+
+use crate::moving_shapes::{
+    DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, pixel_corner, render_truth, truth_settings,
 };
 
 /// Makes a white half-plane on black whose edge lies `along(t)` pixels from the centre in the direction of `normal`.

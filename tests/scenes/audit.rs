@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use engine::{Capture, CaptureAudit, CaptureDescription, Cause, Defect, audit_capture};
 use filters::Convention;
 use frame::{FAR_DEPTH, Image, Vectors};
-use suite::{Capture, CaptureAudit, CaptureDescription, Cause, Defect, audit_capture};
 use tests::scenes;
 use tracer::{PointLayers, PointMotion, RenderSettings, Scene, load_scene, trace_motion};
 
@@ -81,7 +81,7 @@ fn assert_passes(scene: &Scene, capture: &Capture) {
     assert!(
         found.findings.is_empty(),
         "{}: {:#?}",
-        scene.name,
+        scene.id,
         found.findings
     );
     assert!(found.velocity.iter().all(|object| object.is_right));

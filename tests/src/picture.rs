@@ -1,9 +1,9 @@
 //! Small frames of surfaces, each with its own motion, and their blurs.
 
-use crate::open_gpu;
 use filters::{Blur, Filter, Input, Settings};
 use frame::{Image, Plane, Raster, Vectors};
 
+use crate::open_gpu;
 use crate::ramp::Ramp;
 
 /// A surface as one pixel sees it.

@@ -46,7 +46,7 @@ mod truth;
 pub use accumulation::{Accumulation, Ladder, rung_file};
 pub use at_instant::AtInstant;
 pub use camera::{Camera, CameraPose};
-pub use display::{Display, FlipExposures, MOST_STOPS, display_srgb, scene_linear};
+pub use display::{Display, FlipExposures, MOST_STOPS, decode_srgb, display_srgb, scene_linear};
 pub use exr::{
     Channel, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS,
     Samples, read_attribute, read_exr, read_exr_header, write_exr, write_half_exr,
@@ -56,7 +56,9 @@ pub use frame::{FAR_DEPTH, Frame, read_frame_rate};
 pub use frame_options::{ColorSampling, FrameOptions, VelocityKind};
 pub use hidden::is_hidden;
 pub use picture::Picture;
-pub use png::{MOST_PNG_PIXELS, check_png_palette, read_png, write_animated_png, write_png};
+pub use png::{
+    MOST_PNG_PIXELS, check_png_palette, png_bytes, read_png, write_animated_png, write_png,
+};
 pub use provenance::Provenance;
 pub use raster::{Image, Plane, Raster, Vectors};
 pub use region::{Region, Regions};

@@ -25,6 +25,11 @@ pub struct Provenance {
 }
 
 impl Provenance {
+    /// Tells whether a file was rendered of the inputs with this hash. One that says that an engine drew it was not, whatever hash it has.
+    pub fn is_rendered_of(&self, content_hash: &str) -> bool {
+        self.content_hash == content_hash && self.engine.is_none()
+    }
+
     /// Sets an attribute per field.
     pub fn set(&self, file: &mut ExrFile) {
         file.set("scene", &self.scene);

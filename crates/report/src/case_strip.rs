@@ -24,7 +24,7 @@ pub fn write_case_strip(case: &Case, folder: &Path, out: &Path) -> Result<(), Er
 /// Reads the truth that a case is scored against.
 pub fn read_truth(folder: &Path, case: &Case) -> Result<Picture, Error> {
     let name = format!("truth_{}.png", case.alignment);
-    Ok(read_png(&folder.join(&case.scene).join(name))?)
+    Ok(read_png(&folder.join(case.scene.folder()).join(name))?)
 }
 
 /// Reads the output of a case.

@@ -4,20 +4,17 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use frame::{read_png, write_atomically, write_png};
+use metrics::Metric;
+use suite::{Case, Error, IDENTITY, Run};
+use tracer::SceneId;
 
 use crate::case_strip::{read_output, read_truth, tile};
-use suite::{Case, Error, Headline, IDENTITY, Run};
+use crate::run_facts::command;
 
 /// File name of the contact sheet.
 const SHEET: &str = "truths.png";
 /// Truths in a row of the contact sheet.
 const COLUMNS: u32 = 6;
-
-/// A scene with the two cases that the gallery shows.
-struct Entry<'a> {
-    best: &'a Case,
-    worst: &'a Case,
-}
 
 /// Writes `README.md`, the contact sheet and a strip of pictures per scene below `out`, from the files of a run in `folder`. Returns
 /// the path of the page.
@@ -31,20 +28,19 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
     }
     let mut truths = Vec::new();
     let mut page = introduction(run);
-    for entry in &entries {
-        let scene = &entry.best.scene;
-        let instant = read_png(&folder.join(scene).join("frame.png"))?;
-        let truth = read_truth(folder, entry.best)?;
+    for [best, worst] in entries {
+        let instant = read_png(&folder.join(best.scene.folder()).join("frame.png"))?;
+        let truth = read_truth(folder, best)?;
         let strip = [
             instant,
             truth.clone(),
-            read_output(folder, entry.best)?,
-            read_truth(folder, entry.worst)?,
-            read_output(folder, entry.worst)?,
+            read_output(folder, best)?,
+            read_truth(folder, worst)?,
+            read_output(folder, worst)?,
         ];
-        write_png(&out.join(strip_name(scene)), &tile(&strip, 5))?;
+        write_png(&out.join(strip_name(&best.scene)), &tile(&strip, 5))?;
         truths.push(truth);
-        page += &section(entry);
+        page += &section(best, worst);
     }
     write_png(&out.join(SHEET), &tile(&truths, COLUMNS))?;
     let path = out.join("README.md");
@@ -53,7 +49,7 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
 }
 
 /// Finds the best and the worst filter, scene by scene, in the order of the run.
-fn find_entries(run: &Run) -> Vec<Entry<'_>> {
+fn find_entries(run: &Run) -> Vec<[&Case; 2]> {
     let cases: Vec<&Case> = (run.cases.iter())
         .filter(|case| !case.is_reference && case.filter != IDENTITY)
         .collect();
@@ -65,21 +61,17 @@ fn find_entries(run: &Run) -> Vec<Entry<'_>> {
 
 /// Ranks the filters of one scene by skill; by FLIP against the common shutter where the oracle is no better than no blur,
 /// so that there is no skill. None where nothing moves.
-fn find_entry<'a>(cases: &[&'a Case]) -> Option<Entry<'a>> {
-    let skills = cases.iter().map(|case| Headline::SKILL.estimate(case));
-    let errors = (cases.iter()).map(|case| Some(-Headline::CommonFlip.estimate(case)?));
+fn find_entry<'a>(cases: &[&'a Case]) -> Option<[&'a Case; 2]> {
+    let skills = cases.iter().map(|case| case.estimate(Metric::SKILL));
+    let errors = (cases.iter()).map(|case| Some(-case.estimate(Metric::CommonFlip)?));
     let keys: Vec<f64> = (skills.collect::<Option<_>>()).or_else(|| errors.collect())?;
-    let place = |index: usize| cases[index];
-    let by_key = |a: &usize, b: &usize| keys[*a].total_cmp(&keys[*b]);
-    Some(Entry {
-        best: (0..cases.len()).max_by(by_key).map(place)?,
-        worst: (0..cases.len()).min_by(by_key).map(place)?,
-    })
+    let ranked = || keys.iter().zip(cases);
+    let (_, best) = ranked().max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let (_, worst) = ranked().min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    Some([best, worst])
 }
 
 fn introduction(run: &Run) -> String {
-    let words = run.command.iter().skip(1).map(String::as_str);
-    let command: Vec<&str> = std::iter::once("shuttertruth").chain(words).collect();
     format!(
         "# Gallery\n\n![The truths of all scenes]({SHEET})\n\nBelow, each scene has five pictures: the frame of one instant; the truth and the \
          output of the best filter; the truth and the output of the worst filter. Two truths differ where the filters declare two \
@@ -88,12 +80,11 @@ fn introduction(run: &Run) -> String {
         run.render.width,
         run.render.height,
         run.render.samples_per_pixel,
-        command.join(" "),
+        command(run),
     )
 }
 
-fn section(entry: &Entry) -> String {
-    let Entry { best, worst } = entry;
+fn section(best: &Case, worst: &Case) -> String {
     let mut text = format!("\n## {}\n\n{}\n\n", best.scene, best.exposes);
     let _ = writeln!(
         text,
@@ -103,7 +94,7 @@ fn section(entry: &Entry) -> String {
     );
     for (label, case) in [("best", best), ("worst", worst)] {
         let [skill, flip, common] =
-            [Headline::SKILL, Headline::FLIP, Headline::CommonFlip].map(|score| score.text(case));
+            [Metric::SKILL, Metric::FLIP, Metric::CommonFlip].map(|score| case.score_text(score));
         let name = case.name();
         let _ = writeln!(
             text,
@@ -114,6 +105,6 @@ fn section(entry: &Entry) -> String {
     text
 }
 
-fn strip_name(scene: &str) -> String {
+fn strip_name(scene: &SceneId) -> String {
     format!("{scene}.png")
 }

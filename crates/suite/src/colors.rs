@@ -3,7 +3,7 @@
 use frame::{Frame, Image, Plane};
 
 /// Shows an error in [0, 1] in the colours of magma: black is none.
-pub(crate) fn magma(error: &Plane) -> Image {
+pub fn magma(error: &Plane) -> Image {
     error.map(|value| {
         let color = colorous::MAGMA.eval_continuous(f64::from(value.clamp(0.0, 1.0)));
         color.as_array().map(|byte| f32::from(byte) / 255.0)
@@ -11,7 +11,7 @@ pub(crate) fn magma(error: &Plane) -> Image {
 }
 
 /// Shows direction as hue and speed as brightness, which is full at the frame's fastest pixel. Still pixels are black.
-pub(crate) fn velocity_wheel(frame: &Frame) -> Image {
+pub fn velocity_wheel(frame: &Frame) -> Image {
     let speed = |v: &[f32; 2]| v[0].hypot(v[1]);
     let fastest = frame.velocity.pixels.iter().map(speed).fold(1e-6, f32::max);
     frame.velocity.map(|v| {

@@ -35,6 +35,16 @@ pub enum Error {
     Usage(String),
 }
 
+impl From<store::Error> for Error {
+    fn from(error: store::Error) -> Self {
+        match error {
+            store::Error::File(error) => Self::File(error),
+            store::Error::Refused(text) => Self::Usage(text),
+            store::Error::Cancelled(error) => Self::Trace(error),
+        }
+    }
+}
+
 impl Error {
     /// Tells whether the caller interrupted the work.
     pub fn is_interruption(&self) -> bool {

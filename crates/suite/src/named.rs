@@ -2,6 +2,7 @@
 
 /// Defines an enum with `ALL` its values, their `name()` and their `help()`, which is their documentation. The first value is
 /// the default.
+#[macro_export]
 macro_rules! named {
     (
         $(#[$about:meta])*
@@ -41,5 +42,3 @@ macro_rules! named {
         }
     };
 }
-
-pub(crate) use named;

@@ -108,7 +108,7 @@ fn github_gets_at_most_ten_annotations_and_a_full_summary() {
 fn json_holds_the_same_verdict() {
     let bench = make_bounded(0.2, "required");
     let found = json(&bench, &[]);
-    assert_eq!(found["format"], suite::CHECK_FORMAT);
+    assert_eq!(found["format"], judge::CHECK_FORMAT);
     assert_eq!(found["decision"], "broken");
     let finding = &found["findings"][0];
     for (key, value) in [
@@ -139,10 +139,10 @@ fn a_limit_on_a_distance_stands_beside_a_distance() {
     let interval = finding.interval.unwrap();
     let apart = (1.0 - interval.center).abs();
     assert!(apart > 0.01 && interval.high < 1.0, "{finding:?}");
-    let ends = [1.0 - interval.high, 1.0 - interval.low].map(suite::number);
+    let ends = [1.0 - interval.high, 1.0 - interval.low].map(judge::number);
     let line = format!(
         "BROKEN extent {} from 1 (95 % CI {} to {})",
-        suite::number(apart),
+        judge::number(apart),
         ends[0],
         ends[1]
     );

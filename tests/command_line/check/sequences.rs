@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use suite::{Outcome, Run};
+use judge::Outcome;
+use metrics::{Metric, SequenceMetric};
+use suite::Run;
 
 use super::{IDENTITY, assert_ends, json};
 use crate::bench::{Bench, assert_done, assert_refused, split};
@@ -38,8 +40,8 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     ];
     assert_ends(&single, 0, &parts);
     let not_judged = bench.read_findings();
-    let outcomes = |findings: &[suite::Finding]| -> Vec<(String, Outcome)> {
-        let pairs = findings.iter().map(|own| (own.metric.clone(), own.outcome));
+    let outcomes = |findings: &[judge::Finding]| -> Vec<(String, Outcome)> {
+        let pairs = findings.iter().map(|own| (own.metric.name(), own.outcome));
         pairs.collect()
     };
     let due = |names: [(&str, Outcome); 4]| names.map(|(name, own)| (name.to_owned(), own));
@@ -80,10 +82,10 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
         (Outcome::Broken, Some(3))
     );
     let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
-    let interval = own.intervals["flicker"];
+    let interval = own.intervals[&Metric::Sequence(SequenceMetric::Flicker)];
     assert_eq!(flicker.interval, Some(interval));
     assert!(interval.low < flicker.value.unwrap() && flicker.value.unwrap() < interval.high);
-    let worst = own.worst_frames["flicker"];
+    let worst = own.worst_frames[&Metric::Sequence(SequenceMetric::Flicker)];
     assert_eq!(flicker.worst_frame, Some(worst));
     assert_eq!(flicker.pictures, own.frames[worst as usize].folder);
     assert!(
@@ -122,7 +124,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     let other = bench.check(&[&IDENTITY[..], &["--frames", "2"]].concat());
     let parts = [
         "bounds.toml:4: the limit on flicker holds for sequences of 3 frames, and they are to have 2 frames",
-        "shuttertruth calibrate",
+        "shuttertruth limits calibrate",
     ];
     assert_refused(&other, 2, &parts);
 }
@@ -131,7 +133,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
 fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
     let bench = Bench::new();
     let words = split(
-        "calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
+        "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
          velocity_gather:fine --frames 2 --jitter-frames 0",
     );
     let refused = bench.shuttertruth(&[&words[..12], &["--metrics", "flicker"]].concat());

@@ -5,8 +5,11 @@ use std::path::Path;
 use std::process::{Output, Stdio};
 
 use cli::{annotations, check_text, summary};
-use frame::{Frame, Truth};
-use suite::{CHECK_FORMAT, Check, Decision, Failure, printable_table};
+use frame::{Alignment, Frame, Truth};
+use judge::{CHECK_FORMAT, Check, Decision};
+use store::printable_table;
+use suite::Failure;
+use tracer::SceneId;
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 
@@ -52,7 +55,7 @@ fn names_of_files_are_printed_without_control_codes() {
         (vec!["run", "--out", "o", "--size", HOSTILE], 2),
         (
             vec![
-                "blur", "--filter", "identity", "--frame", HOSTILE, "--out", "b.exr",
+                "engine", "blur", "--filter", "identity", "--frame", HOSTILE, "--out", "b.exr",
             ],
             2,
         ),
@@ -124,9 +127,9 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
         program: suite::PROGRAM.to_owned(),
         decision: Decision::Broken,
         failures: vec![Failure {
-            scene: hostile.to_owned(),
+            scene: SceneId::new(hostile, None),
             filter: hostile.to_owned(),
-            alignment: "trailing".to_owned(),
+            alignment: Alignment::Trailing,
             reason: hostile.to_owned(),
         }],
         findings: Vec::new(),

@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::Path;
 
 use frame::{Replicate, Truth};
-use suite::Manifest;
+use store::Manifest;
 
 use crate::bench::{Bench, split};
 
@@ -30,7 +30,7 @@ fn run(bench: &Bench, filters: &str, more: &[&str]) {
 fn packed() -> Bench {
     let bench = Bench::new();
     run(&bench, "identity", &[]);
-    bench.execute(&["pack"]);
+    bench.execute(&["truths", "pack"]);
     bench
 }
 

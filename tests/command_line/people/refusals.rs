@@ -3,7 +3,7 @@
 use std::fs;
 
 use serde_json::json;
-use suite::{AnswerFile, Question};
+use study::{AnswerFile, Question};
 
 use super::{FILTERS, answer, make_study, prefer_first, preferences, write_answers};
 use crate::bench::{Bench, assert_done, assert_refused};
@@ -88,7 +88,7 @@ fn answers_that_no_page_of_this_run_asked_for_are_refused() {
     let refuse_text = |text: &str, parts: &[&str]| {
         fs::write(bench.path("answers_0.json"), text).unwrap();
         assert_refused(
-            &bench.shuttertruth(&["preferences", "answers_0.json"]),
+            &bench.shuttertruth(&["people", "preferences", "answers_0.json"]),
             2,
             parts,
         );

@@ -1,5 +1,7 @@
 //! Bounds on the page of a finished run.
 
+use metrics::Metric;
+
 use super::{between, filter_case, find_article, make_page};
 use crate::bench::{Bench, assert_done, quick_command, stdout};
 
@@ -19,14 +21,14 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
 
     assert!(page.contains("2 required bounds: 1 broken, 0 too noisy to decide."));
     // The estimate without the truth's noise, with its interval.
-    let interval = &case.intervals["flip_moving"];
+    let interval = &case.intervals[&Metric::FLIP];
     let flip = interval.center;
     let cell = format!(
         "<td class=\"required\" data-value=\"{flip}\"><a class=\"case\" href=\"#plate/identity:default\">\
          <span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
          <span class=\"unseen\">, 95 % CI {} to {}",
-        suite::number(interval.low),
-        suite::number(interval.high)
+        judge::number(interval.low),
+        judge::number(interval.high)
     );
     assert!(page.contains(&cell), "{cell}");
     assert!(page.contains("<span class=\"unseen\">, broken, required limit 0.2000</span></a>"));
@@ -37,7 +39,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     let findings = bench.read_findings();
     let worst = findings[0].worst.as_ref().unwrap();
     for words in [
-        "1 of 2 required bounds kept.",
+        "1 of 2 required bounds met.",
         "BROKEN flip_moving 0.2",
         "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
         "the wrong blur <strong>no_blur</strong>: they differ by 0 %",

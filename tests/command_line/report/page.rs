@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::fs;
 
+use metrics::Metric;
+
 use super::{WORDS, address, between, find_article, make_page, panel, planes};
 use crate::bench::{Bench, assert_done, assert_refused, split};
 
@@ -34,7 +36,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
     }
     let ranking = between(&page, "aria-label=\"FLIP of every case\"", "</table>")[0];
     let mut means: Vec<_> = (run.overall.iter())
-        .filter(|mean| mean.metric == "flip_moving")
+        .filter(|mean| mean.metric == Metric::FLIP)
         .collect();
     means.sort_by(|a, b| a.mean.total_cmp(&b.mean));
     assert_eq!(means.len(), 9, "seven references and two filters");
@@ -64,7 +66,7 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
     let run = bench.read_run();
     let table = panel(&page, "flip_moving");
     let terminal = cli::ranking_text(&run.cases);
-    for ranked in suite::rank_for_summary(&run.cases).concat() {
+    for ranked in judge::rank_for_summary(&run.cases).concat() {
         let cells: Vec<f64> = (run.cases.iter().filter(|case| case.name() == ranked.name))
             .map(|case| {
                 let link = format!("href=\"#{}\"", address(case));
@@ -91,7 +93,7 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
     }
     // Both name the same best filters, and the same ties.
     let best = between(&page, "<ul class=\"winners\">", "</ul>")[0];
-    for group in suite::rank_for_summary(&run.cases) {
+    for group in judge::rank_for_summary(&run.cases) {
         let name = format!(
             "shutter: <strong><a href=\"#filter:{0}\">{0}</a>",
             group[0].name

@@ -4,8 +4,9 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Component, Path};
 
+use engine::{Capture, ingest};
 use frame::Display;
-use suite::{Capture, EngineScene, INGESTED_FILE, ingest};
+use suite::{EngineScene, INGESTED_FILE};
 
 use crate::place::Place;
 
@@ -33,7 +34,7 @@ pub fn ingested(place: &mut Place, input: &[u8]) -> Option<()> {
 
 /// Panics if a run would write elsewhere than into one folder of a scene, and in it one of the engine.
 fn check_names(scene: &EngineScene) {
-    for name in [&scene.name, scene.filter_name()] {
+    for name in [&*scene.id.to_string(), scene.filter_name()] {
         let parts: Vec<Component> = Path::new(name).components().collect();
         assert!(
             matches!(parts.as_slice(), [Component::Normal(_)]),

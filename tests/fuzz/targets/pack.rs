@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use suite::Pack;
+use store::Pack;
 
 use crate::place::Place;
 

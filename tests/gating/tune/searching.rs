@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use filters::{Filter, Value};
-use suite::{Search, Space};
 use tests::text::assert_contains;
+use tune::{Search, Space};
 
 fn jump_flood() -> Filter {
     Filter::builtin("jump_flood").unwrap()

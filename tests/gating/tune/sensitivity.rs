@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::f64::consts::PI;
 
-use suite::sobol_indices;
+use tune::sobol_indices;
 
 /// Evaluates the function of Ishigami and Homma 1990 with a = 7, b = 0.1, on the unit cube.
 fn ishigami(point: &[f64]) -> Result<f64, Infallible> {
@@ -26,7 +26,7 @@ fn the_indices_of_ishigami_s_function_equal_the_published_ones() {
     let expected = [(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)];
     for (indices, (first, total)) in found.iter().zip(expected) {
         // Four standard errors of 1024 rows, about a quarter of the intervals' widths.
-        let tolerance = |estimate: suite::Estimate| estimate.high - estimate.low;
+        let tolerance = |estimate: tune::Estimate| estimate.high - estimate.low;
         assert!(
             (indices.first.value - first).abs() < tolerance(indices.first),
             "{indices:?}"

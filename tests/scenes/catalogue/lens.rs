@@ -1,8 +1,9 @@
 //! Things out of focus, whose velocity is sharp.
 
+use tracer::RenderSettings;
+
 use super::assert_worse;
 use super::rendered_scene::{RenderedScene, small_settings};
-use tracer::RenderSettings;
 
 #[test]
 fn a_ball_out_of_focus_is_smeared_by_the_velocity_of_a_sharp_one() {

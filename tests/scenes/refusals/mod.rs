@@ -5,8 +5,9 @@ mod meshes;
 mod motions;
 mod scene_tables;
 
-use crate::scene_folder::{Folder, SCENE};
 use tracer::{SceneError, list_scenes, load_scene};
+
+use crate::scene_folder::{Folder, SCENE};
 
 /// Slip: its name, a piece of a file, its replacement and the expected message. Paths in the message lie below the
 /// scene's folder. `{gone}` stands for the operating system's text about a missing file.

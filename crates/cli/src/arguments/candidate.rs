@@ -1,7 +1,7 @@
 //! Arguments that choose a candidate: a filter, its preset, and the scenes that it is scored on.
 
 use clap::Args;
-use suite::Objective;
+use tune::Objective;
 
 use super::adapter::AdapterArgs;
 use super::parse::{parse_objective, parse_size};

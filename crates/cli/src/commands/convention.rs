@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use filters::Convention;
-use suite::{Error, read_text};
+use store::read_text;
+use suite::Error;
 
 /// Reads the convention of an engine; that of frames if no file is named.
 pub fn read_convention(path: Option<&Path>) -> Result<Convention, Error> {

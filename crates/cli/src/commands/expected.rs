@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::time::Duration;
 
-use suite::{RunEstimate, printable_path};
+use store::printable_path;
+use suite::RunEstimate;
 
 use crate::output::print::print_error;
 use crate::output::verbosity::is_quiet;

@@ -4,7 +4,8 @@ use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 use std::path::Path;
 
-use suite::{Arrival, Error, Pack, RunPlan, Verification, printable_path, take_pack};
+use store::{Pack, printable_path};
+use suite::{Arrival, Error, RunPlan, Verification, take_pack};
 
 use crate::output::count::count_text;
 use crate::output::print::print_note;
@@ -15,17 +16,17 @@ const MOST_NAMED: usize = 4;
 /// Refuses what is neither a folder nor a pack, before anything is rendered.
 pub fn check_truths(truths: &Path) -> Result<(), Error> {
     match truths.is_file() {
-        true => Pack::open(truths).map(drop),
+        true => Ok(Pack::open(truths).map(drop)?),
         false if truths.is_dir() => Ok(()),
-        false => Err(Error::Usage(format!(
-            "--truths {}: {}; allowed: a folder into which `shuttertruth render --ladders` or `run` \
+        false => refuse!(
+            "--truths {}: {}; allowed: a folder into which `shuttertruth truths render --ladders` or `run` \
              wrote, or a pack",
             truths.display(),
             match truths.exists() {
                 true => "is neither a folder nor a regular file",
                 false => "there is no such folder or file",
             }
-        ))),
+        ),
     }
 }
 

@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use judge::Finding;
 use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
-use suite::{Error, Finding, Run, printable_path};
+use store::printable_path;
+use suite::{Error, Run};
 
 /// A file that a command wrote.
 #[derive(serde::Serialize)]
@@ -39,10 +41,10 @@ impl WrittenFile {
 pub fn refuse_folder(option: &str, path: Option<&PathBuf>) -> Result<(), Error> {
     match path.filter(|path| path.is_dir()) {
         None => Ok(()),
-        Some(path) => Err(Error::Usage(format!(
+        Some(path) => refuse!(
             "{option}: {} is a folder; name the file to write",
             path.display()
-        ))),
+        ),
     }
 }
 

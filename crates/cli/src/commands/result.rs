@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use suite::{Error, printable_path};
+use store::printable_path;
+use suite::Error;
 
 use crate::output::print::print;
 

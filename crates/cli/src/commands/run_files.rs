@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use suite::{Error, Finding, Judgement, Run};
+use judge::{Finding, Judgement};
+use suite::{Error, Run};
 
 /// Writes `run.json` and returns its text.
 pub fn write_run(run: &Run, out: &Path) -> Result<String, Error> {

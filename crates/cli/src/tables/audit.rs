@@ -1,6 +1,7 @@
 //! Table of an audit.
 
-use suite::{CaptureAudit, ObjectAudit, ObjectShown, engine_name};
+use engine::{CaptureAudit, ObjectAudit, ObjectShown};
+use suite::engine_name;
 
 use super::columns::number_table;
 use crate::output::wrap::push_wrapped;

@@ -1,14 +1,16 @@
 //! Tables of a comparison of two runs.
 
+use judge::{
+    Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, rank_changes,
+};
+use metrics::Metric;
+use report::ChangeCells;
+use store::printable;
+
 use super::layout::{Align, Table};
 use crate::output::colors::{bad, doubtful, faint, good};
 use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
-use report::ChangeCells;
-use suite::{
-    Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, printable,
-    rank_changes,
-};
 
 /// Upper limit on changed cases in the table; `--json` and the page have all.
 const CASES: usize = 12;
@@ -66,7 +68,7 @@ fn means_table(means: &[MeanChange]) -> String {
             MeanKind::Worse => bad,
             _ => doubtful,
         };
-        push_change(&mut table, &mean.metric, mean.into(), style);
+        push_change(&mut table, mean.metric, mean.into(), style);
     }
     let mut text = match filter {
         "" => String::new(),
@@ -102,13 +104,13 @@ fn changes_table(changes: &[Change]) -> String {
         table.push_text(&format!("{scene} / {filter}"));
         let own = changes
             .iter()
-            .filter(|change| change.scene == *scene && change.filter == *filter);
+            .filter(|change| change.scene == **scene && change.filter == *filter);
         for change in own.filter(|change| change.is_beyond_noise()) {
             let style = match change.kind {
                 ChangeKind::Better => good,
                 _ => bad,
             };
-            push_change(&mut table, &change.metric, change.into(), style);
+            push_change(&mut table, change.metric, change.into(), style);
         }
     }
     let mut text = "\n".to_owned() + &table.text();
@@ -134,9 +136,9 @@ fn change_table(title: &str) -> Table {
     )
 }
 
-fn push_change(table: &mut Table, metric: &str, cells: ChangeCells, style: fn(&str) -> String) {
+fn push_change(table: &mut Table, metric: Metric, cells: ChangeCells, style: fn(&str) -> String) {
     table.push(vec![
-        metric.to_owned(),
+        metric.name(),
         cells.first,
         cells.second,
         style(&cells.change),

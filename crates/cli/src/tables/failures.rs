@@ -1,6 +1,7 @@
 //! List of a run's failed cases.
 
-use suite::{Failure, printable, printable_lines};
+use store::{printable, printable_lines};
+use suite::Failure;
 
 use crate::output::colors::{bad, heading};
 use crate::output::wrap::push_wrapped;

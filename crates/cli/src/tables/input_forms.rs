@@ -1,6 +1,8 @@
 //! Table of what each form of the input costs each filter.
 
-use suite::{Case, Headline, InputFormat, ShutterRule, list_summarized};
+use judge::list_summarized;
+use metrics::Metric;
+use suite::{Case, InputFormat};
 
 use super::columns::{legend_text, list_once, number_table};
 
@@ -12,7 +14,8 @@ const FILTERS_ABREAST: usize = 3;
 /// rates.
 pub fn input_forms_text(cases: &[Case]) -> String {
     let cases = list_summarized(cases);
-    let rates = |case: &&&Case| case.rate.is_some() || case.input.rule == ShutterRule::default();
+    let rates =
+        |case: &&&Case| case.rate.is_some() || case.input.rule == InputFormat::default().rule;
     let changes: Vec<String> = cases
         .iter()
         .filter(rates)
@@ -53,7 +56,7 @@ pub fn input_forms_text(cases: &[Case]) -> String {
 
 /// Averages the change of FLIP over the scenes that have both scores.
 fn mean_cost(cases: &[&Case], full: &[&Case], name: &str, change: &str) -> Option<f64> {
-    let flip = |case: &Case| Headline::FLIP.estimate(case);
+    let flip = |case: &Case| case.estimate(Metric::FLIP);
     let of_scene = |own: &&&Case| {
         let changed = format!("{name} {change}");
         let other =

@@ -1,7 +1,7 @@
 //! Notes below a table that say why scores are `n/a`.
 
 use metrics::Measured;
-use suite::printable;
+use store::printable;
 
 use super::columns::legend_text;
 

@@ -1,8 +1,8 @@
 //! Tables of what people prefer.
 
-use suite::{
+use store::{printable, printable_path};
+use study::{
     FEWEST_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
-    printable, printable_path,
 };
 
 use super::columns::{legend_text, number_table};
@@ -54,7 +54,7 @@ fn push_question(text: &mut String, found: &QuestionResult) {
 /// Names the sessions that failed checks.
 fn push_checks(text: &mut String, found: &QuestionResult) {
     let sum =
-        |count: fn(&suite::SessionFacts) -> usize| found.sessions.iter().map(count).sum::<usize>();
+        |count: fn(&study::SessionFacts) -> usize| found.sessions.iter().map(count).sum::<usize>();
     let (checks, failed) = (sum(|own| own.checks), sum(|own| own.failed_checks));
     let mut line = format!("{failed} of {} failed", count(checks, "check"));
     let names = found
@@ -154,7 +154,7 @@ fn score_table(scores: &[ScoreAgreement]) -> String {
     for own in scores {
         let percent = |share: f64| format!("{:.0}", 100.0 * share);
         table.push(vec![
-            own.score.clone(),
+            own.score.name(),
             own.correlation.map_or_else(none, signed),
             own.correlation_interval
                 .map_or_else(none, |ends| range(ends.map(signed))),

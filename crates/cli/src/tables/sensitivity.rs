@@ -1,6 +1,6 @@
 //! Table of a sensitivity study.
 
-use suite::{ParameterSensitivity, Sensitivity, SobolIndices};
+use tune::{ParameterSensitivity, Sensitivity, SobolIndices};
 
 use super::columns::number_table;
 

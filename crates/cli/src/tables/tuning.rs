@@ -1,12 +1,12 @@
 //! Tables of a finished tuning, and of two presets.
 
+use suite::FEWEST_SCENES;
+use tune::{Advice, Difference, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning};
+
 use super::columns::number_table;
 use crate::output::colors::heading;
 use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
-use suite::{
-    Advice, Difference, FEWEST_SCENES, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning,
-};
 
 /// Upper limit on rows of the front; `tune.json` has all.
 const ROWS: usize = 12;

@@ -1,5 +1,6 @@
 //! Limits on the header of an OpenEXR file, checked before memory is allocated for its pixels.
 
+use exr::math::Vec2;
 use exr::meta::header::Header;
 
 /// Upper limit on the columns and on the rows of an OpenEXR file.
@@ -72,15 +73,15 @@ pub(crate) fn describe_padding(header: &Header) -> Option<String> {
     if display.position == place && display.size == size {
         return None;
     }
+    let window = |size: Vec2<usize>, place: Vec2<i32>| {
+        format!(
+            "of {}x{} pixels from ({}, {})",
+            size.0, size.1, place.0, place.1
+        )
+    };
     Some(format!(
-        "its data window of {}x{} pixels from ({}, {}) is not its display window of {}x{} from ({}, {})",
-        size.0,
-        size.1,
-        place.0,
-        place.1,
-        display.size.0,
-        display.size.1,
-        display.position.0,
-        display.position.1
+        "its data window {} is not its display window {}",
+        window(size, place),
+        window(display.size, display.position)
     ))
 }

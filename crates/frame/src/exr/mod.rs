@@ -1,7 +1,6 @@
 //! OpenEXR files.
 
 mod check;
-mod checksum;
 mod file;
 mod header;
 mod reading;

@@ -9,7 +9,7 @@ use exr::prelude::{
     WritableImage, f16,
 };
 
-use super::checksum::CHECKSUM;
+use super::check::CHECKSUM;
 use super::file::{ExrFile, Samples};
 use super::text::to_exr;
 use crate::FileError;

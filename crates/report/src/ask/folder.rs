@@ -4,7 +4,8 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, read_bounded, remove_leftovers, write_atomically};
-use suite::{ClipFiles, Error, Question, Study};
+use study::{ClipFiles, Question, Study};
+use suite::Error;
 
 use super::page::ask_page;
 

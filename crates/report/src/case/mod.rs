@@ -9,19 +9,22 @@ mod profile_chart;
 mod scores;
 pub mod viewer;
 
-use maud::{Markup, html};
-
-use crate::case_table::CaseTable;
-use crate::filter_id::{FilterId, case_anchor};
-use crate::numbers::{counted, value_text};
-use crate::pixels::scene_files::find_traced;
-use crate::run_facts::{provenance_line, truth_text};
 use bounds::bounds;
 use case_view::CaseView;
+use judge::Level;
+use maud::{Markup, html};
+use metrics::Metric;
 use profile::Profile;
 use profile_chart::profile_chart;
 use scores::score_rows;
-use suite::{Case, Drawn, Headline, Level, Outcome};
+use suite::{Case, Drawn};
+
+use crate::case_table::CaseTable;
+use crate::filter_id::{anchor, case_anchor, section_anchor};
+use crate::finding_text::Tally;
+use crate::numbers::{counted, value_text};
+use crate::pixels::scene_files::find_traced;
+use crate::run_facts::{provenance_line, truth_text};
 
 /// Tables of a case: what stands above its pictures, and below them.
 pub struct CaseTables {
@@ -33,13 +36,13 @@ impl CaseTables {
     /// Writes the tables.
     pub fn new(view: &CaseView, table: &CaseTable) -> Self {
         let case = view.case;
-        let filter = FilterId::of(case);
+        let filter = case.filter_id();
         let head = html! {
             div.case_head {
                 h2 tabindex="-1" {
                     (case.scene) " / "
-                    @if filter.is_reference { (filter.title()) }
-                    @else { a href=(format!("#{}", filter.section_anchor())) { (filter.title()) } }
+                    @if filter.is_reference { (filter) }
+                    @else { a href=(format!("#{}", section_anchor(&filter))) { (filter) } }
                 }
                 (neighbours(view, table))
             }
@@ -74,13 +77,13 @@ impl CaseTables {
 /// a browser takes seconds for those of all cases. Without `tables` the script loads them from a file beside the page.
 pub fn case_section(view: &CaseView, tables: Option<&CaseTables>) -> Markup {
     let case = view.case;
-    let filter = FilterId::of(case);
-    let title = format!("{} / {}", case.scene, filter.title());
+    let filter = case.filter_id();
+    let title = format!("{} / {}", case.scene, filter);
     let [x, y] = view.profile.place;
     html! {
-        article.case id=(case_anchor(case)) data-title=(title) data-name=(filter.anchor())
-            data-filter=(filter.title()) data-reference[filter.is_reference]
-            data-score=(format!("FLIP {}", Headline::FLIP.text(case))) {
+        article.case id=(case_anchor(case)) data-title=(title) data-name=(anchor(&filter))
+            data-filter=(filter) data-reference[filter.is_reference]
+            data-score=(format!("FLIP {}", case.score_text(Metric::FLIP))) {
             (part(tables.map(|own| &own.head)))
             div.viewer_place data-truth=[case.drawn.as_ref().map(truth_words)] data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
                 data-names=(serde_json::json!(view.names)) data-line=(line(&view.profile)) data-worst=(format!("{x},{y}")) {}
@@ -103,50 +106,37 @@ fn part(tables: Option<&Markup>) -> Markup {
 fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
     let case = view.case;
     let (place, of) = place_on_scene(table, case);
-    let count = |level, is_counted: fn(Outcome) -> bool| {
-        let own = view.findings.iter().filter(|own| own.level == level);
-        own.filter(|own| is_counted(own.outcome)).count()
-    };
-    let [bounds, targets] = [Level::Required, Level::Report].map(|level| count(level, |_| true));
-    let [broken, missed] =
-        [Level::Required, Level::Report].map(|level| count(level, |own| own == Outcome::Broken));
+    let [bounds, targets] =
+        [Level::Required, Level::Report].map(|level| Tally::of(&view.findings, level));
     html! {
         p.score {
-            @for headline in [Headline::FLIP, Headline::SKILL, Headline::PSNR] {
-                @if let Some(value) = headline.estimate(case) {
-                    span { (short_name(headline)) " " strong { (headline.number(value)) } (interval(case, headline)) }
+            @for (metric, name) in [(Metric::FLIP, "FLIP"), (Metric::SKILL, "skill"), (Metric::PSNR, "PSNR")] {
+                @if let Some(value) = case.estimate(metric) {
+                    span { (name) " " strong { (metric.number(value)) } (interval(case, metric)) }
                 }
             }
             @if let (false, Some(place)) = (case.is_reference, place) {
                 span { "place " strong { (place) } " of " (of) " with a " (case.alignment) " shutter" }
             }
-            @if bounds > 0 {
-                span class=(if broken > 0 { "broken" } else { "kept" }) { (broken) " of " (counted(bounds, "required bound")) " broken" }
+            @if bounds.all > 0 {
+                span class=(if bounds.broken > 0 { "broken" } else { "met" }) { (bounds.broken) " of " (counted(bounds.all, "required bound")) " broken" }
             }
-            @if targets > 0 { span { (missed) " of " (counted(targets, "target")) " missed" } }
+            @if targets.all > 0 { span { (targets.broken) " of " (counted(targets.all, "target")) " missed" } }
         }
     }
 }
 
-fn short_name(headline: Headline) -> &'static str {
-    match headline {
-        Headline::FLIP => "FLIP",
-        Headline::SKILL => "skill",
-        _ => "PSNR",
-    }
-}
-
 /// ` (95 % CI 0.052 to 0.061)`
-fn interval(case: &Case, headline: Headline) -> String {
-    headline.interval(case).map_or_else(String::new, |own| {
-        let [low, high] = [own.low, own.high].map(|end| headline.number(end));
+fn interval(case: &Case, metric: Metric) -> String {
+    case.interval(metric).map_or_else(String::new, |own| {
+        let [low, high] = [own.low, own.high].map(|end| metric.number(end));
         format!(" (95 % CI {low} to {high})")
     })
 }
 
 /// Counts the filters of the scene with the same shutter: those that are better by FLIP, and all.
 fn place_on_scene(table: &CaseTable, case: &Case) -> (Option<usize>, usize) {
-    let flip = |case: &Case| Headline::FLIP.estimate(case);
+    let flip = |case: &Case| case.estimate(Metric::FLIP);
     let rivals = (table.cases_on(&case.scene).map(|(_, own)| own))
         .filter(|own| !own.is_reference && own.alignment == case.alignment);
     let errors: Vec<f64> = rivals.filter_map(flip).collect();
@@ -186,8 +176,8 @@ fn line(profile: &Profile) -> String {
 /// The ways to the overview, to other filters of the scene, and to the same filter in other scenes.
 fn neighbours(view: &CaseView, table: &CaseTable) -> Markup {
     let (run, index) = (view.run, view.index);
-    let scene = |index: usize| run.cases[index].scene.as_str();
-    let filter = FilterId::of(view.case);
+    let scene = |index: usize| &run.cases[index].scene;
+    let filter = view.case.filter_id();
     let in_scene = |at: Option<usize>| table.case_on(&filter, table.scenes.get(at?)?);
     let of_scene =
         |at: Option<usize>| at.filter(|at| *at < run.cases.len() && scene(*at) == scene(index));

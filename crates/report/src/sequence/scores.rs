@@ -1,39 +1,30 @@
 //! Tables of scores over time.
 
+use frame::Alignment;
+use judge::{Finding, RankedSequence, rank_sequences_on};
 use maud::{Markup, html};
-use metrics::{Measured, SequenceMetric};
-use suite::{Finding, Level, RankedSequence, Run, Sequence, rank_sequences_on};
+use metrics::{Measured, Metric, SequenceMetric};
+use suite::{Run, Sequence};
+use tracer::SceneId;
 
-use super::ranking::metric_heads;
+use super::ranking::metric_table;
 use crate::finding_text::{Status, limit_text};
 
 /// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
 pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
-    let mut groups: Vec<[&str; 2]> = Vec::new();
+    let mut groups: Vec<(&SceneId, Alignment)> = Vec::new();
     for own in &run.sequences {
-        let group = [own.scene.as_str(), own.alignment.as_str()];
+        let group = (&own.scene, own.alignment);
         if !groups.contains(&group) {
             groups.push(group);
         }
     }
     html! {
-        @for [scene, alignment] in groups {
+        @for (scene, alignment) in groups {
             h3 { (scene) ", " (alignment) " shutter" }
-            div.scroll {
-                table {
-                    thead {
-                        tr {
-                            th { "filter" }
-                            (metric_heads())
-                        }
-                    }
-                    tbody {
-                        @for (index, rank, own) in order_rows(run, scene, alignment) {
-                            (row(index, &rank, own, findings))
-                        }
-                    }
-                }
-            }
+            (metric_table(None, &html! {
+                @for (index, rank, own) in order_rows(run, scene, alignment) { (row(index, &rank, own, findings)) }
+            }))
         }
         dl.facts {
             @for metric in SequenceMetric::ALL {
@@ -46,8 +37,8 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
 /// Orders the sequences of one scene and shutter, each with its number in the run and the text of its rank.
 fn order_rows<'a>(
     run: &'a Run,
-    scene: &str,
-    alignment: &str,
+    scene: &SceneId,
+    alignment: Alignment,
 ) -> Vec<(usize, String, &'a Sequence)> {
     let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene)
         .into_iter()
@@ -59,7 +50,7 @@ fn order_rows<'a>(
     };
     let all = run.sequences.iter().enumerate();
     let mut rows: Vec<(usize, &Sequence)> = all
-        .filter(|(_, own)| own.scene == scene && own.alignment == alignment)
+        .filter(|(_, own)| own.scene == *scene && own.alignment == alignment)
         .collect();
     rows.sort_by_key(|(_, own)| (!own.is_reference, place(own).unwrap_or(usize::MAX)));
     let with_rank = rows.into_iter().map(|(index, own)| {
@@ -88,15 +79,11 @@ fn row(index: usize, rank: &str, own: &Sequence, findings: &[Finding]) -> Markup
 fn cell(own: &Sequence, metric: SequenceMetric, finding: Option<&Finding>) -> Markup {
     let score = own.scores.get(metric);
     let status = finding.and_then(|own| Status::of(own.outcome));
-    let required = finding.is_some_and(|own| own.level == Level::Required);
     let mut title = score_title(score);
     title.extend(finding.map(|own| format!(", limit {}: {}", limit_text(own), own.place)));
     html! {
-        td title=(title) class=[status.filter(|_| required).map(|status| status.word)] {
-            @if let Some(status) = status {
-                span.sign aria-hidden="true" { (status.sign) }
-                span.unseen { (status.word) " " }
-            }
+        td title=(title) class=[finding.and_then(Status::required_class)] {
+            @if let Some(status) = status { (status) span.unseen { (status.word) " " } }
             (metric.text(score))
         }
     }
@@ -108,10 +95,9 @@ fn finding_about<'a>(
     metric: SequenceMetric,
     findings: &'a [Finding],
 ) -> Option<&'a Finding> {
-    let name = metric.row().name;
     findings.iter().find(|finding| {
         !own.is_reference
-            && (finding.metric == name
+            && (finding.metric == Metric::Sequence(metric)
                 && finding.scene == own.scene
                 && finding.filter == own.filter)
     })

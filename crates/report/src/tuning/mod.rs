@@ -62,7 +62,7 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
     Ok(document.render())
 }
 
-fn failures(tuning: &suite::Tuning) -> Markup {
+fn failures(tuning: &tune::Tuning) -> Markup {
     html! {
         @if !tuning.failed.is_empty() {
             section {

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use filters::Value;
 use maud::{Markup, html};
+use tune::Trial;
 
 use super::folder::TuneFolder;
 use crate::charts::plot::{Axis, Plot};
-use suite::Trial;
 
 /// Ranges of more than this factor have an axis of equal factors.
 const LOG_FROM: f64 = 30.0;

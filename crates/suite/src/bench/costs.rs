@@ -1,9 +1,10 @@
 //! Costs of filters, summed up from the times of their runs.
 
+use filters::PassTime;
+
 use super::turns::Times;
 use super::{CaseCost, CopyCost, GROWTH_FROM, PassCost, REACHES, Spread};
 use crate::filter::choice::FilterChoice;
-use filters::PassTime;
 
 /// Sums up the times of the memory copy.
 pub fn copy_cost(bytes: u64, seconds: Vec<f64>) -> CopyCost {

@@ -2,7 +2,7 @@
 
 use frame::{Frame, Raster};
 
-use crate::named::named;
+use crate::named;
 
 /// Widest border that is filled up, in pixels.
 const WIDEST: u32 = 256;

@@ -2,7 +2,7 @@
 
 use frame::{Frame, Raster};
 
-use crate::named::named;
+use crate::named;
 
 named! {
     /// A size of the velocity and depth buffers, and the choice of the pixel that each texel stores.

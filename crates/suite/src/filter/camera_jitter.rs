@@ -4,8 +4,7 @@ use frame::{Frame, Vectors};
 use tracer::{PixelGrid, PointMotion, Scene, trace_frame_on, trace_motion_on};
 
 use super::traced_again::settings_of;
-use crate::named::named;
-use crate::{Error, Monitor};
+use crate::{Error, Monitor, named};
 
 /// Number of jitters before they repeat.
 const PHASES: u32 = 8;
@@ -38,7 +37,7 @@ impl CameraJitter {
         if self == Self::None {
             return Ok(frame.clone());
         }
-        let [before, now] = jitters(scene.frame);
+        let [before, now] = jitters(scene.id.frame);
         let settings = settings_of(frame);
         let grid = PixelGrid {
             size: [settings.width, settings.height],
@@ -54,7 +53,7 @@ impl CameraJitter {
                 ..frame.clone()
             });
         }
-        let label = format!("{} jittered frame", scene.name);
+        let label = format!("{} jittered frame", scene.id);
         let jittered = monitor.watch(&label, |watch| {
             trace_frame_on(scene, &settings, &grid, watch)
         })?;

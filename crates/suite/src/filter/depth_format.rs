@@ -4,7 +4,7 @@ use frame::{FAR_DEPTH, Plane};
 use half::f16;
 
 use super::unorm::unorm;
-use crate::named::named;
+use crate::named;
 
 /// Near plane that reversed depth is computed with, in metres.
 const NEAR: f64 = 0.1;

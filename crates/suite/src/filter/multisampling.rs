@@ -4,8 +4,7 @@ use frame::{ColorSampling, Frame, Raster};
 use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_on};
 
 use super::traced_again::settings_of;
-use crate::named::named;
-use crate::{Error, Monitor};
+use crate::{Error, Monitor, named};
 
 /// Places of the four samples from the pixel's centre, in pixels: the standard pattern of Direct3D and Vulkan.
 const SAMPLES: [[f64; 2]; 4] = [
@@ -43,7 +42,7 @@ impl Multisampling {
         if self == Self::None {
             return Ok(frame.clone());
         }
-        let label = format!("{} frame with 4 samples per pixel", scene.name);
+        let label = format!("{} frame with 4 samples per pixel", scene.id);
         let samples = monitor.watch(&label, |watch| {
             (SAMPLES.into_iter().zip(sample_settings(frame)))
                 .map(|(offset, settings)| {

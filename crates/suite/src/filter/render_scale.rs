@@ -5,8 +5,7 @@ use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_on};
 
 use super::resample::{Extent, read_bilinear, read_nearest};
 use super::traced_again::settings_of;
-use crate::named::named;
-use crate::{Error, Monitor};
+use crate::{Error, Monitor, named};
 
 named! {
     /// A scale at which a frame is rendered, and whether it is blurred before or after upscaling.
@@ -92,7 +91,7 @@ impl RenderScale {
             size: from.picture,
             offset: [0.0; 2],
         };
-        let label = format!("{} frame at {} %", scene.name, self.percent());
+        let label = format!("{} frame at {} %", scene.id, self.percent());
         let small = monitor.watch(&label, |watch| {
             trace_frame_on(scene, &settings, &grid, watch)
         })?;

@@ -4,8 +4,7 @@ use frame::{Frame, Vectors, VelocityKind};
 use tracer::{PointMotion, Scene, trace_motion};
 
 use super::traced_again::settings_of;
-use crate::Error;
-use crate::named::named;
+use crate::{Error, named};
 
 /// Jitter of two consecutive frames, as temporal anti-aliasing has it: the second point of the Halton sequence of bases 2 and 3 less
 /// the first, in pixels.
@@ -87,7 +86,7 @@ impl VelocityDefect {
         let names: Vec<&str> = known.map(|defect| defect.name()).collect();
         let refuse = |reason: &str| {
             Err(Error::Usage(format!(
-                "--velocity-defect {}: {reason}; allowed there: {}",
+                "defect={}: {reason}; allowed there: {}",
                 self.name(),
                 names.join(", ")
             )))
@@ -96,9 +95,9 @@ impl VelocityDefect {
             (false, _) => {
                 refuse("needs the scene's own motion, which an engine's capture does not have")
             }
-            (true, VelocityKind::CameraOnly) => {
-                refuse("needs the motion of objects, which --velocity camera_only does not have")
-            }
+            (true, VelocityKind::CameraOnly) => refuse(
+                "needs the motion of objects, which a velocity of the camera alone does not have",
+            ),
             (true, _) => Ok(()),
         }
     }

@@ -4,7 +4,7 @@ use frame::{Frame, Vectors};
 use half::f16;
 
 use super::unorm::unorm;
-use crate::named::named;
+use crate::named;
 
 /// Tile, and longest half-velocity, of McGuire et al. 2012, in pixels.
 const TILE: f64 = 20.0;

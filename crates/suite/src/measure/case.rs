@@ -9,8 +9,6 @@ use metrics::{
 };
 use tracer::Defocus;
 
-use tracer::FrameRate;
-
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
 use super::plan::RunPlan;
@@ -19,11 +17,11 @@ use super::probes::{FilterOutput, blur_noise_frames, blur_with_probes};
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use crate::Error;
+use crate::engine_scene::EngineScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::depth_of_field::DepthOfField;
 use crate::filter::input_format::InputFormat;
 use crate::filter::runner::Runner;
-use crate::ingest::engine_scene::EngineScene;
 use crate::run::case::{Case, Intervals};
 use crate::stats::intervals::intervals;
 
@@ -257,7 +255,7 @@ impl CaseContext<'_> {
         };
         let ended = self.plan.monitor.ended;
         ended("common truth");
-        let folder = planned.folder(self.scene);
+        let folder = planned.id.folder();
         let files = write_case(
             &self.plan.out.join(&folder),
             self.frame,
@@ -275,23 +273,17 @@ impl CaseContext<'_> {
         let convention = convention.filter(|it| *it != Convention::default());
         let truth = self.references.truth;
         let case = Case {
-            scene: self.scene.name().to_owned(),
+            id: planned.id.clone(),
             family: self.scene.family(),
             exposes: self.scene.exposes(),
             drawn: self.scene.drawn(),
-            rate: FrameRate::of_name(self.scene.name()),
+            rate: self.scene.id().rate,
             exposure: self.frame.exposure,
-            filter: planned.filter().to_owned(),
-            preset: planned.preset(),
-            is_reference: planned.is_reference(),
-            input: planned.input(),
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
-            overrides: choice.map_or_else(BTreeMap::new, |choice| choice.overrides.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),
             command: command.map(Command::words),
             convention: convention.map(Convention::resolved),
             nonlinearity: measured.nonlinearity,
-            alignment: truth.alignment.name().to_owned(),
             truth_hash: truth.provenance.content_hash.clone(),
             common,
             jitter: measured.jitter,
@@ -341,7 +333,7 @@ fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Me
 fn name_scene(error: FilterError, scene: RunScene) -> FilterError {
     match error {
         FilterError::Command { filter, reason } => FilterError::Command {
-            filter: format!("{filter} on {}", scene.name()),
+            filter: format!("{filter} on {}", scene.id()),
             reason,
         },
         other => other,

@@ -1,11 +1,11 @@
 //! Every frame of every scene of a plan.
 
 use filters::Gpu;
+use store::hash_program;
 
 use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
-use crate::cache::record::hash_program;
 use crate::filter::choice::FilterChoice;
 
 /// Visits every scene of a plan, and behind each its later frames, of which one at a time is in memory.

@@ -1,10 +1,11 @@
 //! The main job: renders every scene, runs every filter on it, measures how far each picture is from the truth.
 
 pub mod case;
+mod check_plan;
 pub mod dilated_velocity;
 mod due_cases;
+pub mod earlier;
 pub mod estimate;
-mod first_slice;
 mod frames;
 mod history;
 pub mod job_costs;
@@ -17,5 +18,6 @@ pub mod probes;
 pub mod references;
 pub(crate) mod run_scene;
 pub mod scene;
+mod scene_keys;
 pub mod scenes;
 pub mod sequence;

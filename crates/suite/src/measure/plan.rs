@@ -6,15 +6,12 @@ use frame::Alignment;
 use tracer::{RenderSettings, Scene};
 
 use super::part::Part;
-use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
+use crate::Monitor;
+use crate::engine_scene::EngineScene;
 use crate::filter::choice::FilterChoice;
 use crate::filter::input_format::InputFormat;
-use crate::folder::scene_folder::refuse_long_names;
-use crate::ingest::engine_scene::EngineScene;
-use crate::render::settings::frame_settings;
-use crate::run::sequence::{Frames, MOST_FRAMES};
-use crate::{Error, Monitor};
+use crate::run::sequence::Frames;
 
 /// Everything that a run is told to do.
 pub struct RunPlan {
@@ -54,6 +51,29 @@ pub struct RunPlan {
     pub monitor: Monitor,
 }
 
+/// Nothing to measure: single frames in their full form, with ladders and without intervals, shown to nobody.
+impl Default for RunPlan {
+    fn default() -> Self {
+        Self {
+            scenes: Vec::new(),
+            engine_scenes: Vec::new(),
+            filters: Vec::new(),
+            inputs: vec![InputFormat::default()],
+            jitter_frames: 0,
+            frames: Frames::default(),
+            render: RenderSettings::default(),
+            out: "out".into(),
+            intervals: false,
+            ladders: true,
+            no_cache: false,
+            common: None,
+            part: Part::default(),
+            truths: None,
+            monitor: Monitor::SILENT,
+        }
+    }
+}
+
 impl RunPlan {
     /// Scales the filters to the plan's pictures.
     pub(super) fn scaled_filters(&self) -> Vec<FilterChoice> {
@@ -68,70 +88,6 @@ impl RunPlan {
         let mut own = self.filters.iter();
         let own = own.find(|own| own.name() == choice.name());
         own.expect("it is a filter of the plan").scaled_to(width)
-    }
-
-    /// Refuses settings with which a scene cannot be rendered, and names that no folder can have, before anything is rendered.
-    pub fn check(&self) -> Result<(), Error> {
-        self.check_frames()?;
-        for scene in self.all_scenes() {
-            for case in PlannedCase::all(self, &self.filters, scene) {
-                refuse_long_names(&case.folder(scene))?;
-            }
-        }
-        for scene in &self.scenes {
-            for frame in 0..self.frames.count {
-                let scene = &scene.at_frame(frame);
-                frame_settings(&self.render).check_frame(scene)?;
-                for alignment in self.traced_alignments(frame) {
-                    self.render.check_truth(scene, alignment)?;
-                }
-            }
-        }
-        for scene in &self.engine_scenes {
-            scene.check_truth()?;
-            scene.check_size((self.render.width, self.render.height))?;
-        }
-        for input in &self.inputs {
-            let has_scenes = self.engine_scenes.is_empty();
-            input.check(self.render.options.velocity, has_scenes)?;
-            for scene in &self.scenes {
-                input.depth_of_field.check(scene)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Lists the alignments whose shutters are traced. Trailing and centred truths share their numbers of samples: a pilot looks at
-    /// both. The first frame is defined at all times.
-    fn traced_alignments(&self, frame: u32) -> Vec<Alignment> {
-        let mut alignments = self.alignments();
-        let shares = alignments.contains(&Alignment::Trailing);
-        if frame > 0 && shares && !alignments.contains(&Alignment::Centred) {
-            alignments.push(Alignment::Centred);
-        }
-        alignments
-    }
-
-    /// Refuses no frame, too many, or several of what an engine drew.
-    fn check_frames(&self) -> Result<(), Error> {
-        let Frames { count, per_second } = self.frames;
-        if !(1..=MOST_FRAMES).contains(&count) {
-            return Err(Error::Usage(format!(
-                "found {count} frames; allowed: 1 to {MOST_FRAMES}"
-            )));
-        }
-        if !(per_second.is_finite() && per_second > 0.0) {
-            return Err(Error::Usage(format!(
-                "found {per_second} frames per second; allowed: a number above 0, such as 60"
-            )));
-        }
-        match self.engine_scenes.first() {
-            Some(scene) if count > 1 => Err(Error::Usage(format!(
-                "{}: an engine drew one frame, and {count} are asked for; leave it out of a sequence",
-                scene.name
-            ))),
-            _ => Ok(()),
-        }
     }
 
     /// Lists the scenes that are rendered, then those that engines drew.

@@ -33,7 +33,7 @@ pub(crate) fn blur_with_probes(
     picture: [u32; 2],
     ended: fn(&'static str),
 ) -> Result<FilterOutput, FilterError> {
-    let mattes = pack(&frame.coverage);
+    let mattes = pack_planes(&frame.coverage);
     let (width, height) = frame.size();
     let step = [
         picture[0] as f32 / (width - 2 * frame.guard_band) as f32,
@@ -43,7 +43,7 @@ pub(crate) fn blur_with_probes(
     let mixture = mix(&frame.color, &probes[0]);
     let mut colors: Vec<&Image> = vec![&frame.color, &probes[0], &probes[1], &mixture];
     colors.extend(&mattes);
-    let mattes_before = pack(&before.coverage);
+    let mattes_before = pack_planes(&before.coverage);
     let mixture_before = mix(&before.color, &probes[0]);
     let mut colors_before = vec![&before.color, &probes[0], &probes[1], &mixture_before];
     colors_before.extend(&mattes_before);
@@ -51,9 +51,9 @@ pub(crate) fn blur_with_probes(
     let run = |runner: &mut Runner, count: usize| {
         let now = Input {
             frame_index,
-            ..input(frame, &colors[..count])
+            ..filter_input(frame, &colors[..count])
         };
-        let outputs = runner.run_after(&now, &input(before, &colors_before[..count]))?;
+        let outputs = runner.run_after(&now, &filter_input(before, &colors_before[..count]))?;
         Ok::<_, FilterError>(crop_all(outputs, frame.guard_band))
     };
     let (color, outputs) = match wide {
@@ -78,7 +78,7 @@ pub(crate) fn blur_with_probes(
         probes: Probes::of([&outputs[1], &outputs[2]]),
         picture: Picture {
             color: color.unwrap_or_else(|| outputs[0].clone()),
-            coverage: unpack(&outputs[4..], frame.coverage.len()),
+            coverage: unpack_planes(&outputs[4..], frame.coverage.len()),
         },
     })
 }
@@ -120,7 +120,7 @@ pub(crate) fn blur_noise_frames(
     frames: u32,
     picture: [u32; 2],
 ) -> Result<Option<Vec<Image>>, FilterError> {
-    let outputs = runner.run_noise(&input(frame, &[&frame.color]), 0..frames)?;
+    let outputs = runner.run_noise(&filter_input(frame, &[&frame.color]), 0..frames)?;
     Ok(outputs.map(|outputs| upscale_all(crop_all(outputs, frame.guard_band), picture)))
 }
 
@@ -144,7 +144,8 @@ fn crop_all(outputs: Vec<Image>, guard_band: u32) -> Vec<Image> {
     }
 }
 
-fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
+/// Makes the input of a filter from a frame, with colours in place of the frame's own.
+pub fn filter_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     Input {
         color,
         velocity: &frame.velocity,
@@ -160,7 +161,7 @@ fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
 }
 
 /// Packs three planes to an image; the last image is filled up with zeros.
-pub(crate) fn pack(planes: &[Plane]) -> Vec<Image> {
+pub fn pack_planes(planes: &[Plane]) -> Vec<Image> {
     planes
         .chunks(3)
         .map(|chunk| {
@@ -179,7 +180,7 @@ pub(crate) fn pack(planes: &[Plane]) -> Vec<Image> {
 }
 
 /// Takes planes out of images again.
-pub(crate) fn unpack(images: &[Image], count: usize) -> Vec<Plane> {
+pub fn unpack_planes(images: &[Image], count: usize) -> Vec<Plane> {
     (0..count)
         .map(|plane| images[plane / 3].map(|pixel| pixel[plane % 3]))
         .collect()
@@ -194,6 +195,6 @@ mod tests {
         let planes: Vec<Plane> = (0..5)
             .map(|k| Raster::from_fn(4, 3, |x, y| (k * 100 + y * 4 + x) as f32))
             .collect();
-        assert_eq!(unpack(&pack(&planes), 5), planes);
+        assert_eq!(unpack_planes(&pack_planes(&planes), 5), planes);
     }
 }

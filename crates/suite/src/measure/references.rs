@@ -9,10 +9,12 @@ use crate::render::ladders::sharp_picture;
 use crate::render::scatter_oracle::make_oracle;
 
 /// The truth of one shutter, with everything that pictures are measured against.
-pub(crate) struct TruthReferences<'a> {
+pub struct TruthReferences<'a> {
+    /// The truth itself.
     pub truth: &'a Truth,
     /// Picture of the one-frame oracle.
     pub oracle: Picture,
+    /// All that pictures are compared with.
     pub reference: Reference<'a>,
     /// References to the truths without one pair of replicates each; empty where scores get no intervals.
     pub without_pairs: Vec<Reference<'a>>,

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use frame::Alignment;
-use tracer::{Family, RenderSettings, Scene};
+use store::LADDER;
+use tracer::{Family, RenderSettings, Scene, SceneId};
 
 use crate::Error;
-use crate::ingest::engine_scene::EngineScene;
-use crate::render::ladders::{LADDER, SHARP, needed_rungs};
+use crate::engine_scene::EngineScene;
+use crate::render::ladders::{SHARP, needed_rungs};
 use crate::render::memory::{check_measuring_memory, measuring_memory};
 use crate::render::settings::frame_settings;
 use crate::run::case::Drawn;
@@ -22,11 +23,11 @@ pub(crate) enum RunScene<'a> {
 }
 
 impl<'a> RunScene<'a> {
-    /// Returns the scene's name, with its variant or engine.
-    pub fn name(self) -> &'a str {
+    /// Returns the scene's identity.
+    pub fn id(self) -> &'a SceneId {
         match self {
-            Self::Traced(scene) => &scene.name,
-            Self::Drawn(scene) => &scene.name,
+            Self::Traced(scene) => &scene.id,
+            Self::Drawn(scene) => &scene.id,
         }
     }
 
@@ -40,7 +41,7 @@ impl<'a> RunScene<'a> {
 
     /// Returns the frame of the scene's own clock, by which the noise of filters changes.
     pub fn frame_index(self) -> u32 {
-        self.traced().map_or(0, |scene| scene.frame)
+        self.traced().map_or(0, |scene| scene.id.frame)
     }
 
     /// Returns the family; none of an engine's scene.
@@ -74,14 +75,14 @@ impl<'a> RunScene<'a> {
 
     /// Names the folder of the scene's files below `out`.
     pub fn folder(self, out: &Path) -> PathBuf {
-        out.join(self.name())
+        out.join(self.id().folder())
     }
 
     /// Lists the shutter alignments that there are truths of, among those of a plan.
     pub fn alignments(self, planned: Vec<Alignment>) -> Vec<Alignment> {
         match self {
             Self::Traced(_) => planned,
-            Self::Drawn(scene) => vec![scene.alignment()],
+            Self::Drawn(scene) => vec![scene.alignment],
         }
     }
 

@@ -4,20 +4,19 @@ use std::path::PathBuf;
 
 use filters::Gpu;
 use frame::Frame;
+use store::{
+    CASE_RECORD, clear_scene, look_up, look_up_alone, put, refuse_scene, remove_altered_files, take,
+};
 
 use super::pictures::{write_frame, write_truth};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
 use crate::Error;
-use crate::cache::clear::clear_scene;
-use crate::cache::record::{
-    CASE_RECORD, read_record, read_record_alone, remove_altered_files, write_record,
-};
-use crate::cache::scene_keys::SceneKeys;
 use crate::filter::choice::FilterChoice;
+use crate::measure::scene_keys::SceneKeys;
 use crate::render::frames::render_frame;
-use crate::render::kept::{find_kept, list_render_files, take_renders};
+use crate::render::kept::{find_kept, list_render_files};
 use crate::render::shared::render_shared;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
@@ -77,7 +76,7 @@ impl SceneContext<'_> {
         let frame = self.render(advance)?;
         let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();
-        let label = format!("{} blurs and scores", self.scene.name());
+        let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
         let measured = monitor.watch(&label, |watch| self.measure(&due, &frame, advance, watch))?;
         let mut measured = measured.into_iter();
@@ -106,7 +105,7 @@ impl SceneContext<'_> {
             files.push(write_truth(&folder, &truth, frame.display)?);
         }
         for ((record, key), files) in self.render_records().into_iter().zip(files) {
-            write_record(&record, key, &files, &())?;
+            put(&record, key, &files, &())?;
         }
         Ok(frame)
     }
@@ -122,7 +121,8 @@ impl SceneContext<'_> {
         if let (Some(truths), RunScene::Traced(scene)) = (truths, self.scene) {
             let alignments = self.plan.alignments();
             let files = list_render_files(scene, render, &alignments, self.plan.ladders);
-            take_renders(&files, scene, truths, out)?;
+            refuse_scene(&self.folder())?;
+            take(&files, truths, out)?;
         }
         Ok(())
     }
@@ -172,7 +172,7 @@ impl SceneContext<'_> {
     fn read_case(&self, planned: &PlannedCase) -> Option<Case> {
         let record = self.case_record(planned);
         let keys = self.keys_to_read(planned);
-        let mut case: Case = keys.iter().find_map(|key| read_record(&record, key))?;
+        let mut case: Case = keys.iter().find_map(|key| look_up(&record, key))?;
         if !self.plan.intervals {
             case.intervals.clear();
         }
@@ -191,9 +191,7 @@ impl SceneContext<'_> {
     pub fn has_record(&self, planned: &PlannedCase) -> bool {
         let record = self.case_record(planned);
         let keys = self.keys_to_read(planned);
-        let mut found = keys
-            .iter()
-            .filter_map(|key| read_record_alone(&record, key));
+        let mut found = keys.iter().filter_map(|key| look_up_alone(&record, key));
         found.any(|case: Case| self.is_whole(&case))
     }
 
@@ -201,14 +199,20 @@ impl SceneContext<'_> {
     pub fn find_missing(&self) -> (bool, Vec<bool>) {
         let records = self.render_records();
         let is_missing =
-            |(record, key): &(PathBuf, String)| read_record_alone::<()>(record, key).is_none();
+            |(record, key): &(PathBuf, String)| look_up_alone::<()>(record, key).is_none();
         let alignments = self.plan.alignments();
         let (mut frame, mut truths) = match records.split_first() {
             None => (true, vec![true; alignments.len()]),
             Some((frame, truths)) => (is_missing(frame), truths.iter().map(is_missing).collect()),
         };
         if let (Some(folder), RunScene::Traced(scene)) = (&self.plan.truths, self.scene) {
-            let (has_frame, has) = find_kept(scene, self.plan, &alignments, folder);
+            let (has_frame, has) = find_kept(
+                scene,
+                &self.plan.render,
+                &alignments,
+                self.plan.ladders,
+                folder,
+            );
             frame &= !has_frame;
             for (missing, has) in truths.iter_mut().zip(has) {
                 *missing &= !has;
@@ -236,21 +240,20 @@ impl SceneContext<'_> {
         let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
             return Vec::new();
         };
-        let alignments = [planned.alignment, self.plan.common_alignment()];
+        let alignments = [planned.id.alignment, self.plan.common_alignment()];
         let key = |ladder: &bool| keys.case(&own, alignments, *ladder);
         ladders.iter().map(key).collect()
     }
 
     pub(super) fn case_record(&self, planned: &PlannedCase) -> PathBuf {
-        let folder = self.plan.out.join(planned.folder(self.scene));
+        let folder = self.plan.out.join(planned.id.folder());
         folder.join(CASE_RECORD)
     }
 
     /// Tells whether frame, truths and their pictures are there and unaltered.
     fn has_its_files(&self) -> bool {
         let mut records = self.render_records().into_iter();
-        self.keys.is_some()
-            && records.all(|(record, key)| read_record::<()>(&record, &key).is_some())
+        self.keys.is_some() && records.all(|(record, key)| look_up::<()>(&record, &key).is_some())
     }
 
     /// Lists the records of the frame and of every truth, in this order, with their keys; none where nothing is read back.

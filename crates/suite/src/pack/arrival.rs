@@ -4,16 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use frame::{Alignment, FileError};
+use store::{Pack, Wanted, refuse_scene, scene_folder, take};
 use tracer::Scene;
 
-use super::reading::Pack;
 use crate::Error;
-use crate::folder::placed_file::place_file;
-use crate::folder::scene_folder::{refuse_scene, scene_folder};
 use crate::measure::plan::RunPlan;
-use crate::render::kept::{RenderFile, find_kept, list_render_files};
+use crate::render::kept::{find_kept, list_render_files};
 use crate::verify::kept_scene::{Verified, verify_scene};
-use crate::verify::listing::KeptScene;
+use crate::verify::listing::list_kept_scenes;
 use crate::verify::work::Verification;
 
 /// Folder in that of a run where files of a pack lie until they are verified.
@@ -62,15 +60,13 @@ pub fn take_pack(
 fn take_verified(
     plan: &RunPlan,
     pack: &Pack,
-    wanted: &[(Scene, Vec<RenderFile>)],
+    wanted: &[(Scene, Vec<Wanted>)],
     verification: &Verification,
 ) -> Result<(usize, Verified), Error> {
     let arrivals = plan.out.join(ARRIVALS);
-    let files: BTreeMap<String, &RenderFile> = (wanted.iter())
-        .flat_map(|(_, files)| files)
-        .map(|file| (file.name(), file))
-        .collect();
-    pack.unpack(&arrivals, |file| files.contains_key(&file.path))?;
+    let files = || wanted.iter().flat_map(|(_, files)| files);
+    let names: BTreeSet<String> = files().map(|file| file.path.to_string()).collect();
+    pack.unpack(&arrivals, |file| names.contains(&file.path))?;
     let mut verified = Verified::default();
     for (scene, own) in wanted {
         verified.add(verify_arrivals(plan, pack, scene, own, verification)?);
@@ -78,12 +74,7 @@ fn take_verified(
     if !verified.differences.is_empty() {
         return Err(Error::Usage(verified.differences.join("\n")));
     }
-    let mut taken = 0;
-    for file in files.values().filter(|file| !file.is_in(&plan.out)) {
-        place_file(&arrivals.join(&file.below), &plan.out.join(&file.below))?;
-        taken += 1;
-    }
-    Ok((taken, verified))
+    Ok((take(files(), &arrivals, &plan.out)?, verified))
 }
 
 /// Lists those scenes of the plan whose files the pack has and the plan's folder lacks, with these files.
@@ -91,7 +82,7 @@ fn list_wanted(
     plan: &RunPlan,
     pack: &Pack,
     alignments: &[Alignment],
-) -> Result<Vec<(Scene, Vec<RenderFile>)>, Error> {
+) -> Result<Vec<(Scene, Vec<Wanted>)>, Error> {
     let packed: BTreeMap<&str, &str> = (pack.manifest.files.iter())
         .map(|file| (file.path.as_str(), file.content_hash.as_str()))
         .collect();
@@ -99,7 +90,7 @@ fn list_wanted(
     for scene in list_scenes(plan) {
         refuse_scene(&scene_folder(&plan.out, &scene))?;
         let mut files = list_render_files(&scene, &plan.render, alignments, plan.ladders);
-        files.retain(|file| packed.get(file.name().as_str()) == Some(&file.hash.as_str()));
+        files.retain(|file| packed.get(&*file.path.to_string()) == Some(&&*file.hash));
         if files.iter().any(|file| !file.is_in(&plan.out)) {
             wanted.push((scene, files));
         }
@@ -112,7 +103,7 @@ fn verify_arrivals(
     plan: &RunPlan,
     pack: &Pack,
     scene: &Scene,
-    files: &[RenderFile],
+    files: &[Wanted],
     verification: &Verification,
 ) -> Result<Verified, Error> {
     let arrivals = plan.out.join(ARRIVALS);
@@ -121,12 +112,13 @@ fn verify_arrivals(
         return Err(Error::Usage(format!(
             "{}: the header of {} has another content_hash than manifest.json says; the pack was altered: make or fetch it again",
             pack.path.display(),
-            file.name()
+            file.path
         )));
     }
-    let [folder, shown] = [&arrivals, &pack.path].map(|root| scene_folder(root, scene));
+    let folder = scene_folder(&arrivals, scene);
+    let mut kept = list_kept_scenes(&arrivals, &pack.path)?.into_iter();
     // All that was unpacked is verified, whether or not a truth came along: a run makes truths of replicates.
-    let kept = KeptScene::find(&scene.name, scene.frame, (&folder, &shown));
+    let kept = kept.find(|kept| kept.folder == folder);
     let kept = kept.expect("a file of it was unpacked");
     verify_scene(scene, &kept, verification, plan.monitor)
 }
@@ -142,8 +134,9 @@ fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
 
 /// Lists what the plan's folder lacks of a scene's frame and truths.
 fn list_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> BTreeSet<String> {
-    let (has_frame, has_truths) = find_kept(scene, plan, alignments, &plan.out);
-    let name = &scene.name;
+    let (has_frame, has_truths) =
+        find_kept(scene, &plan.render, alignments, plan.ladders, &plan.out);
+    let name = &scene.id;
     let frame = (!has_frame).then(|| format!("frame of {name}"));
     let truths = (alignments.iter().zip(has_truths)).filter(|(_, is_there)| !is_there);
     let truths = truths.map(|(alignment, _)| format!("{alignment} truth of {name}"));

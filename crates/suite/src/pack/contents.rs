@@ -1,22 +1,20 @@
 //! The files of a run's folder that a pack holds: all that a run renders and reads, and none that filters made.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
+use std::path::Path;
 
-use frame::{Alignment, ExrFile, read_exr_header, rung_file, truth_hash};
+use frame::{Alignment, ExrFile, read_exr_header, truth_hash};
+use store::{PackedFile, RenderFile, RenderPath};
+use tracer::SceneId;
 
-use super::manifest::PackedFile;
 use crate::Error;
-use crate::render::ladders::{ladder_folder, needed_rungs};
-use crate::render::replicates::replicates_folder;
+use crate::render::ladders::needed_rungs;
 use crate::run::Run;
 use crate::run::case::ACCUMULATE;
 
 /// The truths of one scene, or of a later frame of it.
 struct KeptScene {
-    /// Folder of its files below that of the run: `fan` or `fan/0003`.
-    folder: PathBuf,
+    scene: SceneId,
     /// Alignments of its truths, each with the `truth_hash` of the cases that were measured against it; none where no case was.
     truths: BTreeMap<Alignment, Option<String>>,
     /// Alignments that the run has accumulations of several sub-frames of: those whose whole ladder was rendered.
@@ -43,9 +41,9 @@ pub(super) fn list_contents(
 
 /// Lists the chosen scenes and their later frames; leaves out those that engines drew, which have their truths elsewhere.
 fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
-    let mut truths: BTreeMap<&str, BTreeMap<Alignment, Option<String>>> = BTreeMap::new();
+    let mut truths: BTreeMap<&SceneId, BTreeMap<Alignment, Option<String>>> = BTreeMap::new();
     for case in run.cases.iter().filter(|case| case.drawn.is_none()) {
-        let alignment = Alignment::from_str(&case.alignment).map_err(Error::Usage)?;
+        let alignment = case.alignment;
         let own = truths.entry(&case.scene).or_default();
         let hash = Some(case.truth_hash.clone());
         match own.insert(alignment, hash.clone()) {
@@ -58,23 +56,18 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
             _ => {}
         }
     }
-    let common = Alignment::from_str(&run.common_alignment).map_err(Error::Usage)?;
     let mut scenes = Vec::new();
-    for name in chosen {
-        let Some(own) = truths.get(name.as_str()) else {
-            continue;
-        };
-        let alignments: BTreeSet<Alignment> = own.keys().copied().chain([common]).collect();
+    let is_chosen = |scene: &SceneId| chosen.contains(&scene.to_string());
+    for (scene, own) in (truths.iter()).filter(|(scene, _)| is_chosen(scene)) {
+        let alignments: BTreeSet<Alignment> =
+            own.keys().copied().chain([run.common_alignment]).collect();
         let ladders: BTreeSet<Alignment> = (alignments.iter().copied())
-            .filter(|alignment| has_accumulation(run, name, *alignment))
+            .filter(|alignment| has_accumulation(run, scene, *alignment))
             .collect();
         for frame in 0..run.frames.count {
             let hash = |alignment| own.get(&alignment).cloned().flatten();
             scenes.push(KeptScene {
-                folder: match frame {
-                    0 => PathBuf::from(name),
-                    later => Path::new(name).join(format!("{later:04}")),
-                },
+                scene: scene.at_frame(frame),
                 // Cases of later frames are not in run.json.
                 truths: (alignments.iter())
                     .map(|&alignment| (alignment, hash(alignment).filter(|_| frame == 0)))
@@ -93,13 +86,13 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
 }
 
 /// Tells whether a run compares with accumulations of several sub-frames in a scene, for one alignment.
-fn has_accumulation(run: &Run, scene: &str, alignment: Alignment) -> bool {
+fn has_accumulation(run: &Run, scene: &SceneId, alignment: Alignment) -> bool {
     (run.cases.iter()).any(|case| {
         case.is_reference
             && case.filter == ACCUMULATE
             && !case.is_sharp()
-            && case.scene == scene
-            && case.alignment == alignment.name()
+            && case.scene == *scene
+            && case.alignment == alignment
     })
 }
 
@@ -110,17 +103,19 @@ fn add_scene(
     scene: &KeptScene,
     files: &mut Vec<PackedFile>,
 ) -> Result<(), Error> {
-    let found = |below: &Path| read_kept(root, below);
-    files.push(found(&scene.folder.join("frame.exr"))?);
-    for (alignment, hash) in &scene.truths {
-        let truth = found(&scene.folder.join(format!("truth_{alignment}.exr")))?;
+    let found = |file| {
+        let scene = scene.scene.clone();
+        read_kept(root, &RenderPath { scene, file })
+    };
+    files.push(found(RenderFile::Frame)?);
+    for (&alignment, hash) in &scene.truths {
+        let truth = found(RenderFile::Truth(alignment))?;
         if let Some(hash) = hash.as_ref().filter(|hash| **hash != truth.content_hash) {
             return Err(other_file(root, &truth, hash));
         }
         let count = run.render.replicates;
         for index in 0..count {
-            let below = replicates_folder(&scene.folder, *alignment);
-            let replicate = found(&below.join(format!("replicate_{index:03}.exr")))?;
+            let replicate = found(RenderFile::Replicate(alignment, index))?;
             if truth_hash(&replicate.content_hash, count) != truth.content_hash {
                 return Err(other_file(root, &replicate, &truth.content_hash));
             }
@@ -128,9 +123,8 @@ fn add_scene(
         }
         files.push(truth);
         let mut ladder: Option<String> = None;
-        for rung in needed_rungs(*alignment, scene.ladders.contains(alignment)) {
-            let below = scene.folder.join(ladder_folder(*alignment));
-            let rung = found(&below.join(rung_file(*rung)))?;
+        for rung in needed_rungs(alignment, scene.ladders.contains(&alignment)) {
+            let rung = found(RenderFile::Rung(alignment, *rung))?;
             let hash = ladder.get_or_insert_with(|| rung.content_hash.clone());
             if *hash != rung.content_hash {
                 return Err(other_file(root, &rung, hash));
@@ -142,17 +136,17 @@ fn add_scene(
 }
 
 /// Reads the header of a kept file.
-fn read_kept(root: &Path, below: &Path) -> Result<PackedFile, Error> {
-    let path = root.join(below);
+fn read_kept(root: &Path, file: &RenderPath) -> Result<PackedFile, Error> {
+    let path = root.join(file.path());
     if !path.symlink_metadata().is_ok_and(|found| found.is_file()) {
         return Err(Error::Usage(format!(
             "{}: there is no such file, or it is no regular one; the run is unfinished, or its files were moved; run it again into \
-             this folder, or render what is missing with `shuttertruth render --ladders`",
+             this folder, or render what is missing with `shuttertruth truths render --ladders`",
             path.display()
         )));
     }
-    let file = read_exr_header(&path).and_then(|file| describe(&file, below));
-    file.ok_or_else(|| {
+    let found = read_exr_header(&path).and_then(|found| describe(&found, file));
+    found.ok_or_else(|| {
         Error::Usage(format!(
             "{}: not a complete file of this program; delete it and run again into this folder",
             path.display()
@@ -161,10 +155,9 @@ fn read_kept(root: &Path, below: &Path) -> Result<PackedFile, Error> {
 }
 
 /// Describes a file by its header; none where that lacks what the files of this program have.
-fn describe(file: &ExrFile, below: &Path) -> Option<PackedFile> {
-    let parts: Option<Vec<&str>> = below.iter().map(|part| part.to_str()).collect();
+fn describe(file: &ExrFile, path: &RenderPath) -> Option<PackedFile> {
     Some(PackedFile {
-        path: parts?.join("/"),
+        path: path.to_string(),
         bytes: 0,
         blake3: String::new(),
         content_hash: file.get("content_hash").ok()?,

@@ -1,7 +1,31 @@
 //! Packs: the kept frames, truths and ladders of a run in one archive, which says what it holds and is checked before it is used.
 
 pub mod arrival;
-pub mod contents;
-pub mod manifest;
-pub mod reading;
-pub mod writing;
+mod contents;
+
+use std::path::Path;
+
+use store::{Manifest, write_archive};
+
+use self::contents::list_contents;
+use crate::run::Run;
+use crate::{Error, Monitor, PROGRAM};
+
+/// Packs the kept frames, truths and ladders of the chosen scenes of a finished run in `folder` into the archive `pack`. The same files
+/// give the same bytes.
+///
+/// # Errors
+/// A file is missing, cannot be read or written, or is another one than the run was measured with.
+pub fn write_pack(
+    run: &Run,
+    folder: &Path,
+    scenes: &[String],
+    pack: &Path,
+    monitor: Monitor,
+) -> Result<Manifest, Error> {
+    let files = list_contents(run, folder, scenes)?;
+    let written = monitor.watch("packing", |watch| {
+        write_archive(files, folder, pack, PROGRAM, watch)
+    });
+    Ok(written?)
+}

@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use frame::Frame;
+use store::{RenderFile, refuse_scene, scene_folder};
 use tracer::{RenderSettings, Scene};
 
-use super::kept::is_rendered_of;
 use super::memory::check_memory;
 use super::settings::frame_settings;
-use crate::folder::scene_folder::{refuse_scene, scene_folder};
 use crate::{Error, Monitor};
 
 /// Renders the frame of `scene` and writes it to `out`; reads it from there if its inputs are the same.
@@ -21,16 +20,16 @@ pub fn render_frame(
     let folder = scene_folder(out, scene);
     refuse_scene(&folder)?;
     let own = frame_settings(settings);
-    let path = folder.join("frame.exr");
+    let path = folder.join(RenderFile::Frame.path());
     let hash = tracer::frame_hash(scene, &own);
     if let Ok(found) = Frame::read(&path)
-        && is_rendered_of(&found.provenance, &hash)
+        && found.provenance.is_rendered_of(&hash)
     {
         return Ok(found);
     }
     own.check_frame(scene)?;
     check_memory(scene, settings, settings.replicates)?;
-    let label = format!("{} frame", scene.name);
+    let label = format!("{} frame", scene.id);
     let frame = monitor.watch(&label, |watch| tracer::trace_frame(scene, &own, watch))?;
     assert_eq!(
         frame.provenance.content_hash, hash,

@@ -1,31 +1,13 @@
-//! Frames, truths and ladders that lie in another folder, and are taken from there instead of rendered.
+//! Frames, truths and ladders that lie in a folder, and are taken from there instead of rendered.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use frame::{Alignment, Provenance, read_attribute, rung_file};
+use frame::Alignment;
+use store::{RenderFile, RenderPath, Wanted};
 use tracer::{RenderSettings, Scene};
 
-use super::ladders::{ladder_folder, ladder_hash, needed_rungs};
-use super::replicates::ReplicateFiles;
+use super::ladders::{ladder_hash, needed_rungs};
 use super::settings::frame_settings;
-use crate::Error;
-use crate::folder::placed_file::place_file;
-use crate::folder::scene_folder::{refuse_scene, scene_folder};
-use crate::measure::plan::RunPlan;
-
-/// A file of a render, by its path below an output folder, and the content hash that its header must have.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct RenderFile {
-    /// `railing/truth_trailing.exr`.
-    pub below: PathBuf,
-    /// Hash of its inputs.
-    pub hash: String,
-}
-
-/// Tells whether a file was rendered of these inputs. One that says that an engine drew it was not, whatever hash it has.
-pub(super) fn is_rendered_of(provenance: &Provenance, hash: &str) -> bool {
-    provenance.content_hash == hash && provenance.engine.is_none()
-}
 
 /// Lists the frame of a scene, and its truths with their replicates, and with the rungs of their ladders that measuring needs: all
 /// if ladders are asked for.
@@ -34,83 +16,46 @@ pub(crate) fn list_render_files(
     settings: &RenderSettings,
     alignments: &[Alignment],
     ladders: bool,
-) -> Vec<RenderFile> {
-    let folder = scene_folder(Path::new(""), scene);
-    let mut files = vec![RenderFile {
-        below: folder.join("frame.exr"),
-        hash: tracer::frame_hash(scene, &frame_settings(settings)),
-    }];
+) -> Vec<Wanted> {
+    let wanted = |file, hash: &str| Wanted {
+        path: RenderPath {
+            scene: scene.id.clone(),
+            file,
+        },
+        hash: hash.to_owned(),
+    };
+    let frame = tracer::frame_hash(scene, &frame_settings(settings));
+    let mut files = vec![wanted(RenderFile::Frame, &frame)];
     for &alignment in alignments {
-        let replicates = ReplicateFiles::new(folder.clone(), scene, settings, alignment);
-        files.push(RenderFile {
-            below: replicates.truth_path(),
-            hash: tracer::truth_hash(scene, settings, alignment),
-        });
-        files.extend((0..settings.replicates).map(|index| RenderFile {
-            below: replicates.path(index),
-            hash: replicates.hash.clone(),
-        }));
-        let hash = ladder_hash(scene, settings, alignment);
+        let truth = tracer::truth_hash(scene, settings, alignment);
+        files.push(wanted(RenderFile::Truth(alignment), &truth));
+        let replicate = tracer::replicate_hash(scene, settings, alignment);
+        let replicates = 0..settings.replicates;
+        files.extend(
+            replicates.map(|index| wanted(RenderFile::Replicate(alignment, index), &replicate)),
+        );
+        let ladder = ladder_hash(scene, settings, alignment);
         let rungs = needed_rungs(alignment, ladders).iter();
-        files.extend(rungs.map(|rung| RenderFile {
-            below: (folder.join(ladder_folder(alignment))).join(rung_file(*rung)),
-            hash: hash.clone(),
-        }));
+        files.extend(rungs.map(|rung| wanted(RenderFile::Rung(alignment, *rung), &ladder)));
     }
     files
 }
 
 /// Tells whether the folder `truths` has the frame of a scene, and each of its truths with its last replicate, or the last rung of its
-/// ladder if the plan needs one.
+/// ladder if `ladders` are asked for.
 pub(crate) fn find_kept(
     scene: &Scene,
-    RunPlan {
-        render, ladders, ..
-    }: &RunPlan,
+    render: &RenderSettings,
     alignments: &[Alignment],
+    ladders: bool,
     truths: &Path,
 ) -> (bool, Vec<bool>) {
-    let has = |file: &RenderFile| file.is_in(truths);
+    let has = |file: &Wanted| file.is_in(truths);
     let of_truth = |alignment: &Alignment| {
-        let files = list_render_files(scene, render, &[*alignment], *ladders);
+        let files = list_render_files(scene, render, &[*alignment], ladders);
         // The frame, the truth, its replicates, and the rungs.
         has(&files[1]) && files.last().is_some_and(has)
     };
-    let frame = has(&list_render_files(scene, render, &[], *ladders)[0]);
+    let frame = has(&list_render_files(scene, render, &[], ladders)[0]);
     (frame, alignments.iter().map(of_truth).collect())
-}
-
-impl RenderFile {
-    /// Returns its path below a folder with `/` between its parts, as a pack names it.
-    pub fn name(&self) -> String {
-        let parts = self.below.iter().map(|part| part.to_string_lossy());
-        parts.collect::<Vec<_>>().join("/")
-    }
-
-    /// Tells whether a folder holds it, by the header of the file.
-    pub fn is_in(&self, folder: &Path) -> bool {
-        read_attribute(&folder.join(&self.below), "content_hash").as_ref() == Some(&self.hash)
-    }
-}
-
-/// Takes the files of a scene from the folder `truths` into `out`, unless they are there. What neither holds is left to be rendered.
-/// Returns the number of files that were taken.
-///
-/// # Errors
-/// Fails if a file cannot be taken.
-pub(crate) fn take_renders(
-    files: &[RenderFile],
-    scene: &Scene,
-    truths: &Path,
-    out: &Path,
-) -> Result<usize, Error> {
-    refuse_scene(&scene_folder(out, scene))?;
-    let mut taken = 0;
-    for file in files {
-        if !file.is_in(out) && file.is_in(truths) {
-            place_file(&truths.join(&file.below), &out.join(&file.below))?;
-            taken += 1;
-        }
-    }
-    Ok(taken)
 }

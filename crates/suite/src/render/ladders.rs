@@ -3,18 +3,14 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth, read_attribute, rung_file};
+use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth, read_attribute};
+use store::{LADDER, RenderFile, scene_folder};
 use tracer::{LadderTracer, RenderSettings, Scene};
 
-use super::kept::is_rendered_of;
-use crate::folder::scene_folder::scene_folder;
 use crate::{Error, Monitor};
 
-/// Sub-frame counts of the ladder that N_eq is read from.
-pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
-
 /// The rung that is the sharp picture of a shutter's middle.
-pub(crate) const SHARP: u32 = LADDER[0];
+pub const SHARP: u32 = LADDER[0];
 
 /// Lists the rungs that measuring against a truth needs: all if ladders are asked for. Otherwise the sharp picture of the shutter's
 /// middle, which skill is counted from, unless the frame is that.
@@ -28,7 +24,7 @@ pub(crate) fn needed_rungs(alignment: Alignment, ladders: bool) -> &'static [u32
 
 /// Returns the sharp picture of the middle of a truth's shutter: the frame if its instant lies there, or else the rung [`SHARP`],
 /// which `read` reads. `frame` has no guard band.
-pub(crate) fn sharp_picture<E>(
+pub fn sharp_picture<E>(
     frame: &Frame,
     truth: &Truth,
     read: impl FnOnce() -> Result<Accumulation, E>,
@@ -37,11 +33,6 @@ pub(crate) fn sharp_picture<E>(
         Alignment::Centred => Ok(frame.picture()),
         _ => Ok(Picture::mean(&read()?.halves)),
     }
-}
-
-/// Names the folder of the rungs of a ladder in the folder of its scene.
-pub(crate) fn ladder_folder(alignment: Alignment) -> String {
-    format!("ladder_{alignment}")
 }
 
 /// The ladder of one truth, with a file for each rung: all of them together would take more memory than all else that measuring
@@ -62,7 +53,7 @@ impl<'a> LadderFiles<'a> {
     pub fn new(scene: &'a Scene, settings: &RenderSettings, truth: &'a Truth, out: &Path) -> Self {
         Self {
             scene,
-            folder: scene_folder(out, scene).join(ladder_folder(truth.alignment)),
+            folder: scene_folder(out, scene),
             hash: ladder_hash(scene, settings, truth.alignment),
             settings: *settings,
             truth,
@@ -85,7 +76,7 @@ impl<'a> LadderFiles<'a> {
     pub fn read_or_render(&self, subframes: u32, monitor: Monitor) -> Result<Ladder, Error> {
         let path = self.path(subframes);
         if let Ok(found) = Ladder::read_rung(&path, subframes)
-            && is_rendered_of(&found.provenance, &self.hash)
+            && found.provenance.is_rendered_of(&self.hash)
         {
             return Ok(found);
         }
@@ -94,13 +85,13 @@ impl<'a> LadderFiles<'a> {
     }
 
     fn path(&self, subframes: u32) -> PathBuf {
-        self.folder.join(rung_file(subframes))
+        (self.folder).join(RenderFile::Rung(self.truth.alignment, subframes).path())
     }
 
     fn render(&self, subframes: u32, monitor: Monitor) -> Result<(), Error> {
         let label = format!(
             "{} {subframes} sub-frames, {}",
-            self.scene.name, self.truth.alignment
+            self.scene.id, self.truth.alignment
         );
         let rung = monitor.watch(&label, |watch| self.tracer()?.trace(subframes, watch))?;
         assert_eq!(

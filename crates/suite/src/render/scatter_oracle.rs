@@ -38,7 +38,7 @@ pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile)
 }
 
 /// Makes the oracle's picture through the shutter of a truth, without the frame's guard band.
-pub(crate) fn make_oracle(frame: &Frame, truth: &Truth) -> Picture {
+pub fn make_oracle(frame: &Frame, truth: &Truth) -> Picture {
     scatter_oracle(frame, truth.shutter, &truth.shutter_profile).cropped(frame.guard_band)
 }
 

@@ -7,14 +7,11 @@ use tracer::RenderSettings;
 /// Columns and rows that a picture may have.
 pub const SIDES: RangeInclusive<u32> = 16..=16384;
 
-/// Upper limit on the replicates of a truth.
-pub const MOST_REPLICATES: u32 = 4096;
-
 /// Replicates of a truth that have as many samples as a frame, whatever number the truth has.
 const FRAME_REPLICATES: u32 = 4;
 
 /// Lists name and value of every setting that all cases of a run share.
-pub(crate) fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
+pub fn list_settings(settings: &RenderSettings) -> [(&'static str, String); 8] {
     [
         (
             "picture size",

@@ -4,11 +4,11 @@ use std::ops::Range;
 use std::path::Path;
 
 use frame::Alignment;
+use store::scene_folder;
 use tracer::{RenderSettings, Scene, TruthTracer};
 
 use super::memory::check_memory;
 use super::replicates::ReplicateFiles;
-use crate::folder::scene_folder::scene_folder;
 use crate::{Error, Monitor};
 
 const SHARED: [Alignment; 2] = [Alignment::Trailing, Alignment::Centred];
@@ -77,10 +77,7 @@ impl<'a> SharedReplicates<'a> {
                 Some(tracer) => tracer,
                 none => none.insert(TruthTracer::new(self.scene, &self.settings, &SHARED)?),
             };
-            let label = format!(
-                "{} trailing and centred, replicate {index}",
-                self.scene.name
-            );
+            let label = format!("{} trailing and centred, replicate {index}", self.scene.id);
             let replicates = monitor.watch(&label, |watch| tracer.trace(index, watch))?;
             for (files, replicate) in self.files.iter().zip(replicates) {
                 replicate.write(&files.path(index))?;

@@ -4,13 +4,12 @@ use std::ops::Range;
 use std::path::Path;
 
 use frame::{Alignment, Region, Replicate, Truth};
+use store::{MOST_REPLICATES, refuse_scene, scene_folder};
 use tracer::{RenderSettings, Scene};
 
 use super::memory::check_memory;
 use super::replicates::ReplicateFiles;
-use super::settings::MOST_REPLICATES;
 use super::shared::SharedReplicates;
-use crate::folder::scene_folder::{refuse_scene, scene_folder};
 use crate::{Error, Monitor};
 
 /// Renders the truth of `scene` over the shutter of `alignment` and writes it to `out`. Reads the truth from there if its inputs

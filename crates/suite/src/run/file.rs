@@ -2,18 +2,14 @@
 
 use std::collections::HashSet;
 use std::path::{Component, Path};
-use std::str::FromStr;
 
-use frame::Alignment;
+use store::{MOST_REPLICATES, MOST_RUN_BYTES, check_strings, read_text_within, to_lines};
 
 use super::case::Case;
 use super::sequence::{MOST_FRAMES, Sequence};
 use super::{FORMAT, Run};
 use crate::Error;
-use crate::json::file::{MOST_RUN_BYTES, read_text_within};
-use crate::json::lines::to_lines;
-use crate::json::strings::check_strings;
-use crate::render::settings::{MOST_REPLICATES, SIDES};
+use crate::render::settings::SIDES;
 
 /// Upper limit on the cases of a run.json.
 pub const MOST_CASES: usize = 50_000;
@@ -59,12 +55,11 @@ fn parse(text: &str) -> Result<Run, String> {
     run.sequences.iter().try_for_each(check_sequence)?;
     let mut folders = HashSet::new();
     for case in &run.cases {
-        check_case(case).map_err(|reason| format!("{} / {}: {reason}", case.scene, case.name()))?;
+        check_case(case).map_err(|reason| format!("{}: {reason}", case.id))?;
         if !folders.insert(&case.folder) {
             return Err(format!(
-                "{} / {}: folder \"{}\" belongs to two cases; allowed: one case each",
-                case.scene,
-                case.name(),
+                "{}: folder \"{}\" belongs to two cases; allowed: one case each",
+                case.id,
                 case.folder.display()
             ));
         }
@@ -94,19 +89,17 @@ fn check_settings(run: &Run) -> Result<(), String> {
     if render.samples_per_pixel == 0 {
         return Err("has 0 samples per pixel; allowed: 1 or more".to_owned());
     }
-    Alignment::from_str(&run.common_alignment).map(drop)
+    Ok(())
 }
 
 fn check_case(case: &Case) -> Result<(), String> {
-    if !(is_below(Path::new(&case.scene)) && is_below(&case.folder)) {
+    if !is_below(&case.folder) {
         return Err(format!(
-            "scene \"{}\", folder \"{}\": a case lies in a folder below run.json, and nowhere else",
-            case.scene,
+            "folder \"{}\": a case lies in a folder below run.json, and nowhere else",
             case.folder.display()
         ));
     }
-    let alignment = Alignment::from_str(&case.alignment)?;
-    (alignment.shutter(case.exposure).map(drop)).map_err(|error| error.to_string())
+    (case.alignment.shutter(case.exposure).map(drop)).map_err(|error| error.to_string())
 }
 
 fn check_sequence(sequence: &Sequence) -> Result<(), String> {
@@ -142,7 +135,7 @@ fn check_sequence(sequence: &Sequence) -> Result<(), String> {
 }
 
 /// Tells whether a path leads below the folder that it starts from. Nothing is read or written elsewhere.
-pub(crate) fn is_below(path: &Path) -> bool {
+pub fn is_below(path: &Path) -> bool {
     let mut parts = path.components().peekable();
     parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{ExrFile, Frame, Truth, read_exr, write_exr};
+use frame::{Alignment, ExrFile, Frame, Truth, read_exr, write_exr};
 use metrics::ErrorMap;
-use tracer::{Progress, TraceError, Watch};
+use tracer::{Progress, SceneId, TraceError, Watch};
 
 use super::Run;
 use super::case::Case;
@@ -50,18 +50,18 @@ pub fn write_layers(
 
 /// Files that all cases of one scene and alignment share.
 struct Inputs {
-    scene: String,
-    alignment: String,
+    scene: SceneId,
+    alignment: Alignment,
     frame: Frame,
     truth: Truth,
 }
 
 impl Inputs {
     fn read(case: &Case, folder: &Path) -> Result<Self, Error> {
-        let files = folder.join(&case.scene);
+        let files = folder.join(case.scene.folder());
         Ok(Self {
             scene: case.scene.clone(),
-            alignment: case.alignment.clone(),
+            alignment: case.alignment,
             frame: Frame::read(&files.join("frame.exr"))?.cropped(),
             truth: Truth::read(&files.join(format!("truth_{}.exr", case.alignment)))?,
         })

@@ -1,18 +1,17 @@
 //! A finished run: its data, and the files that hold it.
 
 pub mod case;
-pub mod case_key;
-pub mod earlier;
+mod case_scores;
 pub mod error_maps;
 pub mod failure;
 pub mod file;
 pub mod layers;
-pub mod merge;
 pub mod overall;
 mod scaling;
 pub mod sequence;
 
 use filters::AdapterDescription;
+use frame::Alignment;
 use serde::{Deserialize, Serialize};
 use tracer::RenderSettings;
 
@@ -40,7 +39,7 @@ pub struct Run {
     pub render: RenderSettings,
     /// The shutter alignment that every case is compared with beside its own, so that filters of several alignments have one
     /// score in common: centred where a filter declares that, or else trailing, or else leading.
-    pub common_alignment: String,
+    pub common_alignment: Alignment,
     /// Frames of each scene; left out where there is one.
     #[serde(default, skip_serializing_if = "Frames::is_one")]
     pub frames: Frames,

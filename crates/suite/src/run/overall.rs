@@ -1,7 +1,11 @@
 //! Means over the scenes, as a run records them.
 
+use frame::Alignment;
+use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use tracer::FrameRate;
+
+use crate::identity::FilterId;
 
 /// One metric of one filter preset, or of one reference picture, over the scenes that it applies to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -12,12 +16,12 @@ pub struct Overall {
     #[serde(rename = "bar")]
     pub is_reference: bool,
     /// The shutter alignment that it is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Frame rate of the scenes; none for that of their files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<FrameRate>,
-    /// Name of the metric, `bleed` or `flip_common`.
-    pub metric: String,
+    /// One of [`Metric::OF_MEANS`].
+    pub metric: Metric,
     /// Number of scenes, each variant of one counted.
     pub scenes: usize,
     /// Mean over the scenes, in the metric's unit; of a skill the ratio of means.
@@ -29,7 +33,15 @@ pub struct Overall {
 impl Overall {
     /// Tells whether both are of one filter preset or reference picture, at one frame rate.
     pub fn is_of_same(&self, other: &Self) -> bool {
-        let key = |own: &Self| (own.is_reference, own.filter.clone(), own.alignment.clone());
-        key(self) == key(other) && self.rate == other.rate
+        self.filter_id() == other.filter_id() && self.rate == other.rate
+    }
+
+    /// Returns the identity of the filter or reference.
+    pub fn filter_id(&self) -> FilterId {
+        FilterId {
+            is_reference: self.is_reference,
+            name: self.filter.clone(),
+            alignment: self.alignment,
+        }
     }
 }

@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use metrics::SequenceScores;
+use frame::Alignment;
+use metrics::{Metric, SequenceScores};
 use serde::{Deserialize, Serialize};
-use tracer::FrameRate;
+use tracer::SceneId;
 
 use super::case::Intervals;
+use crate::identity::{CaseId, FilterId};
 
 /// Upper limit on the frames of a sequence.
 pub const MOST_FRAMES: u32 = 1000;
@@ -15,25 +17,41 @@ pub const MOST_FRAMES: u32 = 1000;
 /// The pictures of one filter preset, or of one reference, over all frames of a scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Sequence {
-    /// Scene, with its variant.
-    pub scene: String,
+    /// Scene.
+    pub scene: SceneId,
     /// `filter:preset`, and behind that the form of its input where that is not the default.
     pub filter: String,
     /// True for a reference picture.
     #[serde(rename = "bar")]
     pub is_reference: bool,
     /// The shutter alignment that the filter declares and is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Scores over time.
     pub scores: SequenceScores,
     /// 95 % confidence intervals of the scores; empty where none were asked for.
     #[serde(default, skip_serializing_if = "Intervals::is_empty")]
     pub intervals: Intervals,
-    /// Frame that is worst in a score, from 0, by the names of the metrics that frames have a share in.
+    /// Frame that is worst in a score, from 0, by the metrics that frames have a share in.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub worst_frames: BTreeMap<String, u32>,
+    pub worst_frames: BTreeMap<Metric, u32>,
     /// Frames, from the first on.
     pub frames: Vec<SequenceFrame>,
+}
+
+impl Sequence {
+    /// Returns the identity of the filter or reference.
+    pub fn filter_id(&self) -> FilterId {
+        FilterId {
+            is_reference: self.is_reference,
+            name: self.filter.clone(),
+            alignment: self.alignment,
+        }
+    }
+
+    /// Tells whether it starts with a case.
+    pub fn is_of(&self, case: &CaseId) -> bool {
+        self.scene == case.scene && self.filter_id() == case.filter_id()
+    }
 }
 
 /// One picture of a sequence. Its `case.json` has all scores of the single frame.
@@ -72,9 +90,9 @@ impl Default for Frames {
 
 impl Frames {
     /// Returns the frames per second at which a scene is shown: those of its frame rate, or the run's for a scene as its file says.
-    pub fn shown(&self, scene: &str) -> f64 {
-        let rate = FrameRate::of_name(scene).unwrap_or_default();
-        match rate.per_second == FrameRate::WRITTEN.per_second {
+    pub fn shown(&self, scene: &SceneId) -> f64 {
+        let rate = scene.rate.unwrap_or_default();
+        match rate.per_second == tracer::FrameRate::WRITTEN.per_second {
             true => self.per_second,
             false => rate.per_second,
         }

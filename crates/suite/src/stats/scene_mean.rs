@@ -91,7 +91,7 @@ pub fn plain_mean(values: &[f64], tail: f64) -> SceneMean {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tune::random::Random;
+    use crate::random::Random;
 
     #[test]
     fn the_interval_of_one_value_has_no_width() {

@@ -3,17 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Frame, Replicate, Shutter, Tile, Truth, read_exr};
+use store::RenderFile;
 use tracer::{RenderSettings, Scene};
 
 use super::difference::find_difference;
 use super::listing::KeptScene;
 use super::tiles::{trace_frame_tiles, trace_replicate_tiles, trace_rung_tiles};
 use super::work::{Verification, Work};
-use crate::render::ladders::ladder_folder;
 use crate::render::memory::check_memory;
-use crate::render::replicates::{
-    ReplicateFiles, list_replicates, replicate_file, replicates_folder,
-};
+use crate::render::replicates::ReplicateFiles;
 use crate::{Error, Monitor};
 
 /// The outcome of a verification.
@@ -46,14 +44,14 @@ pub fn verify_scene(
         verification,
         monitor,
     };
-    let frame = kept.folder.join("frame.exr");
-    if frame.exists() {
-        verified.note(verify_frame(&work, &frame))?;
+    if kept.files.contains(&RenderFile::Frame) {
+        verified.note(verify_frame(&work, &work.path(RenderFile::Frame)))?;
     }
-    for &alignment in &kept.alignments {
-        let truth = kept.folder.join(format!("truth_{alignment}.exr"));
-        match truth.exists() {
+    for alignment in kept.alignments() {
+        let truth = RenderFile::Truth(alignment);
+        match kept.files.contains(&truth) {
             true => {
+                let truth = work.path(truth);
                 let is_equal = verified.note(verify_truth(&work, &truth, alignment))?;
                 verified.truths += usize::from(is_equal);
             }
@@ -129,7 +127,7 @@ fn verify_truth(
     let files = ReplicateFiles::new(folder, work.scene, &settings, alignment);
     expect_mean(work, path, &truth, &files)?;
     // A run that asks for more replicates takes those beyond the truth's as well.
-    let mut indices = files.list_kept()?;
+    let mut indices = work.list_own(&files);
     indices.extend(0..settings.replicates);
     let mut tiles = trace_replicate_tiles(work, &settings, &files, &indices)?;
     tiles.extend(trace_rung_tiles(work, &settings, &truth)?);
@@ -138,19 +136,18 @@ fn verify_truth(
 
 /// Verifies replicates that have no truth beside them, as a part of a render has. A ladder goes with a truth.
 fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>, Error> {
-    let ladder = work.kept.folder.join(ladder_folder(alignment));
-    if ladder.exists() {
+    if let Some(rung) = work.kept.rungs(alignment).first() {
+        let ladder = work.path(RenderFile::Rung(alignment, *rung));
         return Err(Error::Broken(format!(
             "{}: there is no truth_{alignment}.exr beside it, without which a ladder cannot be traced again; render {} again",
             work.shown(&ladder).display(),
-            work.scene.name
+            work.scene.id
         )));
     }
-    let folder = &work.kept.folder;
-    let Some(first) = list_replicates(folder, alignment)?.pop_first() else {
+    let Some(first) = work.kept.replicates(alignment).pop_first() else {
         return Ok(Vec::new());
     };
-    let path = replicates_folder(folder, alignment).join(replicate_file(first));
+    let path = work.path(RenderFile::Replicate(alignment, first));
     let replicate = Replicate::read(&path)?;
     let (color, provenance) = (&replicate.picture.color, &replicate.provenance);
     let settings = RenderSettings {
@@ -165,9 +162,9 @@ fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>
     };
     settings.check_truth(work.scene, alignment)?;
     check_memory(work.scene, &settings, settings.replicates)?;
-    let files = ReplicateFiles::new(folder.clone(), work.scene, &settings, alignment);
+    let files = ReplicateFiles::new(work.kept.folder.clone(), work.scene, &settings, alignment);
     work.expect_hash(&path, &provenance.content_hash, &files.hash)?;
-    let indices = files.list_kept()?;
+    let indices = work.list_own(&files);
     trace_replicate_tiles(work, &settings, &files, &indices)
 }
 

@@ -1,51 +1,44 @@
 //! The kept renders of a folder.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError};
+use frame::Alignment;
+use store::{RenderFile, RenderPath, list_renders};
+use tracer::SceneId;
 
 use crate::Error;
-use crate::render::ladders::ladder_folder;
-use crate::render::replicates::replicates_folder;
 
 /// The kept frame, truths, replicates and ladders of one scene, or of a later frame of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeptScene {
-    /// Name of the scene, with its variant.
-    pub scene: String,
-    /// Frame of the scene's own clock.
-    pub frame: u32,
+    /// Scene, of which the frame may be a later one.
+    pub scene: SceneId,
     /// Folder of its files.
     pub folder: PathBuf,
     /// Name of this folder in messages: that in a pack, for files that were unpacked somewhere.
     pub shown: PathBuf,
-    /// Alignments of which a truth, replicates or a ladder lie there.
-    pub alignments: Vec<Alignment>,
+    /// The files.
+    pub files: BTreeSet<RenderFile>,
 }
 
-/// Lists the kept scenes below a folder, which has the layout of a run's: `fan/truth_trailing.exr`, `fan/0001/truth_trailing.exr`.
-/// Looks nowhere else, and follows no links. Messages name files below `shown`.
+/// Lists the kept scenes below a folder, which has the layout of a run's. Messages name files below `shown`.
 ///
 /// # Errors
 /// The folder cannot be read, or holds no frame and no truth.
 pub fn list_kept_scenes(root: &Path, shown: &Path) -> Result<Vec<KeptScene>, Error> {
-    let mut kept = Vec::new();
-    for (scene, folder) in list_folders(root)? {
-        let shown = shown.join(&scene);
-        let own = KeptScene::find(&scene, 0, (&folder, &shown));
-        let mut later: Vec<KeptScene> = list_folders(&folder)?
-            .into_iter()
-            .filter(|(name, _)| name.len() >= 4)
-            .filter_map(|(name, folder)| {
-                let folders = (&*folder, &*shown.join(&name));
-                KeptScene::find(&scene, name.parse().ok()?, folders)
-            })
-            .collect();
-        later.sort_by_key(|kept| kept.frame);
-        kept.extend(own.into_iter().chain(later));
+    let mut kept: BTreeMap<SceneId, KeptScene> = BTreeMap::new();
+    for RenderPath { scene, file } in list_renders(root)? {
+        let own = kept.entry(scene).or_insert_with_key(|scene| KeptScene {
+            scene: scene.clone(),
+            folder: root.join(scene.folder()),
+            shown: shown.join(scene.folder()),
+            files: BTreeSet::new(),
+        });
+        own.files.insert(file);
     }
     match kept.is_empty() {
-        false => Ok(kept),
+        false => Ok(kept.into_values().collect()),
         true => Err(Error::Usage(format!(
             "{}: holds no truth; allowed: a pack, or a folder into which `shuttertruth run`, `check` or `render` wrote",
             shown.display()
@@ -54,36 +47,29 @@ pub fn list_kept_scenes(root: &Path, shown: &Path) -> Result<Vec<KeptScene>, Err
 }
 
 impl KeptScene {
-    /// Finds what is kept in the folder of a scene; none where nothing of a render lies there.
-    pub(crate) fn find(scene: &str, frame: u32, (folder, shown): (&Path, &Path)) -> Option<Self> {
-        let has = |alignment: &Alignment| {
-            folder.join(format!("truth_{alignment}.exr")).is_file()
-                || replicates_folder(folder, *alignment).is_dir()
-                || folder.join(ladder_folder(*alignment)).is_dir()
-        };
-        let alignments: Vec<Alignment> = Alignment::ALL.into_iter().filter(has).collect();
-        (!alignments.is_empty() || folder.join("frame.exr").is_file()).then(|| Self {
-            scene: scene.to_owned(),
-            frame,
-            folder: folder.to_owned(),
-            shown: shown.to_owned(),
-            alignments,
-        })
+    /// Lists the shutters of which a truth, replicates or a ladder are there.
+    pub fn alignments(&self) -> BTreeSet<Alignment> {
+        self.files
+            .iter()
+            .filter_map(|file| file.alignment())
+            .collect()
     }
-}
 
-/// Lists the folders in a folder with their names, in the order of these.
-fn list_folders(folder: &Path) -> Result<Vec<(String, PathBuf)>, Error> {
-    let fail = |source| FileError::io(folder, "read", source);
-    let mut folders = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(fail)? {
-        let entry = entry.map_err(fail)?;
-        if entry.file_type().map_err(fail)?.is_dir()
-            && let Ok(name) = entry.file_name().into_string()
-        {
-            folders.push((name, entry.path()));
-        }
+    /// Lists the replicates of a truth by their indices.
+    pub(crate) fn replicates(&self, alignment: Alignment) -> BTreeSet<u32> {
+        let replicates = self.files.iter().filter_map(|file| match file {
+            RenderFile::Replicate(own, index) if *own == alignment => Some(*index),
+            _ => None,
+        });
+        replicates.collect()
     }
-    folders.sort();
-    Ok(folders)
+
+    /// Lists the rungs of a truth's ladder by their numbers of sub-frames.
+    pub(crate) fn rungs(&self, alignment: Alignment) -> Vec<u32> {
+        let rungs = self.files.iter().filter_map(|file| match file {
+            RenderFile::Rung(own, subframes) if *own == alignment => Some(*subframes),
+            _ => None,
+        });
+        rungs.collect()
+    }
 }

@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use frame::{Frame, Tile, Truth, rung_file};
+use frame::{Frame, Tile, Truth};
+use store::{LADDER, RenderFile, ladder_folder};
 use tracer::{LadderTracer, RenderSettings, TruthTracer, trace_frame_tile};
 
 use super::work::Work;
 use crate::Error;
-use crate::render::ladders::{LADDER, ladder_folder};
 use crate::render::replicates::ReplicateFiles;
 
 /// Traces tiles of a frame again.
@@ -23,7 +23,7 @@ pub(super) fn trace_frame_tiles(
     let mut tiles = Vec::new();
     for _ in 0..work.verification.tiles {
         let tile = chance.tile(width, height);
-        let label = format!("verifying {}, frame", work.scene.name);
+        let label = format!("verifying {}, frame", work.scene.id);
         let made = work.monitor.watch(&label, |watch| {
             trace_frame_tile(work.scene, settings, tile, watch)
         })?;
@@ -49,7 +49,7 @@ pub(super) fn trace_replicate_tiles(
         let tile = chance.tile(settings.width, settings.height);
         let label = format!(
             "verifying {}, {} replicate {index}",
-            work.scene.name, files.alignment
+            work.scene.id, files.alignment
         );
         let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(index, tile, watch))?;
         let path = files.path(index);
@@ -70,31 +70,29 @@ pub(super) fn trace_rung_tiles(
     settings: &RenderSettings,
     truth: &Truth,
 ) -> Result<Vec<(PathBuf, Tile)>, Error> {
-    let name = ladder_folder(truth.alignment);
-    let folder = work.kept.folder.join(&name);
-    let kept = |rung: &u32| folder.join(rung_file(*rung)).exists();
-    let rungs: Vec<u32> = LADDER.into_iter().filter(kept).collect();
+    let file = |rung: u32| work.path(RenderFile::Rung(truth.alignment, rung));
+    let rungs = work.kept.rungs(truth.alignment);
     if rungs.is_empty() {
         return Ok(Vec::new());
     }
     let tracer = LadderTracer::new(work.scene, settings, truth, &LADDER)?;
-    let mut chance = work.chance(&name);
+    let mut chance = work.chance(&ladder_folder(truth.alignment));
     let mut tiles = Vec::new();
     for _ in 0..work.verification.tiles {
         let rung = rungs[chance.below(rungs.len() as u32) as usize];
         let tile = chance.tile(settings.width, settings.height);
         let label = format!(
             "verifying {}, {rung} sub-frames, {}",
-            work.scene.name, truth.alignment
+            work.scene.id, truth.alignment
         );
         let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(rung, tile, watch))?;
-        let path = folder.join(rung_file(rung));
+        let path = file(rung);
         let mut made = made.into_exr();
         work.compare(&path, tile, &made)?;
         tiles.push((work.shown(&path), tile));
         for rung in rungs.iter().filter(|_| tiles.len() == 1) {
             made.set("subframes", rung);
-            work.compare_attributes(&folder.join(rung_file(*rung)), &made)?;
+            work.compare_attributes(&file(*rung), &made)?;
         }
     }
     Ok(tiles)

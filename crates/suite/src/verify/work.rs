@@ -1,13 +1,16 @@
 //! The verification of one scene's files: what is chosen, and how it is compared.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use frame::{ExrFile, FileError, Tile, read_exr};
+use store::RenderFile;
 use tracer::Scene;
 
 use super::chance::Chance;
 use super::difference::{find_attribute, find_difference};
 use super::listing::KeptScene;
+use crate::render::replicates::ReplicateFiles;
 use crate::{Error, Monitor};
 
 /// What is traced again.
@@ -73,8 +76,20 @@ impl Work<'_> {
         format!(
             "it was altered, or this processor computes otherwise than the one that rendered it; use none of these files, and render \
              {} again; the choice of tiles had the seed {}",
-            self.scene.name, self.verification.seed
+            self.scene.id, self.verification.seed
         )
+    }
+
+    /// Returns the path of a file of the scene.
+    pub fn path(&self, file: RenderFile) -> PathBuf {
+        self.kept.folder.join(file.path())
+    }
+
+    /// Lists the replicates whose headers name the inputs of these files: those that a render reads instead of tracing them.
+    pub fn list_own(&self, files: &ReplicateFiles) -> BTreeSet<u32> {
+        let mut found = self.kept.replicates(files.alignment);
+        found.retain(|index| files.has(*index));
+        found
     }
 
     /// Names a file of the scene as messages do.
@@ -85,7 +100,7 @@ impl Work<'_> {
 
     /// Makes the random choices of a file of this scene.
     pub fn chance(&self, name: &str) -> Chance {
-        let name = format!("{} {name}", self.scene.name);
+        let name = format!("{} {name}", self.scene.id);
         Chance::new(self.verification.seed, &name)
     }
 }

@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use crate::error::TraceError;
 use crate::film::eye::Eye;
 use crate::film::render::{Film, PIXELS_PER_TASK, Times};
-use crate::film::sampler::{Sampler, Stream, pixel_seed};
-use crate::light::stops::visit_layers;
+use crate::path::stops::visit_layers;
 use crate::progress::Meter;
+use crate::sampler::{Sampler, Stream, pixel_seed};
 
 /// Rays per pixel, a power of two. Parts that cover less of a pixel than one ray stands for may be missed.
 const SAMPLES: u32 = 64;

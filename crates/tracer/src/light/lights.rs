@@ -30,7 +30,9 @@ impl Emitters {
                 let strength = find_material(scene, object, triangle)
                     .emission
                     .max_element();
-                let weight = f64::from(strength) * world_area(scene, poses, object, triangle);
+                let shape = mesh.at(poses.time());
+                let normal = shape.area_normal(triangle, &poses.pose(object).to_world);
+                let weight = f64::from(strength) * (0.5 * normal.length());
                 if weight > 0.0 {
                     triangles.push((object, triangle));
                     weights.push(weight);
@@ -164,11 +166,4 @@ impl Sun {
         let sine = (0.5 * self.angular_radius).sin();
         2.0 * sine * sine
     }
-}
-
-fn world_area(scene: &Scene, poses: &mut Poses, object: usize, triangle: u32) -> f64 {
-    let mesh = &scene.meshes[scene.objects[object].mesh];
-    let shape = mesh.at(poses.time());
-    let to_world = &poses.pose(object).to_world;
-    0.5 * shape.area_normal(triangle, to_world).length()
 }

@@ -3,8 +3,7 @@
 use std::io;
 
 use super::error::SceneError;
-use super::files::Files;
-use super::scene_folder::{folder_name, read_document};
+use super::files::{Files, folder_name, read_document};
 use super::variants::ParsedScene;
 use crate::{Family, Location};
 

@@ -5,9 +5,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use cli::{compare_table, run_table};
+use judge::{Acceptance, Baseline, Side, accept_scores, compare_runs};
 use report::{LARGEST_PAGE, compare_page, write_report};
 use serde_json::{Value, json};
-use suite::{Acceptance, Baseline, Error, Run, Side, accept_scores, compare_runs};
+use suite::{Error, Run};
 
 use crate::bench::{Bench, assert_done, assert_refused};
 
@@ -150,7 +151,7 @@ fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
         ),
         (
             with("/cases/0/alignment", json!("sideways")),
-            "shutter alignment \"sideways\" is unknown",
+            "unknown variant `sideways`, expected one of `trailing`, `centred`, `leading`",
         ),
         (
             with("/cases/0/exposure", json!(-1)),
@@ -162,7 +163,9 @@ fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
         for words in [
             &["report", "out", "--html", "page.html"][..],
             &["compare", "out", "out"],
-            &["accept", "--out", "out", "--reason", "a test", "--force"],
+            &[
+                "limits", "accept", "--out", "out", "--reason", "a test", "--force",
+            ],
         ] {
             let output = bench.command(words).env_remove("CI").output().unwrap();
             assert_refused(&output, 2, &["out/run.json", found]);

@@ -1,0 +1,56 @@
+//! Pixels whose velocity and depth can be compared: well inside of objects that both pictures show there.
+
+use std::ops::RangeInclusive;
+
+use frame::Raster;
+use tracer::PointLayers;
+
+/// Fewest pixels of an object that is judged.
+pub const FEWEST_PIXELS: usize = 9;
+
+/// Pixels of one object that can be compared.
+pub struct ClearPixels {
+    /// Number of the object, 0 for the background.
+    pub object: u32,
+    /// Places in the raster.
+    pub pixels: Vec<usize>,
+}
+
+/// Selects the objects with enough pixels to judge them.
+pub fn select_judged(regions: &[ClearPixels]) -> Vec<&ClearPixels> {
+    let is_judged = |region: &&ClearPixels| region.pixels.len() >= FEWEST_PIXELS;
+    regions.iter().filter(is_judged).collect()
+}
+
+/// Selects per object the pixels whose eight neighbours show the same object, if the engine shows the same there.
+pub fn select_clear_pixels(
+    right: &PointLayers,
+    objects: usize,
+    is_same: &dyn Fn(usize) -> bool,
+) -> Vec<ClearPixels> {
+    let own = &right.object_id;
+    (0..objects as u32)
+        .map(|object| ClearPixels {
+            object,
+            pixels: (0..own.pixels.len())
+                .filter(|at| own.pixels[*at] == object && is_same(*at) && is_inside(own, *at))
+                .collect(),
+        })
+        .collect()
+}
+
+/// Tells whether a pixel and its neighbours show the same object.
+pub fn is_inside(ids: &Raster<u32>, at: usize) -> bool {
+    neighbours(ids, at).all(|place| ids.pixels[place] == ids.pixels[at])
+}
+
+/// Lists a pixel and those around it.
+pub fn neighbours<T>(raster: &Raster<T>, at: usize) -> impl Iterator<Item = usize> {
+    let (width, height) = (raster.width as usize, raster.height as usize);
+    let around = |place: usize, end: usize| -> RangeInclusive<usize> {
+        place.saturating_sub(1)..=(place + 1).min(end - 1)
+    };
+    let columns = around(at % width, width);
+    around(at / width, height)
+        .flat_map(move |row| columns.clone().map(move |column| row * width + column))
+}

@@ -1,0 +1,75 @@
+//! Velocity that an engine should have handed over, and what known mistakes make of it.
+
+use frame::{FrameOptions, Raster, Vectors, VelocityKind};
+use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
+
+use crate::audit::cause::{ANIMATION_RATE, Cause};
+
+/// Rates at which engines draw by the clock, in frames per second.
+const CLOCK_RATES: [f64; 3] = [60.0, 30.0, 120.0];
+
+/// Layers of the instant with the right velocity, and velocities that known mistakes lead to.
+pub struct ExpectedMotion {
+    /// What is right: the motion since the frame before.
+    pub right: PointLayers,
+    /// Each mistake that shows other motion, with that motion; the simplest first.
+    pub mistaken: Vec<(Cause, Vectors)>,
+}
+
+impl ExpectedMotion {
+    /// Traces all of them: a dozen rays per pixel.
+    pub fn trace(scene: &Scene, [width, height]: [u32; 2]) -> Result<Self, TraceError> {
+        let settings = |velocity| RenderSettings {
+            width,
+            height,
+            options: FrameOptions {
+                velocity,
+                ..FrameOptions::default()
+            },
+            ..RenderSettings::default()
+        };
+        let since_last = settings(VelocityKind::PreviousFrame);
+        let trace = |motion: PointMotion| trace_motion(scene, &since_last, &motion);
+        let right = trace(PointMotion::RIGHT)?;
+        let mut mistaken = vec![(Cause::Zero, right.velocity.map(|_| [0.0; 2]))];
+        let turns = [
+            Cause::WrongSign,
+            Cause::FlippedY,
+            Cause::FlippedX,
+            Cause::SwappedAxes,
+        ];
+        for turn in turns {
+            mistaken.push((turn, right.velocity.map(|it| turn.turn(*it))));
+        }
+        let motions = [
+            (Cause::ObjectMotionMissing, PointMotion::WITHOUT_OBJECTS),
+            (Cause::CameraMotionMissing, PointMotion::WITHOUT_CAMERA),
+            (Cause::FrameLate, PointMotion::FRAME_LATE),
+            (Cause::PreviousBuffer, PointMotion::PREVIOUS_BUFFER),
+            (Cause::PreviousPixel, PointMotion::PREVIOUS_PIXEL),
+            (Cause::FrameEarly, PointMotion::FRAME_EARLY),
+            (Cause::MatrixNeverSet, PointMotion::MATRIX_NEVER_SET),
+        ];
+        for (cause, motion) in motions {
+            mistaken.push((cause, trace(motion)?.velocity));
+        }
+        for rate in CLOCK_RATES {
+            let motion = PointMotion {
+                over: ANIMATION_RATE / rate,
+                ..PointMotion::RIGHT
+            };
+            mistaken.push((Cause::MotionOver(rate), trace(motion)?.velocity));
+        }
+        mistaken.push((Cause::UpsideDown, upside_down(&right.velocity)));
+        let instantaneous = settings(VelocityKind::Instantaneous);
+        let derivative = trace_motion(scene, &instantaneous, &PointMotion::RIGHT)?;
+        mistaken.push((Cause::HalfFrameOff, derivative.velocity));
+        Ok(Self { right, mistaken })
+    }
+}
+
+/// Reverses the order of the rows.
+pub(super) fn upside_down<T: Clone>(raster: &Raster<T>) -> Raster<T> {
+    let (width, height) = (raster.width, raster.height);
+    Raster::from_fn(width, height, |x, y| raster.at(x, height - 1 - y).clone())
+}

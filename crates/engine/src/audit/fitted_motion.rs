@@ -1,0 +1,113 @@
+//! Causes of wrong velocity that have a number, fitted to what was found.
+
+use frame::Vectors;
+
+use crate::audit::cause::Cause;
+use crate::statistics::median;
+
+/// Largest end-point error of a right velocity, in pixels: rounding of half floats, and of an engine's own matrices.
+pub(super) const TOLERANCE: f64 = 0.1;
+/// Part of the velocities that a limit must cut before it is called one.
+const LEAST_CUT: f64 = 0.02;
+/// Upper limit on the distinct numbers of a buffer of few bits.
+const MOST_STEPS: usize = 1024;
+/// Factor that is taken for none.
+const NO_SCALE: f64 = 1e-3;
+
+/// Lists causes that have a number, fitted to some pixels, with the velocity that each leads to; the simplest first.
+pub fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
+    let mut candidates = Vec::new();
+    let fit = |axes: &[usize]| {
+        let product = |a: &Vectors, b: &Vectors| -> f64 {
+            let terms = pixels.iter().flat_map(|at| {
+                axes.iter()
+                    .map(|axis| f64::from(a.pixels[*at][*axis]) * f64::from(b.pixels[*at][*axis]))
+            });
+            terms.sum()
+        };
+        product(found, right) / product(right, right)
+    };
+    let scaled = |scales: [f64; 2]| {
+        right.map(|right| [0, 1].map(|axis| (scales[axis] * f64::from(right[axis])) as f32))
+    };
+    // A sign that is wrong is a cause of its own.
+    let is_scale = |scale: &f64| scale.is_finite() && *scale > -NO_SCALE;
+    let scale = fit(&[0, 1]);
+    if is_scale(&scale) {
+        candidates.push((Cause::Scale(scale), scaled([scale; 2])));
+    }
+    let scales = [fit(&[0]), fit(&[1])];
+    if scales.iter().all(is_scale) {
+        candidates.push((Cause::ScaleOfAxes(scales), scaled(scales)));
+    }
+    candidates.extend(list_cut(found, right, pixels));
+    candidates.extend(find_steps(found, right, pixels));
+    candidates
+}
+
+/// Fits one vector that is added to all.
+pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> (Cause, Vectors) {
+    let offset = [0, 1].map(|axis| {
+        let error = |at: &usize| f64::from(found.pixels[*at][axis] - right.pixels[*at][axis]);
+        median(pixels.iter().map(error))
+    });
+    let moved = right.map(|right| [0, 1].map(|axis| right[axis] + offset[axis] as f32));
+    (Cause::Offset(offset), moved)
+}
+
+/// Lists limits on the length and on the axes, where any velocity is cut.
+fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
+    let largest = |[x, y]: [f64; 2]| f64::max(x.abs(), y.abs());
+    let find_limit = |measure: fn([f64; 2]) -> f64| {
+        let measured = |vectors: &Vectors, at: usize| measure(vectors.pixels[at].map(f64::from));
+        let limit = (pixels.iter())
+            .map(|at| measured(found, *at))
+            .fold(0.0, f64::max);
+        let beyond = pixels
+            .iter()
+            .filter(|at| measured(right, **at) > limit + TOLERANCE);
+        let cut_part = beyond.count() as f64 / pixels.len() as f64;
+        (limit > TOLERANCE && cut_part > LEAST_CUT).then_some(limit)
+    };
+    let shorter = find_limit(length).map(|limit| {
+        let cut = right.map(|right| {
+            let own = length(right.map(f64::from)).max(f64::MIN_POSITIVE);
+            right.map(|part| (f64::from(part) * (limit / own).min(1.0)) as f32)
+        });
+        (Cause::Clipped(limit), cut)
+    });
+    let within = find_limit(largest).map(|limit| {
+        let cut = right.map(|right| right.map(|part| part.clamp(-limit as f32, limit as f32)));
+        (Cause::ClippedAxes(limit), cut)
+    });
+    shorter.into_iter().chain(within).collect()
+}
+
+/// Finds out whether the numbers lie on a grid of few steps, each next to the right number; returns that grid's velocity.
+fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<(Cause, Vectors)> {
+    let count = |vectors: &Vectors, axis: usize| {
+        let mut numbers: Vec<f32> = pixels.iter().map(|at| vectors.pixels[*at][axis]).collect();
+        numbers.sort_by(f32::total_cmp);
+        numbers.dedup();
+        numbers
+    };
+    let gaps = [0, 1].map(|axis| {
+        let (own, exact) = (count(found, axis), count(right, axis));
+        let is_coarse = own.len() >= 2 && own.len() <= MOST_STEPS && exact.len() >= 2 * own.len();
+        is_coarse.then(|| median(own.windows(2).map(|pair| f64::from(pair[1] - pair[0]))))
+    });
+    let step = gaps.into_iter().flatten().reduce(f64::max)?;
+    // Numbers that are nearest on the grid explain themselves.
+    let nearest = found.zip(right, |found, right| {
+        let is_near = |axis: usize| f64::from((found[axis] - right[axis]).abs()) <= 0.6 * step;
+        match is_near(0) && is_near(1) {
+            true => *found,
+            false => *right,
+        }
+    });
+    (step > TOLERANCE).then_some((Cause::Steps(step), nearest))
+}
+
+pub(super) fn length([x, y]: [f64; 2]) -> f64 {
+    x.hypot(y)
+}

@@ -1,0 +1,22 @@
+//! Audit of what an engine drew against the scene: velocity, depth, and colour where it does not depend on light.
+
+mod audit_pictures;
+mod capture_audit;
+mod cause;
+mod clear_pixels;
+mod color_audit;
+mod defect;
+mod depth_audit;
+mod expected_motion;
+mod fitted_motion;
+mod rendered_view;
+mod shown;
+mod velocity_audit;
+mod views;
+
+pub use audit_pictures::write_audit_picture;
+pub use capture_audit::{CaptureAudit, audit_capture};
+pub use cause::Cause;
+pub use defect::{Buffer, Defect};
+pub use shown::ObjectShown;
+pub use velocity_audit::ObjectAudit;

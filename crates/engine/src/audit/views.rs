@@ -1,0 +1,250 @@
+//! Views of the scene that a capture may show instead of the right one: other frames, and rows upside down.
+
+use frame::{ColorSampling, Frame, Image, Plane, Raster};
+use tracer::{Scene, TraceError};
+
+use crate::audit::cause::Cause;
+use crate::audit::defect::{Buffer, Defect, Explanation};
+use crate::audit::depth_audit::DepthPair;
+use crate::audit::expected_motion::upside_down;
+use crate::audit::rendered_view::render_view;
+use crate::capture::folder::Capture;
+use crate::statistics::median;
+
+/// Greatest number of frames, late or early, that is looked for.
+const MOST_FRAMES: u32 = 2;
+/// Fewest pixels at which two views must differ before a buffer tells one from the other.
+const FEWEST_PIXELS: usize = 16;
+/// Part of these pixels that must show a view.
+const LEAST_SHOWING: f64 = 0.8;
+/// Part of the pixels by which two views may differ and still look the same.
+const LOOKS_SAME: f64 = 0.02;
+/// Relative difference of colours that differ.
+const OTHER_COLOR: f32 = 0.1;
+
+/// What a rasteriser writes of a view.
+struct View {
+    cause: Cause,
+    object_id: Raster<u32>,
+    depth: Plane,
+    /// Colours of the surfaces, without light.
+    color: Image,
+}
+
+/// What one pixel shows of two views that differ there.
+#[derive(Clone, Copy, PartialEq)]
+enum Shows {
+    Right,
+    Other,
+    Neither,
+}
+
+/// Pixels at which a view differs from the right one, as one buffer shows them.
+#[derive(Clone, Copy, Default)]
+struct Tally {
+    right: usize,
+    other: usize,
+    all: usize,
+}
+
+impl Tally {
+    fn of(pixels: impl Iterator<Item = Shows>) -> Self {
+        pixels.fold(Self::default(), |tally, shows| Self {
+            right: tally.right + usize::from(shows == Shows::Right),
+            other: tally.other + usize::from(shows == Shows::Other),
+            all: tally.all + 1,
+        })
+    }
+
+    /// Returns the part of the pixels; none if they are too few.
+    fn part(self, count: usize) -> Option<f64> {
+        (self.all >= FEWEST_PIXELS).then(|| count as f64 / self.all as f64)
+    }
+
+    fn shows(self, count: usize) -> bool {
+        self.part(count).is_some_and(|part| part >= LEAST_SHOWING)
+    }
+}
+
+/// Finds out whether the buffers of a capture show another view than the scene's at its instant: all of them, or one by one.
+pub fn find_other_views(
+    capture: &Capture,
+    depth: &DepthPair,
+    scene: &Scene,
+) -> Result<Vec<Defect>, TraceError> {
+    let size = [depth.found.width, depth.found.height];
+    let right = trace_view(scene, size, 0, Cause::Unknown)?;
+    let mut views = vec![View {
+        cause: Cause::UpsideDown,
+        object_id: upside_down(&right.object_id),
+        depth: upside_down(&right.depth),
+        color: upside_down(&right.color),
+    }];
+    for count in 1..=MOST_FRAMES {
+        let frames = count as i32;
+        // A motion may leave the world beyond its keys.
+        views.extend(trace_view(scene, size, -frames, Cause::DrawnLate(count)));
+        views.extend(trace_view(scene, size, frames, Cause::DrawnEarly(count)));
+    }
+    let tallies: Vec<(Cause, [Tally; 3])> = (views.iter())
+        .map(|view| (view.cause, tally_buffers(capture, depth, &right, view)))
+        .collect();
+    let mut findings: Vec<Defect> = Vec::new();
+    for (at, buffer) in BUFFERS.into_iter().enumerate() {
+        let shown = tallies
+            .iter()
+            .filter(|(_, tally)| tally[at].shows(tally[at].other));
+        // A view in which something left the picture differs at fewer pixels.
+        let gain = |tally: &[Tally; 3]| (tally[at].other - tally[at].right) as f64;
+        let most = shown.clone().map(|(_, tally)| gain(tally));
+        let least = (1.0 - LOOKS_SAME) * most.fold(0.0, f64::max);
+        let mut best = shown.filter(|(_, tally)| gain(tally) >= least);
+        let Some((cause, tally)) = best.next() else {
+            continue;
+        };
+        let is_alone = tally.iter().any(|tally| tally.shows(tally.right));
+        let buffer = if is_alone { buffer } else { Buffer::Picture };
+        let found = Explanation {
+            turned: None,
+            cause: *cause,
+            looks_like: best.map(|(cause, _)| *cause).collect(),
+            explained: tally[at].part(tally[at].other).unwrap_or(0.0),
+        };
+        if findings.iter().all(|finding| finding.buffer != buffer) {
+            findings.push(Defect::new(buffer, None, found));
+        }
+    }
+    Ok(findings)
+}
+
+/// Buffers that tell views apart, in the order of [`tally_buffers`].
+const BUFFERS: [Buffer; 3] = [Buffer::ObjectId, Buffer::Depth, Buffer::Color];
+
+/// Counts what each buffer shows where a view differs from the right one.
+fn tally_buffers(capture: &Capture, depth: &DepthPair, right: &View, view: &View) -> [Tally; 3] {
+    let places = 0..right.depth.pixels.len();
+    let ids = capture.object_id.as_ref().map_or(Tally::default(), |ids| {
+        Tally::of(places.clone().filter_map(|at| {
+            let [right, other] = [right, view].map(|view| view.object_id.pixels[at]);
+            let found = ids.pixels[at];
+            compare(found == right, found == other).filter(|_| right != other)
+        }))
+    });
+    let depths = Tally::of(places.filter_map(|at| {
+        let [right, other] = [right, view].map(|view| view.depth.pixels[at]);
+        let found = depth.found.pixels[at];
+        let shows = [right, other].map(|expected| depth.is_close(found, expected));
+        compare(shows[0], shows[1]).filter(|_| !depth.is_close(right, other))
+    }));
+    [ids, depths, tally_colors(&capture.color, right, view)]
+}
+
+fn compare(is_right: bool, is_other: bool) -> Option<Shows> {
+    Some(match (is_right, is_other) {
+        (true, true) => return None,
+        (true, false) => Shows::Right,
+        (false, true) => Shows::Other,
+        (false, false) => Shows::Neither,
+    })
+}
+
+/// Counts what colour shows. The light, which an engine may have as it likes, is fitted to the whole picture, and to each object: the
+/// fit that decides more counts.
+fn tally_colors(found: &Image, right: &View, view: &View) -> Tally {
+    let whole = [right, view].map(|shown| {
+        let places: Vec<usize> = (0..found.pixels.len()).collect();
+        let light = fit_light(found, &shown.color, &places);
+        shown.color.map(|color| light_up(*color, light))
+    });
+    let tallies = [whole, light_objects(found, right, view)].map(|[right, other]| {
+        Tally::of((0..found.pixels.len()).filter_map(|at| {
+            let [right, other] = [right.pixels[at], other.pixels[at]];
+            let [from_right, from_other] =
+                [right, other].map(|color| distance(found.pixels[at], color));
+            is_other_color(right, other).then_some(match from_right < from_other {
+                true => Shows::Right,
+                false => Shows::Other,
+            })
+        }))
+    });
+    let decided = |tally: &Tally| tally.part(tally.right.max(tally.other)).unwrap_or(0.0);
+    let [whole, objects] = tallies;
+    match decided(&whole) > decided(&objects) {
+        true => whole,
+        false => objects,
+    }
+}
+
+/// Lights the objects of two views as a picture has them: as it does where both views look the same; an object that looks the same
+/// nowhere as it does where each view has it.
+fn light_objects(found: &Image, right: &View, view: &View) -> [Image; 2] {
+    let objects = right.object_id.pixels.iter().chain(&view.object_id.pixels);
+    let last = objects.max().copied().unwrap_or(0) as usize;
+    let pixels_of = |shown: &View, is_chosen: &dyn Fn(usize) -> bool| {
+        let mut by_object = vec![Vec::new(); last + 1];
+        for at in (0..found.pixels.len()).filter(|at| is_chosen(*at)) {
+            by_object[shown.object_id.pixels[at] as usize].push(at);
+        }
+        by_object
+    };
+    let is_same = |at: usize| {
+        right.object_id.pixels[at] == view.object_id.pixels[at]
+            && !is_other_color(right.color.pixels[at], view.color.pixels[at])
+    };
+    let same = pixels_of(right, &is_same);
+    [right, view].map(|shown| {
+        let all = pixels_of(shown, &|_| true);
+        let chosen = std::iter::zip(&same, &all).map(|(same, all)| match same.len() {
+            0..FEWEST_PIXELS => all,
+            _ => same,
+        });
+        let lights: Vec<[f32; 3]> = chosen
+            .map(|pixels| fit_light(found, &shown.color, pixels))
+            .collect();
+        (shown.color).zip(&shown.object_id, |color, object| {
+            light_up(*color, lights[*object as usize])
+        })
+    })
+}
+
+fn light_up(color: [f32; 3], light: [f32; 3]) -> [f32; 3] {
+    [0, 1, 2].map(|channel| light[channel] * color[channel])
+}
+
+/// Fits a factor per channel that makes one picture of the other; 0 where the second is black.
+fn fit_light(found: &Image, surface: &Image, pixels: &[usize]) -> [f32; 3] {
+    [0, 1, 2].map(|channel| {
+        let pairs = pixels
+            .iter()
+            .map(|at| [found, surface].map(|image| f64::from(image.pixels[*at][channel])));
+        let lit = pairs.filter(|[_, surface]| *surface > 0.0);
+        let light = median(lit.map(|[found, surface]| found / surface)) as f32;
+        if light.is_nan() { 0.0 } else { light }
+    })
+}
+
+fn is_other_color(a: [f32; 3], b: [f32; 3]) -> bool {
+    let largest = a.into_iter().chain(b).fold(0.0, f32::max);
+    distance(a, b) > OTHER_COLOR * largest
+}
+
+fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
+    std::iter::zip(a, b).map(|(a, b)| (a - b).abs()).sum()
+}
+
+/// Traces what a rasteriser writes some frames after the instant. Unlit colours have no noise.
+fn trace_view(scene: &Scene, size: [u32; 2], time: i32, cause: Cause) -> Result<View, TraceError> {
+    let scene = scene.clone().pinhole().unlit().later_by(f64::from(time));
+    let Frame {
+        object_id,
+        depth,
+        color,
+        ..
+    } = render_view(&scene, size, 1, ColorSampling::Point)?;
+    Ok(View {
+        cause,
+        object_id,
+        depth,
+        color,
+    })
+}

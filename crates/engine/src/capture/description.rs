@@ -1,0 +1,101 @@
+//! `capture.toml`: what an engine's pictures show.
+
+use std::path::Path;
+
+use frame::{Alignment, MOST_STOPS, is_hidden};
+use serde::Deserialize;
+use store::read_text;
+use suite::Error;
+use tracer::SceneId;
+
+use crate::files::refuse;
+
+/// Name of the file.
+pub const CAPTURE_FILE: &str = "capture.toml";
+/// Upper limit on the characters of an engine's name.
+const LONGEST_ENGINE: usize = 160;
+
+/// Contents of `capture.toml`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaptureDescription {
+    /// Engine and version, such as `three.js 0.187.0`, and after it in brackets what else matters.
+    pub engine: String,
+    /// Scene of the suite that the engine drew.
+    #[serde(default)]
+    pub scene: Option<SceneId>,
+    /// Exposure of the blurred picture and of the sub-frames, in frames.
+    #[serde(default)]
+    pub exposure: Option<f64>,
+    /// Alignment of their shutter: `trailing`, `centred` or `leading`.
+    #[serde(default)]
+    pub alignment: Option<Alignment>,
+    /// Time of the frame, in frames after the instant that the exported manifest names.
+    #[serde(default)]
+    pub instant: f64,
+    /// Number of sub-frames, if the writer says it.
+    #[serde(default)]
+    pub subframes: Option<usize>,
+    /// Display exposure of the pictures, in stops; if left out that of the scene, or 0.
+    #[serde(default)]
+    pub stops: Option<f32>,
+}
+
+impl CaptureDescription {
+    /// Reads the file of a capture's folder.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let path = folder.join(CAPTURE_FILE);
+        if !path.is_file() {
+            return refuse(
+                &path,
+                "there is no such file; a capture has one that names its engine: engine = \"my engine 1.0\"",
+            );
+        }
+        let text = read_text(&path)?;
+        let description: Self = toml::from_str(&text).map_err(|error| {
+            let before = error.span().map_or("", |span| &text[..span.start]);
+            let line = 1 + before.matches('\n').count();
+            let reason = error.message().replace('\n', "; ");
+            Error::Usage(format!("{}:{line}: {reason}", path.display()))
+        })?;
+        match description.check() {
+            Ok(()) => Ok(description),
+            Err(reason) => refuse(&path, &reason),
+        }
+    }
+
+    /// Refuses texts that would disturb a terminal or a page, and numbers that make no sense.
+    fn check(&self) -> Result<(), String> {
+        let length = self.engine.trim().chars().count();
+        if !(1..=LONGEST_ENGINE).contains(&length) || self.engine.contains(is_hidden) {
+            return Err(format!(
+                "engine = {:?}; allowed: a name of 1 to {LONGEST_ENGINE} characters on one line",
+                self.engine
+            ));
+        }
+        // Its first word becomes a folder.
+        if !self.engine.trim().starts_with(char::is_alphanumeric) {
+            return Err(format!(
+                "engine = {:?}; allowed: a name that begins with a letter or a digit",
+                self.engine
+            ));
+        }
+        if let Some(exposure) = self.exposure {
+            (Alignment::Trailing.shutter(exposure))
+                .map_err(|error| format!("exposure = {exposure}: {error}"))?;
+        }
+        if !self.instant.is_finite() {
+            return Err(format!(
+                "instant = {}; allowed: a finite number of frames",
+                self.instant
+            ));
+        }
+        let range = -MOST_STOPS..=MOST_STOPS;
+        if let Some(stops) = self.stops.filter(|stops| !range.contains(stops)) {
+            return Err(format!(
+                "stops = {stops}; allowed: -{MOST_STOPS} to {MOST_STOPS}"
+            ));
+        }
+        Ok(())
+    }
+}

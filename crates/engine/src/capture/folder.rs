@@ -1,0 +1,285 @@
+//! A capture as its folder has it, brought to the convention of frames.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use filters::{Convention, DepthKind, VelocityTime};
+use frame::{Alignment, FileError, Image, Plane, Raster, Vectors};
+use store::read_text;
+use suite::Error;
+
+use crate::capture::buffers::{
+    check_size, find_picture, is_png, read_color, read_depth, read_objects,
+    read_objects_beside_color, read_velocity,
+};
+use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
+use crate::capture::half_floats::{are_halves, rounding_of};
+use crate::files::refuse;
+
+/// Name of the file of a capture that holds its convention.
+pub const CONVENTION_FILE: &str = "engine.toml";
+/// Name of the folder of a capture that holds its sub-frames.
+pub const SUBFRAMES: &str = "subframes";
+
+/// An engine's pictures of one instant, and its sub-frames. All rasters have the same size.
+#[derive(Clone, Debug)]
+pub struct Capture {
+    /// Folder of the files.
+    pub folder: PathBuf,
+    /// Contents of `capture.toml`.
+    pub description: CaptureDescription,
+    /// Form in which the files have velocity, depth and colour.
+    pub convention: Convention,
+    /// Scene-linear radiance.
+    pub color: Image,
+    /// Screen motion in pixels per frame; +x right, +y down.
+    pub velocity: Vectors,
+    /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is seen.
+    pub depth: Plane,
+    /// Object at each pixel's centre, numbered as an exported manifest does; 0 is the background. None where the capture has no ids.
+    pub object_id: Option<Raster<u32>>,
+    /// The engine's own blurred picture.
+    pub blurred: Option<Image>,
+    /// Files of the sub-frames, in the order of time.
+    pub subframes: Vec<PathBuf>,
+    /// Notes on what the files lost, a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Capture {
+    /// Reads a capture without its sub-frames. Takes the convention from a file, or from `engine.toml` in the folder where none is
+    /// named.
+    pub fn read(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
+        if !folder.is_dir() {
+            return refuse(
+                folder,
+                &format!(
+                    "there is no such folder; name one that holds an engine's {CAPTURE_FILE}, color.exr, velocity.exr and \
+                     depth.exr"
+                ),
+            );
+        }
+        let description = CaptureDescription::read(folder)?;
+        let convention = read_convention(folder, convention)?;
+        let Some(color_path) = find_picture(folder, "color")? else {
+            return refuse_missing(&folder.join("color.exr"), "the radiance of one instant");
+        };
+        let stops = description.stops.unwrap_or(0.0);
+        let color = read_color(&color_path, &convention, stops)?;
+        let mut notes = Vec::new();
+        notes.extend(is_png(&color_path).then(|| png_note("color.png")));
+
+        let path = require(folder, "velocity.exr", "the motion of every pixel")?;
+        let velocity = read_velocity(&path)?;
+        check_size(&path, &velocity, &color)?;
+        let is_half = are_halves(velocity.pixels.iter().flatten().copied());
+        let exposure = find_velocity_exposure(folder, &description, &convention)?;
+        let velocity = convention.restore_velocity(&velocity, exposure);
+        notes.extend(is_half.then(|| velocity_note(&velocity)));
+
+        let path = require(folder, "depth.exr", "the distance of every pixel")?;
+        let depth = read_depth(&path, &convention)?;
+        check_size(&path, &depth, &color)?;
+        let is_half = are_halves(depth.pixels.iter().copied());
+        notes.extend(is_half.then(|| depth_note(&convention)).flatten());
+        let depth = convention.restore_depth(&depth);
+
+        let path = folder.join("object.exr");
+        let object_id = (path.is_file().then(|| read_objects(&path))).transpose()?;
+        if let Some(ids) = &object_id {
+            check_size(&path, ids, &color)?;
+        }
+        let blurred_path = find_picture(folder, "blurred")?;
+        let blurred = (blurred_path.as_ref())
+            .map(|path| read_color(path, &convention, stops))
+            .transpose()?;
+        if let (Some(path), Some(blurred)) = (&blurred_path, &blurred) {
+            check_size(path, blurred, &color)?;
+            notes.extend(is_png(path).then(|| png_note("blurred.png")));
+        }
+        Ok(Self {
+            subframes: list_subframes(folder, &description, &color_path)?,
+            folder: folder.to_owned(),
+            description,
+            convention,
+            color,
+            velocity,
+            depth,
+            object_id,
+            blurred,
+            notes,
+        })
+    }
+
+    /// Reads one of the sub-frames as scene-linear radiance.
+    pub fn read_subframe(&self, index: usize) -> Result<Image, Error> {
+        let path = &self.subframes[index];
+        let stops = self.description.stops.unwrap_or(0.0);
+        let subframe = read_color(path, &self.convention, stops)?;
+        check_size(path, &subframe, &self.color)?;
+        Ok(subframe)
+    }
+
+    /// Reads the object ids of one of the sub-frames; none where its file has no channel of them.
+    pub fn read_subframe_objects(&self, index: usize) -> Result<Option<Raster<u32>>, Error> {
+        read_objects_beside_color(&self.subframes[index])
+    }
+
+    /// Returns exposure and alignment of the shutter that the sub-frames and the blurred picture are of.
+    ///
+    /// # Errors
+    /// `capture.toml` does not say them.
+    pub fn shutter(&self) -> Result<(f64, Alignment), Error> {
+        let CaptureDescription {
+            exposure,
+            alignment,
+            ..
+        } = &self.description;
+        match (exposure, alignment) {
+            (Some(exposure), Some(alignment)) => Ok((*exposure, *alignment)),
+            (None, _) => refuse_key(&self.folder, "exposure = 0.5", "in frames"),
+            (_, None) => refuse_key(
+                &self.folder,
+                "alignment = \"trailing\"",
+                "or centred, or leading",
+            ),
+        }
+    }
+}
+
+fn read_convention(folder: &Path, path: Option<&Path>) -> Result<Convention, Error> {
+    let default = folder.join(CONVENTION_FILE);
+    if path.is_none() && !default.is_file() {
+        return refuse(
+            &default,
+            "there is no such file; it says in a table [convention] which velocity and depth the engine has; write one, or name \
+             one with --convention",
+        );
+    }
+    let path = path.unwrap_or(&default);
+    Ok(Convention::parse(path, &read_text(path)?)?)
+}
+
+/// Finds the exposure that velocity is converted with; any will do where velocity does not depend on it.
+fn find_velocity_exposure(
+    folder: &Path,
+    description: &CaptureDescription,
+    convention: &Convention,
+) -> Result<f64, Error> {
+    match (description.exposure, convention.velocity_per) {
+        (Some(exposure), _) => Ok(exposure),
+        (None, VelocityTime::Shutter) => refuse_key(
+            folder,
+            "exposure = 0.5",
+            "in frames, because the convention has velocity per shutter",
+        ),
+        (None, _) => Ok(1.0),
+    }
+}
+
+fn require(folder: &Path, name: &str, holds: &str) -> Result<PathBuf, Error> {
+    let path = folder.join(name);
+    match path.is_file() {
+        true => Ok(path),
+        false => refuse_missing(&path, holds),
+    }
+}
+
+fn refuse_missing<T>(path: &Path, holds: &str) -> Result<T, Error> {
+    refuse(
+        path,
+        &format!(
+            "there is no such file; it holds {holds}, without which no filter can blur: save that buffer from the engine"
+        ),
+    )
+}
+
+fn refuse_key<T>(folder: &Path, key: &str, about: &str) -> Result<T, Error> {
+    refuse(
+        &folder.join(CAPTURE_FILE),
+        &format!(
+            "lacks a line such as `{key}` ({about}); sub-frames and blurred pictures are of a shutter: add it"
+        ),
+    )
+}
+
+/// Lists the sub-frames by their numbers from 0; none where there is no folder of them.
+fn list_subframes(
+    folder: &Path,
+    description: &CaptureDescription,
+    color: &Path,
+) -> Result<Vec<PathBuf>, Error> {
+    let own = folder.join(SUBFRAMES);
+    let ending = if is_png(color) { "png" } else { "exr" };
+    let mut paths = Vec::new();
+    if own.is_dir() {
+        let fail = |source| FileError::io(&own, "read", source);
+        for entry in fs::read_dir(&own).map_err(fail)? {
+            let path = entry.map_err(fail)?.path();
+            match path.extension().and_then(|found| found.to_str()) {
+                Some(found) if found == ending => paths.push(path),
+                Some(found @ ("exr" | "png")) => {
+                    let reason = format!(
+                        "is a .{found}, the colour a .{ending}; allowed: sub-frames in the form of the colour"
+                    );
+                    return refuse(&path, &reason);
+                }
+                _ => {}
+            }
+        }
+    }
+    paths.sort();
+    for (index, path) in paths.iter().enumerate() {
+        let expected = format!("{index:04}.{ending}");
+        if !path.ends_with(&expected) {
+            return refuse(
+                path,
+                &format!(
+                    "stands in the place of {expected}; allowed: sub-frames numbered from 0000 without a gap"
+                ),
+            );
+        }
+    }
+    match description.subframes {
+        Some(expected) if expected != paths.len() => refuse(
+            &own,
+            &format!(
+                "holds {} sub-frames, {CAPTURE_FILE} says {expected}; capture all of them, or correct subframes = {expected}",
+                paths.len()
+            ),
+        ),
+        _ => Ok(paths),
+    }
+}
+
+fn png_note(name: &str) -> String {
+    format!(
+        "{name} has 8 bits per channel of a display: what is brighter than display white is lost, and dark colours come in \
+         steps; save OpenEXR for scores that can be trusted"
+    )
+}
+
+fn velocity_note(velocity: &Vectors) -> String {
+    let speeds = velocity.pixels.iter().map(|[x, y]| x.hypot(*y));
+    let fastest = speeds.fold(0.0, f32::max);
+    format!(
+        "velocity.exr holds half floats: the fastest velocity, {fastest:.1} pixels per frame, is rounded by up to {:.4} pixels",
+        rounding_of(fastest)
+    )
+}
+
+/// Says what half floats cost depth; nothing where it is little.
+fn depth_note(convention: &Convention) -> Option<String> {
+    let near = convention.near.unwrap_or(1.0);
+    let kind = match convention.depth {
+        DepthKind::Linear | DepthKind::Reversed => return None,
+        DepthKind::Forward => "forward",
+        DepthKind::Ndc => "ndc",
+    };
+    // A half has steps of 1/2048 below 1, where such a depth has all that is far.
+    Some(format!(
+        "depth.exr holds half floats of depth = \"{kind}\": {:.0} m and everything beyond it is off by a tenth or more; save 32 \
+         bits, or reversed depth",
+        0.1 * 2.0 * 2048.0 * near
+    ))
+}

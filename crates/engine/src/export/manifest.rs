@@ -1,0 +1,113 @@
+//! The manifest of an exported scene: what an engine needs and glTF cannot say.
+
+use std::collections::BTreeMap;
+
+use frame::Alignment;
+use serde::Serialize;
+use tracer::{Background, Lens, Scene};
+
+use crate::export::light::SKY;
+use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
+
+/// Version of the layout of `manifest.json`.
+const MANIFEST_FORMAT: u32 = 1;
+/// Name of the file.
+pub const MANIFEST: &str = "manifest.json";
+
+/// What an engine needs to draw an exported scene as the tracer does.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Manifest {
+    /// Version of the layout.
+    pub format: u32,
+    /// Program name and version.
+    pub program: String,
+    /// Name of the scene, with its variant.
+    pub scene: String,
+    /// Defect that the scene exposes.
+    pub exposes: String,
+    /// Columns and rows of the scene's own picture.
+    pub size: [u32; 2],
+    /// Seconds per frame of the animation.
+    pub seconds_per_frame: f64,
+    /// Animation time of the frame, in seconds.
+    pub instant: f64,
+    /// Animation time of the frame before, from which engines take their velocity.
+    pub previous: f64,
+    /// Exposure in frames.
+    pub exposure: f64,
+    /// Animation times at which the shutter opens and closes, by its alignment.
+    pub shutter: BTreeMap<&'static str, [f64; 2]>,
+    /// True if the shutter does not open and close at once in all rows together, as the shutter's times assume.
+    pub has_shutter_profile: bool,
+    /// Vertical field of view in degrees.
+    pub vertical_fov: f64,
+    /// Lens of the camera; none of a pinhole. glTF has no words for it.
+    pub lens: Option<Lens>,
+    /// Display exposure in stops; the radiance of the picture is without it.
+    pub stops: f32,
+    /// Irradiance of the sun on a surface that faces it, linear Rec.709; none without a sun.
+    pub sun_irradiance: Option<[f32; 3]>,
+    /// Angular radius of the sun in degrees; 0 casts sharp shadows.
+    pub sun_angular_radius: Option<f64>,
+    /// Radiance of every direction, OpenEXR: its middle lies towards -Z, its right quarter towards +X, its top towards +Y.
+    pub sky: &'static str,
+    /// Radiance of the sky where it is the same from everywhere.
+    pub sky_constant: Option<[f32; 3]>,
+    /// Name of each object by its id; 0 is the background. The id is the number of its node as well.
+    pub objects: Vec<String>,
+    /// Notes on what an engine must know about the numbers, a sentence each.
+    pub conventions: Vec<&'static str>,
+}
+
+const CONVENTIONS: [&str; 7] = [
+    "Units are metres and linear Rec.709 radiance; the space is right-handed with +Y up, and the camera looks along its own -Z.",
+    "Light: the directional light's intensity is its irradiance, without any factor for lumens; a white diffuse surface that \
+     faces it sends irradiance / pi.",
+    "Every surface is two-sided, casts shadows and receives indirect light; emissive surfaces light others.",
+    "The picture is without fog, tone curve or exposure; its pixels are box-filtered.",
+    "Without a lens the camera is a pinhole. With one, truths and the frame's colour are out of focus, by a thin lens that does not \
+     darken the picture; velocity and depth are the pinhole's.",
+    "Before its first key and after its last the animation stands still, in the scene the motion goes on; draw only times within.",
+    "Expected velocity, to compare with the suite's: pixels per frame, +x right, +y down, the position at the instant minus the \
+     position one frame before.",
+];
+
+impl Manifest {
+    /// Describes a scene on its timeline.
+    pub fn of(scene: &Scene, program: &str, timeline: &Timeline) -> Self {
+        let shutter = |alignment: Alignment| {
+            let shutter = alignment.shutter(scene.exposure);
+            let shutter = shutter.expect("a scene's exposure was checked when it was read");
+            let times = [shutter.open, shutter.close].map(|time| timeline.seconds(time));
+            (alignment.name(), times)
+        };
+        let objects = scene.objects.iter().map(|object| object.name.clone());
+        Self {
+            format: MANIFEST_FORMAT,
+            program: program.to_owned(),
+            scene: scene.id.to_string(),
+            exposes: scene.exposes.clone(),
+            size: [scene.width, scene.height],
+            seconds_per_frame: 1.0 / FRAMES_PER_SECOND,
+            instant: timeline.seconds(0.0),
+            previous: timeline.seconds(-1.0),
+            exposure: scene.exposure,
+            shutter: Alignment::ALL.into_iter().map(shutter).collect(),
+            has_shutter_profile: scene.shutter_profile != frame::ShutterProfile::default(),
+            vertical_fov: scene.camera.vertical_fov_at(0.0).to_degrees(),
+            lens: scene.camera.lens,
+            stops: scene.display.stops,
+            sun_irradiance: scene.sun.map(|sun| sun.irradiance.to_array()),
+            sun_angular_radius: scene.sun.map(|sun| sun.angular_radius.to_degrees()),
+            sky: SKY,
+            sky_constant: match &scene.background {
+                Background::Constant(radiance) => Some(radiance.to_array()),
+                _ => None,
+            },
+            objects: std::iter::once("background".to_owned())
+                .chain(objects)
+                .collect(),
+            conventions: CONVENTIONS.to_vec(),
+        }
+    }
+}

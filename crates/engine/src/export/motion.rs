@@ -1,0 +1,156 @@
+//! Motions as keys that glTF interpolates: positions and scales exactly, turns to a millionth of a radian.
+
+use glam::{DQuat, DVec3};
+use tracer::{Interpolation, Motion};
+
+use crate::export::timeline::Timeline;
+
+/// Largest turn between two keys, in radians: from half a turn on, the shorter way is the wrong one.
+const WIDEST_TURN: f64 = 75.0 * std::f64::consts::PI / 180.0;
+/// Upper limit of the angle between a turn and its keys' interpolation, in radians.
+const TOLERANCE: f64 = 1e-6;
+/// Upper limit on halvings of the time between two keys.
+const MOST_HALVINGS: u32 = 12;
+/// A cubic curve is at most this many times as fast as its fastest chord: the bound of a Hermite curve whose slopes are means of
+/// chords, or at an end twice a chord less such a mean.
+const OVER_CHORD: f64 = 6.0;
+
+/// Values of one quantity at the times of keys, in frames relative to the instant.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Track<T> {
+    /// The quantity never changes.
+    Still(T),
+    /// Linear between keys.
+    Linear(Vec<(f64, T)>),
+    /// Cubic Hermite curves between keys: slope before the key, per frame, value, and slope after it.
+    Cubic(Vec<(f64, [T; 3])>),
+}
+
+/// Place, turn and scale of a node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tracks {
+    /// Metres.
+    pub translation: Track<DVec3>,
+    /// Unit quaternions, each on the same side as the one before.
+    pub rotation: Track<DQuat>,
+    /// Factors per axis.
+    pub scale: Track<DVec3>,
+}
+
+impl Tracks {
+    /// Follows a motion through a timeline.
+    pub fn of(motion: &Motion, timeline: &Timeline) -> Self {
+        let times = timeline.cut(motion.keys.iter().map(|key| key.time));
+        let follow = match motion.interpolation {
+            Interpolation::Linear => follow_linear,
+            Interpolation::Cubic => follow_cubic,
+        };
+        let pose = |time: f64| motion.at(time).to_scale_rotation_translation();
+        let rotation = |time: f64| pose(time).1.normalize();
+        Self {
+            translation: follow(&times, &|time| pose(time).2),
+            rotation: follow_turns(&times, &rotation, fastest_turn(motion)),
+            scale: follow(&times, &|time| pose(time).0),
+        }
+    }
+}
+
+fn follow_linear(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<DVec3> {
+    let keys: Vec<(f64, DVec3)> = times.iter().map(|time| (*time, value(*time))).collect();
+    match keys.iter().all(|(_, own)| is_close(*own, keys[0].1)) {
+        true => Track::Still(keys[0].1),
+        false => Track::Linear(keys),
+    }
+}
+
+/// Follows a curve that is a cubic polynomial between each two times: its value at four times gives the slopes at both ends.
+fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<DVec3> {
+    let mut keys: Vec<(f64, [DVec3; 3])> = (times.iter())
+        .map(|time| (*time, [DVec3::ZERO, value(*time), DVec3::ZERO]))
+        .collect();
+    let mut is_still = true;
+    for next in 1..keys.len() {
+        let [from, to] = [times[next - 1], times[next]];
+        let duration = to - from;
+        // The value at a key may belong to the piece after it, which has the same value there.
+        let [a, b, c, d] = [0.0, 1.0, 2.0, 3.0].map(|third| value(from + duration * third / 3.0));
+        is_still &= [b, c, d].iter().all(|own| is_close(*own, a));
+        let per_frame = 1.0 / (2.0 * duration);
+        keys[next - 1].1[2] = (-11.0 * a + 18.0 * b - 9.0 * c + 2.0 * d) * per_frame;
+        keys[next].1[0] = (-2.0 * a + 9.0 * b - 18.0 * c + 11.0 * d) * per_frame;
+    }
+    match is_still {
+        true => Track::Still(value(times[0])),
+        false => Track::Cubic(keys),
+    }
+}
+
+/// Follows a turn by keys between which the shorter way at a constant angular velocity is the turn's own. The turn is at most as fast
+/// as `fastest`, in radians per frame.
+fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) -> Track<DQuat> {
+    let mut keys = vec![(times[0], rotation(times[0]))];
+    for span in times.windows(2) {
+        let steps = ((span[1] - span[0]) * fastest / WIDEST_TURN)
+            .ceil()
+            .max(1.0) as u32;
+        let step = (span[1] - span[0]) / f64::from(steps);
+        for index in 0..steps {
+            let from = span[0] + f64::from(index) * step;
+            let to = match index + 1 == steps {
+                true => span[1],
+                false => from + step,
+            };
+            refine(rotation, from, to, MOST_HALVINGS, &mut keys);
+        }
+    }
+    for index in 1..keys.len() {
+        if keys[index].1.dot(keys[index - 1].1) < 0.0 {
+            keys[index].1 = -keys[index].1;
+        }
+    }
+    let first = keys[0].1;
+    let is_first = |(_, own): &(f64, DQuat)| own.angle_between(first) < TOLERANCE;
+    match keys.iter().all(is_first) {
+        true => Track::Still(first),
+        false => Track::Linear(keys),
+    }
+}
+
+/// Adds the keys after `from` up to `to`, more of them where the turn is not steady.
+fn refine(
+    rotation: &dyn Fn(f64) -> DQuat,
+    from: f64,
+    to: f64,
+    halvings: u32,
+    keys: &mut Vec<(f64, DQuat)>,
+) {
+    let ends = [from, to].map(rotation);
+    let strays = [0.25, 0.5, 0.75].into_iter().any(|part| {
+        let own = rotation(from + part * (to - from));
+        own.angle_between(ends[0].slerp(ends[1], part)) > TOLERANCE
+    });
+    if strays && halvings > 0 {
+        let middle = 0.5 * (from + to);
+        refine(rotation, from, middle, halvings - 1, keys);
+        refine(rotation, middle, to, halvings - 1, keys);
+    } else {
+        keys.push((to, ends[1]));
+    }
+}
+
+/// Returns an upper limit of the angular velocity, in radians per frame.
+fn fastest_turn(motion: &Motion) -> f64 {
+    let chords = motion.keys.windows(2).map(|pair| {
+        let [from, to] = [&pair[0], &pair[1]];
+        from.turn.angle.abs() / (to.time - from.time)
+    });
+    let fastest = chords.fold(0.0, f64::max);
+    match motion.interpolation {
+        Interpolation::Linear => fastest,
+        Interpolation::Cubic => OVER_CHORD * fastest,
+    }
+}
+
+fn is_close(a: DVec3, b: DVec3) -> bool {
+    (a - b).abs().max_element() <= 1e-12 * a.abs().max_element().max(1.0)
+}

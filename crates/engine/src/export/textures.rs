@@ -1,0 +1,136 @@
+//! Texture files of an export.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use frame::{FileError, display_srgb, write_atomically};
+use serde_json::json;
+use tracer::limits::LARGEST_IMAGE_FILE;
+use tracer::{Location, Scene, Texture};
+
+use crate::export::document::Document;
+
+/// Folder of the textures, next to the document.
+const FOLDER: &str = "textures";
+
+/// Textures that are written so far.
+pub struct Textures<'a> {
+    scene: &'a Scene,
+    /// Where the scene came from: on disk, or in the program.
+    origin: &'a Location,
+    folder: PathBuf,
+    /// Textures of the document: those that are files of the scene, and those that join a colour with an opacity.
+    known: BTreeMap<[Option<usize>; 2], usize>,
+}
+
+impl<'a> Textures<'a> {
+    /// Makes an empty folder of textures below that of the document.
+    pub fn new(scene: &'a Scene, origin: &'a Location, folder: &Path) -> Self {
+        Self {
+            scene,
+            origin,
+            folder: folder.to_owned(),
+            known: BTreeMap::new(),
+        }
+    }
+
+    /// Adds the file of a texture as it is; returns its index in the document.
+    pub fn add_file(
+        &mut self,
+        document: &mut Document,
+        texture: usize,
+    ) -> Result<usize, FileError> {
+        let key = [Some(texture), None];
+        if let Some(known) = self.known.get(&key) {
+            return Ok(*known);
+        }
+        let path = &self.scene.textures[texture].path;
+        let bytes = self.origin.at(path).read(LARGEST_IMAGE_FILE)?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let name = format!("{texture}_{}", plain_name(&name));
+        self.write(&name, &bytes)?;
+        Ok(self.push(document, key, name))
+    }
+
+    /// Adds a texture whose colour is one file's and whose alpha is another's: glTF has one for both. It is as large as the larger
+    /// of the two, of which the other takes the nearest texel.
+    pub fn add_cut_out(
+        &mut self,
+        document: &mut Document,
+        color: Option<usize>,
+        opacity: usize,
+    ) -> Result<usize, FileError> {
+        let key = [color, Some(opacity)];
+        if let Some(known) = self.known.get(&key) {
+            return Ok(*known);
+        }
+        let color_texture = color.map(|index| &self.scene.textures[index]);
+        let opacity_texture = &self.scene.textures[opacity];
+        let sides = |texture: &Texture| [texture.width, texture.height];
+        let [width, height] = match color_texture.map(sides) {
+            None => sides(opacity_texture),
+            Some(own) => [0, 1].map(|side| own[side].max(sides(opacity_texture)[side])),
+        };
+        let place = |x: u32, y: u32| {
+            [(x, width), (y, height)].map(|(at, side)| (f64::from(at) + 0.5) / f64::from(side))
+        };
+        let linear = frame::Image::from_fn(width, height, |x, y| match color_texture {
+            None => [1.0; 3],
+            Some(texture) => {
+                let [red, green, blue, _] = nearest(texture, place(x, y));
+                [red, green, blue]
+            }
+        });
+        let encoded = display_srgb(&linear, 0.0);
+        let picture = image::RgbaImage::from_fn(width, height, |x, y| {
+            let [red, green, blue] = encoded.at(x, y).map(to_byte);
+            let alpha = to_byte(nearest(opacity_texture, place(x, y))[3]);
+            image::Rgba([red, green, blue, alpha])
+        });
+        let name = match color {
+            Some(color) => format!("{color}_with_opacity_{opacity}.png"),
+            None => format!("opacity_{opacity}.png"),
+        };
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        (picture.write_to(&mut bytes, image::ImageFormat::Png))
+            .expect("a picture in memory can be encoded");
+        self.write(&name, &bytes.into_inner())?;
+        Ok(self.push(document, key, name))
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<(), FileError> {
+        write_atomically(&self.folder.join(FOLDER).join(name), bytes)
+    }
+
+    fn push(&mut self, document: &mut Document, key: [Option<usize>; 2], name: String) -> usize {
+        if document.list("samplers").is_empty() {
+            // Linear, and linear between mipmaps; textures repeat by default.
+            let sampler = json!({ "magFilter": 9729, "minFilter": 9987 });
+            document.push("samplers", sampler);
+        }
+        let image = json!({ "name": name, "uri": format!("{FOLDER}/{name}") });
+        let image = document.push("images", image);
+        let texture = json!({ "name": name, "sampler": 0, "source": image });
+        let texture = document.push("textures", texture);
+        self.known.insert(key, texture);
+        texture
+    }
+}
+
+/// Replaces what needs an escape in a URI.
+fn plain_name(name: &str) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "._-".contains(letter);
+    (name.chars())
+        .map(|letter| if is_plain(letter) { letter } else { '_' })
+        .collect()
+}
+
+fn nearest(texture: &Texture, place: [f64; 2]) -> [f32; 4] {
+    let at = |place: f64, side: u32| ((place * f64::from(side)) as u32).min(side - 1);
+    let (x, y) = (at(place[0], texture.width), at(place[1], texture.height));
+    texture.texels[(y * texture.width + x) as usize]
+}
+
+fn to_byte(value: f32) -> u8 {
+    (value.clamp(0.0, 1.0) * 255.0).round() as u8
+}

@@ -1,0 +1,139 @@
+//! Text of an imported scene's scene.toml.
+
+use crate::import::model::{Model, Up};
+use crate::import::plan::ImportPlan;
+use crate::import::set::{STAND_HEIGHT, WALL_DISTANCE};
+
+/// Width and height of the picture that speeds are in pixels of.
+const SIZE: [u32; 2] = [640, 360];
+
+/// Vertical field of view, in degrees.
+const VERTICAL_FOV: f64 = 40.0;
+
+/// Angles of the camera to the side of the model and above it, in degrees.
+const VIEW: [f64; 2] = [25.0, 15.0];
+
+/// Part of the picture's height that the ball around the model takes.
+const FILLED: f64 = 0.75;
+
+/// Writes the whole text. The world's origin lies below the model's middle, at the stand's upper face.
+pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
+    let half_fov = (0.5 * VERTICAL_FOV).to_radians();
+    let distance = model.radius() / (FILLED * half_fov.sin());
+    // Length of a pixel at the model's middle, in metres.
+    let pixel = 2.0 * distance * half_fov.tan() / f64::from(SIZE[1]);
+    let file = plan.model.file_name().unwrap_or_default().to_string_lossy();
+    let motions = &plan.motions;
+    let exposes = format!("Imported from {file}: {}.", motions.sentence());
+    let [width, height] = SIZE;
+    format!(
+        "# Made by `shuttertruth engine import`; yours to change.\n\
+         exposes = {exposes}\nfamily = \"{family}\"\nexposure = {exposure}\nsize = [{width}, {height}]\n\n\
+         [camera]\nvertical_fov = {VERTICAL_FOV}\n{path}\n\n\
+         [background]\n\
+         gradient = {{ ground = [0.25, 0.24, 0.22], horizon = [0.8, 0.85, 0.95], zenith = [0.3, 0.45, 0.8] }}\n\n\
+         [sun]\ndirection = [-0.3, 0.9, 0.6]\nirradiance = [2.0, 1.9, 1.7]\n\n\
+         {set}{stand}\n{object}",
+        exposes = toml::Value::from(exposes),
+        family = motions.family().name(),
+        exposure = number(plan.exposure),
+        path = camera_path(model.half_size()[1], distance, motions.orbit),
+        set = set_objects(model.radius()),
+        stand = stand_motion(motions.spin, motions.slide.map(|speed| speed * pixel)),
+        object = model_object(model),
+    )
+}
+
+/// Writes where the camera is, and how it goes around the model at a speed in degrees per frame.
+fn camera_path(middle: f64, distance: f64, orbit: Option<f64>) -> String {
+    let view = |turn: f64| {
+        let [x, y, z] = from_camera(VIEW[0] + turn, distance);
+        [vector([x, y + middle, z]), vector([0.0, middle, 0.0])]
+    };
+    let Some(speed) = orbit else {
+        let [position, target] = view(0.0);
+        return format!("position = {position}\nlook_at = {target}");
+    };
+    // Points on the circle; cubic curves through them stay on it to a hundredth of a thousandth.
+    let keys = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|time| {
+        let [position, target] = view(speed * time);
+        format!("    {{ time = {time:?}, position = {position}, look_at = {target} }},\n")
+    });
+    format!("interpolation = \"cubic\"\nkeys = [\n{}]", keys.concat())
+}
+
+/// Writes floor, wall and stand, for a model of a radius.
+fn set_objects(radius: f64) -> String {
+    let wall = from_camera(VIEW[0], -WALL_DISTANCE * radius);
+    format!(
+        "[object.floor]\nmesh = \"floor.obj\"\ntranslation = {}\nrotation = {{ axis = [1, 0, 0], degrees = -90 }}\n\n\
+         [object.wall]\nmesh = \"wall.obj\"\ntranslation = {}\nrotation = {{ axis = [0, 1, 0], degrees = {} }}\n\n\
+         [object.stand]\nmesh = \"stand.obj\"\n",
+        vector([0.0, -STAND_HEIGHT * radius, 0.0]),
+        vector([wall[0], 0.0, wall[2]]),
+        number(VIEW[0]),
+    )
+}
+
+/// Writes the model, whose lowest point stands on the stand's middle.
+fn model_object(model: &Model) -> String {
+    let [low, high] = model.corners;
+    let below_middle = [
+        -0.5 * (low[0] + high[0]),
+        -low[1],
+        -0.5 * (low[2] + high[2]),
+    ];
+    format!(
+        "[object.model]\nmesh = {}\nparent = \"stand\"\ntranslation = {}\n{}",
+        toml::Value::from(model.mesh.as_str()),
+        vector(below_middle),
+        match model.up {
+            Up::Y => "",
+            Up::Z => "rotation = { axis = [1, 0, 0], degrees = -90 }\n",
+        }
+    )
+}
+
+/// Writes keys one frame before and after the instant, from degrees and metres per frame.
+fn stand_motion(spin: Option<f64>, slide: Option<f64>) -> String {
+    if spin.is_none() && slide.is_none() {
+        return String::new();
+    }
+    let key = |time: f64| {
+        let mut key = format!("    {{ time = {time:?}");
+        if let Some(speed) = slide {
+            let side = VIEW[0].to_radians();
+            let moved = [side.cos(), 0.0, -side.sin()].map(|part| part * speed * time);
+            key += &format!(", translation = {}", vector(moved));
+        }
+        if let Some(speed) = spin {
+            let degrees = number(speed * time);
+            key += &format!(", rotation = {{ axis = [0, 1, 0], degrees = {degrees} }}");
+        }
+        key + " },\n"
+    };
+    format!("keys = [\n{}{}]\n", key(-1.0), key(1.0))
+}
+
+/// Returns the place at a distance from the model's middle towards a camera that is `around` degrees to the side.
+fn from_camera(around: f64, distance: f64) -> [f64; 3] {
+    let [around, above] = [around, VIEW[1]].map(f64::to_radians);
+    [
+        distance * around.sin() * above.cos(),
+        distance * above.sin(),
+        distance * around.cos() * above.cos(),
+    ]
+}
+
+fn vector(parts: [f64; 3]) -> String {
+    let [x, y, z] = parts.map(number);
+    format!("[{x}, {y}, {z}]")
+}
+
+/// Writes a number with six significant digits.
+fn number(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}")
+        .parse()
+        .expect("what was written as a number");
+    format!("{:?}", rounded + 0.0)
+}

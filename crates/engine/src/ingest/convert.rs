@@ -1,0 +1,265 @@
+//! Conversion of a capture to the files of this program.
+
+use std::path::Path;
+
+use frame::{
+    Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
+    Truth, VelocityKind, display_srgb, write_exr, write_png,
+};
+use store::{Sharing, claim, ladder_folder, refuse_long_names, refuse_scene};
+use suite::{
+    BLURRED, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM, engine_name,
+    name_in_one_word, velocity_wheel,
+};
+use tracer::{SceneId, Watch};
+
+use crate::capture::folder::Capture;
+use crate::files::write_json;
+use crate::ingest::engine_truth::{EngineTruth, NOT_TRACED, average_subframes, part_of};
+use crate::ingest::moving::{mark_reached, usual_top_speed};
+use crate::ingest::objects::{draw_coverage, name_objects};
+use crate::statistics::median;
+
+/// A capture that was ingested.
+pub struct Ingested {
+    /// Contents of `ingested.json`.
+    pub scene: EngineScene,
+    /// The truth; none where the capture has no sub-frames.
+    pub truth: Option<Truth>,
+    /// Part of the pixels where anything moves, by colour or velocity; none without a truth.
+    pub moving: Option<f64>,
+    /// Part of the pixels that change between sub-frames though no velocity reaches them: by noise, shadows, or wrong velocity.
+    pub restless: f64,
+    /// Radiance of the engine's blurred picture over that of the truth, or of the frame if there is no truth: the median over pixels
+    /// that no velocity reaches. 1 for a blur that neither adds nor takes light; none without a picture, or if no lit pixel is still.
+    pub gain: Option<f64>,
+}
+
+/// Writes the frame of a capture, the truth of its sub-frames and the engine's own blurred picture into the folder `out`, which
+/// names the scene. The pictures are shown and compared at the exposures of `display`; `names` are those of the objects of the scene
+/// that the engine drew.
+pub fn ingest(
+    capture: &Capture,
+    (display, names): (Display, Option<Vec<String>>),
+    out: &Path,
+    watch: Watch,
+) -> Result<Ingested, Error> {
+    refuse_scene(out)?;
+    refuse_other_files(out)?;
+    let mut scene = describe_scene(capture, out)?;
+    let provenance = Provenance {
+        scene: scene.id.to_string(),
+        program: PROGRAM.to_owned(),
+        seed: 0,
+        samples_per_pixel: 1,
+        replicates: 1,
+        traversal: NOT_TRACED.to_owned(),
+        content_hash: scene.hash.clone(),
+        engine: Some(scene.engine.clone()),
+    };
+    let objects = name_objects(capture, names)?;
+    let (exposure, alignment) = capture.shutter()?;
+    let shutter = alignment.shutter(exposure);
+    let shutter = shutter.expect("the exposure was checked when it was read");
+    let averaged = match capture.subframes.is_empty() {
+        true => None,
+        false => {
+            let shutter = (shutter, alignment);
+            Some(average_subframes(
+                capture,
+                shutter,
+                &objects,
+                &provenance,
+                watch,
+            )?)
+        }
+    };
+    let frame = make_frame(capture, &scene, (display, objects), provenance);
+    if let Some(averaged) = &averaged {
+        let rungs = averaged.ladder.rungs.iter();
+        scene.ladder = rungs.map(|rung| rung.subframes).collect();
+    }
+    let restless = averaged.as_ref().map_or(0.0, |averaged| averaged.restless);
+    let truth = write_files(capture, &scene, &frame, averaged, out)?;
+    let unblurred = (truth.as_ref()).map_or(frame.color, |truth| truth.mean().color);
+    // Noise changes colours where nothing moves; it leaves velocity alone.
+    let reached = mark_reached(&capture.velocity, shutter);
+    let blurred = capture.blurred.as_ref();
+    let moving = truth.as_ref().map(|truth| part_of(&truth.support.moving));
+    Ok(Ingested {
+        gain: blurred.and_then(|picture| median_ratio(picture, &unblurred, &reached)),
+        scene,
+        truth,
+        moving,
+        restless,
+    })
+}
+
+/// Writes all files of an ingested capture, and pictures of them for people; returns the truth.
+fn write_files(
+    capture: &Capture,
+    scene: &EngineScene,
+    frame: &Frame,
+    averaged: Option<EngineTruth>,
+    out: &Path,
+) -> Result<Option<Truth>, Error> {
+    let _claim = claim(out, [], Sharing::Alone)?;
+    let stops = frame.display.stops;
+    let show = |name: &str, image: &Image| write_png(&out.join(name), &display_srgb(image, stops));
+    frame.write(&out.join("frame.exr"))?;
+    show("frame.png", &frame.color)?;
+    write_png(&out.join("velocity.png"), &velocity_wheel(frame))?;
+    if let Some(picture) = &capture.blurred {
+        write_picture(&out.join(BLURRED), picture, scene, &frame.provenance)?;
+        show("blurred.png", picture)?;
+    }
+    let mut written = None;
+    if let Some(EngineTruth { truth, ladder, .. }) = averaged {
+        let alignment = truth.alignment;
+        ladder.write_rungs(&out.join(ladder_folder(alignment)))?;
+        truth.write(&out.join(format!("truth_{alignment}.exr")))?;
+        show(&format!("truth_{alignment}.png"), &truth.mean().color)?;
+        written = Some(truth);
+    }
+    write_json(&out.join(INGESTED_FILE), scene)?;
+    Ok(written)
+}
+
+/// Returns the median of the ratios of two pictures' radiance over the pixels that are not left out; none where the second one is
+/// black.
+fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Option<f64> {
+    let radiance = |pixel: &[f32; 3]| pixel.iter().map(|value| f64::from(*value)).sum::<f64>();
+    let pairs = picture.pixels.iter().zip(&other.pixels);
+    let ratios = (pairs.zip(&left_out.pixels))
+        .filter(|((_, other), left_out)| !**left_out && radiance(other) > 0.0)
+        .map(|((own, other), _)| radiance(own) / radiance(other));
+    Some(median(ratios)).filter(|ratio| ratio.is_finite())
+}
+
+/// Refuses a folder that holds another frame, as a run leaves it for a scene.
+fn refuse_other_files(out: &Path) -> Result<(), Error> {
+    match out.join("frame.exr").exists() && !EngineScene::is_in(out) {
+        false => Ok(()),
+        true => Err(Error::Usage(format!(
+            "--out {}: holds a frame that was not ingested, which would be overwritten; name a new folder",
+            out.display()
+        ))),
+    }
+}
+
+/// Describes what a capture becomes, but for its ladder.
+fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
+    let (exposure, alignment) = capture.shutter()?;
+    let subframes = capture.subframes.len() as u32;
+    let length = usual_top_speed(&capture.velocity) * exposure;
+    Ok(EngineScene {
+        format: INGESTED_FORMAT,
+        program: PROGRAM.to_owned(),
+        id: name_scene(capture, out)?,
+        engine: capture.description.engine.clone(),
+        scene: capture.description.scene.clone(),
+        size: [capture.color.width, capture.color.height],
+        exposure,
+        alignment,
+        subframes,
+        step: length / f64::from(subframes.max(1)),
+        ladder: Vec::new(),
+        has_picture: capture.blurred.is_some(),
+        hash: hash_capture(capture)?,
+        folder: out.to_owned(),
+    })
+}
+
+/// Names the scene by the folder and the engine, as a variant of a scene is named.
+fn name_scene(capture: &Capture, out: &Path) -> Result<SceneId, Error> {
+    let folder = out.file_name().and_then(|name| name.to_str());
+    let is_plain = |name: &&str| !name.contains('@') && name_in_one_word(name) == **name;
+    match folder.filter(is_plain) {
+        Some(folder) => {
+            let engine = name_in_one_word(engine_name(&capture.description.engine));
+            let id = SceneId::new(folder, Some(&engine));
+            refuse_long_names(&id.folder())?;
+            Ok(id)
+        }
+        None => Err(Error::Usage(format!(
+            "--out {}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
+            out.display()
+        ))),
+    }
+}
+
+fn make_frame(
+    capture: &Capture,
+    scene: &EngineScene,
+    (display, objects): (Display, Vec<String>),
+    provenance: Provenance,
+) -> Frame {
+    let (width, height) = (capture.color.width, capture.color.height);
+    let sky = capture.depth.pixels.iter().zip(&capture.velocity.pixels);
+    let mut moving_sky = sky.filter(|(depth, _)| **depth >= FAR_DEPTH);
+    Frame {
+        provenance,
+        exposure: scene.exposure,
+        frames_per_second: None,
+        options: FrameOptions {
+            velocity: VelocityKind::PreviousFrame,
+            sky_velocity: moving_sky.any(|(_, velocity)| *velocity != [0.0, 0.0]),
+            ..FrameOptions::default()
+        },
+        guard_band: 0,
+        reprojection: Reprojection::STILL,
+        camera: None,
+        display,
+        coverage: draw_coverage(capture.object_id.as_ref(), (width, height), objects.len()),
+        object_id: match (&capture.object_id, objects.len()) {
+            (Some(ids), 2..) => ids.clone(),
+            _ => Raster::filled(width, height, 0),
+        },
+        objects,
+        color: capture.color.clone(),
+        velocity: capture.velocity.clone(),
+        depth: capture.depth.clone(),
+        samples: None,
+    }
+}
+
+fn write_picture(
+    path: &Path,
+    picture: &Image,
+    scene: &EngineScene,
+    provenance: &Provenance,
+) -> Result<(), Error> {
+    let mut file = ExrFile::new(picture.width, picture.height);
+    file.push_color("", picture);
+    file.set("kind", "output");
+    file.set("exposure", scene.exposure);
+    file.set("alignment", &scene.alignment);
+    provenance.set(&mut file);
+    Ok(write_exr(path, &file)?)
+}
+
+/// Hashes the files that the pictures are made of, and how they are read.
+fn hash_capture(capture: &Capture) -> Result<String, Error> {
+    let mut hasher = blake3::Hasher::new();
+    let how = format!(
+        "{PROGRAM}\n{:?}\n{:?}",
+        capture.description, capture.convention
+    );
+    hasher.update(how.as_bytes());
+    let colors = |image: &Image| image.pixels.clone().into_iter().flatten();
+    let ids = capture.object_id.iter().flat_map(|ids| &ids.pixels);
+    let values = colors(&capture.color)
+        .chain(capture.velocity.pixels.iter().flatten().copied())
+        .chain(capture.depth.pixels.iter().copied())
+        .chain(ids.map(|id| *id as f32))
+        .chain(capture.blurred.iter().flat_map(colors));
+    for value in values {
+        hasher.update(&value.to_le_bytes());
+    }
+    for path in &capture.subframes {
+        let bytes =
+            std::fs::read(path).map_err(|source| frame::FileError::io(path, "read", source))?;
+        hasher.update(&bytes);
+    }
+    Ok(hasher.finalize().to_hex().to_string())
+}

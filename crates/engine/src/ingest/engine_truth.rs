@@ -1,0 +1,274 @@
+//! The truth of an engine's sub-frames: their mean, its noise, and the ladder of means of fewer of them.
+
+use frame::{
+    Accumulation, Alignment, AtInstant, Ladder, Picture, Plane, Provenance, Raster, Replicate,
+    Shutter, ShutterProfile, Support, Truth,
+};
+use store::LADDER;
+use suite::Error;
+use tracer::{Progress, TraceError, Watch};
+
+use crate::capture::description::CAPTURE_FILE;
+use crate::capture::folder::{Capture, SUBFRAMES};
+use crate::files::refuse;
+use crate::ingest::moving::{ColorRange, mark_reached};
+use crate::ingest::objects::draw_coverage;
+
+/// Least number of sub-frames.
+const FEWEST_SUBFRAMES: usize = 4;
+/// Upper limit on the sub-frames.
+const MOST_SUBFRAMES: usize = 4096;
+/// Parts of the sub-frames, every other one of which makes a half of the truth.
+const HALVES: usize = 2;
+/// Number of sub-frames of the truth for each of an accumulation that is compared with it: a mean of nearly as many as the truth
+/// has would share its errors.
+const TRUTH_PER_RUNG: usize = 4;
+/// Word of provenance for pictures that no ray was traced for.
+pub(super) const NOT_TRACED: &str = "none";
+
+/// A truth and the ladder that goes with it.
+pub struct EngineTruth {
+    pub truth: Truth,
+    pub ladder: Ladder,
+    /// Part of the pixels that change between sub-frames though no velocity reaches them.
+    pub restless: f64,
+}
+
+/// Averages the sub-frames of a capture: the even ones make one half of the truth, the odd ones the other.
+pub fn average_subframes(
+    capture: &Capture,
+    (shutter, alignment): (Shutter, Alignment),
+    objects: &[String],
+    provenance: &Provenance,
+    watch: Watch,
+) -> Result<EngineTruth, Error> {
+    check_count(capture)?;
+    let averages = Averages::read(capture, objects.len(), watch)?;
+    let halves = averages.whole.halves.each_ref().map(Sum::mean);
+    let changed = averages.range.mark_changed();
+    let reached = mark_reached(&capture.velocity, shutter);
+    let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
+    let moving = changed.zip(&reached, |changed, reached| *changed || *reached);
+    let support = Support {
+        seen: (Picture::mean(&halves).coverage.iter())
+            .map(|coverage| coverage.map(|share| *share > 0.0))
+            .collect(),
+        unknowable: moving.map(|_| false),
+        moving,
+    };
+    let (width, height) = (capture.color.width, capture.color.height);
+    let each = (capture.subframes.len() / HALVES) as u32;
+    let replicates: Vec<Replicate> = (0..)
+        .zip(halves)
+        .map(|(index, picture)| Replicate {
+            provenance: Provenance {
+                samples_per_pixel: each,
+                replicates: 1,
+                ..provenance.clone()
+            },
+            index,
+            shutter,
+            shutter_profile: ShutterProfile::default(),
+            alignment,
+            objects: objects.to_owned(),
+            moving: find_movers(&support),
+            picture,
+            at_instant: AtInstant::unknown(width, height),
+            samples: Plane::filled(width, height, each as f32),
+            support: support.clone(),
+        })
+        .collect();
+    Ok(EngineTruth {
+        truth: Truth::of(&replicates)?,
+        restless: part_of(&restless),
+        ladder: Ladder {
+            provenance: provenance.clone(),
+            shutter,
+            shutter_profile: ShutterProfile::default(),
+            alignment,
+            objects: objects.to_owned(),
+            rungs: averages.rungs.iter().map(Rung::average).collect(),
+        },
+    })
+}
+
+/// Refuses numbers of sub-frames that make no truth with two halves.
+fn check_count(capture: &Capture) -> Result<(), Error> {
+    let count = capture.subframes.len();
+    match count.is_multiple_of(2) && (FEWEST_SUBFRAMES..=MOST_SUBFRAMES).contains(&count) {
+        true => Ok(()),
+        false => refuse(
+            &capture.folder.join(SUBFRAMES),
+            &format!(
+                "holds {count} sub-frames; allowed: even numbers from {FEWEST_SUBFRAMES} to {MOST_SUBFRAMES}, at the midpoints of \
+                 equal parts of the shutter that {CAPTURE_FILE} names: half of them show the noise of the others; capture 32, for \
+                 instance"
+            ),
+        ),
+    }
+}
+
+/// Picks the sub-frames that stand for the midpoints of `rung` equal parts of the shutter. A midpoint lies between two of them: one
+/// half takes the earlier, the other the later.
+fn pick_subframes(rung: u32, count: usize, half: usize) -> Vec<usize> {
+    let rung = rung as usize;
+    let picks = (0..rung).map(|part| {
+        let doubled = (2 * part + 1) * count;
+        let later = doubled / (2 * rung);
+        let is_between = doubled.is_multiple_of(2 * rung);
+        later - usize::from(half == 0 && is_between)
+    });
+    picks.collect()
+}
+
+/// Computes the part of the pixels that are marked.
+pub fn part_of(marks: &Raster<bool>) -> f64 {
+    let marked = marks.pixels.iter().filter(|is_marked| **is_marked);
+    marked.count() as f64 / marks.pixels.len() as f64
+}
+
+/// Tells, per object, whether it is seen where anything moves.
+fn find_movers(support: &Support) -> Vec<bool> {
+    let moves = |seen: &Raster<bool>| {
+        let mut both = seen.pixels.iter().zip(&support.moving.pixels);
+        both.any(|(seen, moving)| *seen && *moving)
+    };
+    support.seen.iter().map(moves).collect()
+}
+
+/// All means that are made of the sub-frames, each of which is read once.
+struct Averages {
+    /// The mean of all sub-frames.
+    whole: Rung,
+    rungs: Vec<Rung>,
+    range: ColorRange,
+}
+
+impl Averages {
+    /// Reads every sub-frame, with the shares of the objects.
+    fn read(capture: &Capture, objects: usize, watch: Watch) -> Result<Self, Error> {
+        let count = capture.subframes.len();
+        let size = (capture.color.width, capture.color.height);
+        let make_rung = |subframes: u32, picks: [Vec<usize>; HALVES]| Rung {
+            subframes,
+            picks,
+            halves: [0, 1].map(|_| Sum::new(size, objects)),
+        };
+        let every_other = |half: usize| (half..count).step_by(HALVES).collect();
+        let rungs = LADDER.into_iter();
+        let mut averages = Self {
+            whole: make_rung(count as u32, [0, 1].map(every_other)),
+            rungs: (rungs.filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count))
+                .map(|rung| make_rung(rung, [0, 1].map(|half| pick_subframes(rung, count, half))))
+                .collect(),
+            range: ColorRange::new(size, capture.description.stops.unwrap_or(0.0)),
+        };
+        for index in 0..count {
+            let progress = Progress {
+                done: index as u64,
+                total: count as u64,
+            };
+            if watch(progress).is_break() {
+                return Err(TraceError::Cancelled.into());
+            }
+            let color = capture.read_subframe(index)?;
+            let ids = match objects {
+                1 => None,
+                _ => capture.read_subframe_objects(index)?,
+            };
+            let coverage = draw_coverage(ids.as_ref(), size, objects);
+            averages.add(index, &Picture { color, coverage });
+        }
+        Ok(averages)
+    }
+
+    fn add(&mut self, index: usize, picture: &Picture) {
+        self.range.add(&picture.color);
+        for rung in std::iter::once(&mut self.whole).chain(&mut self.rungs) {
+            for (picks, half) in rung.picks.iter().zip(&mut rung.halves) {
+                if picks.contains(&index) {
+                    half.add(picture);
+                }
+            }
+        }
+    }
+}
+
+/// The mean of some of the sub-frames.
+struct Rung {
+    subframes: u32,
+    /// Indices of the sub-frames, per half.
+    picks: [Vec<usize>; HALVES],
+    halves: [Sum; HALVES],
+}
+
+impl Rung {
+    fn average(&self) -> Accumulation {
+        Accumulation {
+            subframes: self.subframes,
+            halves: self.halves.each_ref().map(Sum::mean),
+        }
+    }
+}
+
+/// A sum of pictures.
+struct Sum {
+    colors: Raster<[f64; 3]>,
+    /// Per object, the number of pictures that show it.
+    coverage: Vec<Plane>,
+    count: u32,
+}
+
+impl Sum {
+    fn new((width, height): (u32, u32), objects: usize) -> Self {
+        Self {
+            colors: Raster::filled(width, height, [0.0; 3]),
+            coverage: vec![Plane::filled(width, height, 0.0); objects],
+            count: 0,
+        }
+    }
+
+    fn add(&mut self, picture: &Picture) {
+        self.count += 1;
+        for (sum, color) in self.colors.pixels.iter_mut().zip(&picture.color.pixels) {
+            for (sum, value) in sum.iter_mut().zip(color) {
+                *sum += f64::from(*value);
+            }
+        }
+        for (sum, coverage) in self.coverage.iter_mut().zip(&picture.coverage) {
+            *sum = sum.zip(coverage, |sum, share| sum + share);
+        }
+    }
+
+    fn mean(&self) -> Picture {
+        let count = f64::from(self.count);
+        Picture {
+            color: self.colors.map(|sum| sum.map(|sum| (sum / count) as f32)),
+            coverage: (self.coverage.iter())
+                .map(|sum| sum.map(|sum| (f64::from(*sum) / count) as f32))
+                .collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_halves_together_lie_at_the_midpoints() {
+        for (rung, count) in [(1, 4), (2, 8), (4, 32), (1, 6), (4, 18)] {
+            let halves = [0, 1].map(|half| pick_subframes(rung, count, half));
+            for part in 0..rung as usize {
+                let places = halves.each_ref().map(|picks| picks[part] as f64 + 0.5);
+                let middle = 0.5 * (places[0] + places[1]) / count as f64;
+                let expected = (part as f64 + 0.5) / f64::from(rung);
+                // Where the parts are no whole number of sub-frames, the nearest is at most half of one away.
+                assert!(
+                    (middle - expected).abs() <= 0.5 / count as f64 + 1e-12,
+                    "{rung} of {count}: {halves:?}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Objects that an engine's pictures show, by their ids.
+
+use frame::{Plane, Raster};
+use suite::Error;
+
+use crate::capture::folder::{Capture, SUBFRAMES};
+use crate::files::refuse;
+
+/// Name of what is no object.
+const BACKGROUND: &str = "background";
+/// Upper limit on the objects: each takes memory in every picture.
+const MOST_OBJECTS: usize = 64;
+
+/// Names the objects by their ids: as the scene that the engine drew has them, or by their numbers. The background alone where the
+/// frame or its sub-frames have no ids: nobody knows then what the open shutter saw.
+pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec<String>, Error> {
+    let Some(ids) = &capture.object_id else {
+        return Ok(vec![BACKGROUND.to_owned()]);
+    };
+    let mut largest = largest_id(ids);
+    for index in 0..capture.subframes.len() {
+        match capture.read_subframe_objects(index)? {
+            Some(ids) => largest = largest.max(largest_id(&ids)),
+            None if index == 0 => return Ok(vec![BACKGROUND.to_owned()]),
+            None => {
+                return refuse(
+                    &capture.subframes[index],
+                    "has no channel \"object\", which the sub-frames before it have; allowed: ids in all of them, or in none",
+                );
+            }
+        }
+    }
+    let named = match known {
+        Some(names) => names,
+        None => (0..=largest.min(MOST_OBJECTS))
+            .map(|id| match id {
+                0 => BACKGROUND.to_owned(),
+                id => format!("object_{id}"),
+            })
+            .collect(),
+    };
+    match largest < named.len() && named.len() <= MOST_OBJECTS + 1 {
+        true => Ok(named),
+        false => refuse(
+            &capture.folder,
+            &format!(
+                "object.exr and {SUBFRAMES} hold ids up to {largest}; allowed: up to {}, as the scene's manifest.json numbers its \
+                 objects; draw these ids, or leave object.exr out",
+                named.len().min(MOST_OBJECTS + 1) - 1
+            ),
+        ),
+    }
+}
+
+/// Draws, per object, 1 where a picture shows it and 0 elsewhere.
+pub fn draw_coverage(
+    ids: Option<&Raster<u32>>,
+    (width, height): (u32, u32),
+    count: usize,
+) -> Vec<Plane> {
+    let Some(ids) = ids.filter(|_| count > 1) else {
+        return vec![Plane::filled(width, height, 1.0)];
+    };
+    (0..count as u32)
+        .map(|object| ids.map(|id| f32::from(*id == object)))
+        .collect()
+}
+
+fn largest_id(ids: &Raster<u32>) -> usize {
+    ids.pixels.iter().copied().max().unwrap_or(0) as usize
+}

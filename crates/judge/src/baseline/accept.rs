@@ -1,0 +1,137 @@
+//! Acceptance of a run's scores as the baseline.
+
+use std::collections::BTreeMap;
+
+use glob::Pattern;
+use metrics::Metric;
+use suite::{Case, Error, Run};
+
+use crate::baseline::{BASELINE_FORMAT, Baseline};
+
+/// Options of accepting a run.
+pub struct Acceptance<'a> {
+    /// Pattern of the cases to accept, by `scene/filter:preset`; none for all.
+    pub only: Option<&'a Pattern>,
+    /// Reason, in one line.
+    pub reason: &'a str,
+    /// True to accept another class of adapter than the baseline's.
+    pub forced: bool,
+}
+
+impl Acceptance<'_> {
+    /// Tells whether a case is accepted: references never are.
+    pub fn includes(&self, case: &Case) -> bool {
+        let name = format!("{}/{}", case.scene, case.name());
+        !case.is_reference && self.only.is_none_or(|only| only.matches(&name))
+    }
+}
+
+/// Makes a baseline of a run, and of the old one if only some cases are accepted.
+pub fn accept_scores(
+    run: &Run,
+    old: Option<Baseline>,
+    how: &Acceptance,
+) -> Result<Baseline, Error> {
+    if let Some(old) = &old
+        && !how.forced
+    {
+        check_adapter(run, old, how.only.is_some())?;
+    }
+    let cases: Vec<&Case> = (run.cases.iter())
+        .filter(|case| how.includes(case))
+        .collect();
+    if cases.is_empty() {
+        let names = (run.cases.iter().filter(|case| !case.is_reference))
+            .map(|case| format!("{}/{}", case.scene, case.name()));
+        return refuse(&format!(
+            "{} matches no case of the run; it has {}",
+            how.only.map_or("*", Pattern::as_str),
+            names.collect::<Vec<_>>().join(", ")
+        ));
+    }
+    let kept = old.filter(|_| how.only.is_some());
+    let mut baseline = Baseline {
+        format: BASELINE_FORMAT,
+        program: run.program.clone(),
+        adapter: run.adapter.clone(),
+        ..kept.unwrap_or_else(|| Baseline {
+            format: BASELINE_FORMAT,
+            program: String::new(),
+            adapter: None,
+            reasons: Vec::new(),
+            truths: BTreeMap::new(),
+            scores: BTreeMap::new(),
+        })
+    };
+    baseline.reasons.push(how.reason.to_owned());
+    for case in cases {
+        add_case(&mut baseline, case)?;
+    }
+    Ok(baseline)
+}
+
+fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
+    let truths = baseline.truths.entry(case.scene.clone()).or_default();
+    let old = truths.insert(case.alignment, case.truth_hash.clone());
+    if old.is_some_and(|old| old != case.truth_hash) {
+        return refuse(&format!(
+            "{} ({}): the truth is another than the baseline's, and accepting some cases alone would leave scores of both; accept \
+             the whole run",
+            case.scene, case.alignment
+        ));
+    }
+    let scores = (Metric::all().into_iter()).filter_map(|metric| {
+        Some((
+            metric,
+            round_to_six_digits(case.scores.get(metric).value()?),
+        ))
+    });
+    let filters = baseline.scores.entry(case.scene.clone()).or_default();
+    filters.insert(case.name(), scores.collect());
+    Ok(())
+}
+
+/// Rounds to six significant digits: readable, and finer than any margin.
+fn round_to_six_digits(value: f64) -> f64 {
+    (format!("{value:.5e}").parse()).expect("a number as text is a number")
+}
+
+/// Refuses another class of adapter than the baseline's and, where only some scores are replaced, another adapter.
+fn check_adapter(run: &Run, old: &Baseline, some: bool) -> Result<(), Error> {
+    let [found, allowed] = [&run.adapter, &old.adapter].map(|adapter| match adapter {
+        Some(adapter) => format!(
+            "{} ({}, {}, {})",
+            adapter.name, adapter.backend, adapter.driver, adapter.kind
+        ),
+        None => "none".to_owned(),
+    });
+    if !old.is_of_class(&run.adapter) {
+        return refuse(&format!(
+            "the run's adapter is {found}, the baseline's {allowed}: another class; run on one of that class, keep a baseline \
+             for each, or force it"
+        ));
+    }
+    if some && run.adapter != old.adapter {
+        return refuse(&format!(
+            "the run's adapter is {found}, the baseline's {allowed}, and accepting some cases alone would mix their scores; accept \
+             the whole run, or force it"
+        ));
+    }
+    Ok(())
+}
+
+fn refuse<T>(reason: &str) -> Result<T, Error> {
+    Err(Error::Usage(reason.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scores_keep_six_digits() {
+        assert_eq!(round_to_six_digits(0.123_456_789), 0.123_457);
+        assert_eq!(round_to_six_digits(-1_234.567_89), -1_234.57);
+        assert_eq!(round_to_six_digits(0.0), 0.0);
+    }
+}

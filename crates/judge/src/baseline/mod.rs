@@ -1,0 +1,75 @@
+//! Baseline: accepted scores in a file that a person reviews.
+
+mod accept;
+mod comparison;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use filters::AdapterDescription;
+use frame::Alignment;
+use frame::write_atomically;
+use metrics::Metric;
+use serde::{Deserialize, Serialize};
+use tracer::SceneId;
+
+use store::{check_strings, read_text};
+use suite::Error;
+
+pub use accept::{Acceptance, accept_scores};
+pub use comparison::{BaselineComparison, ComparisonKind, compare_with_baseline};
+
+/// Version of the layout of a baseline.
+pub const BASELINE_FORMAT: u32 = 1;
+
+/// Accepted scores and their origin. The file has one number per line under sorted keys.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Baseline {
+    /// [`BASELINE_FORMAT`].
+    pub format: u32,
+    /// Program name and version of the last run.
+    pub program: String,
+    /// Adapter of that run; none if every filter was a program.
+    pub adapter: Option<AdapterDescription>,
+    /// Reasons for accepting the scores: the last time all were accepted, and every time some were since.
+    pub reasons: Vec<String>,
+    /// Hash of the truth's inputs, per scene and alignment.
+    pub truths: BTreeMap<SceneId, BTreeMap<Alignment, String>>,
+    /// Score to six digits, per scene, filter (`jump_flood:paper`) and metric.
+    pub scores: BTreeMap<SceneId, BTreeMap<String, BTreeMap<Metric, f64>>>,
+}
+
+impl Baseline {
+    /// Reads a file that [`Baseline::write`] wrote.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let text = read_text(path)?;
+        let parsed = check_strings(&text).and_then(|()| serde_json::from_str(&text));
+        let baseline: Self = parsed.map_err(|error| {
+            Error::Usage(format!(
+                "{}: no baseline: {error}; `shuttertruth limits accept` writes one",
+                path.display()
+            ))
+        })?;
+        match baseline.format {
+            BASELINE_FORMAT => Ok(baseline),
+            other => Err(Error::Usage(format!(
+                "{}: has format {other}; allowed: {BASELINE_FORMAT}; accept it anew",
+                path.display()
+            ))),
+        }
+    }
+
+    /// Returns true if an adapter has the class (software, integrated, discrete ..) of the baseline's.
+    pub fn is_of_class(&self, adapter: &Option<AdapterDescription>) -> bool {
+        let class =
+            |adapter: &Option<AdapterDescription>| adapter.as_ref().map(|own| own.kind.clone());
+        class(adapter) == class(&self.adapter)
+    }
+
+    /// Writes the baseline as JSON.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        let json = serde_json::to_string_pretty(self).expect("a baseline is plain data");
+        Ok(write_atomically(path, (json + "\n").as_bytes())?)
+    }
+}

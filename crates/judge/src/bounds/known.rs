@@ -1,0 +1,131 @@
+//! Checks that bounds name scenes and filters that exist, and that every case has a bound.
+
+use filters::Filter;
+use suite::{Error, FilterChoice, Frames};
+use tracer::{Location, SceneId};
+
+use crate::bounds::sized::read_all_bounds;
+use crate::bounds::{BOUNDS_FILE, BoundsFile, Length, Level, SceneBounds};
+
+/// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, the bounds of the
+/// scenes that take part.
+pub fn check_names<'a>(
+    root: impl Into<Location>,
+    scenes: impl Iterator<Item = &'a SceneBounds>,
+    filters: &[FilterChoice],
+) -> Result<(), Error> {
+    for file in read_bounds_of_scenes(&root.into())? {
+        check_filters(&file, filters)?;
+    }
+    for file in scenes.flat_map(|bounds| &bounds.files) {
+        check_filters(file, filters)?;
+    }
+    Ok(())
+}
+
+/// Refuses a case without a bound, and bounds of which none is required: such a check cannot fail. `scenes` are the scenes and the
+/// bounds of scenes in the folder `root`, and `frames` those that each scene is measured at: limits on sequences of another length
+/// judge nothing.
+pub fn require_bounds<'a>(
+    root: impl Into<Location>,
+    scenes: impl Iterator<Item = (&'a SceneId, &'a SceneBounds)>,
+    filters: &[FilterChoice],
+    frames: Frames,
+) -> Result<(), Error> {
+    let root = root.into();
+    let mut required = false;
+    for (scene, bounds) in scenes {
+        for choice in filters {
+            let mut bounds = bounds.of(&choice.filter.name, &choice.preset);
+            let lengths: Vec<Length> = bounds.values().filter_map(|bound| bound.length).collect();
+            bounds.retain(|_, bound| bound.length.is_none_or(|own| own.holds_for(frames)));
+            if bounds.is_empty() {
+                if let Some(length) = lengths.first() {
+                    return Err(Error::Usage(format!(
+                        "{scene} / {name}: all its bounds are on sequences of other lengths, such as {}, and no check is no \
+                         success; check as many frames, or bound a score of single frames",
+                        length.text(),
+                        name = choice.name(),
+                    )));
+                }
+                return Err(Error::Usage(format!(
+                    "{scene} / {name}: has no bound, and no check is no success; give it some in {root}/{BOUNDS_FILE} or \
+                     beside the scene, under [default] or [filter.\"{name}\"]",
+                    name = choice.name(),
+                )));
+            }
+            required |= (bounds.values()).any(|bound| bound.level == Level::Required);
+        }
+    }
+    if required {
+        return Ok(());
+    }
+    let names: Vec<String> = filters.iter().map(FilterChoice::name).collect();
+    Err(Error::Usage(format!(
+        "{root}/{BOUNDS_FILE}: no bound of {} is required, so that nothing could fail; give them bounds with level = \
+         \"required\" under [filter.\"..\"]",
+        names.join(", ")
+    )))
+}
+
+/// Reads the bounds of every scene below `root`, for every picture size, judged or not.
+fn read_bounds_of_scenes(root: &Location) -> Result<Vec<BoundsFile>, Error> {
+    // `root` need not exist if every scene is given by its path.
+    let mut folders = root.list().unwrap_or_default();
+    folders.sort_by(|a, b| a.path.cmp(&b.path));
+    let mut files = read_all_bounds(root)?;
+    for folder in folders.iter().filter(|folder| folder.is_dir()) {
+        let found = read_all_bounds(folder)?;
+        if !found.is_empty() && !folder.join("scene.toml").is_file() {
+            return Err(Error::Usage(format!(
+                "{}: bounds of a scene that does not exist: {} has no scene.toml; rename the folder as the scene, or remove \
+                 the bounds",
+                found[0].path.display(),
+                folder
+            )));
+        }
+        files.extend(found);
+    }
+    Ok(files)
+}
+
+fn check_filters(file: &BoundsFile, choices: &[FilterChoice]) -> Result<(), Error> {
+    for (name, table) in &file.filters {
+        check_filter(name, choices)
+            .map_err(|reason| Error::Usage(format!("{}: {reason}", table.place)))?;
+    }
+    Ok(())
+}
+
+/// Refuses a key `filter` or `filter:preset` that is neither built in nor takes part.
+fn check_filter(key: &str, choices: &[FilterChoice]) -> Result<(), String> {
+    let (name, preset) = match key.split_once(':') {
+        Some((name, preset)) => (name, Some(preset)),
+        None => (key, None),
+    };
+    let taking_part = choices.iter().map(|choice| &choice.filter);
+    let built_in = Filter::builtin(name).ok();
+    let known: Vec<&Filter> = (taking_part.filter(|filter| filter.name == name))
+        .chain(&built_in)
+        .collect();
+    if known.is_empty() {
+        let mut names = Filter::builtin_names();
+        names.extend(choices.iter().map(|choice| choice.filter.name.clone()));
+        names.sort();
+        names.dedup();
+        return Err(format!(
+            "no filter is called \"{name}\"; allowed: {}, and filters of your own that take part",
+            names.join(", ")
+        ));
+    }
+    let presets: Vec<&str> = (known.iter().flat_map(|filter| &filter.presets))
+        .map(|preset| preset.name.as_str())
+        .collect();
+    match preset {
+        Some(preset) if !presets.contains(&preset) => Err(format!(
+            "the filter {name} has no preset \"{preset}\"; allowed: {}",
+            presets.join(", ")
+        )),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,146 @@
+//! Bounds: limits on the scores of a filter on a scene.
+
+mod file;
+mod known;
+mod length;
+mod size;
+mod sized;
+mod subframes;
+
+use metrics::Metric;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use tracer::Location;
+
+use suite::{Error, Frames};
+
+pub use file::{BoundsFile, FilterBounds, Margin, read_bounds_file};
+pub use known::{check_names, require_bounds};
+pub use length::{Length, check_lengths};
+pub use size::size_for_bounds;
+pub use sized::sized_bounds_file;
+pub use subframes::bound_subframes;
+
+/// Name of the file of bounds, beside the scenes and beside one scene. [`sized_bounds_file`] names those for one picture size.
+pub const BOUNDS_FILE: &str = "bounds.toml";
+
+/// Bounds by their scores.
+pub type Bounds = BTreeMap<Metric, Bound>;
+
+/// Limit on one score.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bound {
+    /// Highest value allowed; lowest if higher is better; largest distance from the ideal if that is a value.
+    pub limit: f64,
+    /// Columns and rows of the pictures that it holds for; none if it holds for all.
+    pub size: Option<(u32, u32)>,
+    /// Length of the sequence that it holds for; none for a score of a single frame.
+    pub length: Option<Length>,
+    /// Reason in one line: what was measured, and how the limit follows.
+    pub why: String,
+    /// Consequence of breaking it.
+    pub level: Level,
+    /// File and line.
+    pub place: String,
+}
+
+/// Consequence of breaking a bound.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Level {
+    /// The check fails.
+    #[default]
+    Required,
+    /// The report says so.
+    Report,
+}
+
+/// Bounds of one scene, for every filter.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneBounds {
+    /// Bounds of all scenes, then those of this one, which override them.
+    pub files: Vec<BoundsFile>,
+}
+
+impl SceneBounds {
+    /// Returns the bounds of a filter preset. A later bound overrides an earlier one of the same metric: first the file beside the
+    /// scenes, then the file beside the scene; in each the default, then the filter's, then its preset's.
+    pub fn of(&self, filter: &str, preset: &str) -> Bounds {
+        let own = format!("{filter}:{preset}");
+        let mut bounds = Bounds::new();
+        for file in &self.files {
+            let of_filter = [filter, &own].map(|name| file.filters.get(name));
+            let named = of_filter.into_iter().flatten().map(|table| &table.bounds);
+            for table in std::iter::once(&file.default).chain(named) {
+                bounds.extend(table.clone());
+            }
+        }
+        bounds
+    }
+
+    /// Removes limits that hold only for other picture sizes.
+    pub fn at(self, size: (u32, u32)) -> Self {
+        self.retain(|bound| bound.size.is_none_or(|own| own == size))
+    }
+
+    /// Removes limits on sequences of another length.
+    pub fn over(self, frames: Frames) -> Self {
+        self.retain(|bound| bound.length.is_none_or(|own| own.holds_for(frames)))
+    }
+
+    fn retain(mut self, is_kept: impl Fn(&Bound) -> bool) -> Self {
+        for file in &mut self.files {
+            let filters = file.filters.values_mut().map(|table| &mut table.bounds);
+            for bounds in std::iter::once(&mut file.default).chain(filters) {
+                bounds.retain(|_, bound| is_kept(bound));
+            }
+        }
+        self
+    }
+}
+
+/// Reads the bounds beside the scenes and beside the scene: `bounds.toml` if there is one, then, if a size is given, the file for
+/// pictures of that size, whose limits replace those of `bounds.toml` before it.
+pub fn read_bounds(
+    root: impl Into<Location>,
+    scene_folder: impl Into<Location>,
+    size: Option<(u32, u32)>,
+) -> Result<SceneBounds, Error> {
+    let root = root.into();
+    let mut files = read_folder(&root, size)?;
+    let beside_scene = read_folder(&scene_folder.into(), size)?;
+    if let Some(margin) = (beside_scene.iter()).find_map(|file| file.margins.values().next()) {
+        return Err(Error::Usage(format!(
+            "{}: a margin is for all scenes together; it belongs into {}",
+            margin.place,
+            root.join(BOUNDS_FILE)
+        )));
+    }
+    files.extend(beside_scene);
+    Ok(SceneBounds { files })
+}
+
+/// Reads the bounds beside the scenes alone, as [`read_bounds`] does.
+pub fn read_bounds_beside_scenes(
+    root: impl Into<Location>,
+    size: Option<(u32, u32)>,
+) -> Result<SceneBounds, Error> {
+    let files = read_folder(&root.into(), size)?;
+    Ok(SceneBounds { files })
+}
+
+/// Reads the files of bounds in one folder.
+fn read_folder(folder: &Location, size: Option<(u32, u32)>) -> Result<Vec<BoundsFile>, Error> {
+    let any = folder.join(BOUNDS_FILE);
+    let mut files = Vec::new();
+    if any.exists() {
+        files.push(read_bounds_file(&any)?);
+    }
+    if let Some(size) = size {
+        let sized = folder.join(sized_bounds_file(size));
+        if sized.exists() {
+            files.push(sized::read_sized_bounds(&sized, size)?);
+        }
+    }
+    Ok(files)
+}

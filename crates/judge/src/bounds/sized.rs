@@ -1,0 +1,100 @@
+//! Files of bounds that hold for one picture size, such as `bounds_1280x720.toml`.
+
+use suite::{Error, SIDES};
+use tracer::Location;
+
+use crate::bounds::{BOUNDS_FILE, BoundsFile, read_bounds_file};
+
+/// Names the file of bounds for pictures of `size`, columns and rows, beside the scenes or beside one scene.
+pub fn sized_bounds_file((width, height): (u32, u32)) -> String {
+    format!("bounds_{width}x{height}.toml")
+}
+
+/// Reads a file of bounds that hold for pictures of `size`: a limit need not name it, and may not name another.
+pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<BoundsFile, Error> {
+    let mut read = read_bounds_file(file)?;
+    if let Some(margin) = read.margins.values().next() {
+        return Err(Error::Usage(format!(
+            "{}: a margin is for pictures of every size; it belongs into {BOUNDS_FILE} beside the scenes",
+            margin.place
+        )));
+    }
+    let filters = read.filters.values_mut().map(|table| &mut table.bounds);
+    for bounds in std::iter::once(&mut read.default).chain(filters) {
+        for (metric, bound) in bounds {
+            let own = *bound.size.get_or_insert(size);
+            if own != size {
+                return Err(Error::Usage(format!(
+                    "{}: {metric}: size = [{}, {}] in a file for {}x{}; leave the size out, or move the limit to {}",
+                    bound.place,
+                    own.0,
+                    own.1,
+                    size.0,
+                    size.1,
+                    sized_bounds_file(own)
+                )));
+            }
+        }
+    }
+    Ok(read)
+}
+
+/// Reads all files of bounds in a folder, in the order of their names. Refuses a file that its name makes look like one of them, since
+/// nothing would read it.
+pub(super) fn read_all_bounds(folder: &Location) -> Result<Vec<BoundsFile>, Error> {
+    let mut files = Vec::new();
+    for file in folder.list().unwrap_or_default() {
+        let name = file.path.file_name().and_then(|name| name.to_str());
+        let Some(name) = name.filter(|name| name.starts_with("bounds") && name.ends_with(".toml"))
+        else {
+            continue;
+        };
+        let size = match name {
+            BOUNDS_FILE => None,
+            _ => Some(size_in_name(name).ok_or_else(|| {
+                Error::Usage(format!(
+                    "{file}: nothing reads a file of that name; allowed: {BOUNDS_FILE}, and bounds_COLUMNSxROWS.toml for pictures of \
+                     one size, with {} to {} columns and rows",
+                    SIDES.start(),
+                    SIDES.end()
+                ))
+            })?),
+        };
+        files.push(match size {
+            None => read_bounds_file(&file)?,
+            Some(size) => read_sized_bounds(&file, size)?,
+        });
+    }
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(files)
+}
+
+/// The size in the name of a file of bounds; none if the name is not as [`sized_bounds_file`] writes it.
+fn size_in_name(name: &str) -> Option<(u32, u32)> {
+    let (width, height) = (name.strip_prefix("bounds_")?)
+        .strip_suffix(".toml")?
+        .split_once('x')?;
+    let size = (width.parse().ok()?, height.parse().ok()?);
+    let allowed = [size.0, size.1].iter().all(|side| SIDES.contains(side));
+    (allowed && sized_bounds_file(size) == name).then_some(size)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_holds_a_size() {
+        assert_eq!(size_in_name("bounds_1280x720.toml"), Some((1280, 720)));
+        for other in [
+            "bounds_0x720.toml",
+            "bounds_01280x720.toml",
+            "bounds_1280.toml",
+            "bounds-1280x720.toml",
+            "bounds_1280x720x3.toml",
+            "bounds_1280x999999.toml",
+        ] {
+            assert_eq!(size_in_name(other), None, "{other}");
+        }
+    }
+}

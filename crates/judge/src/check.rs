@@ -1,0 +1,98 @@
+//! Check of a finished run: its findings and the decision that follows.
+
+use std::collections::HashSet;
+
+use serde::Serialize;
+use suite::{Case, Error, Failure, Run, refuse_failures};
+use tracer::SceneId;
+
+use crate::baseline::BaselineComparison;
+use crate::decision::Decision;
+use crate::{Finding, Outcome};
+
+/// Version of the layout of a check as JSON.
+pub const CHECK_FORMAT: u32 = 1;
+
+/// Results of a check.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Check {
+    /// [`CHECK_FORMAT`].
+    pub format: u32,
+    /// Program name and version.
+    pub program: String,
+    /// Decision that follows.
+    pub decision: Decision,
+    /// Cases that failed and have no scores.
+    pub failures: Vec<Failure>,
+    /// One per bounded score, in the order of the run.
+    pub findings: Vec<Finding>,
+    /// Comparisons with a baseline, one per filter and metric with a margin; empty without a baseline.
+    pub comparisons: Vec<BaselineComparison>,
+}
+
+/// Decides on a finished run by the findings about it and, if there is a baseline, the comparisons with it. Pure: reads nothing,
+/// prints nothing.
+pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<BaselineComparison>) -> Check {
+    let applies =
+        |finding: &Finding| !matches!(finding.outcome, Outcome::NotApplicable | Outcome::NotJudged);
+    let bounds = findings.iter().map(Finding::decision);
+    let baseline = comparisons.iter().map(BaselineComparison::decision);
+    let judged: HashSet<(&SceneId, &str)> = (findings.iter().filter(|finding| applies(finding)))
+        .map(|finding| (&finding.scene, finding.filter.as_str()))
+        .collect();
+    let is_judged = |case: &Case| judged.contains(&(&case.scene, case.name().as_str()));
+    let unchecked = comparisons.is_empty()
+        && (run.cases.iter()).any(|case| !case.is_reference && !is_judged(case));
+    let unchecked = unchecked.then_some(Decision::Misconfigured);
+    let failed = run.failures.iter().map(|_| Decision::Broken);
+    Check {
+        format: CHECK_FORMAT,
+        program: run.program.clone(),
+        decision: (bounds.chain(baseline).chain(failed).chain(unchecked))
+            .max()
+            .unwrap_or(Decision::Misconfigured),
+        failures: run.failures.clone(),
+        findings,
+        comparisons,
+    }
+}
+
+impl Check {
+    /// Counts the findings with this outcome.
+    pub fn count(&self, outcome: Outcome) -> usize {
+        (self.findings.iter())
+            .filter(|finding| finding.outcome == outcome)
+            .count()
+    }
+
+    /// Returns the error that ends the command with the decision's exit code; none if the check passes.
+    pub fn verdict(&self) -> Result<(), Error> {
+        let bounds = self.findings.iter().map(Finding::decision);
+        let all = bounds.chain(self.comparisons.iter().map(BaselineComparison::decision));
+        let count = all.filter(|found| *found == self.decision).count();
+        let counted = |one: &str, many: &str| match count {
+            1 => one.to_owned(),
+            count => format!("{count} {many}"),
+        };
+        match self.decision {
+            Decision::Pass => Ok(()),
+            Decision::Inconclusive => Err(Error::Inconclusive(format!(
+                "{} cannot be told from the truth's noise; raise the samples per pixel as said above",
+                counted("a required score", "required scores")
+            ))),
+            Decision::Broken if !self.failures.is_empty() => refuse_failures(&self.failures),
+            Decision::Broken => Err(Error::Broken(format!(
+                "{} broken",
+                counted("a required bound is", "required bounds are")
+            ))),
+            Decision::Misconfigured if count == 0 => Err(Error::Usage(
+                "a case has no bound that applies, and no check is no success; see above"
+                    .to_owned(),
+            )),
+            Decision::Misconfigured => Err(Error::Usage(format!(
+                "{} stricter than three noise floors; raise the limit, or the samples per pixel, as said above",
+                counted("a bound is", "bounds are")
+            ))),
+        }
+    }
+}

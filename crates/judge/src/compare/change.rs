@@ -1,0 +1,213 @@
+//! Change of one score of one case between two runs.
+
+use metrics::{Ideal, Measured, Metric};
+use serde::Serialize;
+use tracer::SceneId;
+
+use crate::compare::pairing::Pair;
+
+/// A score that both runs have.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Change {
+    /// Scene.
+    pub scene: SceneId,
+    /// `jump_flood:paper`; a bar with its alignment.
+    pub filter: String,
+    /// True for a bar, false for a filter.
+    pub bar: bool,
+    /// Score.
+    pub metric: Metric,
+    /// Score in the first run, in the metric's unit.
+    pub first: f64,
+    /// Score in the second run.
+    pub second: f64,
+    /// Amount by which the second is worse; negative is better.
+    pub worse: f64,
+    /// Both scores as estimated against a truth without noise; as measured without replicates.
+    pub estimates: [f64; 2],
+    /// Weight of the scene in a mean over scenes: 1, or for a skill the error that the one-frame oracle removes.
+    pub weight: f64,
+    /// 95 % confidence interval of `worse` against a truth without noise; none without replicates.
+    pub interval: Option<[f64; 2]>,
+    /// Standard error of `worse`; 0 if nothing changed, none without replicates.
+    pub standard_error: Option<f64>,
+    /// Measure of the noise.
+    pub basis: Basis,
+    /// Verdict.
+    pub kind: ChangeKind,
+}
+
+/// Measure of the noise that a change is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Basis {
+    /// The replicates of the truth, left out in pairs from both scores at once, so that noise in both cancels.
+    Replicates,
+    /// The larger noise floor of the two scores: replicates or pictures are missing.
+    Floor,
+}
+
+/// Kind of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ChangeKind {
+    /// Equal to the last bit.
+    Same,
+    /// No more than the truth's noise could make.
+    WithinNoise,
+    /// More than noise, and less than the margin.
+    BelowMargin,
+    /// The second is better.
+    Better,
+    /// The second is worse.
+    Worse,
+}
+
+impl ChangeKind {
+    /// Every kind, the worst first.
+    pub const ALL: [ChangeKind; 5] = [
+        ChangeKind::Worse,
+        ChangeKind::Better,
+        ChangeKind::BelowMargin,
+        ChangeKind::WithinNoise,
+        ChangeKind::Same,
+    ];
+
+    /// Returns the words for it in a report.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Same => "same",
+            Self::WithinNoise => "within noise",
+            Self::BelowMargin => "within margin",
+            Self::Better => "better",
+            Self::Worse => "worse",
+        }
+    }
+}
+
+/// Uncertainty of a difference, from the noise of the truth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uncertainty {
+    /// Ends of its 95 % confidence interval.
+    pub interval: [f64; 2],
+    /// Its standard error.
+    pub standard_error: f64,
+    /// Both scores as estimated against a truth without noise.
+    pub estimates: [f64; 2],
+}
+
+impl Change {
+    /// Compares a score of both cases; none if the metric does not apply to both.
+    pub fn new(
+        pair: &Pair,
+        metric: Metric,
+        weight: f64,
+        uncertainty: Option<Uncertainty>,
+    ) -> Option<Self> {
+        let (Measured::Score(first), Measured::Score(second)) = (
+            pair.first.scores.get(metric),
+            pair.second.scores.get(metric),
+        ) else {
+            return None;
+        };
+        let badness = |value: f64| metric.ideal().badness(value);
+        let worse = badness(second.value) - badness(first.value);
+        let floor = first.floor.max(second.floor);
+        let interval = uncertainty.map_or([worse - floor, worse + floor], |own| own.interval);
+        Some(Self {
+            scene: pair.first.scene.clone(),
+            filter: pair.first.filter_id().to_string(),
+            bar: pair.first.is_reference,
+            metric,
+            first: first.value,
+            second: second.value,
+            worse,
+            estimates: uncertainty.map_or([first.value, second.value], |own| own.estimates),
+            weight,
+            interval: uncertainty.map(|own| own.interval),
+            standard_error: match worse == 0.0 {
+                true => Some(0.0),
+                false => uncertainty.map(|own| own.standard_error),
+            },
+            basis: match uncertainty {
+                Some(_) => Basis::Replicates,
+                None => Basis::Floor,
+            },
+            kind: classify(worse, interval),
+        })
+    }
+
+    /// Estimates by how much the second is worse against a truth without noise.
+    pub fn estimate(&self) -> f64 {
+        let [first, second] = self
+            .estimates
+            .map(|value| self.metric.ideal().badness(value));
+        second - first
+    }
+
+    /// Returns true if the second is better or worse.
+    pub fn is_beyond_noise(&self) -> bool {
+        matches!(self.kind, ChangeKind::Better | ChangeKind::Worse)
+    }
+
+    /// Returns the change as a fraction of the larger score.
+    pub fn size(&self) -> f64 {
+        match self.first.abs().max(self.second.abs()) {
+            0.0 => 0.0,
+            larger => self.estimate().abs() / larger,
+        }
+    }
+}
+
+/// Turns a change for the worse into a change of the score: more of a score that ought to be high is better.
+pub fn score_change(metric: Metric, worse: f64) -> f64 {
+    match metric.ideal() {
+        Ideal::Highest => -worse,
+        _ => worse,
+    }
+}
+
+/// Ranks the cases that changed by more than noise by their largest relative change; returns scene and filter.
+pub fn rank_changes(changes: &[Change]) -> Vec<(&SceneId, &str)> {
+    let mut ranked: Vec<(f64, (&SceneId, &str))> = Vec::new();
+    for change in changes.iter().filter(|change| change.is_beyond_noise()) {
+        let key = (&change.scene, change.filter.as_str());
+        match ranked.iter_mut().find(|(_, own)| *own == key) {
+            Some((size, _)) => *size = size.max(change.size()),
+            None => ranked.push((change.size(), key)),
+        }
+    }
+    ranked.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    ranked.into_iter().map(|(_, key)| key).collect()
+}
+
+/// Classifies a difference by its interval.
+fn classify(worse: f64, [low, high]: [f64; 2]) -> ChangeKind {
+    if worse == 0.0 {
+        ChangeKind::Same
+    } else if low > 0.0 {
+        ChangeKind::Worse
+    } else if high < 0.0 {
+        ChangeKind::Better
+    } else {
+        ChangeKind::WithinNoise
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_is_what_its_interval_leaves_no_doubt_of() {
+        for (worse, interval, expected) in [
+            (0.0, [-0.1, 0.1], ChangeKind::Same),
+            (0.2, [0.1, 0.3], ChangeKind::Worse),
+            (-0.2, [-0.3, -0.1], ChangeKind::Better),
+            (0.2, [-0.1, 0.5], ChangeKind::WithinNoise),
+            (-0.2, [-0.4, 0.0], ChangeKind::WithinNoise),
+        ] {
+            assert_eq!(classify(worse, interval), expected, "{worse} {interval:?}");
+        }
+    }
+}

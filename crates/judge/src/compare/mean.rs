@@ -1,0 +1,214 @@
+//! Changes of means over all scenes between two runs.
+
+use std::cmp::Ordering;
+
+use metrics::Metric;
+use serde::Serialize;
+use suite::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
+
+use crate::compare::change::{Change, ChangeKind};
+
+/// Mean of one metric of one filter, over the scenes that it applies to in both runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeanChange {
+    /// `jump_flood:paper`, and behind that the frame rate of the scenes where that is none of their files: `jump_flood:paper 24fps`.
+    pub filter: String,
+    /// Score.
+    pub metric: Metric,
+    /// Number of scenes.
+    pub scenes: usize,
+    /// Numbers of scenes that are better, and worse, by more than noise.
+    pub better_worse: [usize; 2],
+    /// Mean of the first run's estimates, in the metric's unit; for a skill the ratio of means, as in run.json.
+    pub first: f64,
+    /// Mean of the second run's estimates.
+    pub second: f64,
+    /// Mean of the estimated changes for the worse; negative is better.
+    pub worse: f64,
+    /// 95 % confidence interval of `worse`, over scenes.
+    pub interval: [f64; 2],
+    /// Verdict.
+    pub kind: MeanKind,
+}
+
+/// Verdict on the change of a mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MeanKind {
+    /// No scene changed.
+    Same,
+    /// The second run is better.
+    Better,
+    /// The second run is worse.
+    Worse,
+    /// Told from 0, and smaller than matters.
+    BelowMargin,
+    /// The interval holds 0.
+    Undecided,
+    /// The scenes are fewer than an interval can be trusted for.
+    TooFewScenes,
+}
+
+impl MeanKind {
+    /// Returns the words for it in a report.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Same => "same",
+            Self::Better => "better",
+            Self::Worse => "worse",
+            Self::BelowMargin => "within margin",
+            Self::Undecided => "undecided",
+            Self::TooFewScenes => "few scenes",
+        }
+    }
+}
+
+/// Averages changes per filter, metric and frame rate, in the order of the changes; leaves out bars.
+pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
+    let mut keys: Vec<(String, Metric)> = Vec::new();
+    for change in changes.iter().filter(|change| !change.bar) {
+        let key = key(change);
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    let of_key = |own: (String, Metric)| {
+        let of_it = changes
+            .iter()
+            .filter(|change| !change.bar && key(change) == own);
+        MeanChange {
+            filter: own.0.clone(),
+            ..average(&of_it.collect::<Vec<_>>())
+        }
+    };
+    keys.into_iter().map(of_key).collect()
+}
+
+/// Names filter and frame rate of a change, and its metric.
+fn key(change: &Change) -> (String, Metric) {
+    let filter = match change.scene.rate {
+        Some(rate) => format!("{} {}", change.filter, rate.word()),
+        None => change.filter.clone(),
+    };
+    (filter, change.metric)
+}
+
+fn average(changes: &[&Change]) -> MeanChange {
+    let count = changes.len();
+    let mean = |value: fn(&Change) -> f64| {
+        let weighted = changes.iter().map(|change| Weighted {
+            value: value(change),
+            weight: change.weight,
+        });
+        scene_mean(&weighted.collect::<Vec<_>>(), TWO_SIDED)
+    };
+    let worse = mean(Change::estimate);
+    let of_kind = |kind| changes.iter().filter(|change| change.kind == kind).count();
+    let kind = match worse.side_of_zero() {
+        _ if of_kind(ChangeKind::Same) == count => MeanKind::Same,
+        _ if count < FEWEST_SCENES => MeanKind::TooFewScenes,
+        Some(Ordering::Greater) => MeanKind::Worse,
+        Some(Ordering::Less) => MeanKind::Better,
+        _ => MeanKind::Undecided,
+    };
+    MeanChange {
+        filter: changes[0].filter.clone(),
+        metric: changes[0].metric,
+        scenes: count,
+        better_worse: [of_kind(ChangeKind::Better), of_kind(ChangeKind::Worse)],
+        first: mean(|change| change.estimates[0]).mean,
+        second: mean(|change| change.estimates[1]).mean,
+        worse: worse.mean,
+        interval: worse.interval,
+        kind,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tracer::SceneId;
+
+    use super::*;
+    use crate::compare::change::Basis;
+
+    /// One filter on as many scenes as there are numbers, by which each is worse.
+    fn changes(worse: &[f64]) -> Vec<Change> {
+        let change = |(index, worse): (usize, &f64)| Change {
+            scene: SceneId::new(format!("scene_{index}"), None),
+            filter: "one:paper".to_owned(),
+            bar: false,
+            metric: Metric::FLIP,
+            first: 0.5,
+            second: 0.5 + worse,
+            worse: *worse,
+            estimates: [0.5, 0.5 + worse],
+            weight: 1.0,
+            interval: None,
+            standard_error: None,
+            basis: Basis::Floor,
+            kind: match *worse {
+                0.0 => ChangeKind::Same,
+                worse if worse > 0.0 => ChangeKind::Worse,
+                _ => ChangeKind::Better,
+            },
+        };
+        worse.iter().enumerate().map(change).collect()
+    }
+
+    #[test]
+    fn a_mean_is_worse_where_other_scenes_would_say_so_too() {
+        for (worse, expected) in [
+            (&[0.1, 0.2, 0.1, 0.2, 0.1][..], MeanKind::Worse),
+            (&[-0.1, -0.2, -0.1, -0.2, -0.1], MeanKind::Better),
+            (&[-0.3, 0.2, 0.1, -0.2, 0.1], MeanKind::Undecided),
+            (&[0.1, 0.2, 0.1, 0.2], MeanKind::TooFewScenes),
+            (&[0.0, 0.0], MeanKind::Same),
+        ] {
+            let means = average_changes(&changes(worse));
+            assert_eq!(means.len(), 1);
+            assert_eq!(means[0].kind, expected, "{worse:?}");
+            assert_eq!(means[0].scenes, worse.len());
+        }
+    }
+
+    #[test]
+    fn a_mean_of_skills_counts_scenes_by_what_is_to_be_gained_on_them() {
+        let mut all = changes(&[0.1, 0.4]);
+        all[0].weight = 3.0;
+        assert!((average_changes(&all)[0].worse - 0.175).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_mean_is_of_estimates() {
+        let mut all = changes(&[0.1, 0.3]);
+        for (change, estimate) in all.iter_mut().zip([0.2, 0.4]) {
+            change.interval = Some([estimate - 0.05, estimate + 0.05]);
+            change.estimates = [0.4, 0.4 + estimate];
+        }
+        let mean = &average_changes(&all)[0];
+        for (value, expected) in [(mean.first, 0.4), (mean.second, 0.7), (mean.worse, 0.3)] {
+            assert!((value - expected).abs() < 1e-12, "{mean:?}");
+        }
+    }
+
+    #[test]
+    fn frame_rates_have_means_of_their_own() {
+        let mut all = changes(&[0.1, 0.1, 0.3, 0.3]);
+        for change in &mut all[2..] {
+            change.scene.rate = tracer::FrameRate::in_word("24fps");
+        }
+        let means = average_changes(&all);
+        let found: Vec<(&str, usize)> = (means.iter())
+            .map(|mean| (mean.filter.as_str(), mean.scenes))
+            .collect();
+        assert_eq!(found, [("one:paper", 2), ("one:paper 24fps", 2)]);
+        assert!((means[1].worse - 0.3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn bars_have_no_means() {
+        let mut all = changes(&[0.1; 5]);
+        all[0].bar = true;
+        assert_eq!(average_changes(&all)[0].scenes, 4);
+    }
+}

@@ -1,0 +1,71 @@
+//! Comparison of two finished runs: what changed, by more than noise or not.
+
+mod change;
+mod margin;
+mod mean;
+mod noise;
+mod pairing;
+mod settings;
+mod side;
+mod sizes;
+
+use serde::Serialize;
+use tracer::Watch;
+
+use suite::{Error, PROGRAM};
+
+pub use change::{Basis, Change, ChangeKind, rank_changes, score_change};
+pub use mean::{MeanChange, MeanKind};
+pub use pairing::{Pair, pair_cases};
+pub use settings::SettingChange;
+pub use side::Side;
+pub use sizes::{
+    Agreement, FilterAtSizes, Reversal, SizeComparison, compare_sizes, compare_with_last,
+};
+
+use mean::average_changes;
+use noise::measure_changes;
+use pairing::{cases_missing_from, check_comparable};
+use settings::compare_settings;
+
+/// Version of the layout of a comparison as JSON.
+pub const COMPARE_FORMAT: u32 = 1;
+
+/// Differences between two runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RunComparison {
+    /// [`COMPARE_FORMAT`].
+    pub format: u32,
+    /// Program name and version.
+    pub program: &'static str,
+    /// Paths of the first run.json and of the second one.
+    pub runs: [String; 2],
+    /// Settings in which the runs differ.
+    pub settings: Vec<SettingChange>,
+    /// Cases of the first run that the second one lacks: `fan / jump_flood:paper`.
+    pub only_in_first: Vec<String>,
+    /// Cases of the second run that the first one lacks.
+    pub only_in_second: Vec<String>,
+    /// Mean over scenes per metric and per filter that both have, without bars.
+    pub means: Vec<MeanChange>,
+    /// Change per metric and per case that both have, in the order of the first run.
+    pub changes: Vec<Change>,
+}
+
+/// Compares two runs. Tells changes from noise by the truths' replicates and the pictures, if their files exist; writes nothing.
+/// `watch` hears of every pair of cases.
+pub fn compare_runs(first: &Side, second: &Side, watch: Watch) -> Result<RunComparison, Error> {
+    let pairs = pair_cases(&first.run, &second.run);
+    check_comparable(first, second, &pairs)?;
+    let changes = measure_changes([first, second], &pairs, watch)?;
+    Ok(RunComparison {
+        format: COMPARE_FORMAT,
+        program: PROGRAM,
+        runs: [first, second].map(|side| side.path.display().to_string()),
+        settings: compare_settings(&first.run, &second.run, &pairs),
+        only_in_first: cases_missing_from(&second.run, &first.run),
+        only_in_second: cases_missing_from(&first.run, &second.run),
+        means: average_changes(&changes),
+        changes,
+    })
+}

@@ -1,0 +1,208 @@
+//! Noise of a change between runs, by both pictures against the truth without each pair of its replicates.
+
+use std::path::{Path, PathBuf};
+
+use frame::{FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr};
+use metrics::{
+    ImageMetric, Interval, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores,
+    SkillMetric, jackknife,
+};
+use store::RenderFile;
+use suite::{Error, FEWEST_REPLICATES, SHARP, make_oracle, sharp_picture, truths_without_pairs};
+use tracer::{Progress, TraceError, Watch};
+
+use crate::compare::change::{Change, Uncertainty};
+use crate::compare::pairing::Pair;
+use crate::compare::side::Side;
+
+/// Metrics that are compared.
+const METRICS: [Metric; 9] = [
+    Metric::Image(ImageMetric::Flip, Region::Moving),
+    Metric::Skill(SkillMetric::Flip),
+    Metric::Image(ImageMetric::Psnr, Region::Moving),
+    Metric::Object(ObjectMetric::LateralGrowth),
+    Metric::Object(ObjectMetric::RowLoss),
+    Metric::Object(ObjectMetric::BleedLateral),
+    Metric::Object(ObjectMetric::BleedLeading),
+    Metric::Object(ObjectMetric::BleedTrailing),
+    Metric::Label(LabelMetric::Mean),
+];
+
+/// Measures the change of every score of every pair.
+pub fn measure_changes(
+    sides: [&Side; 2],
+    pairs: &[Pair],
+    watch: Watch,
+) -> Result<Vec<Change>, Error> {
+    let mut changes = Vec::new();
+    let mut shared: Option<(String, Option<TruthParts>)> = None;
+    for (done, pair) in pairs.iter().enumerate() {
+        let progress = Progress {
+            done: done as u64,
+            total: pairs.len() as u64,
+        };
+        if watch(progress).is_break() {
+            return Err(TraceError::Cancelled.into());
+        }
+        let differs = (METRICS.iter())
+            .any(|metric| pair.first.scores.get(*metric) != pair.second.scores.get(*metric));
+        let measured = match differs {
+            true => {
+                // Pairs of one truth follow one another.
+                if shared
+                    .as_ref()
+                    .is_none_or(|(hash, _)| *hash != pair.first.truth_hash)
+                {
+                    shared = Some((
+                        pair.first.truth_hash.clone(),
+                        TruthParts::read(sides, pair)?,
+                    ));
+                }
+                let parts = shared.as_ref().and_then(|(_, parts)| parts.as_ref());
+                parts
+                    .map(|parts| parts.compare(sides, pair))
+                    .transpose()?
+                    .flatten()
+            }
+            false => None,
+        };
+        changes.extend(METRICS.iter().filter_map(|metric| {
+            let uncertainty = measured.as_ref().and_then(|own| own.uncertainty(*metric));
+            let weight = pair.first.weight(*metric, &sides[0].run.cases)?;
+            Change::new(pair, *metric, weight, uncertainty)
+        }));
+    }
+    Ok(changes)
+}
+
+/// A truth as a whole and without each pair of its replicates, with the frame of its scene.
+struct TruthParts {
+    frame: Frame,
+    /// Sharp picture of the shutter's middle; none if its file is missing.
+    sharp: Option<Picture>,
+    /// Picture that the one-frame oracle makes of the frame.
+    oracle: Picture,
+    whole: Truth,
+    without: Vec<Truth>,
+}
+
+impl TruthParts {
+    /// Reads the parts from the first run that still has all files of the truth; none if neither has.
+    fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
+        for side in sides {
+            let folder = side.folder().join(pair.first.scene.folder());
+            if let Some(parts) = Self::read_below(&folder, pair, side.run.render.replicates)? {
+                return Ok(Some(parts));
+            }
+        }
+        Ok(None)
+    }
+
+    fn read_below(folder: &Path, pair: &Pair, count: u32) -> Result<Option<Self>, Error> {
+        let alignment = pair.first.alignment;
+        let path = |file: RenderFile| folder.join(file.path());
+        let truth = path(RenderFile::Truth(alignment));
+        let frame = path(RenderFile::Frame);
+        let replicates: Vec<PathBuf> = (0..count)
+            .map(|index| path(RenderFile::Replicate(alignment, index)))
+            .collect();
+        let there = [&truth, &frame]
+            .into_iter()
+            .chain(&replicates)
+            .all(|file| file.is_file());
+        if !there || count < FEWEST_REPLICATES {
+            return Ok(None);
+        }
+        let whole = Truth::read(&truth)?;
+        if whole.provenance.content_hash != pair.first.truth_hash {
+            return Ok(None);
+        }
+        let replicates: Vec<Replicate> =
+            (replicates.iter().map(|path| Replicate::read(path))).collect::<Result<_, _>>()?;
+        let frame = Frame::read(&frame)?;
+        let oracle = make_oracle(&frame, &whole);
+        let frame = frame.cropped();
+        let rung = path(RenderFile::Rung(alignment, SHARP));
+        let read = || Ok::<_, FileError>(Ladder::read_rung(&rung, SHARP)?.rungs.remove(0));
+        Ok(Some(Self {
+            sharp: sharp_picture(&frame, &whole, read).ok(),
+            oracle,
+            frame,
+            without: truths_without_pairs(&replicates)?,
+            whole,
+        }))
+    }
+
+    /// Scores both pictures; none if one is missing.
+    fn compare(&self, sides: [&Side; 2], pair: &Pair) -> Result<Option<PairedScores>, Error> {
+        let files = [
+            sides[0].file(pair.first, "output.exr"),
+            sides[1].file(pair.second, "output.exr"),
+        ];
+        if !files.iter().all(|file| file.is_file()) {
+            return Ok(None);
+        }
+        let [first, second] = files.map(|file| read_picture(&file, &self.whole.objects));
+        let (first, second) = (first?, second?);
+        let viewing = self.frame.display.into();
+        let scores = |truth: &Truth| -> Result<[Scores; 2], Error> {
+            let mut reference = Reference::new(&self.frame, truth, None, &viewing)?;
+            if let Some(sharp) = &self.sharp {
+                reference = reference.with_ends(sharp, &self.oracle)?;
+            }
+            Ok([
+                reference.measure(&first)?.scores,
+                reference.measure(&second)?.scores,
+            ])
+        };
+        Ok(Some(PairedScores {
+            whole: scores(&self.whole)?,
+            without: (self.without.iter().map(scores)).collect::<Result<_, Error>>()?,
+        }))
+    }
+}
+
+/// Reads the picture that a filter made.
+fn read_picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
+    let file = read_exr(path)?;
+    file.expect_finite()?;
+    let mattes = objects
+        .iter()
+        .map(|object| file.plane(&format!("coverage.{object}")));
+    Ok(Picture {
+        color: file.color("")?,
+        coverage: mattes.collect::<Result<_, _>>()?,
+    })
+}
+
+/// Both pictures' scores against the whole truth, and against it without each pair of replicates.
+struct PairedScores {
+    whole: [Scores; 2],
+    without: Vec<[Scores; 2]>,
+}
+
+impl PairedScores {
+    /// Returns the uncertainty of the score's change; none if a part of the truth cannot tell the score.
+    fn uncertainty(&self, metric: Metric) -> Option<Uncertainty> {
+        let score = |side: usize| move |scores: &[Scores; 2]| scores[side].get(metric).value();
+        let worse = |scores: &[Scores; 2]| {
+            let badness = |side| Some(metric.ideal().badness(score(side)(scores)?));
+            Some(badness(1)? - badness(0)?)
+        };
+        let change = self.interval(worse)?;
+        Some(Uncertainty {
+            interval: [change.low, change.high],
+            standard_error: change.standard_error,
+            estimates: [
+                self.interval(score(0))?.center,
+                self.interval(score(1))?.center,
+            ],
+        })
+    }
+
+    /// Estimates a value of both scores against a truth without noise.
+    fn interval(&self, value: impl Fn(&[Scores; 2]) -> Option<f64>) -> Option<Interval> {
+        let without: Option<Vec<f64>> = self.without.iter().map(&value).collect();
+        jackknife(value(&self.whole)?, &without?)
+    }
+}

@@ -1,0 +1,38 @@
+//! One of two runs that are compared.
+
+use std::path::{Path, PathBuf};
+
+use suite::{Case, Error, Run};
+
+/// A finished run and its path.
+#[derive(Clone, Debug)]
+pub struct Side {
+    /// Its run.json.
+    pub path: PathBuf,
+    /// The run.
+    pub run: Run,
+}
+
+impl Side {
+    /// Reads a run.json, or the one in a folder.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let path = match path.is_dir() {
+            true => path.join("run.json"),
+            false => path.to_owned(),
+        };
+        Ok(Self {
+            run: Run::read(&path)?,
+            path,
+        })
+    }
+
+    /// Returns the folder above the run's pictures.
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// Returns the path of a file of a case.
+    pub fn file(&self, case: &Case, name: &str) -> PathBuf {
+        self.folder().join(&case.folder).join(name)
+    }
+}

@@ -1,0 +1,315 @@
+//! Comparison of results at several picture sizes: does a small picture rank filters as a large one does?
+
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+
+use frame::Alignment;
+use metrics::Metric;
+use suite::{Error, Random, SceneMean, TWO_SIDED, plain_mean};
+use tracer::SceneId;
+
+use crate::results::Results;
+
+/// Number of resamples of the scenes.
+const RESAMPLES: usize = 2000;
+
+/// Filters of one shutter, by one score at several picture sizes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeComparison {
+    /// Shutter alignment of the filters.
+    pub alignment: Alignment,
+    /// Scenes that every mean is over.
+    pub scenes: Vec<SceneId>,
+    /// Columns and rows of each file of results.
+    pub sizes: Vec<(u32, u32)>,
+    /// Filters, the best at the largest size first.
+    pub filters: Vec<FilterAtSizes>,
+    /// Agreement of each size with the largest.
+    pub agreement: Vec<Agreement>,
+}
+
+/// A filter preset at every size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilterAtSizes {
+    /// `jump_flood:paper`
+    pub name: String,
+    /// Mean over the scenes and its 95 % CI, per size.
+    pub means: Vec<SceneMean>,
+    /// Rank by that mean, from 1, per size.
+    pub ranks: Vec<usize>,
+}
+
+/// Agreement of a size with the largest on the order of filters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Agreement {
+    /// Kendall's tau of the means: 1 for the same order, 0 for no relation, -1 for the opposite order.
+    pub tau: f64,
+    /// 95 % CI of tau, by resampling the scenes; none for a single scene.
+    pub interval: Option<[f64; 2]>,
+    /// Pairs of filters that both sizes order, and alike.
+    pub alike: usize,
+    /// Pairs that both sizes order, each the other way round.
+    pub reversed: Vec<Reversal>,
+    /// Pairs that this size orders, and the largest does not.
+    pub only_here: usize,
+    /// Pairs that the largest size orders, and this one does not.
+    pub only_at_largest: usize,
+}
+
+/// Two filters that a size orders, and the largest size orders the other way round.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reversal {
+    /// Filter that is better at the smaller size.
+    pub better_here: String,
+    /// Filter that is better at the largest size.
+    pub better_at_largest: String,
+    /// Mean difference, the second filter's score minus the first one's, at the smaller size and at the largest.
+    pub differences: [f64; 2],
+}
+
+/// Scores of every filter at one size: `[filter][scene]`, smaller is better.
+type Badness = Vec<Vec<f64>>;
+
+/// Compares results of the same filters and scenes at rising sizes by a score; one comparison per shutter alignment. A size orders two
+/// filters if the 95 % CI of their mean difference over scenes does not hold 0. That needs five scenes.
+///
+/// Scenes and filters that one of them lacks are an error.
+pub fn compare_sizes(results: &[Results], metric: Metric) -> Result<Vec<SizeComparison>, Error> {
+    let mut results: Vec<&Results> = results.iter().collect();
+    results.sort_by_key(|own| u64::from(own.size[0]) * u64::from(own.size[1]));
+    compare_with_last(&results, metric)
+}
+
+/// Compares results of the same filters and scenes as [`compare_sizes`] does, each with the last.
+pub fn compare_with_last(
+    results: &[&Results],
+    metric: Metric,
+) -> Result<Vec<SizeComparison>, Error> {
+    let Some(last) = results.last() else {
+        return Err(Error::Usage("no results to compare".to_owned()));
+    };
+    let alignments: BTreeSet<Alignment> = last.scores.iter().map(|own| own.alignment).collect();
+    (alignments.into_iter())
+        .map(|alignment| compare_group(results, alignment, metric))
+        .collect()
+}
+
+fn compare_group(
+    results: &[&Results],
+    alignment: Alignment,
+    metric: Metric,
+) -> Result<SizeComparison, Error> {
+    let last = results.last().expect("there are results");
+    let own = || (last.scores.iter()).filter(|own| own.alignment == alignment);
+    let names: BTreeSet<&str> = own().map(|own| own.name.as_str()).collect();
+    // A still scene orders no filters, and has no score where nothing moves.
+    let scenes: BTreeSet<&SceneId> = (own())
+        .filter(|own| own.score(metric).is_some())
+        .map(|own| &own.scene)
+        .collect();
+    let badness: Vec<Badness> = (results.iter())
+        .map(|results| {
+            (names.iter())
+                .map(|name| {
+                    (scenes.iter())
+                        .map(|scene| find(results, scene, name, metric))
+                        .collect()
+                })
+                .collect()
+        })
+        .collect::<Result<_, Error>>()?;
+    let at_largest = badness.last().expect("there are results");
+    let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+    let mut filters: Vec<FilterAtSizes> = (names.iter().enumerate())
+        .map(|(index, name)| FilterAtSizes {
+            name: name.clone(),
+            means: (badness.iter())
+                .map(|size| plain_mean(&size[index], TWO_SIDED))
+                .collect(),
+            ranks: badness.iter().map(|size| rank(size, index)).collect(),
+        })
+        .collect();
+    filters.sort_by_key(|filter| filter.ranks.last().copied());
+    Ok(SizeComparison {
+        alignment,
+        scenes: scenes.into_iter().cloned().collect(),
+        sizes: results.iter().map(|own| own.size.into()).collect(),
+        filters,
+        agreement: (badness.iter())
+            .map(|size| compare_order(&names, size, at_largest))
+            .collect(),
+    })
+}
+
+/// Finds how bad a filter is on a scene.
+fn find(results: &Results, scene: &SceneId, name: &str, metric: Metric) -> Result<f64, Error> {
+    let found = (results.scores.iter()).find(|own| own.scene == *scene && own.name == name);
+    let value = found.and_then(|own| own.score(metric));
+    value
+        .map(|value| metric.ideal().badness(value))
+        .ok_or_else(|| {
+            Error::Usage(format!(
+                "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
+                results.file_name(),
+                metric.name()
+            ))
+        })
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Ranks a filter by its mean, from 1.
+fn rank(size: &Badness, index: usize) -> usize {
+    let own = mean(&size[index]);
+    1 + size.iter().filter(|other| mean(other) < own).count()
+}
+
+fn compare_order(names: &[String], here: &Badness, largest: &Badness) -> Agreement {
+    let scenes = here.first().map_or(0, Vec::len);
+    let tau = |drawn: &[usize]| {
+        let means = |size: &Badness| -> Vec<f64> {
+            let mean_of_drawn = |values: &Vec<f64>| {
+                mean(&drawn.iter().map(|scene| values[*scene]).collect::<Vec<_>>())
+            };
+            size.iter().map(mean_of_drawn).collect()
+        };
+        kendalls_tau(&means(here), &means(largest))
+    };
+    let all: Vec<usize> = (0..scenes).collect();
+    let mut agreement = Agreement {
+        tau: tau(&all),
+        interval: (scenes > 1).then(|| bootstrap(scenes, &tau)),
+        ..Agreement::default()
+    };
+    for first in 0..names.len() {
+        for second in first + 1..names.len() {
+            let [own, others] = [here, largest].map(|size| difference(size, first, second));
+            match (own.side_of_zero(), others.side_of_zero()) {
+                (None, None) => {}
+                (Some(_), None) => agreement.only_here += 1,
+                (None, Some(_)) => agreement.only_at_largest += 1,
+                (Some(own), Some(others)) if own == others => agreement.alike += 1,
+                (Some(side), Some(_)) => {
+                    let (better, worse) = match side {
+                        Ordering::Greater => (first, second),
+                        _ => (second, first),
+                    };
+                    let sign = if better == first { 1.0 } else { -1.0 };
+                    agreement.reversed.push(Reversal {
+                        better_here: names[better].clone(),
+                        better_at_largest: names[worse].clone(),
+                        differences: [sign * own.mean, sign * others.mean],
+                    });
+                }
+            }
+        }
+    }
+    agreement
+}
+
+/// Computes the 95 % CI of a statistic of scenes by its percentiles over resamples (Efron 1979, "Bootstrap methods: another look at
+/// the jackknife").
+fn bootstrap(scenes: usize, statistic: &dyn Fn(&[usize]) -> f64) -> [f64; 2] {
+    let mut random = Random(1);
+    let mut found: Vec<f64> = (0..RESAMPLES)
+        .map(|_| {
+            let drawn: Vec<usize> = (0..scenes).map(|_| random.below(scenes)).collect();
+            statistic(&drawn)
+        })
+        .collect();
+    found.sort_by(f64::total_cmp);
+    [0.025, 0.975].map(|part| found[(part * (RESAMPLES - 1) as f64).round() as usize])
+}
+
+/// Averages what the second filter has more than the first, over scenes.
+fn difference(size: &Badness, first: usize, second: usize) -> SceneMean {
+    let pairs = size[second].iter().zip(&size[first]);
+    let differences: Vec<f64> = pairs.map(|(second, first)| second - first).collect();
+    plain_mean(&differences, TWO_SIDED)
+}
+
+/// Computes Kendall's tau-b of two lists of values for the same things (Kendall 1945, "The treatment of ties in ranking problems").
+/// 1 for lists that are constant, which say nothing against each other.
+fn kendalls_tau(a: &[f64], b: &[f64]) -> f64 {
+    let (mut agree, mut pairs_a, mut pairs_b) = (0.0, 0.0, 0.0);
+    for first in 0..a.len() {
+        for second in first + 1..a.len() {
+            let sign = |values: &[f64]| match values[first].total_cmp(&values[second]) {
+                Ordering::Less => -1.0,
+                Ordering::Equal => 0.0,
+                Ordering::Greater => 1.0f64,
+            };
+            agree += sign(a) * sign(b);
+            pairs_a += sign(a).abs();
+            pairs_b += sign(b).abs();
+        }
+    }
+    match pairs_a * pairs_b {
+        0.0 => 1.0,
+        pairs => agree / f64::sqrt(pairs),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(count: usize) -> Vec<String> {
+        (0..count).map(|index| format!("filter {index}")).collect()
+    }
+
+    #[test]
+    fn kendalls_tau_is_that_of_a_hand_count() {
+        // Of six pairs five agree and one does not.
+        assert!(
+            (kendalls_tau(&[1.0, 2.0, 3.0, 4.0], &[1.0, 3.0, 2.0, 4.0]) - 4.0 / 6.0).abs() < 1e-12
+        );
+        assert_eq!(kendalls_tau(&[1.0, 2.0, 3.0], &[3.0, 2.0, 1.0]), -1.0);
+        // One tie in the first list: two pairs of three are left there, and both agree.
+        let expected = 2.0 / (2.0f64 * 3.0).sqrt();
+        assert!((kendalls_tau(&[1.0, 1.0, 2.0], &[1.0, 2.0, 3.0]) - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_pair_is_reversed_only_if_both_sizes_order_it() {
+        let better = vec![0.10, 0.11, 0.12, 0.13, 0.14, 0.15];
+        let worse: Vec<f64> = better.iter().map(|value| value + 0.02).collect();
+        // Between the two on average, and too scattered to be told from either.
+        let noisy = vec![0.25, 0.02, 0.25, 0.02, 0.25, 0.02];
+        let here = vec![better.clone(), worse.clone(), noisy.clone()];
+        let largest = vec![worse, better, noisy];
+        let found = compare_order(&names(3), &here, &largest);
+        assert_eq!(
+            (found.alike, found.only_here, found.only_at_largest),
+            (0, 0, 0)
+        );
+        assert_eq!(found.reversed.len(), 1, "{found:?}");
+        let reversal = &found.reversed[0];
+        assert_eq!(reversal.better_here, "filter 0");
+        assert_eq!(reversal.better_at_largest, "filter 1");
+        assert!((reversal.differences[0] - 0.02).abs() < 1e-12);
+        assert!((reversal.differences[1] + 0.02).abs() < 1e-12);
+        assert_eq!(found.tau, -1.0);
+    }
+
+    #[test]
+    fn an_interval_holds_the_share_of_the_scenes_that_disagree() {
+        // Two filters; one scene of four turns them round by as much as the other three do not.
+        let here = vec![vec![0.1; 4], vec![0.2; 4]];
+        let largest = vec![vec![0.1, 0.1, 0.1, 0.4], vec![0.2, 0.2, 0.2, 0.1]];
+        let found = compare_order(&names(2), &here, &largest);
+        // The scene is drawn twice or more in a quarter of the resamples.
+        assert_eq!(found.interval, Some([-1.0, 1.0]), "{found:?}");
+    }
+
+    #[test]
+    fn a_size_agrees_with_itself() {
+        let size = vec![vec![0.1; 5], vec![0.2; 5], vec![0.3; 5]];
+        let found = compare_order(&names(3), &size, &size);
+        assert_eq!((found.tau, found.alike, found.reversed.len()), (1.0, 3, 0));
+        assert_eq!(found.interval, Some([1.0, 1.0]));
+        assert_eq!((rank(&size, 0), rank(&size, 2)), (1, 3));
+    }
+}

@@ -1,0 +1,118 @@
+//! Wrong blurs of a scene, made from its frame: the one that a picture resembles most is the first guess at its mistake.
+
+mod wrong;
+
+use frame::{Frame, Picture, Truth};
+use metrics::{Ideal, MeasureError, Metric, ObjectMetric, Reference, Scores};
+use serde::{Deserialize, Serialize};
+
+pub use wrong::{FEW_SUBFRAMES, make_wrong_pictures};
+
+/// Wrong blur that a picture resembles most.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Resemblance {
+    /// Name of the wrong blur.
+    pub decoy: String,
+    /// Distance between the scores and the wrong blur's, as a fraction of the distance between those and perfect: 0 is equal.
+    pub distance: f64,
+}
+
+/// Distance beyond which a picture resembles none.
+const FARTHEST: f64 = 0.5;
+
+/// Fewer scores than this show no resemblance.
+const FEWEST_SCORES: usize = 4;
+
+/// Scores that tell wrong blurs apart, by position, length, width and looks.
+const COMPARED: [Metric; 14] = [
+    Metric::FLIP,
+    Metric::LABEL,
+    Metric::Object(ObjectMetric::BleedLateral),
+    Metric::Object(ObjectMetric::BleedLeading),
+    Metric::Object(ObjectMetric::BleedTrailing),
+    Metric::GROWTH,
+    Metric::Object(ObjectMetric::RowGain),
+    Metric::LOSS,
+    Metric::Object(ObjectMetric::Misplacement),
+    Metric::Object(ObjectMetric::Centroid),
+    Metric::Object(ObjectMetric::Extent),
+    Metric::Object(ObjectMetric::Hole),
+    Metric::Object(ObjectMetric::Deficit),
+    Metric::Object(ObjectMetric::Energy),
+];
+
+/// Scores of wrong blurs of one scene against one truth.
+pub struct Decoys {
+    decoys: Vec<(String, Deviations)>,
+    /// Largest deviation of any wrong blur per score, the unit of its deviations.
+    scales: Vec<f64>,
+}
+
+/// Signed distances from perfect of the scores in [`COMPARED`]; none if a score does not apply.
+type Deviations = Vec<Option<f64>>;
+
+impl Decoys {
+    /// Makes wrong blurs from a frame without guard band and scores them. `few_subframes` is the mean of [`FEW_SUBFRAMES`], one of
+    /// them, where there is one.
+    pub fn new(
+        frame: &Frame,
+        truth: &Truth,
+        few_subframes: Option<Picture>,
+        reference: &Reference,
+    ) -> Result<Self, MeasureError> {
+        let mut decoys = Vec::new();
+        for (name, picture) in make_wrong_pictures(frame, truth, few_subframes) {
+            let scores = reference.measure(&picture)?.scores;
+            decoys.push((name, deviations(&scores)));
+        }
+        let scale = |score: usize| {
+            let sizes = decoys.iter().filter_map(|(_, found)| found[score]);
+            sizes.map(f64::abs).fold(0.0, f64::max)
+        };
+        Ok(Self {
+            scales: (0..COMPARED.len()).map(scale).collect(),
+            decoys,
+        })
+    }
+
+    /// Finds the wrong blur that these scores resemble most; none if they are far from all.
+    pub fn nearest(&self, scores: &Scores) -> Option<Resemblance> {
+        let found = deviations(scores);
+        let distances = self.decoys.iter().filter_map(|(name, decoy)| {
+            let distance = self.distance(&found, decoy)?;
+            (distance <= FARTHEST).then(|| Resemblance {
+                decoy: name.clone(),
+                distance,
+            })
+        });
+        distances.min_by(|a, b| a.distance.total_cmp(&b.distance))
+    }
+
+    /// Returns the distance over the scores that both have, as a fraction of the decoy's own distance from perfect; none if those
+    /// scores are too few, or the decoy is perfect in them.
+    fn distance(&self, found: &Deviations, decoy: &Deviations) -> Option<f64> {
+        let (mut apart, mut whole, mut count) = (0.0, 0.0, 0);
+        for ((found, decoy), scale) in found.iter().zip(decoy).zip(&self.scales) {
+            if let (Some(found), Some(decoy)) = (found, decoy)
+                && *scale > 0.0
+            {
+                apart += ((found - decoy) / scale).powi(2);
+                whole += (decoy / scale).powi(2);
+                count += 1;
+            }
+        }
+        (whole > 0.0 && count >= FEWEST_SCORES).then(|| (apart / whole).sqrt())
+    }
+}
+
+fn deviations(scores: &Scores) -> Deviations {
+    COMPARED
+        .map(|metric| {
+            let perfect = match metric.ideal() {
+                Ideal::Target(target) => target,
+                Ideal::Lowest | Ideal::Highest => 0.0,
+            };
+            scores.get(metric).value().map(|value| value - perfect)
+        })
+        .to_vec()
+}

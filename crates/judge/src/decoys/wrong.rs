@@ -1,0 +1,94 @@
+//! Pictures of wrong blurs.
+
+use frame::{Alignment, Frame, Picture, Plane, Raster, Truth};
+use suite::scatter_oracle;
+
+/// Number of sub-frames whose mean shows bands.
+pub const FEW_SUBFRAMES: u32 = 4;
+/// Pixels by which moving objects are widened.
+const WIDENED: u32 = 2;
+
+/// Makes wrong blurs of a frame without guard band, with their names. They smear as the scatter oracle does, the best that the
+/// frame allows, so that each has the one mistake that its name says. `few_subframes` is the mean of [`FEW_SUBFRAMES`], where there is
+/// one.
+pub fn make_wrong_pictures(
+    frame: &Frame,
+    truth: &Truth,
+    few_subframes: Option<Picture>,
+) -> Vec<(String, Picture)> {
+    let smear = |frame: &Frame, alignment: Alignment, length: f64| {
+        let shutter = (alignment.shutter(length * frame.exposure))
+            .expect("a part of an exposure is an exposure");
+        scatter_oracle(frame, shutter, &truth.shutter_profile)
+    };
+    let identity = frame.picture();
+    let own = truth.alignment;
+    let mut pictures = vec![
+        ("half_length".to_owned(), smear(frame, own, 0.5)),
+        ("half_as_long_again".to_owned(), smear(frame, own, 1.5)),
+        ("widened".to_owned(), smear(&widen(frame), own, 1.0)),
+        ("one_color".to_owned(), one_color(&identity)),
+        ("no_blur".to_owned(), identity),
+    ];
+    for other in Alignment::ALL {
+        if other != own {
+            pictures.push((format!("{other}_shutter"), smear(frame, other, 1.0)));
+        }
+    }
+    if let Some(mean) = few_subframes {
+        pictures.push((format!("mean_of_{FEW_SUBFRAMES}_sub_frames"), mean));
+    }
+    pictures
+}
+
+/// Widens everything that moves by some pixels on all sides.
+fn widen(frame: &Frame) -> Frame {
+    let (width, height) = frame.size();
+    let nearest = Raster::from_fn(width, height, |x, y| {
+        let around = |middle: u32, size: u32| {
+            middle.saturating_sub(WIDENED)..=(middle + WIDENED).min(size - 1)
+        };
+        let own = (y * width + x) as usize;
+        let candidates = around(y, height).flat_map(|v| around(x, width).map(move |u| (u, v)));
+        candidates
+            .map(|(u, v)| (v * width + u) as usize)
+            .filter(|at| frame.velocity.pixels[*at] != [0.0, 0.0])
+            .fold(own, |best, at| {
+                match frame.depth.pixels[at] < frame.depth.pixels[best] {
+                    true => at,
+                    false => best,
+                }
+            })
+    });
+    Frame {
+        color: nearest.map(|at| frame.color.pixels[*at]),
+        velocity: nearest.map(|at| frame.velocity.pixels[*at]),
+        depth: nearest.map(|at| frame.depth.pixels[*at]),
+        coverage: (frame.coverage.iter())
+            .map(|plane| nearest.map(|at| plane.pixels[*at]))
+            .collect(),
+        ..frame.clone()
+    }
+}
+
+/// Fills a picture with its mean.
+fn one_color(picture: &Picture) -> Picture {
+    let count = picture.color.pixels.len() as f64;
+    let color: [f32; 3] = std::array::from_fn(|c| {
+        let sum: f64 = (picture.color.pixels.iter()).map(|p| f64::from(p[c])).sum();
+        (sum / count) as f32
+    });
+    let average = |plane: &Plane| {
+        let sum: f64 = plane.pixels.iter().map(|value| f64::from(*value)).sum();
+        (sum / count) as f32
+    };
+    Picture {
+        color: picture.color.map(|_| color),
+        coverage: (picture.coverage.iter())
+            .map(|plane| {
+                let mean = average(plane);
+                plane.map(|_| mean)
+            })
+            .collect(),
+    }
+}

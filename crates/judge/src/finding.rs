@@ -1,0 +1,224 @@
+//! Finding about one bounded score.
+
+use std::path::PathBuf;
+
+use metrics::{Interval, Measured, Metric};
+use serde::{Deserialize, Serialize};
+use suite::{Case, Run, Sequence};
+use tracer::SceneId;
+
+use crate::bounds::Level;
+use crate::decision::Decision;
+use crate::decoys::Resemblance;
+use crate::judged_score::JudgedScore;
+use crate::outcome::{Outcome, limit_as_badness};
+use crate::worst::Worst;
+
+/// A score, its bound, and how they stand to each other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// Outcome of the bound.
+    #[serde(rename = "kind")]
+    pub outcome: Outcome,
+    /// Consequence of breaking the bound.
+    pub level: Level,
+    /// Scene.
+    pub scene: SceneId,
+    /// `filter:preset`, and the form of its input if that is not the usual one.
+    pub filter: String,
+    /// Metric of the score.
+    pub metric: Metric,
+    /// Its unit; empty for a pure number.
+    pub unit: String,
+    /// Score; none if the metric does not apply.
+    pub value: Option<f64>,
+    /// 95 % confidence interval of the score against a truth without noise; none if that cannot be told.
+    pub interval: Option<Interval>,
+    /// Limit of the bound.
+    pub limit: f64,
+    /// Noise floor of the score; none if the metric does not apply.
+    pub floor: Option<f64>,
+    /// Strictest limit that the floor can carry.
+    pub strictest: Option<f64>,
+    /// Frames of the sequence that the limit holds for; none for a score of a single frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frames: Option<u32>,
+    /// Frames per second that the limit holds for; none for a score that does not depend on them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fps: Option<f64>,
+    /// Frame of the sequence that is worst in the score, from 0; none for a score that no single frame has a share in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worst_frame: Option<u32>,
+    /// Reason for the limit.
+    pub why: String,
+    /// File and line of the bound.
+    pub place: String,
+    /// Reason why the metric does not apply.
+    pub reason: Option<String>,
+    /// Samples per pixel that would settle an inconclusive score.
+    pub settled_by: Option<u64>,
+    /// Sub-frames of an engine's truth; none where the truth was rendered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub subframes: Option<u32>,
+    /// Place of the largest error; none without evidence.
+    pub worst: Option<Worst>,
+    /// Wrong blur that the picture resembles most; none if it resembles none, or without evidence.
+    pub resembles: Option<Resemblance>,
+    /// Folder of the case's pictures, of a sequence those of its worst frame; relative to `run.json`.
+    pub pictures: PathBuf,
+}
+
+/// Estimates the samples per pixel that would settle the score: doubles the run's until the interval, whose width falls as the root
+/// of the samples, leaves the limit outside. Assumes that its middle stays.
+fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64 {
+    let middle = metric.ideal().badness((interval.low + interval.high) / 2.0);
+    let apart = (middle - limit_as_badness(metric.ideal(), limit)).abs();
+    let half_width = (interval.high - interval.low) / 2.0;
+    let more = (half_width / apart).powi(2);
+    let own = u64::from(run.render.samples_per_pixel);
+    let mut samples = own;
+    while (samples as f64) < more * own as f64 && samples < MOST_SAMPLES {
+        samples *= 2;
+    }
+    samples
+}
+
+/// Upper limit on the samples per pixel of a truth: a score that needs as many or more stays undecided.
+pub const MOST_SAMPLES: u64 = tracer::MOST_SAMPLES as u64;
+
+impl Finding {
+    /// Makes the finding about a judged score of a case, without evidence.
+    pub(super) fn new(run: &Run, case: &Case, judged: JudgedScore) -> Self {
+        let interval = case.intervals.get(&judged.metric).copied();
+        Self::with_interval(run, case, judged, interval)
+    }
+
+    /// Makes the finding about a judged score of the sequence that a case is the first frame of; none where it has no scores.
+    pub(super) fn of_sequence(
+        run: &Run,
+        case: &Case,
+        sequence: Option<&Sequence>,
+        judged: JudgedScore,
+    ) -> Self {
+        let metric = judged.metric;
+        let is_judged = |_: &&Sequence| judged.outcome != Outcome::NotJudged;
+        let sequence = sequence.filter(is_judged);
+        let interval = sequence.and_then(|own| own.intervals.get(&metric).copied());
+        let worst_frame = sequence.and_then(|own| own.worst_frames.get(&metric).copied());
+        let frames = sequence.into_iter().flat_map(|own| &own.frames);
+        let worst = frames.zip(0..).find(|(_, at)| Some(*at) == worst_frame);
+        let finding = Self::with_interval(run, case, judged, interval);
+        Self {
+            worst_frame,
+            pictures: worst.map_or(finding.pictures, |(frame, _)| frame.folder.clone()),
+            ..finding
+        }
+    }
+
+    fn with_interval(
+        run: &Run,
+        case: &Case,
+        judged: JudgedScore,
+        interval: Option<Interval>,
+    ) -> Self {
+        let JudgedScore {
+            metric,
+            bound,
+            measured,
+            outcome,
+        } = judged;
+        let (score, reason) = match measured {
+            Measured::Score(score) => (Some(score), None),
+            Measured::NotApplicable { reason } => (None, Some(reason)),
+        };
+        Self {
+            outcome,
+            level: bound.level,
+            scene: case.scene.clone(),
+            filter: case.name(),
+            metric,
+            unit: metric.unit().to_owned(),
+            value: score.map(|score| score.value),
+            interval,
+            limit: bound.limit,
+            floor: score.map(|score| score.floor),
+            strictest: score.map(|score| metric.strictest_bound(score.floor)),
+            frames: bound.length.map(|length| length.frames),
+            fps: bound.length.and_then(|length| length.per_second),
+            worst_frame: None,
+            why: bound.why,
+            place: bound.place,
+            reason,
+            settled_by: match (outcome, &interval) {
+                (Outcome::Inconclusive, Some(interval)) => {
+                    Some(samples_to_settle(run, metric, interval, bound.limit))
+                }
+                _ => None,
+            },
+            subframes: case.drawn.as_ref().map(|drawn| drawn.subframes),
+            worst: None,
+            resembles: None,
+            pictures: case.folder.clone(),
+        }
+    }
+
+    /// Returns true for a finding about a score of a sequence.
+    pub fn is_of_sequence(&self) -> bool {
+        self.frames.is_some()
+    }
+
+    /// Returns the decision that follows from this finding alone.
+    pub fn decision(&self) -> Decision {
+        match (self.outcome, self.level) {
+            (Outcome::TooNoisy, _) => Decision::Misconfigured,
+            (Outcome::Broken, Level::Required) => Decision::Broken,
+            (Outcome::Inconclusive, Level::Required) => Decision::Inconclusive,
+            _ => Decision::Pass,
+        }
+    }
+
+    /// Returns true for a finding about this case.
+    pub fn is_of(&self, case: &Case) -> bool {
+        self.scene == case.scene && self.filter == case.name()
+    }
+
+    /// Formats a score with its unit: `0.0921`, `1.31 px`.
+    pub fn with_unit(&self, value: f64) -> String {
+        match self.unit.as_str() {
+            "" => number(value),
+            unit => format!("{} {unit}", number(value)),
+        }
+    }
+}
+
+/// Formats a number with four significant digits, as people write it.
+pub fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let size = value.abs().log10().floor();
+    if (-4.0..6.0).contains(&size) {
+        format!("{value:.*}", (3.0 - size).max(0.0) as usize)
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits_that_count() {
+        for (value, text) in [
+            (0.0, "0"),
+            (0.05, "0.05000"),
+            (-12.3456, "-12.35"),
+            (123456.0, "123456"),
+            (0.000_123_456, "0.0001235"),
+            (1.5e-7, "1.500e-7"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+}

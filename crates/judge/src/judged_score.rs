@@ -1,0 +1,96 @@
+//! Scores of one picture or one sequence, each compared with its bound.
+
+use metrics::{Measured, Metric, Scores, SequenceMetric};
+use suite::{Frames, Intervals, Sequence};
+
+use crate::bounds::{Bound, Bounds};
+use crate::outcome::{Outcome, judge_score};
+
+/// Reason why a sequence has no score.
+const NO_SEQUENCE: &str = "a frame of the sequence has no scores";
+
+/// One bounded score and the outcome of its bound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JudgedScore {
+    /// Metric of the score.
+    pub metric: Metric,
+    /// Bound on the score.
+    pub bound: Bound,
+    /// Score.
+    pub measured: Measured,
+    /// Outcome of the bound.
+    pub outcome: Outcome,
+}
+
+/// Compares every bounded score of one picture with its limit: by its interval if `intervals` are given, by its value alone
+/// otherwise. Leaves limits on sequences alone.
+pub fn judge_scores(
+    scores: &Scores,
+    intervals: Option<&Intervals>,
+    bounds: &Bounds,
+) -> Vec<JudgedScore> {
+    let of_frames = (bounds.iter()).filter(|(metric, _)| !matches!(metric, Metric::Sequence(_)));
+    let judged = of_frames.map(|(metric, bound)| {
+        let measured = scores.get(*metric);
+        let interval = intervals.map(|intervals| intervals.get(metric));
+        JudgedScore {
+            metric: *metric,
+            bound: bound.clone(),
+            outcome: judge_score(*metric, &measured, interval, bound.limit),
+            measured,
+        }
+    });
+    judged.collect()
+}
+
+/// Compares every bounded score of one sequence with its limit, as [`judge_scores`] does those of a picture. `frames` are those of the
+/// run; limits on sequences of another length are not judged. `sequence` is none where a frame failed.
+pub fn judge_sequence(
+    sequence: Option<&Sequence>,
+    frames: Frames,
+    bounds: &Bounds,
+) -> Vec<JudgedScore> {
+    let measure = |metric: SequenceMetric| match sequence {
+        Some(own) => own.scores.get(metric).clone(),
+        None => Measured::not_applicable(NO_SEQUENCE),
+    };
+    // A run with intervals has some in every sequence.
+    let intervals = sequence.map(|own| &own.intervals);
+    let intervals = intervals.filter(|intervals| !intervals.is_empty());
+    let judged = bounds.iter().filter_map(|(metric, bound)| {
+        let Metric::Sequence(own) = *metric else {
+            return None;
+        };
+        let length = bound.length.expect("a limit on a sequence has a length");
+        let (measured, outcome) = match length.holds_for(frames) {
+            false => {
+                let reason = not_judged(length.text(), frames);
+                (Measured::not_applicable(reason), Outcome::NotJudged)
+            }
+            true => {
+                let measured = measure(own);
+                let interval = intervals.map(|intervals| intervals.get(metric));
+                let outcome = judge_score(*metric, &measured, interval, bound.limit);
+                (measured, outcome)
+            }
+        };
+        Some(JudgedScore {
+            metric: *metric,
+            bound: bound.clone(),
+            measured,
+            outcome,
+        })
+    });
+    judged.collect()
+}
+
+/// Says why a limit on a sequence was not judged.
+fn not_judged(length: String, frames: Frames) -> String {
+    match frames.count {
+        1 => format!("its limit holds for {length}, and single frames were measured"),
+        count => format!(
+            "its limit holds for {length}, and {count} at {} per second were measured",
+            frames.per_second
+        ),
+    }
+}

@@ -1,0 +1,104 @@
+//! Findings about a run, as a file beside it.
+
+use std::path::Path;
+
+use frame::{read_bounded, write_atomically};
+use serde::{Deserialize, Serialize};
+use store::{MOST_RUN_BYTES, read_text_within, to_lines};
+use suite::{Error, PROGRAM, Run, is_below};
+
+use crate::Finding;
+
+/// Version of the layout of `judgement.json`.
+pub const JUDGEMENT_FORMAT: u32 = 1;
+/// Name of the file, beside `run.json`.
+pub const JUDGEMENT_FILE: &str = "judgement.json";
+
+/// All findings about a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Judgement {
+    /// [`JUDGEMENT_FORMAT`].
+    pub format: u32,
+    /// Program name and version.
+    pub program: String,
+    /// Hash of the run's `run.json`.
+    pub run: String,
+    /// One per bounded score, in the order of the run's cases.
+    pub findings: Vec<Finding>,
+}
+
+impl Judgement {
+    /// Makes the judgement of the run in `folder`, whose `run.json` is written.
+    pub fn new(folder: &Path, findings: Vec<Finding>) -> Result<Self, Error> {
+        Ok(Self {
+            format: JUDGEMENT_FORMAT,
+            program: PROGRAM.to_owned(),
+            run: hash_of_run(folder)?,
+            findings,
+        })
+    }
+
+    /// Writes `judgement.json` into the folder of the run.
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        let json = to_lines(self) + "\n";
+        Ok(write_atomically(
+            &folder.join(JUDGEMENT_FILE),
+            json.as_bytes(),
+        )?)
+    }
+
+    /// Reads the judgement of `run`, whose `run.json` lies in `folder`; none if the run was never judged. Refuses a judgement of
+    /// another run, and one that names places or files elsewhere.
+    pub fn read(run: &Run, folder: &Path) -> Result<Option<Self>, Error> {
+        let path = folder.join(JUDGEMENT_FILE);
+        if !path.exists() {
+            return Ok(None);
+        }
+        let text = read_text_within(&path, MOST_RUN_BYTES)?;
+        let refuse = |reason: String| {
+            Err(Error::Usage(format!(
+                "{}: {reason}; judge the run again: shuttertruth check {}",
+                path.display(),
+                folder.join("run.json").display()
+            )))
+        };
+        let judgement: Self = match serde_json::from_str(&text) {
+            Ok(judgement) => judgement,
+            Err(error) => return refuse(format!("is no judgement: {error}")),
+        };
+        if judgement.format != JUDGEMENT_FORMAT {
+            let found = judgement.format;
+            return refuse(format!("has format {found}; allowed: {JUDGEMENT_FORMAT}"));
+        }
+        if judgement.run != hash_of_run(folder)? {
+            return refuse("is about another run.json".to_owned());
+        }
+        let broken =
+            (judgement.findings.iter()).find_map(|finding| check_finding(finding, run).err());
+        match broken {
+            Some(error) => refuse(error),
+            None => Ok(Some(judgement)),
+        }
+    }
+}
+
+/// Refuses a finding with a place outside of the run's pictures or folder.
+fn check_finding(finding: &Finding, run: &Run) -> Result<(), String> {
+    match &finding.worst {
+        Some(worst) if worst.x >= run.render.width || worst.y >= run.render.height => Err(format!(
+            "the worst place ({}, {}) lies outside of {}x{} pixels",
+            worst.x, worst.y, run.render.width, run.render.height
+        )),
+        Some(worst) if !is_below(&worst.picture) => Err(format!(
+            "picture \"{}\": it lies in a folder below run.json, and nowhere else",
+            worst.picture.display()
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn hash_of_run(folder: &Path) -> Result<String, Error> {
+    let path = folder.join("run.json");
+    let bytes = read_bounded(&path, MOST_RUN_BYTES)?;
+    Ok(blake3::hash(&bytes).to_hex().to_string())
+}

@@ -1,0 +1,84 @@
+//! Judgement of a finished run: each bounded score against its limit.
+
+mod baseline;
+mod bounds;
+mod calibrate;
+mod check;
+mod compare;
+mod decision;
+mod decoys;
+mod evidence;
+mod finding;
+mod judged_score;
+mod judgement;
+mod outcome;
+mod ranking;
+mod results;
+mod worst;
+
+use std::collections::BTreeMap;
+
+pub use baseline::{
+    Acceptance, BASELINE_FORMAT, Baseline, BaselineComparison, ComparisonKind, accept_scores,
+    compare_with_baseline,
+};
+pub use bounds::{
+    BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
+    bound_subframes, check_lengths, check_names, read_bounds, read_bounds_beside_scenes,
+    read_bounds_file, require_bounds, size_for_bounds, sized_bounds_file,
+};
+pub use calibrate::{Calibration, Proposal, Sample, calibrate, default_metrics};
+pub use check::{CHECK_FORMAT, Check, check};
+pub use compare::{
+    Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
+    Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
+    compare_sizes, compare_with_last, pair_cases, rank_changes, score_change,
+};
+pub use decision::Decision;
+pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
+pub use evidence::add_evidence;
+pub use finding::{Finding, MOST_SAMPLES, number};
+pub use judged_score::{JudgedScore, judge_scores, judge_sequence};
+pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
+pub use outcome::{Outcome, badness_within};
+pub use ranking::lag::{lag_text, mean_lag};
+pub use ranking::ranking::{
+    MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
+};
+pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
+pub use results::{RESULTS_FORMAT, ResultCost, ResultScores, Results};
+use suite::{Case, Run, Sequence};
+use tracer::SceneId;
+pub use worst::{BLOCK, CROP, Worst, worst_block};
+
+/// The bounds of a run's scenes.
+pub type RunBounds = BTreeMap<SceneId, SceneBounds>;
+
+/// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases, and
+/// behind those of a case the ones of its sequence.
+/// Bars have no bounds. Pure: reads nothing, writes nothing.
+pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
+    let filters = run.cases.iter().filter(|case| !case.is_reference);
+    filters
+        .flat_map(|case| {
+            let bounds = (bounds.get(&case.scene))
+                .map(|bounds| bounds.of(&case.filter, &case.preset))
+                .unwrap_or_default();
+            // A run with intervals has some in every case.
+            let intervals = (!case.intervals.is_empty()).then_some(&case.intervals);
+            let of_frame = judge_scores(&case.scores, intervals, &bounds)
+                .into_iter()
+                .map(|judged| Finding::new(run, case, judged));
+            let sequence = find_sequence(run, case);
+            let of_sequence = judge_sequence(sequence, run.frames, &bounds)
+                .into_iter()
+                .map(|judged| Finding::of_sequence(run, case, sequence, judged));
+            of_frame.chain(of_sequence).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// Finds the sequence that a case is the first frame of.
+pub(crate) fn find_sequence<'a>(run: &'a Run, case: &Case) -> Option<&'a Sequence> {
+    run.sequences.iter().find(|own| own.is_of(case))
+}

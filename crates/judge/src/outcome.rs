@@ -1,0 +1,129 @@
+//! Outcome of one bound.
+
+use metrics::{Ideal, Interval, Measured, Metric};
+use serde::{Deserialize, Serialize};
+
+/// Relation of a score to its bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// The whole interval of the score lies on the right side of the limit; without an interval, its value does.
+    Kept,
+    /// The whole interval lies on the wrong side.
+    Broken,
+    /// The interval holds the limit, or parts of the truth cannot tell the score.
+    Inconclusive,
+    /// The limit is stricter than the truth's noise can carry, which is three floors: neither kept nor broken.
+    TooNoisy,
+    /// The metric does not apply to this scene.
+    NotApplicable,
+    /// The limit is on a sequence of another length than the run's.
+    NotJudged,
+}
+
+impl Outcome {
+    /// Returns true for an outcome whose cause a person will want to see.
+    pub fn is_notable(self) -> bool {
+        match self {
+            Outcome::Broken | Outcome::Inconclusive | Outcome::TooNoisy => true,
+            Outcome::Kept | Outcome::NotApplicable | Outcome::NotJudged => false,
+        }
+    }
+}
+
+/// Compares a score with a limit: by its interval if `interval` is given, by its value otherwise. `Some(None)` is a score whose
+/// interval the truth cannot tell.
+pub fn judge_score(
+    metric: Metric,
+    measured: &Measured,
+    interval: Option<Option<&Interval>>,
+    limit: f64,
+) -> Outcome {
+    let Measured::Score(score) = measured else {
+        return Outcome::NotApplicable;
+    };
+    let ideal = metric.ideal();
+    let limit = limit_as_badness(ideal, limit);
+    if limit < limit_as_badness(ideal, metric.strictest_bound(score.floor)) {
+        return Outcome::TooNoisy;
+    }
+    let (best, worst) = match interval {
+        None => [ideal.badness(score.value); 2].into(),
+        Some(Some(interval)) => badness_within(ideal, interval),
+        Some(None) => return Outcome::Inconclusive,
+    };
+    if worst <= limit {
+        Outcome::Kept
+    } else if best > limit {
+        Outcome::Broken
+    } else {
+        Outcome::Inconclusive
+    }
+}
+
+/// Converts a limit to badness. A limit on a distance from an ideal is one already.
+pub(crate) fn limit_as_badness(ideal: Ideal, limit: f64) -> f64 {
+    match ideal {
+        Ideal::Highest => -limit,
+        Ideal::Lowest | Ideal::Target(_) => limit,
+    }
+}
+
+/// Returns the least and the largest badness within an interval.
+pub fn badness_within(ideal: Ideal, interval: &Interval) -> (f64, f64) {
+    let [low, high] = [interval.low, interval.high].map(|end| ideal.badness(end));
+    match ideal {
+        Ideal::Target(target) if (interval.low..=interval.high).contains(&target) => {
+            (0.0, low.max(high))
+        }
+        _ => (low.min(high), low.max(high)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use metrics::Score;
+
+    use super::*;
+
+    #[test]
+    fn the_whole_interval_decides_and_the_value_does_not() {
+        let measured = Measured::Score(Score {
+            value: 0.12,
+            floor: 0.01,
+        });
+        let judge = |low, high| {
+            let interval = Interval {
+                low,
+                high,
+                center: f64::midpoint(low, high),
+                standard_error: 0.01,
+            };
+            let metric = "flip_moving".parse().unwrap();
+            judge_score(metric, &measured, Some(Some(&interval)), 0.1)
+        };
+        // The value is above the limit each time: noise raises it.
+        assert_eq!(judge(0.08, 0.1), Outcome::Kept);
+        assert_eq!(judge(0.09, 0.11), Outcome::Inconclusive);
+        assert_eq!(judge(0.11, 0.13), Outcome::Broken);
+    }
+
+    #[test]
+    fn an_interval_is_as_bad_as_its_ends() {
+        let interval = Interval {
+            low: 0.75,
+            high: 1.5,
+            center: 1.1,
+            standard_error: 0.1,
+        };
+        for (ideal, expected) in [
+            (Ideal::Lowest, (0.75, 1.5)),
+            (Ideal::Highest, (-1.5, -0.75)),
+            (Ideal::Target(1.0), (0.0, 0.5)),
+            (Ideal::Target(2.0), (0.5, 1.25)),
+            (Ideal::Target(0.5), (0.25, 1.0)),
+        ] {
+            assert_eq!(badness_within(ideal, &interval), expected, "{ideal:?}");
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Ranking of the filters of sequences, with ties.
+
+use std::collections::HashMap;
+
+use metrics::{Measured, PERFECT_JOD, SequenceMetric};
+use suite::{Case, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
+use tracer::SceneId;
+
+use crate::ranking::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};
+use suite::FilterId;
+
+/// The score that sequences are ranked by: the one that counts errors of single frames and of their changes together. Scores of changes
+/// alone rank a filter high that flickers little around a wrong picture.
+pub const RANKED_BY: SequenceMetric = SequenceMetric::Jod;
+
+/// A filter preset in the ranking of sequences of its shutter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RankedSequence {
+    /// Rank by [`RANKED_BY`], and the mean of that score over the scenes; its worst scene is that of the lowest score.
+    pub ranked: RankedFilter,
+    /// Mean of every score over the scenes as tables show it; none where no scene has it.
+    pub means: Vec<(SequenceMetric, Option<SceneMean>)>,
+}
+
+/// Ranks the filters of a run's sequences, one group per shutter, with the full form of their input where the run tried others as well.
+/// Where the presets are too many for a summary, the best preset of each filter stands for the filter. A filter without the score that
+/// decides has no rank, and is left out.
+pub fn rank_sequences(run: &Run) -> Vec<Vec<RankedSequence>> {
+    let is_full = |case: &Case| case.input == InputFormat::default();
+    let own: Vec<(&Sequence, &Case)> = (list_filters(run).into_iter())
+        .filter(|(_, case)| is_full(case))
+        .collect();
+    let presets = rank(&own, false);
+    match presets.iter().map(Vec::len).sum() {
+        ..=MOST_RANKED => presets,
+        _ => rank(&own, true),
+    }
+}
+
+/// Ranks the sequences of one scene alone, every preset in every form of the input.
+pub fn rank_sequences_on(run: &Run, scene: &SceneId) -> Vec<Vec<RankedSequence>> {
+    let own: Vec<(&Sequence, &Case)> = (list_filters(run).into_iter())
+        .filter(|(sequence, _)| sequence.scene == *scene)
+        .collect();
+    rank(&own, false)
+}
+
+/// Lists the sequences of filters, each with the case of its first frame.
+fn list_filters(run: &Run) -> Vec<(&Sequence, &Case)> {
+    let filters = run.cases.iter().filter(|case| !case.is_reference);
+    let cases: HashMap<(&SceneId, FilterId), &Case> = filters
+        .map(|case| ((&case.scene, case.filter_id()), case))
+        .collect();
+    let sequences = run.sequences.iter().filter(|own| !own.is_reference);
+    let with_case =
+        sequences.filter_map(|own| Some((own, *cases.get(&(&own.scene, own.filter_id()))?)));
+    with_case.collect()
+}
+
+fn rank(own: &[(&Sequence, &Case)], best_presets: bool) -> Vec<Vec<RankedSequence>> {
+    let losses: Vec<RankedScore> = own.iter().filter_map(loss_of).collect();
+    let with_means = |lost: RankedFilter| {
+        let sequences: Vec<&Sequence> = (own.iter().map(|(sequence, _)| *sequence))
+            .filter(|own| own.filter == lost.name && own.alignment == lost.alignment)
+            .filter(|own| own.scene.rate == lost.rate)
+            .collect();
+        RankedSequence {
+            means: SequenceMetric::ALL
+                .map(|metric| (metric, mean(&sequences, metric)))
+                .to_vec(),
+            ranked: as_quality(lost),
+        }
+    };
+    (rank_by_score(&losses, best_presets).into_iter())
+        .map(|group| group.into_iter().map(with_means).collect())
+        .collect()
+}
+
+/// Computes the JOD that a sequence lacks to the perfect ones, and those that the truth cannot vouch for.
+fn loss_of((own, case): &(&Sequence, &Case)) -> Option<RankedScore> {
+    let Measured::Score(score) = own.scores.get(RANKED_BY) else {
+        return None;
+    };
+    Some(RankedScore {
+        scene: own.scene.clone(),
+        filter: case.filter.clone(),
+        name: own.filter.clone(),
+        alignment: own.alignment,
+        value: PERFECT_JOD - score.value,
+        floor: PERFECT_JOD - score.floor,
+    })
+}
+
+/// Turns lost JOD into those that are left.
+fn as_quality(lost: RankedFilter) -> RankedFilter {
+    let left = |lost: f64| PERFECT_JOD - lost;
+    RankedFilter {
+        mean: left(lost.mean),
+        interval: lost.interval.map(|[low, high]| [left(high), left(low)]),
+        worst: (lost.worst.0, left(lost.worst.1)),
+        ..lost
+    }
+}
+
+fn mean(sequences: &[&Sequence], metric: SequenceMetric) -> Option<SceneMean> {
+    let values: Vec<f64> = (sequences.iter())
+        .filter_map(|own| Some(metric.shown(own.scores.get(metric).value()?)))
+        .collect();
+    (!values.is_empty()).then(|| plain_mean(&values, TWO_SIDED))
+}

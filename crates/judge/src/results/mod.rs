@@ -1,0 +1,292 @@
+//! Results: the scores of runs in short, to be kept beside the code and compared.
+
+mod cost;
+
+use std::collections::{BTreeMap, HashSet};
+use std::path::Path;
+
+use frame::Alignment;
+use metrics::Metric;
+use serde::{Deserialize, Serialize};
+use store::{read_text, to_lines};
+use suite::{Case, Error, InputFormat, Run, refuse_failures};
+use tracer::{Family, SceneId};
+
+pub use self::cost::ResultCost;
+use crate::ranking::ranking::{RankedFilter, RankedScore, rank_by_score};
+
+/// Version of the layout of a file of results.
+pub const RESULTS_FORMAT: u32 = 2;
+
+/// Significant digits of a kept score.
+const DIGITS: usize = 5;
+
+/// The scores of all filters on some scenes, at one picture size.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Results {
+    /// [`RESULTS_FORMAT`].
+    pub format: u32,
+    /// Program name and version.
+    pub program: String,
+    /// Adapter that the kernels ran on; none where every filter is a command.
+    pub adapter: Option<String>,
+    /// Columns and rows.
+    pub size: [u32; 2],
+    /// Mean samples per pixel of the truths.
+    pub samples_per_pixel: u32,
+    /// Number of the sealed variants that the scenes were taken in; none for the scenes themselves.
+    pub seal: Option<u64>,
+    /// Costs of filter presets by name; empty where none was timed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub costs: BTreeMap<String, ResultCost>,
+    /// One per scene and filter preset.
+    pub scores: Vec<ResultScores>,
+}
+
+/// The scores of one filter preset on one scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultScores {
+    /// Name of the scene, without the seal.
+    pub scene: SceneId,
+    /// Family of the scene.
+    pub family: Option<Family>,
+    /// Name of the filter alone.
+    pub filter: String,
+    /// `jump_flood:paper`, followed by what is not as usual.
+    pub name: String,
+    /// Shutter alignment that it is scored against.
+    pub alignment: Alignment,
+    /// Noise floor of its FLIP.
+    pub floor: f64,
+    /// Scores of [`Metric::OF_MEANS`] by name, of five digits; those that do not apply are missing.
+    pub scores: BTreeMap<Metric, f64>,
+}
+
+impl Results {
+    /// Joins runs of different scenes with the same settings. References, forms of the input other than the full one, and scenes at
+    /// another frame rate than that of their files are left out.
+    ///
+    /// # Errors
+    /// There is no run, a case failed, two runs differ in size, samples, adapter or seal, or a case is there twice.
+    pub fn from_runs(runs: &[Run]) -> Result<Self, Error> {
+        let Some(first) = runs.first() else {
+            return Err(Error::Usage("no run to take results from".to_owned()));
+        };
+        let mut results = Self {
+            format: RESULTS_FORMAT,
+            program: first.program.clone(),
+            adapter: adapter_of(first),
+            size: [first.render.width, first.render.height],
+            samples_per_pixel: first.render.samples_per_pixel,
+            seal: first.cases.first().and_then(|case| case.scene.seal),
+            costs: BTreeMap::new(),
+            scores: Vec::new(),
+        };
+        let mut known = HashSet::new();
+        for run in runs {
+            refuse_failures(&run.failures)?;
+            for case in &run.cases {
+                results.refuse_other(run, case)?;
+                let is_plain = case.input == InputFormat::default() && case.rate.is_none();
+                if case.is_reference || !is_plain {
+                    continue;
+                }
+                if !known.insert(&case.id) {
+                    return Err(Error::Usage(format!(
+                        "{} is in two runs; allowed: each case once",
+                        case.id
+                    )));
+                }
+                results.scores.push(ResultScores::of(case));
+            }
+        }
+        Ok(results)
+    }
+
+    /// Refuses a case of another run than those before it.
+    fn refuse_other(&self, run: &Run, case: &Case) -> Result<(), Error> {
+        let texts = |size: [u32; 2], samples: u32, adapter: &Option<String>, seal: Option<u64>| {
+            let adapter = adapter.as_deref().unwrap_or("none");
+            let seal = seal.map_or("none".to_owned(), |seed| seed.to_string());
+            [
+                ("pictures", format!("{}x{}", size[0], size[1])),
+                ("samples per pixel", samples.to_string()),
+                ("adapter", adapter.to_owned()),
+                ("seal", seal),
+            ]
+        };
+        let render = &run.render;
+        let seal = case.scene.seal;
+        let size = [render.width, render.height];
+        let own = texts(size, render.samples_per_pixel, &adapter_of(run), seal);
+        let first = texts(self.size, self.samples_per_pixel, &self.adapter, self.seal);
+        for ((what, own), (_, first)) in own.iter().zip(&first) {
+            if own != first {
+                return Err(Error::Usage(format!(
+                    "{}: {what}: {own}, and the first run has {first}; allowed: runs that differ in their scenes and filters alone",
+                    case.scene
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts newer scores into these: those of a case that is here already take its place, others join their scene.
+    ///
+    /// # Errors
+    /// The newer results are of another size, adapter or seal, or of truths with other samples.
+    pub fn update(&mut self, newer: Self) -> Result<(), Error> {
+        let settings = |own: &Self| (own.file_name(), own.samples_per_pixel);
+        let [(own, samples), (other, others)] = [settings(self), settings(&newer)];
+        if (&own, samples) != (&other, others) {
+            return Err(Error::Usage(format!(
+                "{other} with {others} samples per pixel cannot go into {own} with {samples}; measure with the same settings, or \
+                 all filters anew"
+            )));
+        }
+        self.program = newer.program;
+        self.adapter = newer.adapter;
+        self.costs.extend(newer.costs);
+        for score in newer.scores {
+            let is_same = |own: &ResultScores| own.scene == score.scene && own.name == score.name;
+            if let Some(own) = self.scores.iter_mut().find(|own| is_same(own)) {
+                *own = score;
+                continue;
+            }
+            let last = (self.scores.iter()).rposition(|own| own.scene == score.scene);
+            let place = last.map_or(self.scores.len(), |last| last + 1);
+            self.scores.insert(place, score);
+        }
+        Ok(())
+    }
+
+    /// Reads a file of results.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
+        let results: Self = serde_json::from_str(&read_text(path)?)
+            .map_err(|error| refuse(format!("no results of this program: {error}")))?;
+        match results.format {
+            RESULTS_FORMAT => Ok(results),
+            other => Err(refuse(format!(
+                "has format {other}; allowed: {RESULTS_FORMAT}"
+            ))),
+        }
+    }
+
+    /// Reads every file of results in a folder, in the order of their names.
+    pub fn read_all(folder: &Path) -> Result<Vec<Self>, Error> {
+        let refuse = |error: std::io::Error| Error::Usage(format!("{}: {error}", folder.display()));
+        let mut files = Vec::new();
+        for entry in std::fs::read_dir(folder).map_err(refuse)? {
+            let path = entry.map_err(refuse)?.path();
+            if path
+                .extension()
+                .is_some_and(|extension| extension == "json")
+            {
+                files.push(path);
+            }
+        }
+        files.sort();
+        files.iter().map(|path| Self::read(path)).collect()
+    }
+
+    /// Formats a file of results: a line per case, so that a change of one is a change of one line.
+    pub fn text(&self) -> String {
+        to_lines(self) + "\n"
+    }
+
+    /// Names the file: `320x180_llvmpipe.json`, or `320x180_llvmpipe_seal1.json`.
+    pub fn file_name(&self) -> String {
+        let adapter = self.adapter.as_deref().unwrap_or("none");
+        let word = adapter.split_whitespace().next().unwrap_or("none");
+        let word: String = word
+            .chars()
+            .filter(|letter| letter.is_ascii_alphanumeric())
+            .collect();
+        let seal = self
+            .seal
+            .map_or(String::new(), |seed| format!("_seal{seed}"));
+        let [width, height] = self.size;
+        format!("{width}x{height}_{}{seal}.json", word.to_lowercase())
+    }
+
+    /// Lists the scenes in their order.
+    pub fn scenes(&self) -> Vec<&SceneId> {
+        let mut scenes = Vec::new();
+        for own in &self.scores {
+            if !scenes.contains(&&own.scene) {
+                scenes.push(&own.scene);
+            }
+        }
+        scenes
+    }
+
+    /// Finds the worst score by FLIP of the best preset of a filter, among the scenes where one frame knows enough for a gain: those
+    /// with a skill. Without any of them it is the worst of all; none where no FLIP is known.
+    pub fn worst_of(&self, filter: &str) -> Option<&ResultScores> {
+        let mut ranked = self.ranking(None).into_iter().flatten();
+        let best = ranked.find(|own| own.filter == filter)?;
+        let error = |own: &&ResultScores| {
+            Some((own.score(Metric::SKILL).is_some(), own.score(Metric::FLIP)?))
+        };
+        (self.scores.iter())
+            .filter(|own| own.name == best.name && error(own).is_some())
+            .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
+    }
+
+    /// Ranks the filter presets of each shutter by FLIP, over the scenes of one family or over all.
+    pub fn ranking(&self, family: Option<Family>) -> Vec<Vec<RankedFilter>> {
+        let of_family = |own: &&ResultScores| family.is_none() || own.family == family;
+        let scores: Vec<RankedScore> = (self.scores.iter().filter(of_family))
+            .filter_map(ResultScores::flip)
+            .collect();
+        rank_by_score(&scores, false)
+    }
+}
+
+impl ResultScores {
+    fn of(case: &Case) -> Self {
+        let scores = (Metric::OF_MEANS.into_iter())
+            .filter_map(|metric| Some((metric, rounded(case.estimate(metric)?))));
+        Self {
+            scene: SceneId {
+                seal: None,
+                ..case.scene.clone()
+            },
+            family: case.family,
+            filter: case.filter.clone(),
+            name: case.name(),
+            alignment: case.alignment,
+            floor: case.floor(Metric::FLIP).map_or(0.0, rounded),
+            scores: scores.collect(),
+        }
+    }
+
+    /// A score; none if it does not apply.
+    pub fn score(&self, metric: Metric) -> Option<f64> {
+        self.scores.get(&metric).copied()
+    }
+
+    fn flip(&self) -> Option<RankedScore> {
+        Some(RankedScore {
+            scene: self.scene.clone(),
+            filter: self.filter.clone(),
+            name: self.name.clone(),
+            alignment: self.alignment,
+            value: self.score(Metric::FLIP)?,
+            floor: self.floor,
+        })
+    }
+}
+
+fn adapter_of(run: &Run) -> Option<String> {
+    run.adapter.as_ref().map(|adapter| adapter.name.clone())
+}
+
+/// Rounds to [`DIGITS`] significant digits.
+fn rounded(value: f64) -> f64 {
+    let text = format!("{value:.*e}", DIGITS - 1);
+    text.parse().expect("a number as text is a number")
+}

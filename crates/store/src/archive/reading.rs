@@ -1,0 +1,221 @@
+//! Reading of packs, whoever wrote them.
+
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use frame::{FileError, write_atomically};
+use tar::{Archive, Entry, EntryType};
+
+use super::manifest::{MANIFEST, MOST_MANIFEST_BYTES, Manifest, PackedFile};
+use crate::Error;
+
+/// Upper limit on the zeros that end an archive, in bytes: a block of GNU tar.
+const MOST_PADDING: u64 = 10_240;
+
+type Unpacked = zstd::Decoder<'static, BufReader<File>>;
+
+/// A pack whose manifest was read and checked. Its files were not.
+#[derive(Clone, Debug)]
+pub struct Pack {
+    /// The archive.
+    pub path: PathBuf,
+    /// What it says that it holds.
+    pub manifest: Manifest,
+}
+
+impl Pack {
+    /// Reads the manifest of a pack.
+    ///
+    /// # Errors
+    /// The file is no pack of this version.
+    pub fn open(path: &Path) -> Result<Self, Error> {
+        let mut archive = open_archive(path)?;
+        let mut entries = list_entries(&mut archive, path)?;
+        let bytes = read_manifest(&mut entries, path)?;
+        let size = std::fs::metadata(path).map_err(|source| FileError::io(path, "read", source))?;
+        Ok(Self {
+            path: path.to_owned(),
+            manifest: Manifest::parse(&bytes, size.len()).map_err(|error| refuse(path, &error))?,
+        })
+    }
+
+    /// Reads all of the archive, and hands each file with its bytes to `visit`, in the order of the manifest.
+    ///
+    /// # Errors
+    /// The archive holds anything else than the files of its manifest, byte for byte; or `visit` fails.
+    fn visit(
+        &self,
+        mut visit: impl FnMut(&PackedFile, &[u8]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let path = &self.path;
+        let mut archive = open_archive(path)?;
+        {
+            let mut entries = list_entries(&mut archive, path)?;
+            read_manifest(&mut entries, path)?;
+            for file in &self.manifest.files {
+                let Some(entry) = entries.next() else {
+                    return Err(refuse(path, &format!("ends before {}", file.path)));
+                };
+                let entry = entry.map_err(|error| broken(path, &error))?;
+                visit(file, &read_entry(entry, file, path)?)?;
+            }
+            if let Some(entry) = entries.next() {
+                let entry = entry.map_err(|error| broken(path, &error))?;
+                let name = name_of(&entry);
+                return Err(refuse(
+                    path,
+                    &format!("holds {name}, which its {MANIFEST} does not name"),
+                ));
+            }
+        }
+        // Reading to the end finds an archive that was cut off behind its last file.
+        let mut rest = Vec::new();
+        (archive
+            .into_inner()
+            .take(MOST_PADDING + 1)
+            .read_to_end(&mut rest))
+        .map_err(|error| broken(path, &error))?;
+        match rest.len() as u64 <= MOST_PADDING && rest.iter().all(|byte| *byte == 0) {
+            true => Ok(()),
+            false => Err(refuse(path, "goes on behind its last file")),
+        }
+    }
+
+    /// Reads all of the archive and compares it with the manifest; writes nothing.
+    ///
+    /// # Errors
+    /// The archive holds anything else than the files of its manifest, byte for byte.
+    pub fn check(&self) -> Result<(), Error> {
+        self.visit(|_, _| Ok(()))
+    }
+
+    /// Writes those files that `is_wanted` below a folder, in place of what lies there. Call [`Pack::check`] first, so that nothing is
+    /// written from an archive that is not what it says.
+    ///
+    /// # Errors
+    /// As [`Pack::check`], or a file cannot be written.
+    pub fn unpack(
+        &self,
+        folder: &Path,
+        is_wanted: impl Fn(&PackedFile) -> bool,
+    ) -> Result<(), Error> {
+        self.visit(|file, bytes| {
+            if is_wanted(file) {
+                write_atomically(&folder.join(&file.path), bytes)?;
+            }
+            Ok(())
+        })
+    }
+}
+
+fn open_archive(path: &Path) -> Result<Archive<Unpacked>, Error> {
+    let io = |source| FileError::io(path, "read", source);
+    // A device or a FIFO would block.
+    if !std::fs::metadata(path).map_err(io)?.is_file() {
+        return Err(refuse(path, "is no regular file"));
+    }
+    let file = File::open(path).map_err(io)?;
+    Ok(Archive::new(zstd::Decoder::new(file).map_err(io)?))
+}
+
+/// Lists the entries as they stand: names that extend over entries of their own are refused as these.
+fn list_entries<'a>(
+    archive: &'a mut Archive<Unpacked>,
+    path: &Path,
+) -> Result<impl Iterator<Item = std::io::Result<Entry<'a, Unpacked>>>, Error> {
+    let entries = archive.entries().map_err(|error| broken(path, &error))?;
+    Ok(entries.raw(true))
+}
+
+fn read_manifest<'a>(
+    entries: &mut impl Iterator<Item = std::io::Result<Entry<'a, Unpacked>>>,
+    path: &Path,
+) -> Result<Vec<u8>, Error> {
+    let entry = entries.next().transpose();
+    let entry = entry.map_err(|error| broken(path, &error))?;
+    let Some(mut entry) = entry.filter(|entry| {
+        entry.header().entry_type() == EntryType::Regular
+            && *entry.path_bytes() == *MANIFEST.as_bytes()
+    }) else {
+        return Err(refuse(path, &format!("does not begin with {MANIFEST}")));
+    };
+    let bytes =
+        read_at_most(&mut entry, MOST_MANIFEST_BYTES).map_err(|error| broken(path, &error))?;
+    match bytes.len() as u64 <= MOST_MANIFEST_BYTES {
+        true => Ok(bytes),
+        false => Err(refuse(
+            path,
+            &format!("has a {MANIFEST} of more than {MOST_MANIFEST_BYTES} bytes"),
+        )),
+    }
+}
+
+/// Reads an entry that must be a file of the manifest.
+fn read_entry(
+    mut entry: Entry<Unpacked>,
+    file: &PackedFile,
+    path: &Path,
+) -> Result<Vec<u8>, Error> {
+    let name = name_of(&entry);
+    if *entry.path_bytes() != *file.path.as_bytes() {
+        let reason = format!("holds {name} where its {MANIFEST} names {}", file.path);
+        return Err(refuse(path, &reason));
+    }
+    let kind = entry.header().entry_type();
+    if kind != EntryType::Regular {
+        let kind = if kind.is_symlink() || kind.is_hard_link() {
+            "a link"
+        } else {
+            "no regular file"
+        };
+        return Err(refuse(
+            path,
+            &format!("holds {name} as {kind}; allowed: regular files"),
+        ));
+    }
+    let bytes = read_at_most(&mut entry, file.bytes).map_err(|error| broken(path, &error))?;
+    let found = bytes.len() as u64;
+    if found != file.bytes || entry.size() != file.bytes {
+        let found = found.max(entry.size());
+        let reason = format!(
+            "holds {found} bytes of {name}, and its {MANIFEST} says {}",
+            file.bytes
+        );
+        return Err(refuse(path, &reason));
+    }
+    match blake3::hash(&bytes).to_hex().as_str() == file.blake3 {
+        true => Ok(bytes),
+        false => Err(refuse(
+            path,
+            &format!(
+                "holds {name} with other bytes than its {MANIFEST} says: their BLAKE3 hashes differ"
+            ),
+        )),
+    }
+}
+
+/// Reads an entry up to one byte beyond a limit. Memory grows with what is there, not with what a header says.
+fn read_at_most(entry: &mut Entry<Unpacked>, limit: u64) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    entry.take(limit + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn name_of(entry: &Entry<Unpacked>) -> String {
+    String::from_utf8_lossy(&entry.path_bytes()).into_owned()
+}
+
+fn broken(path: &Path, error: &std::io::Error) -> Error {
+    refuse(
+        path,
+        &format!("cannot be unpacked, and may be cut off: {error}"),
+    )
+}
+
+fn refuse(path: &Path, reason: &str) -> Error {
+    Error::Refused(format!(
+        "{}: {reason}; allowed: a pack as `shuttertruth truths pack` writes it; make or fetch it again",
+        path.display()
+    ))
+}

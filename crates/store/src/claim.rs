@@ -1,0 +1,116 @@
+//! Claim of a process on the output folder that it writes to.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::ErrorKind;
+use std::path::Path;
+
+use frame::{FileError, remove_leftovers};
+use tracer::Scene;
+
+use crate::Error;
+use crate::folder::{refuse_long_names, refuse_scene, scene_folder};
+
+/// Name of the empty file that is locked; it stays in a folder that was claimed once.
+const LOCK_FILE: &str = ".shuttertruth.lock";
+
+/// Other processes that may write to a folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sharing {
+    /// None: run.json, a journal or cases are written.
+    Alone,
+    /// Those that render frames and truths, each of which is whole and known by its content.
+    Together,
+}
+
+/// A claim on a folder. The system takes it back when the process ends, however it ends.
+#[derive(Debug)]
+#[must_use]
+pub struct Claim {
+    _lock: Option<File>,
+}
+
+/// Claims `out`, and makes it if it does not exist. Refuses a folder that holds one of the scenes, one that another
+/// process has claimed, and scenes whose names no folder can have. A process that is alone removes what killed ones left half written.
+pub fn claim<'a>(
+    out: &Path,
+    scenes: impl IntoIterator<Item = &'a Scene>,
+    sharing: Sharing,
+) -> Result<Claim, Error> {
+    let folders = (scenes.into_iter())
+        .map(|scene| refuse_long_names(&scene.id.folder()).map(|()| scene_folder(out, scene)))
+        .collect::<Result<Vec<_>, _>>()?;
+    for folder in &folders {
+        refuse_scene(folder)?;
+    }
+    refuse_file(out)?;
+    std::fs::create_dir_all(out).map_err(|source| FileError::io(out, "write", source))?;
+    let claim = Claim {
+        _lock: lock(out, sharing)?,
+    };
+    if sharing == Sharing::Alone {
+        remove_leftovers(out);
+        for folder in &folders {
+            remove_all_leftovers(folder, DEPTH);
+        }
+    }
+    Ok(claim)
+}
+
+/// Refuses an output folder that is a file, or lies below one.
+fn refuse_file(out: &Path) -> Result<(), Error> {
+    match out.ancestors().find(|path| path.is_file()) {
+        None => Ok(()),
+        Some(file) => Err(Error::Refused(format!(
+            "{}: is a file, where the output folder is to be; name another output folder",
+            file.display()
+        ))),
+    }
+}
+
+/// Locks the folder; none where the file system knows no locks.
+fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
+    let path = out.join(LOCK_FILE);
+    let fail = |source: std::io::Error| -> Error {
+        match source.kind() {
+            ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => Error::Refused(format!(
+                "{}: cannot write to this folder: {source}; name another output folder",
+                out.display()
+            )),
+            _ => FileError::io(&path, "lock", source).into(),
+        }
+    };
+    let mut options = OpenOptions::new();
+    let file = (options.read(true).write(true).create(true).truncate(false))
+        .open(&path)
+        .map_err(fail)?;
+    let locked = match sharing {
+        Sharing::Alone => file.try_lock(),
+        Sharing::Together => file.try_lock_shared(),
+    };
+    match locked {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Err(Error::Refused(format!(
+            "another shuttertruth is writing to {}; wait until it has ended, or take another output folder",
+            out.display()
+        ))),
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(None),
+        Err(TryLockError::Error(error)) => Err(fail(error)),
+    }
+}
+
+/// Folders below a scene's own: those of later frames, and below them those of cases and replicates.
+const DEPTH: u32 = 2;
+
+/// Removes leftovers in a scene's folder and in those below it.
+fn remove_all_leftovers(folder: &Path, depth: u32) {
+    remove_leftovers(folder);
+    if depth == 0 {
+        return;
+    }
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        // Nothing behind a link is ours.
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            remove_all_leftovers(&entry.path(), depth - 1);
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! The folder of a scene's files, below an output folder.
+
+use std::path::{Path, PathBuf};
+
+use tracer::Scene;
+
+use crate::Error;
+
+/// Upper limit on the bytes of the name of a folder that is made for a scene or a case. File systems allow 255, and some files are named
+/// after it with an ending.
+pub const LONGEST_FOLDER_NAME: usize = 240;
+/// Characters of a name that is too long which an error shows.
+const SHOWN: usize = 40;
+
+/// Names the folder of a scene's files below `out`.
+pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
+    out.join(scene.id.folder())
+}
+
+/// Refuses a folder that holds a scene itself: our pictures may have the names of its textures.
+pub fn refuse_scene(folder: &Path) -> Result<(), Error> {
+    match folder.join("scene.toml").exists() {
+        false => Ok(()),
+        true => Err(Error::Refused(format!(
+            "{} holds a scene, whose files would be overwritten; allowed: an output folder that holds none, such as out",
+            folder.display()
+        ))),
+    }
+}
+
+/// Refuses folders, each below the one before, of which one has a name that file systems may not hold.
+pub fn refuse_long_names(folders: &Path) -> Result<(), Error> {
+    let names = folders.iter().map(|name| name.to_string_lossy());
+    match names.max_by_key(|name| name.len()) {
+        Some(name) if name.len() > LONGEST_FOLDER_NAME => Err(Error::Refused(format!(
+            "the output folder \"{}...\" would have a name of {} bytes; allowed: up to {LONGEST_FOLDER_NAME}; it is made of the names of \
+             scene and variant, or of filter, preset and what --set changes: give them shorter ones",
+            name.chars().take(SHOWN).collect::<String>(),
+            name.len()
+        ))),
+        _ => Ok(()),
+    }
+}

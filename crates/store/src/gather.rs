@@ -1,0 +1,135 @@
+//! Files that one folder takes from others.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use frame::{FileError, read_bounded, write_atomically};
+
+use crate::Error;
+
+/// Upper limit on the bytes of a file that is taken from another folder.
+pub const MOST_TAKEN_BYTES: u64 = 1 << 32;
+
+/// The source of each file, by its path below the parts.
+pub type Files = BTreeMap<PathBuf, PathBuf>;
+
+/// Gathers the files of several folders, of each by their paths below it. Several may hold the same file, if its bytes are equal.
+///
+/// # Errors
+/// Two files of one path differ, or cannot be read.
+pub fn gather<'a>(
+    parts: impl IntoIterator<Item = (&'a Path, Vec<PathBuf>)>,
+) -> Result<Files, Error> {
+    let mut files = Files::new();
+    for (part, own) in parts {
+        for below in own {
+            let file = part.join(&below);
+            match files.get(&below) {
+                Some(other) => check_same(other, &file)?,
+                None => drop(files.insert(below, file)),
+            }
+        }
+    }
+    Ok(files)
+}
+
+/// Refuses two files of one name with other bytes.
+fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
+    let read = |path: &Path| read_bounded(path, MOST_TAKEN_BYTES);
+    if is_one_file(one, other) || read(one)? == read(other)? {
+        return Ok(());
+    }
+    Err(Error::Refused(format!(
+        "{} and {} differ; all parts come from one build of the program, one version of the scenes, the same settings, and one kind of \
+         processor",
+        one.display(),
+        other.display()
+    )))
+}
+
+/// Places gathered files below a folder.
+///
+/// # Errors
+/// As [`place_file`].
+pub fn place_files(files: &Files, out: &Path) -> Result<(), FileError> {
+    (files.iter()).try_for_each(|(below, file)| place_file(file, &out.join(below)))
+}
+
+/// Places the file `from` at `to` as well, in place of what lies there: as a second name of the same file, or as a copy where the
+/// file system has no such names. Files of this program are replaced as a whole, and so neither name changes the other.
+///
+/// # Errors
+/// Fails if `from` is no regular file, if a folder lies at `to`, or if a file cannot be read or written.
+pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
+    let found = fs::symlink_metadata(from).map_err(|source| FileError::io(from, "read", source))?;
+    if !found.is_file() {
+        return Err(FileError::Foreign {
+            path: from.to_owned(),
+            reason: "is no regular file; allowed: files as this program writes them".to_owned(),
+        });
+    }
+    if is_one_file(from, to) {
+        return Ok(());
+    }
+    if let Some(folder) = to.parent() {
+        fs::create_dir_all(folder).map_err(|source| FileError::io(folder, "write", source))?;
+    }
+    if let Err(source) = fs::remove_file(to)
+        && source.kind() != ErrorKind::NotFound
+    {
+        return Err(FileError::io(to, "write", source));
+    }
+    match fs::hard_link(from, to) {
+        Ok(()) => Ok(()),
+        // Another disk, or a system without such names.
+        Err(_) => write_atomically(to, &read_bounded(from, MOST_TAKEN_BYTES)?),
+    }
+}
+
+/// Tells whether two paths name one file, so that nothing needs to be read.
+fn is_one_file(one: &Path, other: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let id = |path: &Path| fs::metadata(path).map(|found| (found.dev(), found.ino()));
+        matches!((id(one), id(other)), (Ok(one), Ok(other)) if one == other)
+    }
+    #[cfg(not(unix))]
+    {
+        let id = |path: &Path| path.canonicalize();
+        matches!((id(one), id(other)), (Ok(one), Ok(other)) if one == other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_placed_file_replaces_another_and_outlives_a_change_of_its_source() {
+        let folder = tempfile::tempdir().unwrap();
+        let [from, to] = ["a.exr", "below/b.exr"].map(|name| folder.path().join(name));
+        fs::write(&from, "one").unwrap();
+        place_file(&from, &to).unwrap();
+        place_file(&from, &to).unwrap();
+        assert_eq!(fs::read(&to).unwrap(), b"one");
+        write_atomically(&from, b"two").unwrap();
+        assert_eq!(fs::read(&to).unwrap(), b"one");
+        place_file(&from, &to).unwrap();
+        assert_eq!(fs::read(&to).unwrap(), b"two");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_no_file_to_take() {
+        let folder = tempfile::tempdir().unwrap();
+        let [secret, link, to] = ["secret", "link", "to"].map(|name| folder.path().join(name));
+        fs::write(&secret, "mine").unwrap();
+        std::os::unix::fs::symlink(&secret, &link).unwrap();
+        let refusal = place_file(&link, &to).unwrap_err().to_string();
+        assert!(refusal.contains("no regular file"), "{refusal}");
+        assert!(!to.exists());
+    }
+}

@@ -1,0 +1,36 @@
+//! The folder of finished work: who writes there, the names of what is rendered, records of what was made of which inputs, and files
+//! that come from other folders and from archives.
+
+mod archive;
+mod claim;
+mod clear;
+mod error;
+mod folder;
+mod gather;
+mod json;
+mod json_lines;
+mod json_strings;
+mod printable;
+mod record;
+mod render_file;
+mod tracked;
+
+pub use archive::{
+    LARGEST_PACK_RATIO, MOST_MANIFEST_BYTES, Manifest, PACK_FORMAT, Pack, PackedFile, write_archive,
+};
+pub use claim::{Claim, Sharing, claim};
+pub use clear::clear_scene;
+pub use error::Error;
+pub use folder::{refuse_long_names, refuse_scene, scene_folder};
+pub use gather::{Files, MOST_TAKEN_BYTES, gather, place_file, place_files};
+pub use json::{MOST_JSON_BYTES, MOST_RUN_BYTES, read_text, read_text_within};
+pub use json_lines::to_lines;
+pub use json_strings::check_strings;
+pub use printable::{printable, printable_lines, printable_path, printable_table};
+pub use record::{
+    CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, remove_altered_files,
+};
+pub use render_file::{
+    LADDER, MOST_REPLICATES, RenderFile, RenderPath, Wanted, ladder_folder, list_renders, take,
+};
+pub use tracked::refuse_tracked;

@@ -1,0 +1,174 @@
+//! Records of finished work with the hash of its inputs, read back while the inputs are the same and nothing has altered the
+//! files.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::path::{Component, Path, PathBuf};
+
+use frame::{FileError, write_atomically};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+/// Name of a case's record, beside its pictures.
+pub const CASE_RECORD: &str = "case.json";
+
+/// A finished piece of work, as its file holds it.
+#[derive(Serialize, Deserialize)]
+struct Record<T> {
+    /// Hash of everything that determines it.
+    inputs: String,
+    /// Files that belong to it, by their names beside this one, each with the hash of its bytes.
+    files: BTreeMap<String, String>,
+    /// Result of the work.
+    made: T,
+}
+
+/// Writes what was `made` of such inputs to `path`, after the `files` beside it have been written.
+pub fn put<T: Serialize>(
+    path: &Path,
+    inputs: String,
+    files: &[String],
+    made: &T,
+) -> Result<(), FileError> {
+    let files: BTreeMap<String, String> = (files.iter())
+        .map(|name| Ok((name.clone(), hash_file(&path.with_file_name(name))?)))
+        .collect::<std::io::Result<_>>()
+        .map_err(|source| FileError::io(path, "read what belongs to", source))?;
+    let record = Record {
+        inputs,
+        files,
+        made,
+    };
+    let text = serde_json::to_string_pretty(&record).expect("a record is plain data") + "\n";
+    write_atomically(path, text.as_bytes())
+}
+
+/// Reads what was made of such inputs. None where there is no such record, where it is broken, or where any of its files is
+/// missing or altered.
+pub fn look_up<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<T> {
+    let record = read_whole::<T>(path, inputs)?;
+    record.altered_files(path).is_empty().then_some(record.made)
+}
+
+/// Reads what was made of such inputs, whether or not its files are still there.
+pub fn look_up_alone<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<T> {
+    read_whole::<T>(path, inputs).map(|record| record.made)
+}
+
+/// Removes the files of such inputs that were altered: the hash that a file holds may no longer fit its content.
+pub fn remove_altered_files(path: &Path, inputs: &str) {
+    if let Some(record) = read_whole::<()>(path, inputs) {
+        for file in record.altered_files(path) {
+            // A missing file is as good as removed.
+            let _ = std::fs::remove_file(file);
+        }
+    }
+}
+
+/// Reads a whole record of such inputs. One that names a file outside its own folder, or behind a link to a folder, is none: nothing
+/// out there is read or removed.
+fn read_whole<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<Record<T>> {
+    let found: Record<T> = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
+    let is_below = |name: &String| is_below(&path.with_file_name(""), name);
+    (found.inputs == inputs && found.files.keys().all(is_below)).then_some(found)
+}
+
+/// Tells whether a name is that of a file in a folder or in one of its folders, and no path out of it.
+fn is_below(folder: &Path, name: &str) -> bool {
+    let name = Path::new(name);
+    let is_plain = (name.components()).all(|part| matches!(part, Component::Normal(_)));
+    let mut folders = name.ancestors().skip(1);
+    is_plain
+        && name.file_name().is_some()
+        && folders.all(|inner| inner == Path::new("") || !folder.join(inner).is_symlink())
+}
+
+impl<T> Record<T> {
+    /// Lists the files that are missing or altered.
+    fn altered_files(&self, path: &Path) -> Vec<PathBuf> {
+        let paths = (self.files.iter()).map(|(name, hash)| (path.with_file_name(name), hash));
+        paths
+            .filter(|(path, hash)| !hash_file(path).is_ok_and(|found| found == **hash))
+            .map(|(path, _)| path)
+            .collect()
+    }
+}
+
+/// Hashes inputs by their debug output, which holds every field, and numbers so that they read back equal: a new field cannot be
+/// forgotten.
+pub fn hash_inputs(inputs: &dyn Debug) -> String {
+    hex(format!("{inputs:?}").as_bytes())
+}
+
+/// Hashes the running program, whose bytes change with sources, dependencies, compiler and options: all that may change a number
+/// and is no other input. None where the bytes cannot be read.
+pub fn hash_program() -> Option<String> {
+    hash_file(&std::env::current_exe().ok()?).ok()
+}
+
+fn hash_file(path: &Path) -> std::io::Result<String> {
+    Ok(hex(&std::fs::read(path)?))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    blake3::hash(bytes).to_hex().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_that_names_a_file_elsewhere_is_no_record_and_removes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let elsewhere = folder.path().join("mine.txt");
+        std::fs::write(&elsewhere, "mine").unwrap();
+        let record = folder.path().join("out/frame.json");
+        std::fs::create_dir(folder.path().join("out")).unwrap();
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(folder.path(), folder.path().join("out/link")).unwrap();
+        for name in [
+            #[cfg(unix)]
+            "link/mine.txt",
+            "../mine.txt",
+            elsewhere.to_str().unwrap(),
+            "a/../../mine.txt",
+            "..",
+            "",
+        ] {
+            let forged = Record {
+                inputs: "these".to_owned(),
+                files: BTreeMap::from([(name.to_owned(), "0".repeat(64))]),
+                made: (),
+            };
+            std::fs::write(&record, serde_json::to_vec(&forged).unwrap()).unwrap();
+            remove_altered_files(&record, "these");
+            assert!(elsewhere.exists(), "{name}");
+            assert_eq!(look_up::<()>(&record, "these"), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_record_is_read_back_until_anything_about_it_changes() {
+        let folder = tempfile::tempdir().unwrap();
+        let (record, picture) = (folder.path().join("case.json"), folder.path().join("a.png"));
+        let read_back = || look_up::<f64>(&record, "these");
+        assert_eq!(read_back(), None, "nothing is there yet");
+        std::fs::write(&picture, "picture").unwrap();
+        let files = ["a.png".to_owned()];
+        put(&record, "these".to_owned(), &files, &0.1).unwrap();
+        assert_eq!(read_back(), Some(0.1));
+        assert_eq!(look_up::<f64>(&record, "others"), None);
+
+        std::fs::write(&picture, "picturE").unwrap();
+        assert_eq!(read_back(), None, "a picture was altered");
+        std::fs::remove_file(&picture).unwrap();
+        assert_eq!(read_back(), None, "a picture is missing");
+        std::fs::write(&picture, "picture").unwrap();
+        assert_eq!(read_back(), Some(0.1));
+
+        let text = std::fs::read_to_string(&record).unwrap();
+        std::fs::write(&record, &text[..text.len() / 2]).unwrap();
+        assert_eq!(read_back(), None, "the record was cut short");
+    }
+}

@@ -1,0 +1,297 @@
+//! Order of a session: which pairs are shown, and on which side. `design.js` of the page draws the same; a test compares both.
+
+use suite::Random;
+
+use crate::question::Question;
+use crate::study::{Study, round_size};
+
+/// A check comes with so many pairs.
+const PAIRS_PER_CHECK: usize = 8;
+/// Fewest checks of a session.
+const FEWEST_CHECKS: usize = 2;
+
+/// One of two clips that are shown side by side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clip {
+    /// The clip of the filter of this number among those of its shutter.
+    Filter(usize),
+    /// The truth.
+    Truth,
+    /// The frames as they are, without blur.
+    Sharp,
+}
+
+/// Two clips of one scene side by side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShownPair {
+    /// Number of the shutter.
+    pub shutter: usize,
+    /// Number of the scene.
+    pub scene: usize,
+    /// Clip on the left.
+    pub left: Clip,
+    /// Clip on the right.
+    pub right: Clip,
+}
+
+/// Draws the trials of a session from its seed.
+///
+/// The filters of a shutter stand in a circle of random order, one circle per scene. A round compares each filter with the one at a
+/// certain distance, so that each takes part equally often; a round of distance 1 connects them all (David, "The structure of cyclic
+/// paired-comparison designs", Journal of the Australian Mathematical Society 3, 1963, 117-127). Rounds of all distances are all
+/// pairs. A session holds as many rounds as its limit allows, near distances first, scenes in random order. Checks come on top: the
+/// same clip twice; and where the truth is asked
+/// for, the truth beside the sharp frame.
+pub fn draw_session(study: &Study, question: Question, seed: u64) -> Vec<ShownPair> {
+    let mut random = Random(seed);
+    let circles: Vec<Vec<Vec<usize>>> = (study.shutters.iter())
+        .map(|own| {
+            study
+                .scenes
+                .iter()
+                .map(|_| draw_order(own.filters.len(), &mut random))
+                .collect()
+        })
+        .collect();
+    let mut trials = Vec::new();
+    for [distance, scene, shutter] in draw_rounds(study, &mut random) {
+        let circle = &circles[shutter][scene];
+        for place in 0..round_size(circle.len(), distance) {
+            trials.push(ShownPair {
+                shutter,
+                scene,
+                left: Clip::Filter(circle[place]),
+                right: Clip::Filter(circle[(place + distance) % circle.len()]),
+            });
+        }
+    }
+    for check in 0..count_checks(trials.len()) {
+        trials.push(draw_check(study, question, check, &mut random));
+    }
+    shuffle(&mut trials, &mut random);
+    for trial in &mut trials {
+        if random.below(2) == 1 {
+            (trial.left, trial.right) = (trial.right, trial.left);
+        }
+    }
+    trials
+}
+
+impl ShownPair {
+    /// Tells whether the trial is a check, which has a right answer.
+    pub fn is_check(&self) -> bool {
+        self.left == self.right || [self.left, self.right].contains(&Clip::Truth)
+    }
+}
+
+/// Draws the rounds of a session: distance, scene and shutter. Every shutter has one at least.
+fn draw_rounds(study: &Study, random: &mut Random) -> Vec<[usize; 3]> {
+    let counts: Vec<usize> = study.shutters.iter().map(|own| own.filters.len()).collect();
+    let farthest = counts.iter().max().map_or(0, |count| count / 2);
+    let (mut rounds, mut pairs) = (Vec::new(), 0);
+    for distance in 1..=farthest {
+        for scene in draw_order(study.scenes.len(), random) {
+            for (shutter, count) in counts.iter().enumerate() {
+                if 2 * distance > *count {
+                    continue;
+                }
+                pairs += round_size(*count, distance);
+                if pairs > study.most_pairs {
+                    return rounds;
+                }
+                rounds.push([distance, scene, shutter]);
+            }
+        }
+    }
+    rounds
+}
+
+fn count_checks(pairs: usize) -> usize {
+    pairs.div_ceil(PAIRS_PER_CHECK).max(FEWEST_CHECKS)
+}
+
+/// Draws a check. Whether the truth looks better than the sharp frame is a matter of taste: no check asks for that.
+fn draw_check(study: &Study, question: Question, index: usize, random: &mut Random) -> ShownPair {
+    let shutter = random.below(study.shutters.len());
+    let own = &study.shutters[shutter];
+    if question == Question::Truth && index.is_multiple_of(2) {
+        let scene = own.telling_scenes[random.below(own.telling_scenes.len())];
+        let (left, right) = (Clip::Truth, Clip::Sharp);
+        return ShownPair {
+            shutter,
+            scene,
+            left,
+            right,
+        };
+    }
+    let scene = random.below(study.scenes.len());
+    let clip = Clip::Filter(random.below(own.filters.len()));
+    ShownPair {
+        shutter,
+        scene,
+        left: clip,
+        right: clip,
+    }
+}
+
+/// Draws an order of so many numbers.
+fn draw_order(count: usize, random: &mut Random) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..count).collect();
+    shuffle(&mut order, random);
+    order
+}
+
+/// Shuffles a list (Fisher and Yates; Knuth, "Seminumerical algorithms", algorithm P).
+fn shuffle<T>(list: &mut [T], random: &mut Random) {
+    for last in (1..list.len()).rev() {
+        list.swap(last, random.below(last + 1));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use frame::Alignment;
+
+    use super::*;
+    use crate::paired_counts::PairedCounts;
+    use crate::study::StudyShutter;
+
+    fn study(filters: &[usize], scenes: usize, most_pairs: usize) -> Study {
+        let shutter = |(index, count): (usize, &usize)| StudyShutter {
+            alignment: [Alignment::Centred, Alignment::Trailing][index],
+            filters: (0..*count)
+                .map(|filter| format!("filter:{filter}"))
+                .collect(),
+            truth_hashes: vec![vec![String::new()]; scenes],
+            telling_scenes: vec![scenes - 1],
+        };
+        let study = Study {
+            width: 64,
+            height: 32,
+            frames: Default::default(),
+            scenes: (0..scenes).map(|scene| format!("scene_{scene}")).collect(),
+            shutters: filters.iter().enumerate().map(shutter).collect(),
+            most_pairs,
+            pictures: String::new(),
+        };
+        study.check().unwrap();
+        study
+    }
+
+    /// Counts how often each pair of a shutter is shown, whatever the side.
+    fn pairs(trials: &[ShownPair], shutter: usize) -> BTreeMap<(usize, usize, usize), usize> {
+        let mut found = BTreeMap::new();
+        for trial in trials
+            .iter()
+            .filter(|own| !own.is_check() && own.shutter == shutter)
+        {
+            let (Clip::Filter(left), Clip::Filter(right)) = (trial.left, trial.right) else {
+                panic!("{trial:?} is a check");
+            };
+            *found
+                .entry((trial.scene, left.min(right), left.max(right)))
+                .or_default() += 1;
+        }
+        found
+    }
+
+    #[test]
+    fn every_pair_is_shown_once_on_every_scene_where_the_limit_allows_it() {
+        for filters in [[2, 3], [4, 5], [6, 7]] {
+            let study = study(&filters, 3, 1000);
+            for seed in 0..20 {
+                let trials = draw_session(&study, Question::Truth, seed);
+                for (shutter, count) in filters.iter().enumerate() {
+                    let found = pairs(&trials, shutter);
+                    assert_eq!(found.len(), 3 * count * (count - 1) / 2);
+                    assert!(found.values().all(|times| *times == 1), "{found:?}");
+                }
+                assert_eq!(
+                    trials.iter().filter(|own| !own.is_check()).count(),
+                    study.all_pairs()
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_short_session_shows_every_filter_equally_often_and_connects_all() {
+        let study = study(&[9, 4], 3, 60);
+        let mut sides = [0, 0];
+        for seed in 0..50 {
+            let trials = draw_session(&study, Question::Better, seed);
+            // 3 rounds of both, one more of both, and one more of the first: the next one would be beyond the limit.
+            let count = trials.iter().filter(|own| !own.is_check()).count();
+            assert_eq!(count, 3 * (9 + 4) + (9 + 2) + 9);
+            // It has 2 pairs, and a limit that is 1 higher lets it in.
+            let longer = Study {
+                most_pairs: 61,
+                ..study.clone()
+            };
+            let longer = draw_session(&longer, Question::Better, seed);
+            assert_eq!(longer.iter().filter(|own| !own.is_check()).count(), 61);
+            for (shutter, count) in [9, 4].into_iter().enumerate() {
+                let mut counts = PairedCounts::new(count);
+                for (_, one, other) in pairs(&trials, shutter).keys() {
+                    counts.add(*one, *other, 1.0);
+                }
+                assert_eq!(counts.connected().len(), 1);
+                let totals: Vec<f64> = (0..count).map(|item| counts.totals(item)[1]).collect();
+                assert!(totals.iter().all(|total| *total == totals[0]), "{totals:?}");
+            }
+            for trial in trials.iter().filter(|own| !own.is_check()) {
+                let (Clip::Filter(left), Clip::Filter(right)) = (trial.left, trial.right) else {
+                    panic!("{trial:?}");
+                };
+                sides[usize::from(left < right)] += 1;
+            }
+            assert_ne!(trials, draw_session(&study, Question::Better, seed + 1));
+        }
+        let [one, other] = sides.map(f64::from);
+        // 4 sigma of some 2,500 pairs.
+        assert!((one / (one + other) - 0.5).abs() < 0.04, "{one} {other}");
+    }
+
+    #[test]
+    fn checks_show_the_truth_beside_the_sharp_frame_only_where_the_truth_is_asked_for() {
+        let study = study(&[4], 2, 1000);
+        let mut truths_on_the_left = 0;
+        for seed in 0..100 {
+            let count = |question, is_right: fn(&ShownPair) -> bool| {
+                draw_session(&study, question, seed)
+                    .iter()
+                    .filter(|own| is_right(own))
+                    .count()
+            };
+            let is_same: fn(&ShownPair) -> bool = |own| own.left == own.right;
+            let is_truth: fn(&ShownPair) -> bool = |own| {
+                let clips = [own.left, own.right];
+                // The scene that tells.
+                clips.contains(&Clip::Truth) && clips.contains(&Clip::Sharp) && own.scene == 1
+            };
+            assert_eq!(
+                [
+                    count(Question::Truth, is_same),
+                    count(Question::Truth, is_truth)
+                ],
+                [1, 1]
+            );
+            assert_eq!(
+                [
+                    count(Question::Better, is_same),
+                    count(Question::Better, is_truth)
+                ],
+                [2, 0]
+            );
+            let is_left: fn(&ShownPair) -> bool = |own| own.left == Clip::Truth;
+            truths_on_the_left += count(Question::Truth, is_left);
+        }
+        // 4 sigma of 100 checks.
+        assert!(
+            (30..=70).contains(&truths_on_the_left),
+            "{truths_on_the_left}"
+        );
+    }
+}

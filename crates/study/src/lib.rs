@@ -1,0 +1,32 @@
+//! Questions to people about the pictures of a run, and what follows from their answers.
+
+mod agreement;
+mod answers;
+mod bradley_terry;
+mod clips;
+mod design;
+mod paired_counts;
+mod preference_scale;
+mod preferences;
+mod question;
+mod rank_correlation;
+mod score_agreement;
+mod session;
+mod study;
+
+pub use agreement::PeopleAgreement;
+pub use answers::{
+    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, DisplayFacts, MOST_ANSWER_BYTES, SHARP_CLIP,
+    TRUTH_CLIP,
+};
+pub use clips::{ClipFiles, StudyChoice, make_study};
+pub use design::{Clip, ShownPair, draw_session};
+pub use preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
+pub use preferences::{
+    FilterStrength, PREFERENCES_FORMAT, Preferences, QuestionResult, SessionFacts, ShutterScale,
+    find_preferences,
+};
+pub use question::Question;
+pub use score_agreement::ScoreAgreement;
+pub use session::{MOST_SESSIONS, Session, read_sessions, refuse_other_run};
+pub use study::{MOST_ASKED_FILTERS, MOST_ASKED_SCENES, SECONDS_PER_QUESTION, Study, StudyShutter};

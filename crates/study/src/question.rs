@@ -1,0 +1,35 @@
+//! Questions that people are asked.
+
+use std::str::FromStr;
+
+use suite::named;
+
+named! {
+    /// A question about two clips.
+    pub enum Question {
+        /// Which of both looks more like the truth, which is shown above them.
+        Truth = "truth",
+        /// Which of both looks better; no truth is shown.
+        Better = "better",
+    }
+}
+
+impl Question {
+    /// Returns the words that people read.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Truth => "Which looks more like the truth?",
+            Self::Better => "Which looks better?",
+        }
+    }
+}
+
+impl FromStr for Question {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut all = Self::ALL.iter();
+        (all.find(|question| question.name() == text).copied())
+            .ok_or_else(|| "allowed: truth or better".to_owned())
+    }
+}

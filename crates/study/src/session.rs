@@ -1,0 +1,280 @@
+//! Sessions: files of answers, read and compared with the design that their seeds draw.
+
+use std::path::{Path, PathBuf};
+
+use store::{check_strings, read_text_within};
+use suite::Error;
+
+use crate::answers::{
+    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, MOST_ANSWER_BYTES, SHARP_CLIP, TRUTH_CLIP,
+};
+use crate::design::{Clip, ShownPair, draw_session};
+use crate::preference_scale::Comparison;
+use crate::question::Question;
+use crate::study::Study;
+
+/// Upper limit on sessions that are read together.
+pub const MOST_SESSIONS: usize = 1000;
+/// Largest seed: JavaScript's numbers hold it exactly.
+const LARGEST_SEED: u64 = (1 << 53) - 1;
+
+/// Answers of one person to one question, in their order.
+#[derive(Clone, Debug)]
+pub struct Session {
+    /// File that it was read from.
+    pub path: PathBuf,
+    /// The question.
+    pub question: Question,
+    /// Seed of the session.
+    pub seed: u64,
+    /// Trials, and what was chosen.
+    pub answers: Vec<(ShownPair, Chosen)>,
+}
+
+/// Reads sessions of one study; returns them with it.
+///
+/// # Errors
+/// A file is none of answers, of another format or of another study, shows pairs that its seed does not draw, or repeats the seed of
+/// another one.
+pub fn read_sessions(paths: &[PathBuf]) -> Result<(Study, Vec<Session>), Error> {
+    if !(1..=MOST_SESSIONS).contains(&paths.len()) {
+        return Err(Error::Usage(format!(
+            "{} files of answers; allowed: 1 to {MOST_SESSIONS}",
+            paths.len()
+        )));
+    }
+    let mut first: Option<Study> = None;
+    let mut sessions: Vec<Session> = Vec::new();
+    for path in paths {
+        let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
+        let file = parse(&read_text_within(path.as_path(), MOST_ANSWER_BYTES)?).map_err(refuse)?;
+        let study = first.get_or_insert_with(|| file.study.clone());
+        if *study != file.study {
+            return Err(refuse(format!(
+                "answers about other pictures than {}: {}; give files of one page",
+                paths[0].display(),
+                describe_difference(study, &file.study)
+            )));
+        }
+        if let Some(other) = sessions.iter().find(|other| other.seed == file.seed) {
+            return Err(refuse(format!(
+                "has the seed {} of {}: one session counts once; give one of both files",
+                file.seed,
+                other.path.display()
+            )));
+        }
+        let answers = match_design(&file).map_err(refuse)?;
+        sessions.push(Session {
+            path: path.clone(),
+            question: file.question,
+            seed: file.seed,
+            answers,
+        });
+    }
+    Ok((first.expect("there is a file"), sessions))
+}
+
+impl Session {
+    /// Lists the comparisons between filters of one shutter.
+    pub fn comparisons(&self, shutter: usize) -> Vec<Comparison> {
+        let own = self.comparisons_by_scene(shutter).into_iter();
+        own.map(|(_, comparison)| comparison).collect()
+    }
+
+    /// Lists the same with the numbers of their scenes.
+    pub fn comparisons_by_scene(&self, shutter: usize) -> Vec<(usize, Comparison)> {
+        let own = self
+            .answers
+            .iter()
+            .filter(|(trial, _)| trial.shutter == shutter);
+        own.filter_map(|(trial, choice)| Some((trial.scene, comparison(trial, *choice)?)))
+            .collect()
+    }
+
+    /// Counts the checks that were answered, and those that were answered wrongly.
+    pub fn checks(&self) -> [usize; 2] {
+        let right = self
+            .answers
+            .iter()
+            .filter_map(|(trial, choice)| is_right(trial, *choice));
+        let right: Vec<bool> = right.collect();
+        [
+            right.len(),
+            right.iter().filter(|is_right| !**is_right).count(),
+        ]
+    }
+}
+
+/// Makes the comparison that a choice is; none of a check.
+pub(super) fn comparison(trial: &ShownPair, choice: Chosen) -> Option<Comparison> {
+    match (trial.left, trial.right) {
+        (Clip::Filter(one), Clip::Filter(other)) if one != other => Some(Comparison {
+            one,
+            other,
+            share: match choice {
+                Chosen::Left => 1.0,
+                Chosen::Right => 0.0,
+                Chosen::Neither => 0.5,
+            },
+        }),
+        _ => None,
+    }
+}
+
+/// Tells whether a check was answered rightly; none of a pair that is no check.
+fn is_right(trial: &ShownPair, choice: Chosen) -> Option<bool> {
+    let due = match trial.is_check() {
+        false => return None,
+        true if trial.left == Clip::Truth => Chosen::Left,
+        true if trial.right == Clip::Truth => Chosen::Right,
+        true => Chosen::Neither,
+    };
+    Some(choice == due)
+}
+
+/// Parses a file of answers; the error says what is wrong.
+fn parse(text: &str) -> Result<AnswerFile, String> {
+    let broken = |error: serde_json::Error| {
+        format!("is no file of answers: {error}; the page of `ask` writes one")
+    };
+    check_strings(text).map_err(broken)?;
+    let plain: serde_json::Value = serde_json::from_str(text).map_err(broken)?;
+    match plain.get("format").and_then(serde_json::Value::as_u64) {
+        Some(format) if format == u64::from(ANSWERS_FORMAT) => {}
+        Some(format) => {
+            return Err(format!(
+                "has format {format}; allowed: {ANSWERS_FORMAT}; another version of the program made the page"
+            ));
+        }
+        None => {
+            return Err(
+                "is no file of answers: it has no format; the page of `ask` writes one".to_owned(),
+            );
+        }
+    }
+    let file: AnswerFile = serde_json::from_value(plain).map_err(broken)?;
+    file.study
+        .check()
+        .map_err(|reason| format!("its page {reason}"))?;
+    match file.seed <= LARGEST_SEED {
+        true => Ok(file),
+        false => Err(format!(
+            "has the seed {}; allowed: 0 to {LARGEST_SEED}",
+            file.seed
+        )),
+    }
+}
+
+/// Holds the answers to the design of their seed.
+fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
+    let trials = draw_session(&file.study, file.question, file.seed);
+    if file.answers.is_empty() || file.answers.len() > trials.len() {
+        return Err(format!(
+            "holds {} answers; allowed: 1 to {}, the questions of its page",
+            file.answers.len(),
+            trials.len()
+        ));
+    }
+    for (index, (answer, trial)) in file.answers.iter().zip(&trials).enumerate() {
+        let place = || format!("answer {} of {}", index + 1, file.answers.len());
+        let due = shown(&file.study, trial);
+        let found = [
+            &answer.scene,
+            answer.alignment.name(),
+            &answer.left,
+            &answer.right,
+        ];
+        if found != due {
+            return Err(format!(
+                "{} is about {}; the seed {} shows {} there; give the file as the page wrote it",
+                place(),
+                found.join(" / "),
+                file.seed,
+                due.join(" / ")
+            ));
+        }
+        check_numbers(answer).map_err(|reason| format!("{} {reason}", place()))?;
+    }
+    Ok(trials
+        .into_iter()
+        .zip(file.answers.iter().map(|answer| answer.choice))
+        .collect())
+}
+
+fn check_numbers(answer: &Answer) -> Result<(), String> {
+    match answer.milliseconds.is_finite() && answer.milliseconds >= 0.0 && answer.zoom >= 1 {
+        true => Ok(()),
+        false => Err(format!(
+            "took {} milliseconds at zoom {}; allowed: 0 or more, and 1 or more",
+            answer.milliseconds, answer.zoom
+        )),
+    }
+}
+
+/// Names what a trial shows: scene, alignment, left and right.
+fn shown<'a>(study: &'a Study, trial: &ShownPair) -> [&'a str; 4] {
+    let shutter = &study.shutters[trial.shutter];
+    let name = |clip: Clip| match clip {
+        Clip::Filter(filter) => shutter.filters[filter].as_str(),
+        Clip::Truth => TRUTH_CLIP,
+        Clip::Sharp => SHARP_CLIP,
+    };
+    let scene = study.scenes[trial.scene].as_str();
+    [
+        scene,
+        shutter.alignment.name(),
+        name(trial.left),
+        name(trial.right),
+    ]
+}
+
+/// Says in what two studies differ.
+pub(super) fn describe_difference(one: &Study, other: &Study) -> String {
+    let filters = |study: &Study| -> Vec<String> {
+        study
+            .shutters
+            .iter()
+            .flat_map(|own| own.filters.clone())
+            .collect()
+    };
+    let hashes = |study: &Study| -> Vec<Vec<Vec<String>>> {
+        study
+            .shutters
+            .iter()
+            .map(|own| own.truth_hashes.clone())
+            .collect()
+    };
+    let differences = [
+        ("scenes", one.scenes != other.scenes),
+        ("filters", filters(one) != filters(other)),
+        (
+            "size",
+            (one.width, one.height) != (other.width, other.height),
+        ),
+        ("frames", one.frames != other.frames),
+        ("truths", hashes(one) != hashes(other)),
+        ("pictures", one.pictures != other.pictures),
+        ("number of pairs", one.most_pairs != other.most_pairs),
+    ];
+    let found = differences.iter().find(|(_, differs)| *differs);
+    found.map_or("they differ".to_owned(), |(what, _)| {
+        format!("the {what} differ")
+    })
+}
+
+/// Refuses a run that is not the one that the study shows: its truths or its pictures differ.
+pub fn refuse_other_run(study: &Study, of_run: &Study, run: &Path) -> Result<(), Error> {
+    // How many pairs a session holds is no matter of the run, nor are the scenes whose checks tell.
+    let same = Study {
+        most_pairs: study.most_pairs,
+        ..of_run.clone()
+    };
+    match same == *study {
+        true => Ok(()),
+        false => Err(Error::Usage(format!(
+            "{}: the answers are about another run: {}; give the run that the page was made of",
+            run.display(),
+            describe_difference(study, &same)
+        ))),
+    }
+}

@@ -1,5 +1,0 @@
-//! Results of earlier runs in an output folder, found again by hashes of what they were made from.
-
-pub mod clear;
-pub mod record;
-pub mod scene_keys;

@@ -1,0 +1,264 @@
+//! A scene that an engine drew: a folder that `ingest` wrote.
+
+use std::path::{Path, PathBuf};
+
+use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr, rung_file};
+use serde::{Deserialize, Serialize};
+use store::{ladder_folder, read_text};
+use tracer::SceneId;
+
+use crate::Error;
+
+/// Name of the file that makes a folder an ingested one.
+pub const INGESTED_FILE: &str = "ingested.json";
+/// Name of the engine's own blurred picture in that folder.
+pub const BLURRED: &str = "blurred.exr";
+/// Version of the layout of the file.
+pub const INGESTED_FORMAT: u32 = 1;
+/// Halves of a truth, each a picture of the whole shutter.
+const HALVES: u32 = 2;
+
+/// A frame that an engine drew, with the truth of its sub-frames and its own blurred picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EngineScene {
+    /// Version of the layout.
+    pub format: u32,
+    /// Program that ingested the capture.
+    pub program: String,
+    /// Name of the folder, and the engine as its variant: `railing@three.js_0.187.0`.
+    #[serde(rename = "name")]
+    pub id: SceneId,
+    /// Engine and version.
+    pub engine: String,
+    /// Scene of the suite that the engine drew.
+    pub scene: Option<SceneId>,
+    /// Columns and rows of all pictures.
+    pub size: [u32; 2],
+    /// Time that the shutter is open, in frames.
+    pub exposure: f64,
+    /// Alignment of the shutter.
+    pub alignment: Alignment,
+    /// Number of sub-frames that the truth is the mean of; 0 where there is no truth.
+    pub subframes: u32,
+    /// Distance that 99 % of the moving pixels move at most between two sub-frames, in pixels.
+    pub step: f64,
+    /// Counts of sub-frames of the ladder that errors are compared with.
+    pub ladder: Vec<u32>,
+    /// True if the folder has the engine's own blurred picture.
+    pub has_picture: bool,
+    /// Hash of the capture.
+    pub hash: String,
+    /// The folder.
+    #[serde(skip)]
+    pub folder: PathBuf,
+}
+
+impl EngineScene {
+    /// Tells whether a folder is one that `ingest` wrote.
+    pub fn is_in(folder: &Path) -> bool {
+        folder.join(INGESTED_FILE).is_file()
+    }
+
+    /// Reads what `ingest` wrote into a folder.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let path = folder.join(INGESTED_FILE);
+        let refuse = |reason: String| {
+            Err(Error::Usage(format!(
+                "{}: {reason}; make the folder anew with `shuttertruth engine ingest`",
+                path.display()
+            )))
+        };
+        let found: Self = match serde_json::from_str(&read_text(&path)?) {
+            Ok(found) => found,
+            Err(error) => return refuse(format!("no ingested capture: {error}")),
+        };
+        if found.format != INGESTED_FORMAT {
+            return refuse(format!(
+                "has format {}; allowed: {INGESTED_FORMAT}",
+                found.format
+            ));
+        }
+        if !is_engine_scene(&found.id) {
+            return refuse(format!(
+                "name \"{}\"; allowed: names of a folder and of an engine, such as railing@three.js_0.187.0",
+                found.id
+            ));
+        }
+        Ok(Self {
+            folder: folder.to_owned(),
+            ..found
+        })
+    }
+
+    /// Returns the content hash of the truth.
+    pub(crate) fn truth_hash(&self) -> String {
+        frame::truth_hash(&self.hash, HALVES)
+    }
+
+    /// Names the engine in one word, as filters are named: `three.js_0.187.0`.
+    pub fn filter_name(&self) -> &str {
+        self.id.variant.as_deref().unwrap_or_default()
+    }
+
+    /// Says what the pictures are.
+    pub fn exposes(&self) -> String {
+        match &self.scene {
+            Some(scene) => format!("what {} draws of {scene}", engine_name(&self.engine)),
+            None => format!("what {} drew", engine_name(&self.engine)),
+        }
+    }
+
+    /// Refuses a folder without a truth, which pictures cannot be measured against.
+    pub fn check_truth(&self) -> Result<(), Error> {
+        match self.subframes {
+            0 => Err(Error::Usage(format!(
+                "{}: {} drew no sub-frames, and there is no truth to measure against; capture sub-frames and ingest them, or \
+                 score its picture against a truth of ours: shuttertruth score --image {}",
+                self.folder.display(),
+                engine_name(&self.engine),
+                self.folder.join(BLURRED).display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses a run with pictures of another size.
+    pub fn check_size(&self, (width, height): (u32, u32)) -> Result<(), Error> {
+        match self.size == [width, height] {
+            true => Ok(()),
+            false => Err(Error::Usage(format!(
+                "{}: was drawn at {}x{} pixels, and the pictures of this run are to have {width}x{height}; scenes of one run \
+                 have one size: run it apart, or leave --size out",
+                self.folder.display(),
+                self.size[0],
+                self.size[1]
+            ))),
+        }
+    }
+
+    /// Reads the frame, and copies its file into a scene's folder of a run.
+    pub(crate) fn copy_frame(&self, folder: &Path) -> Result<Frame, Error> {
+        let path = self.copy("frame.exr", folder)?;
+        let frame = Frame::read(&path)?;
+        self.check_file("frame.exr", &frame.provenance, &self.hash, frame.size())?;
+        Ok(frame)
+    }
+
+    /// Reads the truth, and copies its file with that of its ladder into a scene's folder of a run.
+    pub(crate) fn copy_truth(&self, folder: &Path) -> Result<Truth, Error> {
+        let alignment = self.alignment;
+        for rung in &self.ladder {
+            self.copy(&self.rung_path(*rung), folder)?;
+        }
+        let name = format!("truth_{alignment}.exr");
+        let path = self.copy(&name, folder)?;
+        let truth = Truth::read(&path)?;
+        self.check_file(&name, &truth.provenance, &self.truth_hash(), truth.size())?;
+        Ok(truth)
+    }
+
+    /// Refuses a file that is not the one that was ingested.
+    fn check_file(
+        &self,
+        name: &str,
+        provenance: &Provenance,
+        hash: &str,
+        (width, height): (u32, u32),
+    ) -> Result<(), Error> {
+        match provenance.content_hash == hash && self.size == [width, height] {
+            true => Ok(()),
+            false => Err(Error::Usage(format!(
+                "{}: is of another capture than {INGESTED_FILE} beside it; ingest the capture again",
+                self.folder.join(name).display()
+            ))),
+        }
+    }
+
+    /// Reads a rung of the ladder from a scene's folder of a run.
+    pub(crate) fn read_rung(&self, folder: &Path, subframes: u32) -> Result<Ladder, Error> {
+        let path = folder.join(self.rung_path(subframes));
+        Ok(Ladder::read_rung(&path, subframes)?)
+    }
+
+    /// Names the file of a rung below the folder of the scene.
+    fn rung_path(&self, subframes: u32) -> String {
+        let folder = ladder_folder(self.alignment);
+        format!("{folder}/{}", rung_file(subframes))
+    }
+
+    /// Reads the engine's own blurred picture; the mattes are those of the frame.
+    pub(crate) fn read_picture(&self, frame: &Frame) -> Result<Picture, Error> {
+        let file = read_exr(&self.folder.join(BLURRED))?;
+        file.expect_kind("output")?;
+        Ok(Picture {
+            color: file.color("")?,
+            coverage: frame.coverage.clone(),
+        })
+    }
+
+    /// Copies a file, unless the same bytes are there; returns its new path.
+    fn copy(&self, name: &str, folder: &Path) -> Result<PathBuf, Error> {
+        let (from, to) = (self.folder.join(name), folder.join(name));
+        let bytes = std::fs::read(&from).map_err(|source| FileError::io(&from, "read", source))?;
+        if std::fs::read(&to).ok().as_ref() != Some(&bytes) {
+            frame::write_atomically(&to, &bytes)?;
+        }
+        Ok(to)
+    }
+}
+
+/// Shortens the name of an engine: what stands behind it in brackets is left out, such as its driver.
+pub fn engine_name(engine: &str) -> &str {
+    engine.split(" (").next().unwrap_or(engine).trim()
+}
+
+/// Makes one word of a text, which a folder, a table and an address can have: `three.js 0.187.0` becomes `three.js_0.187.0`.
+pub fn name_in_one_word(text: &str) -> String {
+    let letters = text.trim().chars().map(|letter| {
+        let is_kept = letter.is_ascii_alphanumeric() || "._-+".contains(letter);
+        if is_kept { letter } else { '_' }
+    });
+    letters.collect()
+}
+
+/// Tells whether a text can be the name of an engine's scene: the folder of the scene has this name, and the folder of the engine's picture
+/// in it that of the engine.
+fn is_engine_scene(id: &SceneId) -> bool {
+    let is_word = |word: &str| !word.is_empty() && name_in_one_word(word) == word;
+    let is_engine = |engine: &String| is_word(engine) && !engine.starts_with('.');
+    is_word(&id.name) && id.variant.as_ref().is_some_and(is_engine) && id.rate.is_none()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_lead_elsewhere_are_no_engine_scenes() {
+        for (name, allowed) in [
+            ("railing@three.js_0.187.0", true),
+            ("plate@..", false),
+            ("plate@.", false),
+            ("plate@", false),
+            ("@engine", false),
+            ("plate", false),
+            ("../plate@engine", false),
+            ("plate/0001@engine", false),
+            ("plate@a@b", false),
+        ] {
+            let found = name.parse().is_ok_and(|id| is_engine_scene(&id));
+            assert_eq!(found, allowed, "{name}");
+        }
+    }
+
+    #[test]
+    fn an_engine_is_named_in_one_word() {
+        for (engine, word) in [
+            ("three.js 0.187.0", "three.js_0.187.0"),
+            (" Godot 4.5 (Vulkan) ", "Godot_4.5__Vulkan_"),
+            ("../up", ".._up"),
+        ] {
+            assert_eq!(name_in_one_word(engine), word);
+        }
+    }
+}

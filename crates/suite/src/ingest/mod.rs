@@ -1,9 +1,0 @@
-//! Ingesting: a capture becomes a frame, a truth and a picture in the files of this program.
-
-mod convert;
-pub mod engine_scene;
-mod engine_truth;
-mod moving;
-mod objects;
-
-pub use convert::{Ingested, ingest};

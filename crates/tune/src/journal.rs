@@ -1,0 +1,187 @@
+//! Journal of a tuning: a file with one line per trial, written before the next trial begins.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use frame::FileError;
+use serde::Serialize;
+use serde_json::Value;
+use store::read_text;
+use suite::Error;
+
+use crate::header::JournalHeader;
+use crate::trial::Trial;
+
+/// Characters of a setting that an error shows.
+const MOST_SHOWN: usize = 80;
+
+/// A journal that can be appended to.
+pub struct Journal {
+    path: PathBuf,
+    file: File,
+    /// Trials so far.
+    pub trials: Vec<Trial>,
+}
+
+impl Journal {
+    /// Opens the journal at `path`, or begins it. Cuts off a line that a killed process left half written: its trial is run
+    /// again. Refuses a journal that another command began.
+    pub fn open(path: &Path, header: &JournalHeader) -> Result<Self, Error> {
+        let fail = |action, source| FileError::io(path, action, source);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| fail("write", error))?;
+        }
+        // Read before it is opened for writing: a FIFO would block, and /dev/zero never ends.
+        let text = match path.exists() {
+            true => read_text(path)?,
+            false => String::new(),
+        };
+        let mut options = OpenOptions::new();
+        let mut file = (options.write(true).create(true).truncate(false))
+            .open(path)
+            .map_err(|error| fail("write", error))?;
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        // Nothing is cut off before the file is known to be this command's.
+        match text[..whole].lines().next() {
+            Some(line) => check_header(path, line, header)?,
+            None if line_of(header).starts_with(&text) => {}
+            None => return Err(journal_error(path, 0, "is no journal of a tuning")),
+        }
+        file.set_len(whole as u64)
+            .and_then(|()| file.seek(SeekFrom::End(0)))
+            .map_err(|error| fail("write", error))?;
+        let mut journal = Self {
+            path: path.to_owned(),
+            file,
+            trials: Vec::new(),
+        };
+        let mut lines = text[..whole].lines().enumerate();
+        if lines.next().is_none() {
+            journal.write(header)?;
+        }
+        for (index, line) in lines {
+            let trial: Trial = serde_json::from_str(line)
+                .map_err(|error| journal_error(path, index, &format!("is no trial: {error}")))?;
+            (trial.check(header, journal.trials.len()))
+                .map_err(|reason| journal_error(path, index, &reason))?;
+            journal.trials.push(trial);
+        }
+        Ok(journal)
+    }
+
+    /// Writes a trial to the disk.
+    pub fn append(&mut self, trial: Trial) -> Result<(), Error> {
+        self.write(&trial)?;
+        self.trials.push(trial);
+        Ok(())
+    }
+
+    fn write(&mut self, line: &impl Serialize) -> Result<(), Error> {
+        let text = line_of(line);
+        let written = (self.file.write_all(text.as_bytes())).and_then(|()| self.file.sync_data());
+        written.map_err(|source: io::Error| {
+            Error::Usage(format!(
+                "{}: cannot be written: {source}; its {} whole trials are safe: make room and run the same command again, \
+                 which goes on after them",
+                self.path.display(),
+                self.trials.len()
+            ))
+        })
+    }
+}
+
+/// Returns a line of the journal with its end.
+fn line_of(content: &impl Serialize) -> String {
+    serde_json::to_string(content).expect("a line is plain data") + "\n"
+}
+
+/// Makes the error about a line of a journal; the first line has index 0.
+pub fn journal_error(path: &Path, index: usize, reason: &str) -> Error {
+    Error::Usage(format!(
+        "{}:{}: {reason}; choose another output folder, or delete the file to begin anew",
+        path.display(),
+        index + 1
+    ))
+}
+
+/// Refuses a header that differs from the expected one; names the first setting that does, and how to go on with the journal.
+fn check_header(path: &Path, line: &str, expected: &JournalHeader) -> Result<(), Error> {
+    let found: Value = serde_json::from_str(line)
+        .map_err(|error| journal_error(path, 0, &format!("is no journal of a tuning: {error}")))?;
+    let expected = serde_json::to_value(expected).expect("a header is plain data");
+    let fields = expected.as_object().expect("a header is a table");
+    let mut names: Vec<&String> = fields.keys().collect();
+    // The points that the search begins with follow from all else.
+    names.sort_by_key(|name| *name == "design");
+    let Some(name) = names.into_iter().find(|name| found[*name] != fields[*name]) else {
+        return Ok(());
+    };
+    let (found, expected) = first_difference(&found[name], &fields[name]);
+    let way_out = match name.as_str() {
+        "seed" => format!("; to go on with it, give --search-seed {found}"),
+        _ => "; to go on with it, run the command that began it".to_owned(),
+    };
+    let reason = format!(
+        "it was begun with another {name}: found {found}, this command has {expected}{way_out}"
+    );
+    Err(journal_error(path, 0, &reason))
+}
+
+/// Finds the first part of two values that differs, as short texts.
+fn first_difference(found: &Value, expected: &Value) -> (String, String) {
+    match (found, expected) {
+        (Value::Array(one), Value::Array(other)) if one.len() == other.len() => {
+            let mut pairs = one.iter().zip(other);
+            let pair = pairs.find(|(one, other)| one != other);
+            pair.map_or_else(Default::default, |(one, other)| {
+                first_difference(one, other)
+            })
+        }
+        (Value::Object(one), Value::Object(other)) if one.keys().eq(other.keys()) => {
+            let mut pairs = one.iter().zip(other.values());
+            let Some(((name, one), other)) = pairs.find(|((_, one), other)| one != other) else {
+                return Default::default();
+            };
+            let (one, other) = first_difference(one, other);
+            (format!("{name} {one}"), format!("{name} {other}"))
+        }
+        _ => (short_text(found), short_text(expected)),
+    }
+}
+
+/// Writes a value, or as much of it as a line has room for.
+fn short_text(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(MOST_SHOWN) {
+        None => text,
+        Some((end, _)) => format!("{}...", &text[..end]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn the_first_difference_is_short_and_names_its_place() {
+        let texts = |found, expected| first_difference(&found, &expected);
+        let pair = |one: &str, other: &str| (one.to_owned(), other.to_owned());
+        assert_eq!(texts(json!(1), json!(2)), pair("1", "2"));
+        assert_eq!(
+            texts(
+                json!([[0.1, 0.2], [0.3, 0.4]]),
+                json!([[0.1, 0.2], [0.3, 0.5]])
+            ),
+            pair("0.4", "0.5")
+        );
+        assert_eq!(
+            texts(json!({"a": 1, "taps": 2}), json!({"a": 1, "taps": 3})),
+            pair("taps 2", "taps 3")
+        );
+        let (found, _) = texts(json!(vec![1; 5000]), json!([]));
+        assert!(found.ends_with("...") && found.len() < 100, "{found}");
+    }
+}

@@ -1,0 +1,47 @@
+//! Tuning of a filter's parameters towards the truth, and its proof on held-out scenes.
+
+mod advice;
+mod candidate;
+mod comparison;
+mod evaluation;
+mod evaluator;
+mod header;
+mod held_out;
+mod journal;
+mod loss;
+mod next_trial;
+mod options;
+mod pareto;
+mod preset;
+mod rendered_scene;
+mod search;
+mod selection;
+mod sensitivity;
+mod sobol;
+mod space;
+mod target;
+mod trial;
+mod tuning;
+mod wilcoxon;
+
+pub use advice::Advice;
+pub use comparison::{Difference, PairedComparison, Preference, compare_candidates, pair_scores};
+pub use evaluation::{Evaluation, evaluate_candidate};
+pub use evaluator::Evaluator;
+pub use header::{JOURNAL_FORMAT, JournalHeader};
+pub use held_out::HeldOutResult;
+pub use journal::Journal;
+pub use loss::{LEAST_BLEED, log_ratio};
+pub use options::{Objective, TuneOptions, interleave_families};
+pub use pareto::{pareto_front, round_bleed};
+pub use preset::tuned_preset_toml;
+pub use rendered_scene::{RenderedScene, render_scenes};
+pub use search::Search;
+pub use selection::{Choice, ChoiceLimits, Fold, choose_trial, cross_validate};
+pub use sensitivity::{ParameterSensitivity, Sensitivity, analyze_sensitivity, count_candidates};
+pub use sobol::{Estimate, SobolIndices, sobol_indices};
+pub use space::Space;
+pub use target::{SceneScore, Target};
+pub use trial::{Trial, TrialOutcome};
+pub use tuning::{TUNE_FORMAT, Tuning, tune};
+pub use wilcoxon::signed_rank_p_value;

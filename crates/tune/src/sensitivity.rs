@@ -1,0 +1,115 @@
+//! Sensitivity analysis: parameters that could as well be constants.
+
+use std::collections::BTreeMap;
+
+use filters::Value;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+use suite::Error;
+use tracer::{Progress, TraceError, Watch};
+
+use crate::evaluator::Evaluator;
+use crate::loss::{FAILED, mean_log_ratio};
+use crate::sobol::{SobolIndices, sobol_indices};
+use crate::space::Space;
+
+/// An axis whose total index is below this, its interval included, may become a constant: it causes less than a fiftieth of
+/// the variance.
+const CONSTANT_TOTAL: f64 = 0.02;
+/// Points of a slice along an axis.
+const SLICE: usize = 9;
+
+/// Effect of each parameter on the error: `sensitivity.json`. The error is the mean over scenes of log(FLIP / FLIP of the
+/// start).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sensitivity {
+    /// Number of candidates that were scored.
+    pub candidates: usize,
+    /// Number of candidates that did not run; they count as very bad.
+    pub failed: usize,
+    /// Results by parameter.
+    pub parameters: BTreeMap<String, ParameterSensitivity>,
+}
+
+/// Effect of one parameter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ParameterSensitivity {
+    /// Shares of the error's variance.
+    #[serde(deserialize_with = "read_indices")]
+    pub indices: SobolIndices,
+    /// True where the parameter may become a constant.
+    pub constant: bool,
+    /// The error along the parameter's range, all others at the start.
+    pub slice: Vec<(Value, f64)>,
+}
+
+/// Refuses the files of versions that could write elementary effects and no indices.
+fn read_indices<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SobolIndices, D::Error> {
+    Option::deserialize(deserializer)?.ok_or_else(|| {
+        D::Error::custom("a parameter has no Sobol indices: an older version made this study by Morris screening alone")
+    })
+}
+
+/// Counts the candidates of a study of `axes` parameters.
+pub fn count_candidates(axes: usize, rows: usize) -> usize {
+    rows * (axes + 2) + axes * SLICE
+}
+
+/// Scores candidates all over the space, `rows` x (axes + 2) for Sobol indices and some more for slices along each axis.
+/// `watch` hears of each.
+pub fn analyze_sensitivity(
+    evaluator: &mut Evaluator,
+    space: &Space,
+    rows: usize,
+    seed: u64,
+    watch: Watch,
+) -> Result<Sensitivity, Error> {
+    let all = evaluator.all_scenes();
+    let start = evaluator.score(&space.start, &all, |_, _| true)?;
+    let axes = space.axes.len();
+    let planned = count_candidates(axes, rows);
+    let (mut candidates, mut failed) = (0, 0);
+    let interrupted = evaluator.monitor.interrupted;
+    let mut error = |point: &[f64]| -> Result<f64, Error> {
+        let progress = Progress {
+            done: candidates as u64,
+            total: planned as u64,
+        };
+        if watch(progress).is_break() {
+            return Err(TraceError::Cancelled.into());
+        }
+        candidates += 1;
+        match evaluator.score(&space.settings(point), &all, |_, _| !interrupted()) {
+            Ok(scores) => Ok(mean_log_ratio(&scores, &start, |_| true).expect("there are scenes")),
+            Err(error) if error.is_interruption() => Err(error),
+            Err(_) => {
+                failed += 1;
+                Ok(FAILED)
+            }
+        }
+    };
+    let indices = sobol_indices(axes, rows, seed, &mut error)?;
+    let mut parameters = BTreeMap::new();
+    for (index, (axis, indices)) in space.axes.iter().zip(indices).enumerate() {
+        let mut slice: Vec<(Value, f64)> = Vec::new();
+        for step in 0..SLICE {
+            let mut point = space.point(&space.start);
+            point[index] = step as f64 / (SLICE - 1) as f64;
+            let value = space.settings(&point).values[&axis.name].clone();
+            if slice.last().is_none_or(|(last, _)| *last != value) {
+                slice.push((value, error(&point)?));
+            }
+        }
+        let found = ParameterSensitivity {
+            indices,
+            constant: indices.total.high < CONSTANT_TOTAL,
+            slice,
+        };
+        parameters.insert(axis.name.clone(), found);
+    }
+    Ok(Sensitivity {
+        candidates,
+        failed,
+        parameters,
+    })
+}

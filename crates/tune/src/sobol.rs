@@ -1,0 +1,107 @@
+//! Sobol indices: the share of a function's variance that each parameter causes.
+
+use serde::{Deserialize, Serialize};
+use suite::Random;
+
+use crate::search::sobol_point;
+
+/// Bootstrap samples behind an interval.
+const SAMPLES: usize = 1000;
+
+/// Shares of the variance that one axis causes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SobolIndices {
+    /// Share that it causes alone.
+    pub first: Estimate,
+    /// Share that would be gone if it were constant: caused alone or together with others.
+    pub total: Estimate,
+}
+
+/// A value with its 95 % confidence interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// Value from all rows.
+    pub value: f64,
+    /// Lower end: 2.5 % of the bootstrap samples of rows lie below it.
+    pub low: f64,
+    /// Upper end: 2.5 % lie above it.
+    pub high: f64,
+}
+
+/// Values of the function at one row of the two matrices, and with one coordinate at a time taken from the second.
+struct Row {
+    a: f64,
+    b: f64,
+    mixed: Vec<f64>,
+}
+
+/// Estimates the indices after Jansen (1999), from `rows` rows of a Sobol sequence: calls the function `rows` x (`axes` + 2) times
+/// (Saltelli and others, "Variance based sensitivity analysis of model output", Computer Physics Communications 181, 2010,
+/// table 2). All indices of a constant function are 0.
+pub fn sobol_indices<E>(
+    axes: usize,
+    rows: usize,
+    seed: u64,
+    mut function: impl FnMut(&[f64]) -> Result<f64, E>,
+) -> Result<Vec<SobolIndices>, E> {
+    assert!(rows >= 2, "one row has no variance");
+    let mut asked = Vec::new();
+    for index in 0..rows as u32 {
+        let point = sobol_point(index, 2 * axes, seed);
+        let (a, b) = point.split_at(axes);
+        let mut mixed = Vec::new();
+        for axis in 0..axes {
+            let mut point = a.to_vec();
+            point[axis] = b[axis];
+            mixed.push(function(&point)?);
+        }
+        asked.push(Row {
+            a: function(a)?,
+            b: function(b)?,
+            mixed,
+        });
+    }
+    let mut random = Random(seed);
+    let samples: Vec<Vec<&Row>> = (0..SAMPLES)
+        .map(|_| (0..rows).map(|_| &asked[random.below(rows)]).collect())
+        .collect();
+    let all: Vec<&Row> = asked.iter().collect();
+    let estimate = |axis: usize, index: fn(&[&Row], usize) -> f64| {
+        let mut values: Vec<f64> = samples.iter().map(|rows| index(rows, axis)).collect();
+        values.sort_by(f64::total_cmp);
+        let at = |part: f64| values[(part * (SAMPLES - 1) as f64).round() as usize];
+        Estimate {
+            value: index(&all, axis),
+            low: at(0.025),
+            high: at(0.975),
+        }
+    };
+    Ok((0..axes)
+        .map(|axis| SobolIndices {
+            first: estimate(axis, first_index),
+            total: estimate(axis, total_index),
+        })
+        .collect())
+}
+
+fn first_index(rows: &[&Row], axis: usize) -> f64 {
+    share_of_variance(rows, |row| row.b - row.mixed[axis]).map_or(0.0, |share| 1.0 - share)
+}
+
+fn total_index(rows: &[&Row], axis: usize) -> f64 {
+    share_of_variance(rows, |row| row.a - row.mixed[axis]).unwrap_or(0.0)
+}
+
+/// Divides half of the mean of squared differences by the variance; none of a constant function.
+fn share_of_variance(rows: &[&Row], difference: impl Fn(&Row) -> f64) -> Option<f64> {
+    let variance = pooled_variance(rows);
+    let squares: f64 = rows.iter().map(|row| difference(row).powi(2)).sum();
+    (variance > 0.0).then(|| squares / (2.0 * rows.len() as f64 * variance))
+}
+
+fn pooled_variance(rows: &[&Row]) -> f64 {
+    let values = || rows.iter().flat_map(|row| [row.a, row.b]);
+    let count = 2.0 * rows.len() as f64;
+    let mean = values().sum::<f64>() / count;
+    values().map(|it| (it - mean).powi(2)).sum::<f64>() / count
+}

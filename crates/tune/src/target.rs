@@ -1,0 +1,86 @@
+//! Scene that candidates are scored on.
+
+use frame::{Image, Plane, Region};
+use judge::Bounds;
+use metrics::{ImageMetric, Metric, ObjectMetric, Reference, flip_ldr};
+use serde::{Deserialize, Serialize};
+use suite::Error;
+
+use crate::rendered_scene::RenderedScene;
+
+/// Scores of one candidate on one scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneScore {
+    /// `flip_moving`.
+    pub flip: f64,
+    /// `bleed_lateral`, in pixels; none if it was not asked for or does not apply.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bleed: Option<f64>,
+}
+
+/// A rendered scene with everything that does not depend on the picture.
+pub struct Target<'a> {
+    /// Frame, truth and name.
+    pub scene: &'a RenderedScene,
+    /// The bounds of the filter and preset that are tuned.
+    pub bounds: Bounds,
+    reference: Reference<'a>,
+    mean: Image,
+}
+
+impl<'a> Target<'a> {
+    /// Prepares a scene for scoring. Refuses a scene where nothing moves: it has no error to reduce.
+    pub fn new(scene: &'a RenderedScene, filter: &str, preset: &str) -> Result<Self, Error> {
+        let frame = scene.frame.cropped();
+        let reference = Reference::new(&frame, &scene.truth, None, &scene.viewing)?;
+        if !reference.regions.moving.pixels.contains(&true) {
+            return Err(Error::Usage(format!(
+                "scene {}: nothing moves on screen, so there is nothing to tune; leave the scene out",
+                scene.name
+            )));
+        }
+        Ok(Self {
+            scene,
+            bounds: scene.bounds.of(filter, preset),
+            mean: scene.truth.mean().color,
+            reference,
+        })
+    }
+
+    /// Scores a picture, and its mattes if there are any.
+    pub fn score(&self, color: &Image, mattes: Option<&[Plane]>) -> SceneScore {
+        SceneScore {
+            flip: self.flip(color),
+            bleed: mattes.and_then(|mattes| self.reference.measure_bleed_lateral(mattes)),
+        }
+    }
+
+    /// Measures `flip_moving` and nothing else.
+    fn flip(&self, color: &Image) -> f64 {
+        let errors = flip_ldr(&self.mean, color, &self.scene.viewing);
+        let inside = errors
+            .pixels
+            .iter()
+            .zip(&self.reference.regions.moving.pixels);
+        let inside = inside.filter_map(|(error, moves)| moves.then_some(f64::from(*error)));
+        let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));
+        sum / count
+    }
+
+    /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they keep all of them. A bound
+    /// that the start breaks is relaxed to the start's score.
+    pub fn excess(&self, score: &SceneScore, start: &SceneScore) -> f64 {
+        let flip = Metric::Image(ImageMetric::Flip, Region::Moving);
+        let bleed = Metric::Object(ObjectMetric::BleedLateral);
+        let measured = [
+            (flip, Some(score.flip), Some(start.flip)),
+            (bleed, score.bleed, start.bleed),
+        ];
+        let excess = measured.into_iter().filter_map(|(metric, value, start)| {
+            let bound = self.bounds.get(&metric)?;
+            let limit = bound.limit.max(start?);
+            Some((value? / limit - 1.0).max(0.0))
+        });
+        excess.filter(|it| it.is_finite()).sum()
+    }
+}

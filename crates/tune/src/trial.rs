@@ -1,0 +1,101 @@
+//! Trial of a tuning: one candidate and its scores.
+
+use std::collections::BTreeMap;
+
+use filters::Value;
+use serde::{Deserialize, Serialize};
+
+use crate::header::JournalHeader;
+use crate::target::SceneScore;
+
+/// One line of the journal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// Number of the trial, from 0.
+    pub trial: usize,
+    /// Values of the parameters that may change; all others are as in the journal's first line.
+    pub values: BTreeMap<String, Value>,
+    /// Outcome of the trial.
+    pub outcome: TrialOutcome,
+    /// Loss that the search minimises: mean over scenes of log(error / error of the start), plus penalties.
+    pub loss: f64,
+    /// Mean without penalties; none if nothing was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
+    /// Lateral bleed of the worst scene, in pixels; none if it was not asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bleed: Option<f64>,
+    /// GPU time relative to that of the start, a median; none if it was not asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cost: Option<f64>,
+    /// Scores on each scene that it ran on.
+    pub scenes: BTreeMap<String, SceneScore>,
+}
+
+/// Outcome of a trial.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "is", rename_all = "snake_case")]
+pub enum TrialOutcome {
+    /// It ran on every scene.
+    Done,
+    /// It was clearly worse than the best after some of the scenes, and did not run on the others.
+    Dropped,
+    /// It did not run.
+    Failed {
+        /// Error of the filter.
+        reason: String,
+    },
+}
+
+impl Trial {
+    /// Refuses a trial that no tuning with this header writes as its trial `number`, from 0: the search relies on it.
+    pub fn check(&self, header: &JournalHeader, number: usize) -> Result<(), String> {
+        if self.trial != number {
+            return Err(format!("trial {}, expected {number}", self.trial));
+        }
+        if !self.values.keys().eq(header.vary.keys()) {
+            let names = |names: Vec<String>| match names.is_empty() {
+                true => "nothing".to_owned(),
+                false => names.join(", "),
+            };
+            return Err(format!(
+                "it changes {}, and this tuning {}",
+                names(self.values.keys().cloned().collect()),
+                names(header.vary.keys().cloned().collect())
+            ));
+        }
+        let known = |scene: &&String| header.scenes.iter().any(|(name, _)| name == *scene);
+        if let Some(scene) = self.scenes.keys().find(|scene| !known(scene)) {
+            return Err(format!(
+                "it ran on {scene}, which is no scene of this tuning"
+            ));
+        }
+        let mut flips = self.scenes.values().map(|score| score.flip);
+        if let Some(wrong) = flips.find(|flip| !(0.0..=1.0).contains(flip)) {
+            return Err(format!("flip is {wrong}; allowed: 0 to 1"));
+        }
+        let is_whole = match self.outcome {
+            TrialOutcome::Done => self.scenes.len() == header.scenes.len() && self.error.is_some(),
+            TrialOutcome::Dropped => number > 0 && !self.scenes.is_empty() && self.error.is_some(),
+            TrialOutcome::Failed { .. } => number > 0,
+        };
+        match is_whole {
+            true => Ok(()),
+            false => Err(format!(
+                "it has {} of {} scenes, and {} error; a trial that is done has all, one that was dropped some, and the \
+                 first is done",
+                self.scenes.len(),
+                header.scenes.len(),
+                match self.error {
+                    Some(_) => "an",
+                    None => "no",
+                }
+            )),
+        }
+    }
+
+    /// Returns true if it ran on every scene.
+    pub fn is_done(&self) -> bool {
+        self.outcome == TrialOutcome::Done
+    }
+}
