@@ -1,7 +1,7 @@
 //! Materials: metallic-roughness, emissive, with holes, translucent.
 
 use glam::Vec3;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use suite::Error;
 use tracer::{Finish, Material, Translucency};
 
@@ -42,7 +42,6 @@ pub fn push_material(
         (None, Finish::Conductor { roughness }) => [1.0, roughness],
         (None, Finish::Coated { roughness, .. }) => [0.0, roughness],
     };
-    let extensions = list_extensions(material, clear, strength);
     let texture = |index: Option<usize>| index.map(|index| json!({ "index": index }));
     let entry = json!({
         "alphaCutoff": (mode == "MASK").then_some(HOLE),
@@ -50,7 +49,7 @@ pub fn push_material(
         "doubleSided": true,
         "emissiveFactor": (emission / strength).to_array().map(widen),
         "emissiveTexture": texture(emissive_texture),
-        "extensions": (!extensions.is_empty()).then_some(extensions),
+        "extensions": describe_extensions(material, clear, strength),
         "name": material.name,
         "pbrMetallicRoughness": {
             "baseColorFactor": color.extend(alpha).to_array().map(widen),
@@ -62,41 +61,22 @@ pub fn push_material(
     Ok(document.push("materials", entry))
 }
 
-/// Lists the extensions of a material by their names. Glass and filters have the index of refraction 1 where nothing is reflected. A
-/// diffuse one has no specular reflection at all: without `KHR_materials_specular` a dielectric of index 1.5 reflects 4 %.
-fn list_extensions(
-    material: &Material,
-    clear: Option<Translucency>,
-    strength: f32,
-) -> Map<String, Value> {
+/// Describes what takes an extension. Glass and filters have the index of refraction 1 where nothing is reflected. A diffuse material
+/// has no specular reflection at all: without `KHR_materials_specular` a dielectric of index 1.5 reflects 4 %.
+fn describe_extensions(material: &Material, clear: Option<Translucency>, strength: f32) -> Value {
     let index = match (clear, material.finish) {
         (Some(clear), _) => Some(clear.glass.unwrap_or(1.0)),
         (None, Finish::Coated { index, .. }) => Some(index),
         _ => None,
     };
     let is_matt = clear.is_none() && material.finish == Finish::Diffuse;
-    let listed = [
-        (
-            "KHR_materials_emissive_strength",
-            (strength > 1.0).then(|| json!({ "emissiveStrength": widen(strength) })),
-        ),
-        (
-            "KHR_materials_ior",
-            index.map(|index| json!({ "ior": widen(index) })),
-        ),
-        (
-            "KHR_materials_specular",
-            is_matt.then(|| json!({ "specularFactor": 0.0 })),
-        ),
-        (
-            "KHR_materials_transmission",
-            clear.map(|_| json!({ "transmissionFactor": 1.0 })),
-        ),
-    ];
-    let used = listed
-        .into_iter()
-        .filter_map(|(name, own)| Some((name.to_owned(), own?)));
-    used.collect()
+    let emission = (strength > 1.0).then(|| json!({ "emissiveStrength": widen(strength) }));
+    json!({
+        "KHR_materials_emissive_strength": emission,
+        "KHR_materials_ior": index.map(|index| json!({ "ior": widen(index) })),
+        "KHR_materials_specular": is_matt.then(|| json!({ "specularFactor": 0.0 })),
+        "KHR_materials_transmission": clear.map(|_| json!({ "transmissionFactor": 1.0 })),
+    })
 }
 
 /// Returns the word for the way in which alpha counts.
