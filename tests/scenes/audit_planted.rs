@@ -71,7 +71,7 @@ fn expect(audit: &CaptureAudit, buffer: Buffer, object: Option<&str>, cause: Cau
     };
     assert_eq!(finding.buffer, buffer, "{finding:#?}");
     assert_eq!(finding.object.as_deref(), object, "{finding:#?}");
-    let is_named = finding.cause == cause || finding.looks_like.contains(&cause);
+    let is_named = finding.found.cause == cause || finding.found.looks_like.contains(&cause);
     assert!(is_named, "{cause:?}: {finding:#?}");
 }
 
@@ -228,7 +228,7 @@ fn motion_by_the_clock_is_named() {
             assert!(!found.findings.is_empty(), "{name} at {rate}");
             for finding in &found.findings {
                 assert_eq!(
-                    finding.cause,
+                    finding.found.cause,
                     Cause::MotionOver(rate),
                     "{name}: {finding:#?}"
                 );
@@ -285,14 +285,14 @@ fn a_wrong_sign_is_named_together_with_another_cause() {
             );
             assert!(!found.findings.is_empty(), "{name}");
             for finding in &found.findings {
-                let named = [Some(finding.cause)]
+                let named = [Some(finding.found.cause)]
                     .into_iter()
-                    .chain(finding.looks_like.iter().map(|it| Some(*it)));
+                    .chain(finding.found.looks_like.iter().map(|it| Some(*it)));
                 assert!(
                     named.into_iter().any(|it| it == Some(cause)),
                     "{name} {turn:?}: {finding:#?}"
                 );
-                assert_eq!(finding.turned, Some(turn), "{name}: {finding:#?}");
+                assert_eq!(finding.found.turned, Some(turn), "{name}: {finding:#?}");
             }
         }
     }
@@ -337,7 +337,7 @@ fn the_object_whose_depth_is_wrong_is_named() {
             panic!("{:#?}", found.findings);
         };
         let is_scale =
-            matches!(finding.cause, Cause::DepthScale(scale) if (scale - 1.1).abs() < 0.001);
+            matches!(finding.found.cause, Cause::DepthScale(scale) if (scale - 1.1).abs() < 0.001);
         assert!(
             is_scale && finding.object.as_deref() == Some("fan"),
             "{finding:#?}"
@@ -375,7 +375,7 @@ fn linear_depth_has_no_near_plane_to_blame() {
         panic!("{:#?}", found.findings);
     };
     let is_planes =
-        matches!(finding.cause, Cause::DepthPlanes(factor) if (factor - 2.0).abs() < 0.01);
+        matches!(finding.found.cause, Cause::DepthPlanes(factor) if (factor - 2.0).abs() < 0.01);
     assert!(is_planes, "{finding:#?}");
 }
 
@@ -446,7 +446,7 @@ fn the_colours_of_unlit_scenes_are_compared() {
     );
     let red = recolored(&["hills"], &|[red, green, blue]| [green, red, blue]);
     assert!(
-        matches!(red.findings[0].cause, Cause::OtherColor(..)),
+        matches!(red.findings[0].found.cause, Cause::OtherColor(..)),
         "{:#?}",
         red.findings
     );
@@ -456,7 +456,8 @@ fn the_colours_of_unlit_scenes_are_compared() {
     let [finding] = bright.findings.as_slice() else {
         panic!("{:#?}", bright.findings);
     };
-    let is_twice = matches!(finding.cause, Cause::Brightness(scale) if (scale - 2.0).abs() < 0.05);
+    let is_twice =
+        matches!(finding.found.cause, Cause::Brightness(scale) if (scale - 2.0).abs() < 0.05);
     assert!(
         is_twice && finding.text.contains("`color_scale` 2.0"),
         "{finding:#?}"

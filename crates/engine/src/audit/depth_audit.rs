@@ -91,7 +91,7 @@ impl DepthPair<'_> {
         let (findings, explained) = self.explain_objects(&wrong, names, &along_ray);
         let unknown = findings
             .iter()
-            .filter(|it| it.cause == Cause::Unknown)
+            .filter(|it| it.found.cause == Cause::Unknown)
             .count();
         if findings.len() == 1 || 2 * unknown <= findings.len() {
             return (findings, explained);
@@ -120,9 +120,11 @@ impl DepthPair<'_> {
             let causes = self.list_causes(&region.pixels, along_ray, false);
             let found = find_cause(causes, &|plane| self.share(&region.pixels, plane));
             if let Some((_, plane)) = &found {
-                let ids = &self.right.object_id.pixels;
-                let own = (0..ids.len()).filter(|at| ids[*at] == region.object);
-                own.for_each(|at| explained.pixels[at] = self.is_explained(at, plane));
+                let ids = self.right.object_id.pixels.iter();
+                let marks = self.mark(plane).pixels;
+                let own = explained.pixels.iter_mut().zip(ids.zip(marks));
+                own.filter(|(_, (id, _))| **id == region.object)
+                    .for_each(|(explained, (_, mark))| *explained = mark);
             }
             let unknown = Explanation::by(Cause::Unknown, 0.0);
             let found = found.map_or(unknown, |(found, _)| found);
@@ -190,23 +192,22 @@ impl DepthPair<'_> {
         })
     }
 
-    fn is_explained(&self, at: usize, plane: &Plane) -> bool {
-        let expected = plane.pixels[at];
-        expected.is_nan() || self.is_close(self.found.pixels[at], expected)
+    /// Tells whether a plane explains a depth; NaN allows any.
+    fn is_explained(&self, found: f32, expected: f32) -> bool {
+        expected.is_nan() || self.is_close(found, expected)
     }
 
     fn mark(&self, plane: &Plane) -> Raster<bool> {
-        let places = 0..plane.pixels.len();
-        Raster {
-            width: plane.width,
-            height: plane.height,
-            pixels: places.map(|at| self.is_explained(at, plane)).collect(),
-        }
+        (self.found).zip(plane, |found, expected| {
+            self.is_explained(*found, *expected)
+        })
     }
 
     /// Computes the part of some pixels at which the engine has the depth of a plane.
     fn share(&self, pixels: &[usize], plane: &Plane) -> f64 {
-        let explained = pixels.iter().filter(|at| self.is_explained(**at, plane));
+        let is_explained =
+            |at: &&usize| self.is_explained(self.found.pixels[**at], plane.pixels[**at]);
+        let explained = pixels.iter().filter(is_explained);
         explained.count() as f64 / pixels.len().max(1) as f64
     }
 }
