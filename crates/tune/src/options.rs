@@ -117,10 +117,8 @@ impl TuneOptions {
     pub fn families(&self) -> BTreeMap<&'static str, Vec<&str>> {
         let mut families: BTreeMap<&'static str, Vec<&str>> = BTreeMap::new();
         for (scene, _) in &self.scenes {
-            families
-                .entry(scene.family.name())
-                .or_default()
-                .push(&scene.name);
+            let names = families.entry(scene.family.name()).or_default();
+            names.push(scene.name.as_str());
         }
         families
     }

@@ -170,7 +170,11 @@ fn conclude(
     let choice = choose_trial(trials, space, limits, |_| true)
         .expect("the start is always allowed, and has scenes");
     let done: Vec<&Trial> = trials.iter().filter(|trial| trial.is_done()).collect();
-    let rows: Vec<Vec<f64>> = done.iter().map(|trial| objective_values(trial)).collect();
+    let measured = |it: &&Trial| [it.error, it.bleed.map(round_bleed), it.cost].into_iter();
+    let rows: Vec<Vec<f64>> = done
+        .iter()
+        .map(|it| measured(it).flatten().collect())
+        .collect();
     let mut front: Vec<Trial> = (pareto_front(&rows).into_iter())
         .map(|index| done[index].clone())
         .collect();
@@ -197,12 +201,6 @@ fn conclude(
         folds: cross_validate(trials, space, limits, &options.families()),
         held_out: Vec::new(),
     })
-}
-
-/// Returns the measured objectives of a finished trial, in the same order for all trials.
-fn objective_values(trial: &Trial) -> Vec<f64> {
-    let measured = [trial.error, trial.bleed.map(round_bleed), trial.cost];
-    measured.into_iter().flatten().collect()
 }
 
 /// Compares start and choice on the held-out scenes, and records the result.
