@@ -103,7 +103,7 @@ fn a_wrong_sign_is_named_together_with_another_cause() {
         finding.text
     );
     assert!(
-        finding.text.contains("turn `velocity_sign` round"),
+        finding.text.contains("reverse `velocity_sign`"),
         "{}",
         finding.text
     );
@@ -137,7 +137,7 @@ fn the_object_whose_depth_is_wrong_is_named() {
         assert!(found.shows_scene);
         assert!(!finding.text.contains("near plane"), "{}", finding.text);
         assert_eq!(
-            finding.text.contains("object.exr would tell"),
+            finding.text.contains("object.exr would show"),
             capture.object_id.is_none()
         );
     }

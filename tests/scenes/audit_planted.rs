@@ -236,7 +236,7 @@ fn an_object_that_is_not_drawn_is_no_pass() {
     let without = audit(&scene, &without_ids(&drawn));
     assert!(!without.findings.is_empty());
     assert!(
-        without.findings[0].text.contains("object.exr would tell"),
+        without.findings[0].text.contains("object.exr would show"),
         "{:#?}",
         without.findings
     );

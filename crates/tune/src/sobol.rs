@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::search::sobol_point;
 use suite::Random;
 
-/// Bootstrap samples behind an interval.
+/// Bootstrap samples of an interval.
 const SAMPLES: usize = 1000;
 
 /// Shares of the variance that one axis causes.

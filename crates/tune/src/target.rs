@@ -47,7 +47,7 @@ impl<'a> Target<'a> {
         })
     }
 
-    /// Measures `flip_moving` of a picture and nothing else, and the bleed of its mattes if there are any.
+    /// Scores a picture by `flip_moving` alone, and its mattes, if there are any, by their bleed.
     pub fn score(&self, color: &Image, mattes: Option<&[Plane]>) -> SceneScore {
         let errors = flip_ldr(&self.mean, color, &self.scene.viewing);
         let moving = &self.reference.regions.moving.pixels;

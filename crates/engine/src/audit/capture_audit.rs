@@ -139,7 +139,7 @@ fn list_wrong_depth(
     let of_shown = wrong.into_iter().filter(is_shown);
     of_shown.map(move |it| match has_ids || it.object.is_none() {
         true => it,
-        false => it.with("or the engine does not draw it there: object.exr would tell"),
+        false => it.with("or the engine does not draw it there: object.exr would show it"),
     })
 }
 
@@ -151,7 +151,7 @@ fn word_missed(shown: &Shown, has_ids: bool) -> Vec<Defect> {
     };
     let by = match has_ids {
         true => "by its ids",
-        false => "by its depth, as the convention has it; object.exr would tell more",
+        false => "by its depth, as the convention has it; object.exr would show more",
     };
     let mut missed = (shown.objects.iter())
         .filter(|object| object.is_missed())

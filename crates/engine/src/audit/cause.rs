@@ -17,7 +17,7 @@ pub enum Cause {
     FlippedY,
     /// The x axis points the other way.
     FlippedX,
-    /// x stands for y.
+    /// x and y are exchanged.
     SwappedAxes,
     /// The camera's motion alone.
     ObjectMotionMissing,
@@ -160,8 +160,8 @@ impl Cause {
             ))
         };
         match self {
-            Self::WrongSign => key("turn `velocity_sign` round"),
-            Self::FlippedY => key("turn `velocity_y` round"),
+            Self::WrongSign => key("reverse `velocity_sign`"),
+            Self::FlippedY => key("reverse `velocity_y`"),
             Self::Scale(scale) => key(&format!(
                 "`velocity_scale` {:.3} times what it is would fit, or another unit in `velocity` or `velocity_per`",
                 scale

@@ -144,9 +144,9 @@ impl DepthPair<'_> {
     ) -> Vec<(Cause, Plane)> {
         let right = &self.right.depth;
         let pairs = (pixels.iter()).map(|at| [self.found.pixels[*at], right.pixels[*at]]);
-        let (behind, surfaces): (Vec<_>, Vec<_>) =
+        let (background, surfaces): (Vec<_>, Vec<_>) =
             (pairs.map(|it| it.map(f64::from))).partition(|[_, right]| is_far(*right as f32));
-        let background = median(behind.iter().map(|[found, _]| *found));
+        let metres = median(background.iter().map(|[found, _]| *found));
         let of_surfaces = |depth: &dyn Fn(f64) -> f64| {
             right.map(|right| match is_far(*right) {
                 true => f32::NAN,
@@ -154,12 +154,12 @@ impl DepthPair<'_> {
             })
         };
         let mut causes = Vec::new();
-        if background.is_finite() {
+        if metres.is_finite() {
             let plane = right.map(|right| match is_far(*right) {
-                true => background as f32,
+                true => metres as f32,
                 false => *right,
             });
-            causes.push((Cause::DepthOfBackground(background), plane));
+            causes.push((Cause::DepthOfBackground(metres), plane));
         }
         if surfaces.is_empty() {
             return causes;

@@ -13,7 +13,7 @@ use crate::statistics::median;
 
 /// Greatest number of frames, late or early, that is looked for.
 const MOST_FRAMES: u32 = 2;
-/// Fewest pixels at which two views must differ before a buffer tells one from the other.
+/// Fewest pixels at which two views must differ before a buffer shows which one it has.
 const FEWEST_PIXELS: usize = 16;
 /// Part of these pixels that must show a view.
 const LEAST_SHOWING: f64 = 0.8;

@@ -234,7 +234,7 @@ fn list_subframes(
             return refuse(
                 path,
                 &format!(
-                    "stands in the place of {expected}; allowed: sub-frames numbered from 0000 without a gap"
+                    "is in the place of {expected}; allowed: sub-frames numbered from 0000 without a gap"
                 ),
             );
         }

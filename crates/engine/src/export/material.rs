@@ -21,19 +21,15 @@ pub fn push_material(
     check_translucency(material)?;
     let clear = material.translucency.filter(|_| is_clear(material));
     let mode = alpha_mode(material);
-    let base_color_texture = match (material.diffuse_texture, material.opacity_texture) {
-        _ if clear.is_some() => None,
-        (color, Some(opacity)) => Some(textures.add_cut_out(document, color, opacity)?),
-        (Some(color), None) => Some(textures.add_file(document, color)?),
-        (None, None) => None,
+    let base_color_texture = match clear {
+        Some(_) => None,
+        None => textures.add(document, material.diffuse_texture, material.opacity_texture)?,
     };
     // What is not opaque at all sends out nothing.
     let emission = clear.map_or(material.emission, |_| Vec3::ZERO);
     let strength = emission.max_element().max(1.0);
-    let emissive_texture = match material.emission_texture {
-        Some(texture) if emission != Vec3::ZERO => Some(textures.add_file(document, texture)?),
-        _ => None,
-    };
+    let emissive_texture = material.emission_texture.filter(|_| emission != Vec3::ZERO);
+    let emissive_texture = textures.add(document, emissive_texture, None)?;
     let color = clear.map_or(material.diffuse, |clear| clear.filter);
     let alpha = clear.map_or(material.opacity, |_| 1.0);
     let [metallic, roughness] = match (clear, material.finish) {
