@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-/// Frames per second of an exported animation.
-pub(super) const ANIMATION_RATE: f64 = 24.0;
+use crate::export::FRAMES_PER_SECOND;
 
 /// Known cause of a wrong picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -115,7 +114,7 @@ impl Cause {
             Self::ClippedAxes(limit) => format!("is clipped at {limit:.1} px on each axis"),
             Self::Steps(step) => format!("comes in steps of {step:.3} px, as of few bits"),
             Self::MotionOver(per_second) => format!(
-                "is the motion over 1/{per_second} s, not over a frame, which is 1/{ANIMATION_RATE} s of the exported animation"
+                "is the motion over 1/{per_second} s, not over a frame, which is 1/{FRAMES_PER_SECOND} s of the exported animation"
             ),
             Self::UpsideDown => "has its rows upside down".to_owned(),
             Self::DrawnLate(count) => format!("is drawn {} late", frames(count)),

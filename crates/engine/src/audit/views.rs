@@ -1,6 +1,6 @@
 //! Views of the scene that a capture may show instead of the right one: other frames, and rows upside down.
 
-use frame::{ColorSampling, Frame, Image, Plane, Raster};
+use frame::{ColorSampling, Image, Plane, Raster};
 use tracer::{Scene, TraceError};
 
 use crate::audit::cause::Cause;
@@ -222,16 +222,11 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
 /// Traces what a rasteriser writes some frames after the instant. Unlit colours have no noise.
 fn trace_view(scene: &Scene, size: [u32; 2], time: i32, cause: Cause) -> Result<View, TraceError> {
     let scene = scene.clone().pinhole().unlit().later_by(f64::from(time));
-    let Frame {
-        object_id,
-        depth,
-        color,
-        ..
-    } = render_view(&scene, size, 1, ColorSampling::Point)?;
+    let frame = render_view(&scene, size, 1, ColorSampling::Point)?;
     Ok(View {
         cause,
-        object_id,
-        depth,
-        color,
+        object_id: frame.object_id,
+        depth: frame.depth,
+        color: frame.color,
     })
 }
