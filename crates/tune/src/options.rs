@@ -7,23 +7,12 @@ use std::time::Duration;
 use tracer::{RenderSettings, Scene};
 
 use crate::loss::LEAST_BLEED;
+use crate::objective::Objective;
 use crate::selection::ChoiceLimits;
 use crate::space::Space;
 use crate::trial::Trial;
 use judge::SceneBounds;
-use suite::{Error, FilterChoice, Monitor, named};
-
-named! {
-    /// A score that trials are judged by, apart from the others.
-    pub enum Objective {
-        /// `flip_moving`; always measured.
-        Flip = "flip",
-        /// `bleed_lateral` of the worst scene.
-        Bleed = "bleed",
-        /// GPU time.
-        Cost = "cost",
-    }
-}
+use suite::{Error, FilterChoice, Monitor};
 
 /// Filter, scenes, limits and effort of a tuning.
 pub struct TuneOptions {

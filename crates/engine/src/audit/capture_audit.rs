@@ -1,6 +1,5 @@
 //! Audit of a capture.
 
-use filters::DepthKind;
 use serde::Serialize;
 use tracer::Scene;
 
@@ -61,12 +60,7 @@ pub fn audit_capture(
     let expected = ExpectedMotion::trace(scene, size)?;
     let right = &expected.right;
     let names = scene.object_names();
-    let is_linear = capture.convention.depth == DepthKind::Linear;
-    let pair = DepthPair {
-        found: &capture.depth,
-        right,
-        near: capture.convention.near.filter(|_| !is_linear),
-    };
+    let pair = DepthPair::of(capture, right);
     let ids = capture.object_id.as_ref();
     let is_same = |at: usize| ids.is_none_or(|ids| ids.pixels[at] == right.object_id.pixels[at]);
     let clear = select_clear_pixels(right, names.len(), &is_same);

@@ -1,5 +1,6 @@
 //! Audit of depth: the difference, and what is wrong in all of it or in single objects.
 
+use filters::DepthKind;
 use frame::{FAR_DEPTH, Plane, Raster};
 use serde::Serialize;
 use tracer::{PointLayers, Scene};
@@ -7,6 +8,7 @@ use tracer::{PointLayers, Scene};
 use crate::audit::cause::Cause;
 use crate::audit::clear_pixels::{ClearPixels, select_judged};
 use crate::audit::defect::{Buffer, Defect, Explanation};
+use crate::capture::folder::Capture;
 use crate::statistics::{median, percentile};
 
 /// Relative difference of depths that are taken for equal.
@@ -34,12 +36,22 @@ pub struct DepthPair<'a> {
     /// The engine's, in metres.
     pub found: &'a Plane,
     /// The scene's.
-    pub right: &'a PointLayers,
+    right: &'a PointLayers,
     /// Near plane of a buffer that is not linear: far away such a buffer is coarse, and its planes may be wrong.
-    pub near: Option<f64>,
+    near: Option<f64>,
 }
 
-impl DepthPair<'_> {
+impl<'a> DepthPair<'a> {
+    /// Pairs the depth of a capture with the scene's.
+    pub fn of(capture: &'a Capture, right: &'a PointLayers) -> Self {
+        let is_linear = capture.convention.depth == DepthKind::Linear;
+        Self {
+            found: &capture.depth,
+            right,
+            near: capture.convention.near.filter(|_| !is_linear),
+        }
+    }
+
     /// Tells whether two depths are within 1 % or within the rounding of the buffer, or both the background's.
     pub fn is_close(&self, found: f32, expected: f32) -> bool {
         let steps = (1.0 / f64::from(found) - 1.0 / f64::from(expected)).abs();
