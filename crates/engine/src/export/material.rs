@@ -11,8 +11,7 @@ use crate::export::textures::Textures;
 /// Opacity below which a surface has a hole.
 const HOLE: f32 = 0.5;
 
-/// Adds a material. A translucent one blends; glass and filters transmit in the colour of what passes. A texture of the document is
-/// that of the colour, or of colour and opacity.
+/// Adds a material. A translucent one blends; glass and filters transmit in the colour of what passes.
 pub fn push_material(
     document: &mut Document,
     textures: &mut Textures,
