@@ -251,7 +251,7 @@ fn sub_frames_that_make_no_truth_are_refused() {
     ]);
     fs::remove_file(capture.path("subframes/0002.exr")).unwrap();
     refuse(&[
-        "subframes/0003.exr: stands in the place of 0002.exr",
+        "subframes/0003.exr: is in the place of 0002.exr",
         "without a gap",
     ]);
     fs::rename(

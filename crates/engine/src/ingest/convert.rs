@@ -61,19 +61,8 @@ pub fn ingest(
     let (exposure, alignment) = capture.shutter()?;
     let shutter = alignment.shutter(exposure);
     let shutter = shutter.expect("the exposure was checked when it was read");
-    let averaged = match capture.subframes.is_empty() {
-        true => None,
-        false => {
-            let shutter = (shutter, alignment);
-            Some(average_subframes(
-                capture,
-                shutter,
-                &objects,
-                &provenance,
-                watch,
-            )?)
-        }
-    };
+    let times = (shutter, alignment);
+    let averaged = average_subframes(capture, times, &objects, &provenance, watch)?;
     let frame = make_frame(capture, &scene, (display, objects), provenance);
     if let Some(averaged) = &averaged {
         let rungs = averaged.ladder.rungs.iter();
