@@ -3,7 +3,7 @@
 use clap::Args;
 use frame::Alignment;
 
-use super::sequence::SequenceArgs;
+use super::SequenceArgs;
 
 /// Frames, intervals and the common shutter of a run.
 #[derive(Debug, Args)]

@@ -7,8 +7,7 @@ use frame::{ColorSampling, FrameOptions, VelocityKind};
 use suite::Error;
 use tracer::{FrameRate, Location, RenderSettings};
 
-use super::frame_rates::FrameRateArgs;
-use super::scenes_root::{default_scenes_root, scenes_root_parser};
+use super::{FrameRateArgs, default_scenes_root, scenes_root_parser};
 use crate::selection::split_variant;
 
 /// On or off.

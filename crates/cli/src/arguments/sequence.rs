@@ -3,7 +3,7 @@
 use clap::Args;
 use suite::Frames;
 
-use super::parse::{above_zero, frame_count};
+use super::{above_zero, frame_count};
 
 /// Number and rate of the frames of every scene.
 #[derive(Clone, Debug, Args)]

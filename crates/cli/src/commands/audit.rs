@@ -10,11 +10,10 @@ use tracer::Location;
 
 use super::capture::{load_drawn_scene, name_folder};
 use super::ending::Ending;
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_note};
-use crate::tables::audit::audit_table;
+use crate::arguments::{default_scenes_root, scenes_root_parser};
+use crate::output::{print, print_note};
+use crate::tables::audit_table;
 
-/// `shuttertruth engine audit`
 #[derive(Debug, Args)]
 pub struct AuditArgs {
     /// Folder of a capture, as for `engine ingest`: capture.toml, color.exr, velocity.exr, depth.exr; object.exr makes the audit sharper.

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, Command, Id};
 use frame::FileError;
 use judge::{
     BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
@@ -22,47 +22,25 @@ use super::run_files::write_judged_run;
 use super::run_plan::{
     check_replicates_for_intervals, make_plan, read_case_bounds, scene_folder_below,
 };
-use crate::arguments::adapter::AdapterArgs;
-use crate::arguments::measure::MeasureArgs;
-use crate::arguments::sequence::SequenceArgs;
-use crate::output::print::{print, print_json, print_note};
-use crate::output::verbosity::is_verbose;
-use crate::tables::adapter::adapter_text;
-use crate::tables::annotations::{annotations, summary};
-use crate::tables::check::{check_text, verdict_text};
-use crate::tables::junit::junit;
+use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
+use crate::output::{is_verbose, print, print_json, print_note};
+use crate::tables::{adapter_text, annotations, check_text, junit, summary, verdict_text};
 
-/// Arguments that only a check that measures may have.
-const MEASURING: [&str; 22] = [
-    "scenes",
-    "frame_rate",
-    "shutter_time",
-    "samples_per_pixel",
-    "exposure",
-    "velocity",
-    "frame_sampling",
-    "sky_velocity",
-    "guard_band",
-    "seed",
-    "out",
-    "filters",
-    "preset",
-    "set",
-    "as_written",
-    "size",
-    "replicates",
-    "input",
-    "jitter_frames",
-    "frames",
-    "fps",
-    "adapter",
-];
+/// Names the arguments that only a check that measures may have.
+fn list_measuring() -> Vec<Id> {
+    let all = MeasureArgs::augment_args(Command::new("check"));
+    let all = AdapterArgs::augment_args(SequenceArgs::augment_args(all));
+    let ids = all
+        .get_arguments()
+        .map(|argument| argument.get_id().clone());
+    ids.filter(|id| *id != "scenes_dir" && *id != "threads")
+        .collect()
+}
 
-/// `shuttertruth check`
 #[derive(Debug, Args)]
 pub struct CheckArgs {
     /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter [default: measure now].
-    #[arg(value_name = "RUN", conflicts_with_all = MEASURING)]
+    #[arg(value_name = "RUN", conflicts_with_all = list_measuring())]
     pub run: Option<PathBuf>,
     /// For every broken bound of RUN, find the worst place and the known failure that the picture is most like. A check that
     /// measures always does.

@@ -10,12 +10,10 @@ use tracer::Location;
 
 use super::margins::read_margins;
 use super::pages::write_page;
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_json};
-use crate::output::progress::make_monitor;
-use crate::tables::comparison::compare_table;
+use crate::arguments::{default_scenes_root, scenes_root_parser};
+use crate::output::{make_monitor, print, print_json};
+use crate::tables::compare_table;
 
-/// `shuttertruth compare`
 #[derive(Debug, Args)]
 pub struct CompareArgs {
     /// run.json of the first run, or its folder.

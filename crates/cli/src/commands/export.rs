@@ -8,11 +8,10 @@ use store::printable_path;
 use suite::{Error, PROGRAM};
 use tracer::Location;
 
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::print;
+use crate::arguments::{default_scenes_root, scenes_root_parser};
+use crate::output::print;
 use crate::selection::select_scenes;
 
-/// `shuttertruth engine export`
 #[derive(Debug, Args)]
 pub struct ExportArgs {
     /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all.

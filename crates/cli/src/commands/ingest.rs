@@ -11,11 +11,9 @@ use suite::{EngineScene, Error};
 use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_note};
-use crate::output::progress::make_monitor;
+use crate::arguments::{default_scenes_root, scenes_root_parser};
+use crate::output::{make_monitor, print, print_note};
 
-/// `shuttertruth engine ingest`
 #[derive(Debug, Args)]
 pub struct IngestArgs {
     /// Folder of a capture: capture.toml, color.exr, velocity.exr, depth.exr; optionally subframes/0000.exr and on, and

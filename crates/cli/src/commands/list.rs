@@ -6,15 +6,13 @@ use suite::{Error, InputFormat};
 use tracer::{Location, SceneListing, list_scenes};
 
 use super::try_filters::try_filters;
-use crate::arguments::adapter::AdapterArgs;
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_json, print_note};
+use crate::arguments::{AdapterArgs, default_scenes_root, scenes_root_parser};
+use crate::output::{print, print_json, print_note};
 use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
-use crate::tables::listing::{
+use crate::tables::{
     details_text, filter_json, filters_text, input_json, inputs_text, scene_json, scenes_text,
 };
 
-/// `shuttertruth list`
 #[derive(Debug, Args)]
 pub struct ListArgs {
     /// Things to list: scenes, filters, inputs, adapters, or names or patterns of scenes and filters, which are shown in detail

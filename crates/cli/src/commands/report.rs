@@ -9,10 +9,8 @@ use store::printable_path;
 use suite::{Error, Run, write_layers};
 
 use super::pages::{WrittenFile, page_lines, write_page, write_run_page};
-use crate::output::print::{print, print_json};
-use crate::output::progress::make_monitor;
+use crate::output::{make_monitor, print, print_json};
 
-/// `shuttertruth report`
 #[derive(Debug, Args)]
 pub struct ReportArgs {
     /// run.json of a finished `run` or `check`, or its folder; or the folder of a `tune search`.

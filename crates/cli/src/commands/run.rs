@@ -12,20 +12,12 @@ use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
 use super::run_files::{write_judged_run, write_run};
 use super::run_plan::{apply_options, make_plan, read_case_bounds};
-use crate::arguments::adapter::AdapterArgs;
-use crate::arguments::measure::MeasureArgs;
-use crate::arguments::parse::parse_named;
-use crate::arguments::run_options::RunOptions;
-use crate::output::print::print;
-use crate::output::progress::clock_text;
-use crate::tables::adapter::adapter_text;
-use crate::tables::cases::run_table;
-use crate::tables::columns::legend_text;
-use crate::tables::failures::failures_text;
-use crate::tables::ranking::ranking_text;
-use crate::tables::sequence::sequences_text;
+use crate::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
+use crate::output::{clock_text, print};
+use crate::tables::{
+    adapter_text, failures_text, legend_text, ranking_text, run_table, sequences_text,
+};
 
-/// `shuttertruth run`
 #[derive(Debug, Args)]
 pub struct RunArgs {
     #[command(flatten)]

@@ -15,12 +15,8 @@ use tracer::{FrameRate, Location, RenderSettings, Scene, Seal};
 
 use super::kept_truths::check_truths;
 use super::render_settings::make_render_settings;
-use crate::arguments::measure::MeasureArgs;
-use crate::arguments::run_options::RunOptions;
-use crate::arguments::scenes::SceneArgs;
-use crate::output::count::count_text;
-use crate::output::print::{print_note, print_scene_notes};
-use crate::output::progress::make_monitor;
+use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
+use crate::output::{count_text, make_monitor, print_note, print_scene_notes};
 use crate::selection::{select_engine_scenes, select_filters, select_scenes};
 
 /// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.

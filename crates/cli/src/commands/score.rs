@@ -11,12 +11,10 @@ use tracer::Location;
 
 use super::convention::read_convention;
 use super::score_sequence;
-use crate::arguments::parse::{above_zero, frame_count};
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_json};
-use crate::tables::cases::score_table;
+use crate::arguments::{above_zero, default_scenes_root, frame_count, scenes_root_parser};
+use crate::output::{print, print_json};
+use crate::tables::score_table;
 
-/// `shuttertruth score`
 #[derive(Debug, Args)]
 pub struct ScoreArgs {
     /// The truth: truth_<alignment>.exr of `truths render` or `run`; of a sequence that of the first frame.

@@ -11,9 +11,9 @@ use tracer::Scene;
 
 use super::convention::read_convention;
 use super::score::ScoreArgs;
-use crate::output::print::{print, print_json};
+use crate::output::{print, print_json};
 use crate::selection::select_scenes;
-use crate::tables::sequence::score_sequence_table;
+use crate::tables::score_sequence_table;
 
 /// Scores the numbered pictures of a folder, and prints their scores over time.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {

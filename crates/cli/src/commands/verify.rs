@@ -5,21 +5,17 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use frame::{FileError, Tile};
-use serde::Serialize;
+use serde_json::json;
 use store::{Pack, printable_path};
 use suite::{Error, KeptScene, TILE_SIDE, Verification, Verified, list_kept_scenes, verify_scene};
 use tracer::Location;
 
 use super::ending::Ending;
 use super::kept_truths::choose_seed;
-use crate::arguments::parse::within;
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::count::count_text;
-use crate::output::print::{print, print_json};
-use crate::output::progress::make_monitor;
+use crate::arguments::{default_scenes_root, scenes_root_parser, within};
+use crate::output::{count_text, make_monitor, print, print_json};
 use crate::selection::{choose_names, select_scenes};
 
-/// `shuttertruth truths verify`
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
     /// Pack, or folder into which `run`, `check` or `truths render` wrote.
@@ -72,7 +68,7 @@ pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
         differences => Err(Error::Broken(differences.join("\n"))),
     };
     if args.json {
-        print_json(&Json::new(&verified, &verification))?;
+        print_json(&verified_json(&verified, &verification))?;
         return match result {
             Ok(()) => Ok(Ending::Done),
             Err(error) => Ok(Ending::Failed(error)),
@@ -138,43 +134,21 @@ fn verified_text(truths: &Path, verified: &Verified, verification: &Verification
     )
 }
 
-/// What was verified, for machines.
-#[derive(Serialize)]
-struct Json<'a> {
-    /// Seed of the choice.
-    seed: u64,
-    /// Truths that are equal to the mean of their replicates.
-    truths: usize,
-    /// Tiles that are equal.
-    tiles: Vec<JsonTile<'a>>,
-    /// What differs, and what to do.
-    differences: &'a [String],
-}
-
-/// A tile of a file, in pixels from the top left.
-#[derive(Serialize)]
-struct JsonTile<'a> {
-    file: &'a Path,
-    x: u32,
-    y: u32,
-    width: u32,
-    height: u32,
-}
-
-impl<'a> Json<'a> {
-    fn new(verified: &'a Verified, verification: &Verification) -> Self {
-        let tile = |(file, tile): &'a (PathBuf, Tile)| JsonTile {
-            file,
-            x: tile.x,
-            y: tile.y,
-            width: tile.width,
-            height: tile.height,
-        };
-        Self {
-            seed: verification.seed,
-            truths: verified.truths,
-            tiles: verified.tiles.iter().map(tile).collect(),
-            differences: &verified.differences,
-        }
-    }
+/// Describes what was verified as JSON, tiles in pixels from the top left.
+fn verified_json(verified: &Verified, verification: &Verification) -> serde_json::Value {
+    let tiles = verified.tiles.iter().map(|(file, tile)| {
+        let Tile {
+            x,
+            y,
+            width,
+            height,
+        } = tile;
+        json!({"file": file, "x": x, "y": y, "width": width, "height": height})
+    });
+    json!({
+        "seed": verification.seed,
+        "truths": verified.truths,
+        "tiles": tiles.collect::<Vec<_>>(),
+        "differences": verified.differences,
+    })
 }

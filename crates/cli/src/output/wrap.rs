@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use terminal_size::{Width, terminal_size_of};
 
-use crate::output::colors::width;
+use super::width;
 
 /// Columns of printed text where no terminal tells its own.
 const USUAL_COLUMNS: usize = 80;

@@ -5,9 +5,8 @@ use study::{
     FEWEST_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
 };
 
-use super::columns::{legend_text, number_table};
-use crate::output::colors;
-use crate::output::wrap::push_wrapped;
+use super::{Table, legend_text};
+use crate::output::{heading, push_wrapped};
 
 /// Meaning of the columns of a scale.
 const SCALE_KEY: &str = "Scale: 1 more means that three of four would choose the filter (Bradley and Terry, with Jeffreys' prior); \
@@ -31,7 +30,7 @@ pub fn preferences_table(found: &Preferences) -> String {
 }
 
 fn push_question(text: &mut String, found: &QuestionResult) {
-    *text += &format!("{}\n", colors::heading(found.question.text()));
+    *text += &format!("{}\n", heading(found.question.text()));
     let answers: usize = found.sessions.iter().map(|own| own.answers).sum();
     let mut facts = format!(
         "{}, {answers} answers",
@@ -73,24 +72,18 @@ fn push_checks(text: &mut String, found: &QuestionResult) {
 }
 
 fn push_scale(text: &mut String, scale: &ShutterScale) {
-    let mut table = number_table(&[
-        &format!("{} shutter", scale.alignment),
-        "scale",
-        "95 % CI",
-        "over mean",
-        "chosen",
-        "of",
-    ]);
+    let title = format!("{} shutter", scale.alignment);
+    let mut table = Table::new(title, ["scale", "95 % CI", "over mean", "chosen", "of"]);
     for own in &scale.filters {
-        table.push(vec![
-            printable(&own.filter).into_owned(),
+        let cells = [
             signed(own.scale),
             own.interval
                 .map_or("n/a".to_owned(), |ends| range(ends.map(signed))),
             format!("{:.0} %", 100.0 * own.chosen_over_mean),
-            format!("{}", own.chosen),
-            format!("{}", own.compared),
-        ]);
+            own.chosen.to_string(),
+            own.compared.to_string(),
+        ];
+        table.push(printable(&own.filter), cells);
     }
     *text += &format!("\n{}", table.text());
     for line in describe(scale) {
@@ -142,19 +135,12 @@ fn describe(scale: &ShutterScale) -> Vec<String> {
 }
 
 fn score_table(scores: &[ScoreAgreement]) -> String {
-    let mut table = number_table(&[
-        "score",
-        "rank",
-        "95 % CI",
-        "predicted",
-        "95 % CI",
-        "choices",
-    ]);
+    let columns = ["rank", "95 % CI", "predicted", "95 % CI", "choices"];
+    let mut table = Table::new("score", columns);
     let none = || "n/a".to_owned();
     for own in scores {
         let percent = |share: f64| format!("{:.0}", 100.0 * share);
-        table.push(vec![
-            own.score.name(),
+        let cells = [
             own.correlation.map_or_else(none, signed),
             own.correlation_interval
                 .map_or_else(none, |ends| range(ends.map(signed))),
@@ -163,7 +149,8 @@ fn score_table(scores: &[ScoreAgreement]) -> String {
             own.predicted_interval
                 .map_or_else(none, |ends| range(ends.map(percent)) + " %"),
             own.choices.to_string(),
-        ]);
+        ];
+        table.push(own.score.name(), cells);
     }
     table.text()
 }

@@ -3,7 +3,7 @@
 use suite::{EngineScene, Error};
 
 use super::job::{files_below, path_word};
-use crate::arguments::scenes::SceneArgs;
+use crate::arguments::SceneArgs;
 use crate::selection::{SceneChoice, select_engine_scenes, select_scenes};
 
 /// A scene of a plan, in the order of the plan.

@@ -11,7 +11,7 @@ use suite::Error;
 
 use super::line_reader::{Line, read_lines};
 use super::reply::print_reply;
-use crate::output::interrupts::was_interrupted;
+use crate::output::was_interrupted;
 
 /// Upper limit on requests that wait; more are read later.
 const MOST_WAITING: usize = 1024;

@@ -18,10 +18,9 @@ use super::candidate::{
     claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,
 };
 use super::evaluate::change_settings;
-use crate::arguments::candidate::CandidateArgs;
-use crate::output::progress::make_monitor;
+use crate::arguments::CandidateArgs;
+use crate::output::make_monitor;
 
-/// `shuttertruth tune serve`
 #[derive(Debug, Args)]
 pub struct ServeArgs {
     #[command(flatten)]

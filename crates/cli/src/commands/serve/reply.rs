@@ -2,7 +2,7 @@
 
 use suite::Error;
 
-use crate::output::print::print;
+use crate::output::print;
 
 /// Prints one reply.
 pub fn print_reply(value: serde_json::Value) -> Result<(), Error> {
