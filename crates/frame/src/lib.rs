@@ -56,7 +56,9 @@ pub use frame::{FAR_DEPTH, Frame, read_frame_rate};
 pub use frame_options::{ColorSampling, FrameOptions, VelocityKind};
 pub use hidden::is_hidden;
 pub use picture::Picture;
-pub use png::{MOST_PNG_PIXELS, check_png_palette, read_png, write_animated_png, write_png};
+pub use png::{
+    MOST_PNG_PIXELS, check_png_palette, png_bytes, read_png, write_animated_png, write_png,
+};
 pub use provenance::Provenance;
 pub use raster::{Image, Plane, Raster, Vectors};
 pub use region::{Region, Regions};

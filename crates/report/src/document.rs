@@ -44,19 +44,26 @@ impl Siblings {
     }
 }
 
+/// Writes JSON that scripts read from the element `id`.
+pub fn script_data(id: &str, json: &str) -> Markup {
+    // No text may end the script that holds it.
+    let text = json.replace('<', "\\u003c");
+    html! { script id=(id) type="application/json" { (PreEscaped(text)) } }
+}
+
 /// A page before it is text.
 pub struct Document<'a> {
     /// Name in the browser's window.
     pub title: &'a str,
     /// Name at the top of the page.
     pub heading: Markup,
-    /// Words beside the heading.
+    /// Words next to the heading.
     pub subtitle: &'a str,
     /// Content of the page, with the data that scripts read.
     pub body: Markup,
-    /// Scripts in the order in which they run, behind that of the theme.
+    /// Scripts in the order in which they run, after that of the theme.
     pub scripts: &'a [&'a str],
-    /// Files beside it that the page loads.
+    /// Files next to it that the page loads.
     pub siblings: Siblings,
 }
 

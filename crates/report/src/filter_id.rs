@@ -1,10 +1,7 @@
 //! Identity of filters: what a row of every table stands for.
 
 use frame::Alignment;
-use metrics::{Measured, Metric};
 use suite::{Case, Overall};
-
-use crate::case_table::CaseTable;
 
 /// A filter preset with one form of its input, or a reference with one shutter.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -69,36 +66,10 @@ fn escape(name: &str) -> String {
     escaped.collect()
 }
 
-/// Lists the shutter alignments of some filters.
-pub fn list_alignments(filters: &[FilterId]) -> Vec<Alignment> {
-    drop_repetitions(filters.iter().map(|filter| filter.alignment))
-}
-
-/// Averages a score's noise floor over a filter's scenes; none where the score applies to none.
-pub fn mean_floor(table: &CaseTable, filter: &FilterId, metric: Metric) -> Option<f64> {
-    let floors = table
-        .cases_of(filter)
-        .filter_map(|(_, case)| match case.measured(metric) {
-            Measured::Score(score) => Some(score.floor),
-            Measured::NotApplicable { .. } => None,
-        });
-    mean(floors)
-}
-
 /// Averages numbers; none of none.
 pub fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     let (count, sum) = values.fold((0, 0.0), |(count, sum), value| (count + 1, sum + value));
     (count > 0).then(|| sum / f64::from(count))
-}
-
-fn drop_repetitions<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
-    let mut found = Vec::new();
-    for one in all {
-        if !found.contains(&one) {
-            found.push(one);
-        }
-    }
-    found
 }
 
 #[cfg(test)]

@@ -8,7 +8,9 @@ use suite::{Bench, Case};
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, case_anchor};
 use crate::numbers::value_text;
-use crate::overview::costs::{cost_of, cost_text};
+use crate::overview::bench_file::cost_of;
+use crate::overview::costs::cost_text;
+use crate::table::{Column, scroll_table};
 
 /// Scores beside the error in the table of scenes.
 const SCORES: [(Metric, &str); 6] = [
@@ -82,39 +84,36 @@ fn source_rows(source: &Source) -> Markup {
 
 /// Lists the scenes, largest error first, each with a link to its case.
 fn weakest(table: &CaseTable, cases: &[&Case], thumbnails: &[String]) -> Markup {
-    let scenes = &table.scenes;
     let error = |case: &Case| case.estimate(Metric::FLIP).unwrap_or(f64::NEG_INFINITY);
     let mut sorted = cases.to_vec();
     sorted.sort_by(|a, b| error(b).total_cmp(&error(a)));
-    html! {
-        div.scroll tabindex="0" role="region" aria-label="Scenes" {
-            table.stacked {
-                caption { "Scenes, the weakest first" }
-                thead {
-                    tr {
-                        th scope="col" { "scene" }
-                        @for (_, title) in SCORES { th scope="col" { (title) } }
-                        th.text scope="col" { "what the scene exposes" }
-                    }
-                }
-                tbody {
-                    @for case in sorted {
-                        @let place = scenes.iter().position(|scene| *scene == case.scene);
-                        tr {
-                            th scope="row" {
-                                a.scene href=(format!("#{}", case_anchor(case))) {
-                                    img data-thumbnail=[place.filter(|at| *at < thumbnails.len())] alt="";
-                                    (case.scene)
-                                }
-                            }
-                            @for (metric, title) in SCORES { td data-label=(title) { (case.score_text(metric)) } }
-                            td.text { (case.exposes) }
+    let mut columns = vec![Column::Plain("scene")];
+    columns.extend(SCORES.map(|(_, title)| Column::Plain(title)));
+    columns.push(Column::Text("what the scene exposes"));
+    let rows = html! {
+        tbody {
+            @for case in sorted {
+                @let place = table.scenes.iter().position(|scene| *scene == case.scene);
+                tr {
+                    th scope="row" {
+                        a.scene href=(format!("#{}", case_anchor(case))) {
+                            img data-thumbnail=[place.filter(|at| *at < thumbnails.len())] alt="";
+                            (case.scene)
                         }
                     }
+                    @for (metric, title) in SCORES { td data-label=(title) { (case.score_text(metric)) } }
+                    td.text { (case.exposes) }
                 }
             }
         }
-    }
+    };
+    scroll_table(
+        Some("stacked"),
+        "Scenes",
+        Some("Scenes, the weakest first"),
+        &columns,
+        &rows,
+    )
 }
 
 fn parameters(filter: Option<&Filter>, case: &Case) -> Markup {
@@ -122,19 +121,21 @@ fn parameters(filter: Option<&Filter>, case: &Case) -> Markup {
         let mut all = filter?.parameters.iter();
         all.find(|own| own.name == name).map(|own| own.doc.as_str())
     };
+    let columns = [
+        Column::Plain("parameter"),
+        Column::Plain("value"),
+        Column::Text("meaning"),
+    ];
+    let rows = html! {
+        tbody {
+            @for (name, value) in &case.parameters {
+                tr { th scope="row" { (name) } td { (value_text(value)) } td.text { (doc(name).unwrap_or_default()) } }
+            }
+        }
+    };
     html! {
         @if !case.parameters.is_empty() {
-            div.scroll tabindex="0" role="region" aria-label="Parameters" {
-                table.stacked {
-                    caption { "Parameters" }
-                    thead { tr { th scope="col" { "parameter" } th scope="col" { "value" } th.text scope="col" { "meaning" } } }
-                    tbody {
-                        @for (name, value) in &case.parameters {
-                            tr { th scope="row" { (name) } td { (value_text(value)) } td.text { (doc(name).unwrap_or_default()) } }
-                        }
-                    }
-                }
-            }
+            (scroll_table(Some("stacked"), "Parameters", Some("Parameters"), &columns, &rows))
         }
     }
 }

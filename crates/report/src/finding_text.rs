@@ -1,28 +1,76 @@
 //! A finding in words: its status, its score and the way out.
 
 use judge::{Finding, Length, Level, MOST_SAMPLES, Outcome, badness_within, number};
+use maud::{Markup, Render, html};
 use metrics::{Ideal, Interval};
 
-/// Status of a score against its bound, told by colour, sign and word: never by the colour alone.
+/// Status of a score against its bound, shown by colour, sign and word: never by the colour alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Status {
     /// Class in the style sheet, and word for a reader.
     pub word: &'static str,
     /// Sign before the number.
-    pub sign: &'static str,
+    sign: &'static str,
 }
 
 impl Status {
     /// Names the status of an outcome; none where the metric does not apply.
     pub fn of(outcome: Outcome) -> Option<Self> {
         let (word, sign) = match outcome {
-            Outcome::Kept => ("kept", "✓"),
+            Outcome::Kept => ("met", "✓"),
             Outcome::Broken => ("broken", "✗"),
             Outcome::Inconclusive => ("inconclusive", "?"),
             Outcome::TooNoisy => ("undecided", "~"),
             Outcome::NotApplicable | Outcome::NotJudged => return None,
         };
         Some(Self { word, sign })
+    }
+
+    /// Returns the class of a score with a required bound; none for targets.
+    pub fn required_class(finding: &Finding) -> Option<&'static str> {
+        let required = Self::of(finding.outcome).filter(|_| finding.level == Level::Required);
+        required.map(|status| status.word)
+    }
+}
+
+/// The sign.
+impl Render for Status {
+    fn render(&self) -> Markup {
+        html! { span.sign aria-hidden="true" { (self.sign) } }
+    }
+}
+
+/// Numbers of findings of one level, by outcome.
+pub struct Tally {
+    /// All of the level.
+    pub all: usize,
+    /// Limits that are met.
+    pub met: usize,
+    /// Limits that are broken.
+    pub broken: usize,
+    /// Scores that are too noisy to decide.
+    pub undecided: usize,
+}
+
+impl Tally {
+    /// Counts the findings of a level.
+    pub fn of<'a>(findings: impl IntoIterator<Item = &'a Finding>, level: Level) -> Self {
+        let mut tally = Self {
+            all: 0,
+            met: 0,
+            broken: 0,
+            undecided: 0,
+        };
+        for finding in findings.into_iter().filter(|own| own.level == level) {
+            tally.all += 1;
+            match finding.outcome {
+                Outcome::Kept => tally.met += 1,
+                Outcome::Broken => tally.broken += 1,
+                Outcome::Inconclusive | Outcome::TooNoisy => tally.undecided += 1,
+                Outcome::NotApplicable | Outcome::NotJudged => {}
+            }
+        }
+        tally
     }
 }
 
@@ -39,7 +87,7 @@ pub fn finding_status(finding: &Finding) -> &'static str {
         (Outcome::Inconclusive, Level::Required) => "UNDECIDED",
         (Outcome::Inconclusive, Level::Report) => "target undecided",
         (Outcome::TooNoisy, _) => "LIMIT WITHIN NOISE",
-        (Outcome::Kept, _) => "kept",
+        (Outcome::Kept, _) => "met",
         (Outcome::NotApplicable, _) => "not applicable",
         (Outcome::NotJudged, _) => "not judged",
     }
@@ -126,9 +174,7 @@ pub fn way_out(finding: &Finding) -> Option<String> {
             }
         )),
         Outcome::Inconclusive => Some(match finding.settled_by {
-            None => {
-                "parts of the truth cannot tell this score; raise --samples-per-pixel".to_owned()
-            }
+            None => "too noisy for a confidence interval; raise --samples-per-pixel".to_owned(),
             Some(MOST_SAMPLES..) => {
                 "too close to the limit for any number of samples; move the limit".to_owned()
             }

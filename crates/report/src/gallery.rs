@@ -8,17 +8,12 @@ use metrics::Metric;
 use suite::{Case, Error, IDENTITY, Run};
 
 use crate::case_strip::{read_output, read_truth, tile};
+use crate::run_facts::command;
 
 /// File name of the contact sheet.
 const SHEET: &str = "truths.png";
 /// Truths in a row of the contact sheet.
 const COLUMNS: u32 = 6;
-
-/// A scene with the two cases that the gallery shows.
-struct Entry<'a> {
-    best: &'a Case,
-    worst: &'a Case,
-}
 
 /// Writes `README.md`, the contact sheet and a strip of pictures per scene below `out`, from the files of a run in `folder`. Returns
 /// the path of the page.
@@ -32,20 +27,19 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
     }
     let mut truths = Vec::new();
     let mut page = introduction(run);
-    for entry in &entries {
-        let scene = &entry.best.scene;
-        let instant = read_png(&folder.join(scene).join("frame.png"))?;
-        let truth = read_truth(folder, entry.best)?;
+    for [best, worst] in entries {
+        let instant = read_png(&folder.join(&best.scene).join("frame.png"))?;
+        let truth = read_truth(folder, best)?;
         let strip = [
             instant,
             truth.clone(),
-            read_output(folder, entry.best)?,
-            read_truth(folder, entry.worst)?,
-            read_output(folder, entry.worst)?,
+            read_output(folder, best)?,
+            read_truth(folder, worst)?,
+            read_output(folder, worst)?,
         ];
-        write_png(&out.join(strip_name(scene)), &tile(&strip, 5))?;
+        write_png(&out.join(strip_name(&best.scene)), &tile(&strip, 5))?;
         truths.push(truth);
-        page += &section(entry);
+        page += &section(best, worst);
     }
     write_png(&out.join(SHEET), &tile(&truths, COLUMNS))?;
     let path = out.join("README.md");
@@ -54,7 +48,7 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
 }
 
 /// Finds the best and the worst filter, scene by scene, in the order of the run.
-fn find_entries(run: &Run) -> Vec<Entry<'_>> {
+fn find_entries(run: &Run) -> Vec<[&Case; 2]> {
     let cases: Vec<&Case> = (run.cases.iter())
         .filter(|case| !case.is_reference && case.filter != IDENTITY)
         .collect();
@@ -66,21 +60,17 @@ fn find_entries(run: &Run) -> Vec<Entry<'_>> {
 
 /// Ranks the filters of one scene by skill; by FLIP against the common shutter where the oracle is no better than no blur,
 /// so that there is no skill. None where nothing moves.
-fn find_entry<'a>(cases: &[&'a Case]) -> Option<Entry<'a>> {
+fn find_entry<'a>(cases: &[&'a Case]) -> Option<[&'a Case; 2]> {
     let skills = cases.iter().map(|case| case.estimate(Metric::SKILL));
     let errors = (cases.iter()).map(|case| Some(-case.estimate(Metric::CommonFlip)?));
     let keys: Vec<f64> = (skills.collect::<Option<_>>()).or_else(|| errors.collect())?;
-    let place = |index: usize| cases[index];
-    let by_key = |a: &usize, b: &usize| keys[*a].total_cmp(&keys[*b]);
-    Some(Entry {
-        best: (0..cases.len()).max_by(by_key).map(place)?,
-        worst: (0..cases.len()).min_by(by_key).map(place)?,
-    })
+    let ranked = || keys.iter().zip(cases);
+    let (_, best) = ranked().max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let (_, worst) = ranked().min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    Some([best, worst])
 }
 
 fn introduction(run: &Run) -> String {
-    let words = run.command.iter().skip(1).map(String::as_str);
-    let command: Vec<&str> = std::iter::once("shuttertruth").chain(words).collect();
     format!(
         "# Gallery\n\n![The truths of all scenes]({SHEET})\n\nBelow, each scene has five pictures: the frame of one instant; the truth and the \
          output of the best filter; the truth and the output of the worst filter. Two truths differ where the filters declare two \
@@ -89,12 +79,11 @@ fn introduction(run: &Run) -> String {
         run.render.width,
         run.render.height,
         run.render.samples_per_pixel,
-        command.join(" "),
+        command(run),
     )
 }
 
-fn section(entry: &Entry) -> String {
-    let Entry { best, worst } = entry;
+fn section(best: &Case, worst: &Case) -> String {
     let mut text = format!("\n## {}\n\n{}\n\n", best.scene, best.exposes);
     let _ = writeln!(
         text,

@@ -17,6 +17,7 @@ mod pixels;
 mod run_facts;
 mod run_page;
 mod sequence;
+mod table;
 mod tuning;
 
 use std::collections::{BTreeMap, HashMap};
@@ -27,7 +28,7 @@ use judge::Finding;
 use maud::{Markup, PreEscaped};
 use suite::{Case, Error, Run};
 
-use case::case_view::{CaseInput, CaseView};
+use case::case_view::CaseView;
 use case::{CaseTables, case_section};
 use case_table::CaseTable;
 use filter_page::filter_section;
@@ -43,17 +44,16 @@ pub use finding_text::{
     finding_line, finding_score, finding_status, length_text, limit_text, way_out, worst_frame_text,
 };
 pub use gallery::write_gallery;
-pub use overview::costs::read_bench;
+pub use overview::bench_file::read_bench;
 pub use pixels::report_files::LARGEST_PAGE;
 pub use sequence::{SEQUENCES_PAGE, sequences_page};
 pub use tuning::{TuneFolder, tuning_page};
 
-/// Writes the page of a run whose files lie below `folder`, that of its run.json, to `html`; returns its path, then those of the files
-/// beside it.
+/// Writes the page of the run in `folder` to `html`; returns its path, then those of the files next to it.
 ///
-/// A bench.json that lies there too says what the filters cost. `findings` are those about the run; without any the page shows no
-/// bounds. If the page would have more than `largest` bytes, [`LARGEST_PAGE`] for instance, its numbers lie beside it, and if those
-/// of its tables alone are more, its tables too. The same run makes the same bytes. The page comes last: one that is there is whole.
+/// Costs come from a bench.json in the folder. Without `findings` the page shows no bounds. If the page would have more than
+/// `largest` bytes, [`LARGEST_PAGE`] for instance, its numbers go into files, and if its tables alone are larger, they do too. The
+/// same run makes the same bytes. The page is written last: one that exists is whole.
 ///
 /// # Errors
 /// A file of the run is missing or broken, or a file of the report cannot be written.
@@ -64,7 +64,12 @@ pub fn write_report(
     html: &Path,
     largest: usize,
 ) -> Result<Vec<PathBuf>, Error> {
-    refuse_empty(run)?;
+    if run.cases.is_empty() {
+        return Err(Error::Usage(
+            "the run has no cases, and there is nothing to report; run some scenes and filters"
+                .to_owned(),
+        ));
+    }
     let bench = read_bench(folder)?;
     let table = CaseTable::new(run);
     let findings = group_findings(findings);
@@ -135,13 +140,8 @@ impl<'a> Parts<'a> {
         let mut files = SceneFiles::read(table.run, &cases, folder)?;
         let mut texts: BTreeMap<String, [String; 2]> = BTreeMap::new();
         for (index, case) in own() {
-            let input = CaseInput {
-                run: table.run,
-                index,
-                findings: findings_about(case, findings),
-                scene,
-            };
-            let view = CaseView::read(input, folder, &mut files)?;
+            let findings = findings_about(case, findings);
+            let view = CaseView::read(table.run, index, scene, findings, &mut files)?;
             let tables = CaseTables::new(&view, table);
             self.sections[index] = case_section(&view, self.has_tables.then_some(&tables));
             if !self.has_tables {
@@ -154,7 +154,7 @@ impl<'a> Parts<'a> {
             self.tables.add(text)?;
         }
         self.numbers.add(files.planes.json())?;
-        self.thumbnails.push(files.thumbnail()?);
+        self.thumbnails.push(files.thumbnail());
         Ok(())
     }
 }
@@ -177,15 +177,4 @@ fn findings_about(case: &Case, findings: &HashMap<&str, Vec<&Finding>>) -> Vec<F
     own.filter(|finding| !case.is_reference && finding.is_of(case))
         .map(|finding| (*finding).clone())
         .collect()
-}
-
-/// Refuses what no run of this program holds.
-fn refuse_empty(run: &Run) -> Result<(), Error> {
-    if run.cases.is_empty() {
-        return Err(Error::Usage(
-            "the run has no cases, and there is nothing to report; run some scenes and filters"
-                .to_owned(),
-        ));
-    }
-    Ok(())
 }

@@ -1,13 +1,26 @@
 //! Settings that a run's scores depend on.
 
+use std::collections::HashSet;
+
+use filters::AdapterDescription;
 use frame::Alignment;
 use maud::{Markup, html};
 use suite::{Case, Run};
 
 use crate::case_table::CaseTable;
+use crate::table::{Column, scroll_table};
 
 /// Lists command, program, adapter, settings, and per scene the hashes of its truths.
 pub fn provenance(table: &CaseTable) -> Markup {
+    let columns = [
+        Column::Plain("scene"),
+        Column::Text("family"),
+        Column::Plain("exposure, frames"),
+        Column::Text("shutter"),
+        Column::Text("made by"),
+        Column::Text("hash of the truth"),
+    ];
+    let caption = "Truths; a hash covers scene, meshes, textures, settings and the tracer, or all that an engine drew";
     html! {
         section.provenance {
             h2 { "Provenance" }
@@ -16,22 +29,7 @@ pub fn provenance(table: &CaseTable) -> Markup {
                     div { dt { (term) } dd { (text) } }
                 }
             }
-            div.scroll tabindex="0" role="region" aria-label="Truths" {
-                table.stacked {
-                    caption { "Truths; a hash covers scene, meshes, textures, settings and the tracer, or all that an engine drew" }
-                    thead {
-                        tr {
-                            th scope="col" { "scene" }
-                            th.text scope="col" { "family" }
-                            th scope="col" { "exposure, frames" }
-                            th.text scope="col" { "shutter" }
-                            th.text scope="col" { "made by" }
-                            th.text scope="col" { "hash of the truth" }
-                        }
-                    }
-                    tbody { @for truth in truths(table) { (truth) } }
-                }
-            }
+            (scroll_table(Some("stacked"), "Truths", Some(caption), &columns, &truths(table)))
         }
     }
 }
@@ -39,10 +37,7 @@ pub fn provenance(table: &CaseTable) -> Markup {
 /// Lists term and text of all that a run's scores depend on.
 pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
     let adapter = match &run.adapter {
-        Some(own) => format!(
-            "{} ({}, {}, driver {})",
-            own.name, own.kind, own.backend, own.driver
-        ),
+        Some(own) => adapter_text(own),
         None => "none: every filter is a program".to_owned(),
     };
     let render = &run.render;
@@ -108,8 +103,19 @@ fn shorten(command: String) -> String {
     }
 }
 
+/// Writes name, kind, backend and driver of an adapter.
+pub fn adapter_text(adapter: &AdapterDescription) -> String {
+    let AdapterDescription {
+        name,
+        kind,
+        backend,
+        driver,
+    } = adapter;
+    format!("{name} ({kind}, {backend}, driver {driver})")
+}
+
 /// Writes the words of the command line, the program's by its name alone.
-fn command(run: &Run) -> String {
+pub fn command(run: &Run) -> String {
     let words = run.command.iter().skip(1).map(String::as_str);
     let words: Vec<&str> = std::iter::once("shuttertruth").chain(words).collect();
     words.join(" ")
@@ -121,28 +127,23 @@ pub fn truth_text(case: &Case) -> String {
 }
 
 /// Writes a row per scene and shutter.
-fn truths(table: &CaseTable) -> Vec<Markup> {
-    let mut rows = Vec::new();
-    for scene in &table.scenes {
-        let mut alignments: Vec<Alignment> = Vec::new();
-        for (_, case) in table.cases_on(scene) {
-            if alignments.contains(&case.alignment) {
-                continue;
-            }
-            alignments.push(case.alignment);
-            rows.push(html! {
+fn truths(table: &CaseTable) -> Markup {
+    let mut shown: HashSet<(&str, Alignment)> = HashSet::new();
+    let cases = table.scenes.iter().flat_map(|scene| table.cases_on(scene));
+    html! {
+        tbody {
+            @for (_, case) in cases.filter(|(_, own)| shown.insert((&own.scene, own.alignment))) {
                 tr {
-                    th scope="row" { (scene) }
+                    th scope="row" { (case.scene) }
                     td.text { (case.family.map_or("", |family| family.name())) }
                     td data-label="exposure, frames" { (case.exposure) }
                     td.text { (case.alignment) }
                     td.text { (truth_text(case)) }
                     td.text { code { (case.truth_hash) } }
                 }
-            });
+            }
         }
     }
-    rows
 }
 
 #[test]

@@ -7,7 +7,7 @@ use suite::Run;
 
 use crate::case::legend::colors;
 use crate::case::viewer::viewer;
-use crate::document::{Document, Siblings};
+use crate::document::{Document, Siblings, script_data};
 use crate::pixels::report_files::{Place, folder_name};
 use crate::sequence::SEQUENCES_PAGE;
 
@@ -65,7 +65,7 @@ pub fn run_page(run: &Run, content: &PageContent, html: &Path) -> String {
             }
             (viewer(run))
             (scene_numbers(content.numbers, html))
-            script #colors type="application/json" { (PreEscaped(colors())) }
+            (script_data("colors", &colors()))
         },
         scripts: &SCRIPTS,
         siblings: match content.numbers {

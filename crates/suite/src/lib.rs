@@ -45,7 +45,7 @@ pub use measure::estimate::{
 pub use measure::job_costs::{JobCost, SceneJobs, estimate_jobs, estimate_report};
 pub use measure::part::Part;
 pub use measure::plan::RunPlan;
-pub use measure::probes::{pack_planes, unpack_planes};
+pub use measure::probes::{filter_input, pack_planes, unpack_planes};
 pub use measure::references::{TruthReferences, scene_viewing};
 pub use measure::scenes::measure_scenes;
 pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};

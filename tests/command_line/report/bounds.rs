@@ -39,7 +39,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     let findings = bench.read_findings();
     let worst = findings[0].worst.as_ref().unwrap();
     for words in [
-        "1 of 2 required bounds kept.",
+        "1 of 2 required bounds met.",
         "BROKEN flip_moving 0.2",
         "scenes/plate/bounds.toml:2: it &lt;i&gt;serves&lt;/i&gt; a test",
         "the wrong blur <strong>no_blur</strong>: they differ by 0 %",

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use engine::{ExportError, Manifest, export_gltf};
+use engine::{Manifest, export_gltf};
 use store::printable_path;
 use suite::{Error, PROGRAM};
 use tracer::Location;
@@ -42,8 +42,7 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
     let mut text = String::new();
     for choice in &choices {
         let folder = args.gltf.join(&choice.scene.name);
-        let manifest =
-            export_gltf(&choice.scene, &choice.folder, PROGRAM, &folder).map_err(word_error)?;
+        let manifest = export_gltf(&choice.scene, &choice.folder, PROGRAM, &folder)?;
         text += &describe(&manifest, &printable_path(&folder));
     }
     print(&text)
@@ -69,11 +68,4 @@ fn describe(manifest: &Manifest, folder: &str) -> String {
         manifest.instant,
         manifest.previous,
     )
-}
-
-fn word_error(error: ExportError) -> Error {
-    match error {
-        ExportError::File(error) => error.into(),
-        error => Error::Usage(error.to_string()),
-    }
 }

@@ -3,9 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::targets::Targets;
-use crate::filter::Expression;
 use crate::shader::{EntryPoint, Role, Shader, Variable};
-use crate::{Filter, Pass};
+use crate::{Expression, Filter, Pass};
 
 /// Levels of the textures of one dispatch.
 pub(super) struct Levels<'a> {
@@ -52,7 +51,7 @@ impl<'a> Levels<'a> {
                     variables.insert(*index, Some(level));
                     written.push((&resource[..], level));
                 }
-                Role::Uniform | Role::Block(_) | Role::Sampler(_) => {}
+                Role::Block(_) | Role::Sampler(_) => {}
             }
         }
         if let Some(drawn) = &pass.shader {

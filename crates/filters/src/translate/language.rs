@@ -45,17 +45,6 @@ impl Language {
         })
     }
 
-    /// Names the programs that compile it, the best first; none for a language that needs no compiler.
-    pub fn compilers(self) -> &'static [&'static str] {
-        match self {
-            Self::Glsl => &["glslangValidator"],
-            Self::Slang => &["slangc"],
-            Self::Hlsl => &["slangc", "dxc", "glslangValidator"],
-            Self::Wesl => &["wesl"],
-            Self::Spirv | Self::Wgsl => &[],
-        }
-    }
-
     /// Names the language in messages.
     pub fn name(self) -> &'static str {
         match self {

@@ -54,8 +54,8 @@ pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
     })
 }
 
-/// Writes display values in [0, 1] (see [`display_srgb`](crate::display_srgb)) as an 8-bit PNG.
-pub fn write_png(path: &Path, display: &Raster<[f32; 3]>) -> Result<(), FileError> {
+/// Encodes display values in [0, 1] (see [`display_srgb`](crate::display_srgb)) as an 8-bit PNG.
+pub fn png_bytes(display: &Raster<[f32; 3]>) -> Vec<u8> {
     let bytes = display
         .pixels
         .iter()
@@ -67,8 +67,13 @@ pub fn write_png(path: &Path, display: &Raster<[f32; 3]>) -> Result<(), FileErro
     let mut png = Cursor::new(Vec::new());
     picture
         .write_to(&mut png, image::ImageFormat::Png)
-        .map_err(|error| FileError::io(path, "encode", std::io::Error::other(error)))?;
-    write_atomically(path, png.get_ref())
+        .expect("memory takes every byte");
+    png.into_inner()
+}
+
+/// Writes display values as [`png_bytes`] encodes them.
+pub fn write_png(path: &Path, display: &Raster<[f32; 3]>) -> Result<(), FileError> {
+    write_atomically(path, &png_bytes(display))
 }
 
 #[cfg(test)]

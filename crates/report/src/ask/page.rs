@@ -1,11 +1,11 @@
 //! The page that asks people.
 
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 use serde_json::json;
 use study::{Question, SECONDS_PER_QUESTION, Study, draw_session};
 use suite::PROGRAM;
 
-use crate::document::{Document, Siblings};
+use crate::document::{Document, Siblings, script_data};
 
 /// Makes the page of a study, which offers these questions. The pictures lie beside it, by the numbers of their clips and frames.
 pub fn ask_page(study: &Study, questions: &[Question]) -> String {
@@ -17,8 +17,6 @@ pub fn ask_page(study: &Study, questions: &[Question]) -> String {
         "truth_clips": study.truth_clips(),
         "questions": questions.iter().map(|own| (own.name(), own.text())).collect::<Vec<_>>(),
     });
-    // No text may end the script that holds it.
-    let data = data.to_string().replace('<', "\\u003c");
     let count = draw_session(study, questions[0], 0).len();
     let document = Document {
         title: "Which looks better?",
@@ -31,7 +29,7 @@ pub fn ask_page(study: &Study, questions: &[Question]) -> String {
                 (asking(study))
                 (end())
             }
-            script #data type="application/json" { (PreEscaped(data)) }
+            (script_data("data", &data.to_string()))
         },
         scripts: &[
             include_str!("../assets/ask_session.js"),

@@ -22,7 +22,7 @@
 
   // The part in view: `x` and `y` of the upper left corner in pixels of the picture.
   const view = { zoom: 1, x: 0, y: 0 };
-  // The place of a bound that is not kept, and the pixel whose numbers are read.
+  // The place of a broken bound, and the pixel whose numbers are read.
   let mark = null;
   let pixel = null;
   let open = null;

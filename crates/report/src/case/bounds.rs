@@ -1,16 +1,16 @@
-//! Bounds of a case, with evidence for those that are not kept.
+//! Bounds of a case, with evidence for those that are not met.
 
-use judge::{CROP, Finding, Level, Outcome, number};
+use judge::{CROP, Finding, Level, number};
 use maud::{Markup, html};
 
 use super::case_view::CaseView;
 use super::evidence::Evidence;
 use crate::filter_id::case_anchor;
-use crate::finding_text::{Status, finding_line, limit_text, way_out, worst_frame_text};
+use crate::finding_text::{Status, Tally, finding_line, limit_text, way_out, worst_frame_text};
 use crate::numbers::counted;
 use crate::sequence::SEQUENCES_PAGE;
 
-/// Lists the required bounds of a run that are not kept, each with a link to its case.
+/// Lists the required bounds of a run that are not met, each with a link to its case.
 pub fn broken_bounds(pages: &[CaseView]) -> Markup {
     let broken: Vec<(&CaseView, &Finding)> = (pages.iter())
         .flat_map(|page| page.findings.iter().map(move |finding| (page, finding)))
@@ -19,7 +19,7 @@ pub fn broken_bounds(pages: &[CaseView]) -> Markup {
     html! {
         @if !broken.is_empty() {
             details.failures {
-                summary { "Required bounds that are not kept: " (broken.len()) }
+                summary { "Required bounds that are not met: " (broken.len()) }
                 ul {
                     @for (page, finding) in broken {
                         li {
@@ -36,24 +36,19 @@ pub fn broken_bounds(pages: &[CaseView]) -> Markup {
     }
 }
 
-/// Shows every bound of a case: those that are not kept with evidence, the others as a count.
+/// Shows every bound of a case: those that are not met with evidence, the others as a count.
 pub fn bounds(page: &CaseView) -> Markup {
-    let notable = || page.findings.iter().zip(&page.evidence);
     let explained = page.evidence.iter().any(Option::is_some);
-    let fails = (page.findings.iter())
-        .any(|own| own.level == Level::Required && own.outcome == Outcome::Broken);
+    let [required, targets] =
+        [Level::Required, Level::Report].map(|level| Tally::of(&page.findings, level));
     html! {
         section.verdicts {
-            h3 { @if fails { "Why it failed" } @else { "Bounds and targets" } }
+            h3 { @if required.broken > 0 { "Why it failed" } @else { "Bounds and targets" } }
             @if page.findings.is_empty() { p { "This picture is held to no bound." } }
-            @for (level, [noun, outcome]) in [(Level::Required, ["required bound", "kept"]), (Level::Report, ["target", "met; targets fail nothing"])] {
-                @let own = || page.findings.iter().filter(|own| own.level == level);
-                @if own().next().is_some() {
-                    p { (own().filter(|own| own.outcome == Outcome::Kept).count()) " of " (counted(own().count(), noun)) " " (outcome) "." }
-                }
-            }
+            @if required.all > 0 { p { (required.met) " of " (counted(required.all, "required bound")) " met." } }
+            @if targets.all > 0 { p { (targets.met) " of " (counted(targets.all, "target")) " met; targets fail nothing." } }
             @if explained { (failure_pattern(page)) }
-            @for (finding, evidence) in notable() {
+            @for (finding, evidence) in page.findings.iter().zip(&page.evidence) {
                 @if let Some(evidence) = evidence { (finding_section(page, finding, evidence)) }
                 @else if finding.is_of_sequence() && finding.outcome.is_notable() { (sequence_section(finding)) }
             }
@@ -78,7 +73,7 @@ fn failure_pattern(page: &CaseView) -> Markup {
     }
 }
 
-/// Shows a score of a sequence that does not keep its limit: the frame that is worst, and where to see it play.
+/// Shows a score of a sequence that does not meet its limit: the frame that is worst, and where to see it play.
 fn sequence_section(finding: &Finding) -> Markup {
     html! {
         div class=(verdict_class(finding)) {
@@ -96,14 +91,11 @@ fn sentence(text: &str) -> String {
     first.to_uppercase() + rest
 }
 
-/// Names the status of a required bound.
-fn required_word(finding: &Finding) -> Option<&'static str> {
-    let required = Status::of(finding.outcome).filter(|_| finding.level == Level::Required);
-    required.map(|status| status.word)
-}
-
 fn verdict_class(finding: &Finding) -> String {
-    format!("verdict {}", required_word(finding).unwrap_or_default())
+    format!(
+        "verdict {}",
+        Status::required_class(finding).unwrap_or_default()
+    )
 }
 
 /// Says what was found, what is allowed, and the way out.

@@ -1,15 +1,12 @@
 //! Data of a case's section, read from the files of the run.
 
-use std::path::Path;
-
 use judge::{BLOCK, Finding, worst_block};
 use metrics::Metric;
 use suite::{Case, Error, Run};
 
 use super::evidence::{Evidence, find_evidence};
 use super::profile::{Profile, trace_profile, worst_pixel};
-use crate::pixels::layer::Layer;
-use crate::pixels::scene_files::SceneFiles;
+use crate::pixels::scene_files::{Layers, SceneFiles};
 
 /// A case with all that a page shows of its files.
 pub struct CaseView<'a> {
@@ -25,8 +22,8 @@ pub struct CaseView<'a> {
     pub evidence: Vec<Option<Evidence>>,
     /// Number of the scene in the run.
     pub scene: usize,
-    /// Every picture that there is, with the numbers of its planes.
-    pub layers: Vec<(Layer, Vec<usize>)>,
+    /// Every picture that there is.
+    pub layers: Layers,
     /// Plane of the objects' indices.
     pub objects: usize,
     /// Names of the objects.
@@ -37,33 +34,17 @@ pub struct CaseView<'a> {
     pub profile: Profile,
 }
 
-/// Case to read, and what is known of it.
-pub struct CaseInput<'a> {
-    /// Run that holds the case.
-    pub run: &'a Run,
-    /// Number of the case in the run.
-    pub index: usize,
-    /// Findings, one per bound.
-    pub findings: Vec<Finding>,
-    /// Number of the scene in the run.
-    pub scene: usize,
-}
-
 impl<'a> CaseView<'a> {
-    /// Reads a case's files below `folder`.
+    /// Reads the files of a case, given its number in the run, that of its scene, and the findings about it.
     pub fn read(
-        input: CaseInput<'a>,
-        folder: &Path,
+        run: &'a Run,
+        index: usize,
+        scene: usize,
+        findings: Vec<Finding>,
         files: &mut SceneFiles,
     ) -> Result<Self, Error> {
-        let CaseInput {
-            run,
-            index,
-            findings,
-            scene,
-        } = input;
         let case = &run.cases[index];
-        let own = files.read_case(case, folder)?;
+        let own = files.read_case(case)?;
         let evidence: Vec<Option<Evidence>> = (findings.iter())
             .map(|finding| find_evidence(finding, case, &own, files))
             .collect::<Result<_, _>>()?;
@@ -81,7 +62,7 @@ impl<'a> CaseView<'a> {
             names: files.frame.objects.clone(),
             stops: files.frame.display.stops,
             layers: own.layers,
-            objects: own.objects,
+            objects: files.objects,
             run,
             index,
             case,

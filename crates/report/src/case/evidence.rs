@@ -1,4 +1,4 @@
-//! Evidence of a bound that is not kept: the place to look at, and the map that was searched.
+//! Evidence of a bound that is not met: the place to look at, and the map that was searched.
 
 use judge::{Finding, worst_block};
 use metrics::Metric;

@@ -11,7 +11,7 @@ pub mod viewer;
 
 use bounds::bounds;
 use case_view::CaseView;
-use judge::{Level, Outcome};
+use judge::Level;
 use maud::{Markup, html};
 use metrics::Metric;
 use profile::Profile;
@@ -21,6 +21,7 @@ use suite::{Case, Drawn};
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, case_anchor};
+use crate::finding_text::Tally;
 use crate::numbers::{counted, value_text};
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::{provenance_line, truth_text};
@@ -105,36 +106,23 @@ fn part(tables: Option<&Markup>) -> Markup {
 fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
     let case = view.case;
     let (place, of) = place_on_scene(table, case);
-    let count = |level, is_counted: fn(Outcome) -> bool| {
-        let own = view.findings.iter().filter(|own| own.level == level);
-        own.filter(|own| is_counted(own.outcome)).count()
-    };
-    let [bounds, targets] = [Level::Required, Level::Report].map(|level| count(level, |_| true));
-    let [broken, missed] =
-        [Level::Required, Level::Report].map(|level| count(level, |own| own == Outcome::Broken));
+    let [bounds, targets] =
+        [Level::Required, Level::Report].map(|level| Tally::of(&view.findings, level));
     html! {
         p.score {
-            @for metric in [Metric::FLIP, Metric::SKILL, Metric::PSNR] {
+            @for (metric, name) in [(Metric::FLIP, "FLIP"), (Metric::SKILL, "skill"), (Metric::PSNR, "PSNR")] {
                 @if let Some(value) = case.estimate(metric) {
-                    span { (short_name(metric)) " " strong { (metric.number(value)) } (interval(case, metric)) }
+                    span { (name) " " strong { (metric.number(value)) } (interval(case, metric)) }
                 }
             }
             @if let (false, Some(place)) = (case.is_reference, place) {
                 span { "place " strong { (place) } " of " (of) " with a " (case.alignment) " shutter" }
             }
-            @if bounds > 0 {
-                span class=(if broken > 0 { "broken" } else { "kept" }) { (broken) " of " (counted(bounds, "required bound")) " broken" }
+            @if bounds.all > 0 {
+                span class=(if bounds.broken > 0 { "broken" } else { "met" }) { (bounds.broken) " of " (counted(bounds.all, "required bound")) " broken" }
             }
-            @if targets > 0 { span { (missed) " of " (counted(targets, "target")) " missed" } }
+            @if targets.all > 0 { span { (targets.broken) " of " (counted(targets.all, "target")) " missed" } }
         }
-    }
-}
-
-fn short_name(metric: Metric) -> &'static str {
-    match metric {
-        Metric::FLIP => "FLIP",
-        Metric::SKILL => "skill",
-        _ => "PSNR",
     }
 }
 

@@ -1,6 +1,6 @@
 //! Table of a case's scores, each with its noise floor and its meaning.
 
-use judge::{Level, number};
+use judge::number;
 use maud::{Markup, html};
 use metrics::{Group, Measured, Metric};
 use suite::Case;
@@ -54,7 +54,7 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
     let case = page.case;
     let finding = (page.findings.iter()).find(|finding| finding.metric == metric);
     let status = finding.and_then(|finding| Status::of(finding.outcome));
-    let required = finding.is_some_and(|finding| finding.level == Level::Required);
+    let required = finding.and_then(Status::required_class);
     html! {
         tr {
             th scope="row" { (metric) }
@@ -70,12 +70,10 @@ fn row(page: &CaseView, metric: Metric) -> Markup {
                         }
                     }
                     td data-label="floor" { (number(score.floor)) }
-                    td class=[status.filter(|_| required).map(|status| status.word)]
-                        data-label=[status.map(|_| "limit")] {
+                    td class=[required] data-label=[status.map(|_| "limit")] {
                         @if let (Some(finding), Some(status)) = (finding, status) {
-                            span.sign aria-hidden="true" { (status.sign) }
-                            (limit_text(finding))
-                            @if required { span.unseen { ", " (status.word) } } @else { span.note { " target" } }
+                            (status) (limit_text(finding))
+                            @if let Some(word) = required { span.unseen { ", " (word) } } @else { span.note { " target" } }
                         }
                     }
                 }

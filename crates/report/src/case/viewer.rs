@@ -1,10 +1,11 @@
 //! Viewer of pictures: one set of controls, which the script moves to the case that is open.
 
 use judge::BLOCK;
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 use suite::Run;
 
 use super::legend::draw_legends;
+use crate::document::script_data;
 use crate::pixels::layer::Layer;
 
 /// Modes in which two pictures are compared: the script's word, the name, and the key.
@@ -111,7 +112,7 @@ pub fn viewer(run: &Run) -> Markup {
             }
             p.spoken.unseen aria-live="polite" {}
             p.tip hidden aria-hidden="true" {}
-            script #layers type="application/json" { (PreEscaped(layers())) }
+            (script_data("layers", &layers()))
         }
         dialog #keys aria-label="Keys" {
             form method="dialog" { button { "Close" } }
@@ -120,13 +121,13 @@ pub fn viewer(run: &Run) -> Markup {
     }
 }
 
-/// Describes every kind of picture for the script: JSON of our own words, which holds nothing that HTML escapes.
+/// Describes every kind of picture for the script, as JSON.
 fn layers() -> String {
     let all = Layer::ALL.map(|layer| {
         let facts = serde_json::json!({
             "title": layer.title(),
             "hint": layer.hint(),
-            "painter": layer.painter().name(),
+            "painter": layer.painter(),
         });
         (layer.name().to_owned(), facts)
     });

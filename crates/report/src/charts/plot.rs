@@ -2,6 +2,8 @@
 
 use maud::{Markup, html};
 
+use super::ends;
+
 /// Room for the labels of either axis, and at the other sides.
 const LEFT: f64 = 56.0;
 const BOTTOM: f64 = 34.0;
@@ -33,13 +35,7 @@ impl Axis {
             false => 0.5 * low.abs().max(1e-3),
         };
         let (low, high) = (low - room, high + room);
-        Self {
-            title: title.to_owned(),
-            low,
-            high,
-            log: false,
-            ticks: ticks(low, high),
-        }
+        Self::new(title, [low, high], false, ticks(low, high))
     }
 
     /// Makes an axis over all of some numbers above 0, in equal factors.
@@ -56,28 +52,23 @@ impl Axis {
                 .map(|value| (value, short(value)))
                 .into();
         }
+        Self::new(title, [low, high], true, ticks)
+    }
+
+    /// Makes an axis with one place per word.
+    pub fn words(title: &str, words: &[String]) -> Self {
+        let ends = [-0.5, words.len() as f64 - 0.5];
+        let places = (0..).map(f64::from);
+        Self::new(title, ends, false, places.zip(words.to_vec()).collect())
+    }
+
+    fn new(title: &str, [low, high]: [f64; 2], log: bool, ticks: Vec<(f64, String)>) -> Self {
         Self {
             title: title.to_owned(),
             low,
             high,
-            log: true,
+            log,
             ticks,
-        }
-    }
-
-    /// One place per word.
-    pub fn words(title: &str, words: &[String]) -> Self {
-        Self {
-            title: title.to_owned(),
-            low: -0.5,
-            high: words.len() as f64 - 0.5,
-            log: false,
-            ticks: words
-                .iter()
-                .cloned()
-                .zip(0..)
-                .map(|(word, at)| (f64::from(at), word))
-                .collect(),
         }
     }
 
@@ -166,17 +157,6 @@ impl Plot {
                 (marks)
             }
         }
-    }
-}
-
-fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let start = (f64::INFINITY, f64::NEG_INFINITY);
-    let (low, high) = values.fold(start, |(low, high), value| {
-        (low.min(value), high.max(value))
-    });
-    match low <= high {
-        true => (low, high),
-        false => (0.0, 1.0),
     }
 }
 

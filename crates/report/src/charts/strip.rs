@@ -2,6 +2,8 @@
 
 use maud::{Markup, html};
 
+use super::ends;
+
 /// Sides of the picture, in its own units.
 const WIDTH: f64 = 240.0;
 const HEIGHT: f64 = 14.0;
@@ -30,15 +32,12 @@ impl Strip {
 
     /// Makes a scale over all of some values.
     pub fn over(values: impl Iterator<Item = f64>) -> Self {
-        let start = [f64::INFINITY, f64::NEG_INFINITY];
-        let [low, high] = values.fold(start, |[low, high], value| {
-            [low.min(value), high.max(value)]
-        });
+        let (low, high) = ends(values);
         Self { low, high }
     }
 
     /// Tells whether a value has no place on the scale.
-    pub fn is_beyond(&self, value: f64) -> bool {
+    fn is_beyond(&self, value: f64) -> bool {
         let room = BEYOND * (self.high - self.low);
         value < self.low - room || value > self.high + room
     }

@@ -13,6 +13,7 @@ use super::pictures::Pictures;
 use super::runs::both_runs;
 use crate::charts::strip::Strip;
 use crate::document::{Document, Siblings};
+use crate::table::{Column, scroll_table};
 
 /// Number of cases that are shown in pictures, those that changed most.
 const SHOWN: usize = 12;
@@ -64,13 +65,8 @@ pub fn compare_page(
 }
 
 fn summary(compared: &RunComparison) -> String {
-    let count = |kind| {
-        compared
-            .changes
-            .iter()
-            .filter(|change| change.kind == kind)
-            .count()
-    };
+    let changes = || compared.changes.iter();
+    let count = |kind| changes().filter(|change| change.kind == kind).count();
     format!(
         "{} scores are in both runs: {} better and {} worse, {} within margin, {} within noise, {} the same.",
         compared.changes.len(),
@@ -88,21 +84,23 @@ fn differences(compared: &RunComparison) -> Markup {
         (&compared.only_in_first, &compared.runs[0]),
         (&compared.only_in_second, &compared.runs[1]),
     ];
+    let columns = [
+        Column::Plain("setting"),
+        Column::Text("first"),
+        Column::Text("second"),
+    ];
+    let rows = html! {
+        tbody {
+            @for own in &compared.settings {
+                tr { th scope="row" { (own.name) } td.text { (own.first) } td.text { (own.second) } }
+            }
+        }
+    };
     html! {
         @if !compared.settings.is_empty() {
             section {
                 h2 { "Settings that differ" }
-                div.scroll tabindex="0" role="region" aria-label="Settings that differ" {
-                    table {
-                        caption.unseen { "Settings that differ" }
-                        thead { tr { th scope="col" { "setting" } th.text scope="col" { "first" } th.text scope="col" { "second" } } }
-                        tbody {
-                            @for own in &compared.settings {
-                                tr { th scope="row" { (own.name) } td.text { (own.first) } td.text { (own.second) } }
-                            }
-                        }
-                    }
-                }
+                (scroll_table(None, "Settings that differ", None, &columns, &rows))
             }
         }
         @for (cases, run) in sides {
@@ -116,38 +114,33 @@ fn differences(compared: &RunComparison) -> Markup {
     }
 }
 
-/// Lists the mean changes of every metric that anything changed of.
+/// Lists the mean changes of every metric with a change.
 fn means(means: &[MeanChange]) -> Markup {
     let mut changed: Vec<&MeanChange> = means
         .iter()
         .filter(|mean| mean.kind != MeanKind::Same)
         .collect();
-    // Filters of one metric stand together.
+    // The filters of one metric follow each other.
     let place = |metric: Metric| means.iter().position(|own| own.metric == metric);
     changed.sort_by_key(|mean| place(mean.metric));
+    let columns = [
+        Column::Plain("filter"),
+        Column::Plain("first"),
+        Column::Plain("second"),
+        Column::Text("change"),
+        Column::Plain("95 % CI"),
+        Column::Plain("scenes"),
+        Column::Chart("← better, worse →"),
+    ];
+    let caption = "Filters that changed. 95 % CI: over scenes, by Student's t";
+    let bodies = html! {
+        @for own in changed.chunk_by(|a, b| a.metric == b.metric) { (metric_means(own)) }
+    };
     html! {
         section {
             h2 { "Means over scenes" }
             @if changed.is_empty() { p { "No filter changed." } }
-            @else {
-                div.scroll tabindex="0" role="region" aria-label="Means over scenes" {
-                    table {
-                        caption { "Filters that changed. 95 % CI: over scenes, by Student's t" }
-                        thead {
-                            tr {
-                                th scope="col" { "filter" }
-                                th scope="col" { "first" }
-                                th scope="col" { "second" }
-                                th.text scope="col" { "change" }
-                                th scope="col" { "95 % CI" }
-                                th scope="col" { "scenes" }
-                                th.chart scope="col" { "← better, worse →" }
-                            }
-                        }
-                        @for own in changed.chunk_by(|a, b| a.metric == b.metric) { (metric_means(own)) }
-                    }
-                }
-            }
+            @else { (scroll_table(None, "Means over scenes", Some(caption), &columns, &bodies)) }
         }
     }
 }
@@ -224,13 +217,12 @@ fn case(compared: &RunComparison, pair: &Pair, pictures: Option<Pictures>) -> Ma
                 }
             }
         }
-        div.scroll tabindex="0" role="region" aria-label=(format!("Scores of {title}")) {
-            table.stacked { caption.unseen { "Scores of " (title) } (change_heading(false)) tbody { @for change in changes { (change_row(change, false)) } } }
-        }
+        (change_table(&format!("Scores of {title}"), false, changes))
     }
 }
 
 fn all_changes(changes: &[Change]) -> Markup {
+    const TITLE: &str = "Every score that is not the same";
     let rows: Vec<&Change> = changes
         .iter()
         .filter(|change| change.kind != ChangeKind::Same)
@@ -238,49 +230,58 @@ fn all_changes(changes: &[Change]) -> Markup {
     html! {
         @if !rows.is_empty() {
             section {
-                h2 { "Every score that is not the same" }
+                h2 { (TITLE) }
                 details {
                     summary { (rows.len()) " scores" }
-                    div.scroll tabindex="0" role="region" aria-label="Every score that is not the same" {
-                        table.stacked { caption.unseen { "Every score that is not the same" } (change_heading(true)) tbody { @for change in rows { (change_row(change, true)) } } }
-                    }
+                    (change_table(TITLE, true, rows.into_iter()))
                 }
             }
         }
     }
 }
 
-fn change_heading(named: bool) -> Markup {
-    html! {
-        thead {
-            tr {
-                @if named { th scope="col" { "scene / filter" } }
-                th.text scope="col" { "metric" }
-                th scope="col" { "first" }
-                th scope="col" { "second" }
-                th.text scope="col" { "change" }
-                th scope="col" { "95 % CI" }
+/// Lists changes; `is_named` adds a column for scene and filter.
+fn change_table<'a>(
+    title: &str,
+    is_named: bool,
+    changes: impl Iterator<Item = &'a Change>,
+) -> Markup {
+    let columns = [
+        Column::Plain("scene / filter"),
+        Column::Text("metric"),
+        Column::Plain("first"),
+        Column::Plain("second"),
+        Column::Text("change"),
+        Column::Plain("95 % CI"),
+    ];
+    let columns = if is_named {
+        &columns[..]
+    } else {
+        &columns[1..]
+    };
+    let rows = html! {
+        tbody {
+            @for change in changes {
+                @let cells = ChangeCells::from(change);
+                tr {
+                    @if is_named { th scope="row" { (change.scene) " / " (change.filter) } }
+                    th.text scope="row" { (change.metric) }
+                    td data-label="first" { (cells.first) }
+                    td data-label="second" { (cells.second) }
+                    td class=(change_class(change.kind)) { (cells.change) }
+                    td data-label="95 % CI" { (cells.interval) }
+                }
             }
         }
-    }
+    };
+    scroll_table(Some("stacked"), title, None, columns, &rows)
 }
 
-fn change_row(change: &Change, named: bool) -> Markup {
-    let class = match change.kind {
+fn change_class(kind: ChangeKind) -> &'static str {
+    match kind {
         ChangeKind::Better => "change better",
         ChangeKind::Worse => "change worse",
         ChangeKind::BelowMargin | ChangeKind::WithinNoise | ChangeKind::Same => "change",
-    };
-    let cells = ChangeCells::from(change);
-    html! {
-        tr {
-            @if named { th scope="row" { (change.scene) " / " (change.filter) } }
-            th.text scope="row" { (change.metric) }
-            td data-label="first" { (cells.first) }
-            td data-label="second" { (cells.second) }
-            td class=(class) { (cells.change) }
-            td data-label="95 % CI" { (cells.interval) }
-        }
     }
 }
 

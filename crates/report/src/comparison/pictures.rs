@@ -1,5 +1,7 @@
 //! Pictures of a case in two runs.
 
+use std::path::PathBuf;
+
 use frame::{Plane, read_exr};
 use judge::{Pair, Side};
 use suite::Error;
@@ -21,31 +23,26 @@ pub struct Pictures {
 impl Pictures {
     /// Reads the pictures; none where one of the runs has no picture of the case.
     pub fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
-        let [first, second] = sides;
-        let outputs = [
-            first.file(pair.first, "output.png"),
-            second.file(pair.second, "output.png"),
-        ];
-        let (Some(of_first), Some(of_second)) =
-            (embed_file(&outputs[0])?, embed_file(&outputs[1])?)
-        else {
+        let [first, second] = files(sides, pair, "output.png");
+        let (Some(first), Some(second)) = (embed_file(&first)?, embed_file(&second)?) else {
             return Ok(None);
         };
         let truth = format!("truth_{}.png", pair.first.alignment);
         Ok(Some(Self {
-            first: of_first,
-            second: of_second,
-            truth: embed_file(&first.folder().join(&pair.first.scene).join(truth))?,
+            first,
+            second,
+            truth: embed_file(&sides[0].folder().join(&pair.first.scene).join(truth))?,
             change: change(sides, pair)?,
         }))
     }
 }
 
+fn files([first, second]: [&Side; 2], pair: &Pair, name: &str) -> [PathBuf; 2] {
+    [first.file(pair.first, name), second.file(pair.second, name)]
+}
+
 fn change(sides: [&Side; 2], pair: &Pair) -> Result<Option<String>, Error> {
-    let files = [
-        sides[0].file(pair.first, "errors.exr"),
-        sides[1].file(pair.second, "errors.exr"),
-    ];
+    let files = files(sides, pair, "errors.exr");
     if !files.iter().all(|file| file.is_file()) {
         return Ok(None);
     }
@@ -55,7 +52,7 @@ fn change(sides: [&Side; 2], pair: &Pair) -> Result<Option<String>, Error> {
         return Ok(None);
     }
     let worse: Plane = first.zip(&second, |first, second| second - first);
-    Ok(Some(embed_picture(&worse.map(|worse| color(*worse)))?))
+    Ok(Some(embed_picture(&worse.map(|worse| color(*worse)))))
 }
 
 /// Orange is worse and blue better, as elsewhere on the page; black is no change, full colour one of a half or more.

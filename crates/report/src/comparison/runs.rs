@@ -5,48 +5,45 @@ use maud::{Markup, html};
 use suite::Run;
 
 use crate::run_facts::facts;
+use crate::table::{Column, scroll_table};
 
 /// Lists the settings of both runs, and the truths that they share.
 pub fn both_runs(first: &Side, second: &Side) -> Markup {
     let rows = facts(&first.run).into_iter().zip(facts(&second.run));
+    let settings = html! {
+        tbody {
+            tr {
+                th scope="row" { "file" }
+                td.text { (first.path.display()) }
+                td.text { (second.path.display()) }
+            }
+            @for ((name, first), (_, second)) in rows {
+                tr { th scope="row" { (name) } td.text { (first) } td.text { (second) } }
+            }
+        }
+    };
+    let hashes = html! {
+        tbody {
+            @for [scene, alignment, hash] in truths(&first.run, &second.run) {
+                tr { th scope="row" { (scene) } td.text { (alignment) } td.text { code { (hash) } } }
+            }
+        }
+    };
+    let sides = [
+        Column::Plain(""),
+        Column::Text("first"),
+        Column::Text("second"),
+    ];
+    let columns = [
+        Column::Plain("scene"),
+        Column::Text("shutter"),
+        Column::Text("hash of the truth"),
+    ];
     html! {
         section.provenance {
             h2 { "Provenance" }
-            div.scroll tabindex="0" role="region" aria-label="Both runs" {
-                table.wide {
-                    caption.unseen { "Settings of both runs" }
-                    thead {
-                        tr { th scope="col" {} th.text scope="col" { "first" } th.text scope="col" { "second" } }
-                    }
-                    tbody {
-                        tr {
-                            th scope="row" { "file" }
-                            td.text { (first.path.display()) }
-                            td.text { (second.path.display()) }
-                        }
-                        @for ((name, first), (_, second)) in rows {
-                            tr { th scope="row" { (name) } td.text { (first) } td.text { (second) } }
-                        }
-                    }
-                }
-            }
-            div.scroll tabindex="0" role="region" aria-label="Truths" {
-                table.stacked {
-                    caption { "Truths, which both runs share" }
-                    thead {
-                        tr {
-                            th scope="col" { "scene" }
-                            th.text scope="col" { "shutter" }
-                            th.text scope="col" { "hash of the truth" }
-                        }
-                    }
-                    tbody {
-                        @for [scene, alignment, hash] in truths(&first.run, &second.run) {
-                            tr { th scope="row" { (scene) } td.text { (alignment) } td.text { code { (hash) } } }
-                        }
-                    }
-                }
-            }
+            (scroll_table(Some("wide"), "Settings of both runs", None, &sides, &settings))
+            (scroll_table(Some("stacked"), "Truths", Some("Truths, which both runs share"), &columns, &hashes))
         }
     }
 }

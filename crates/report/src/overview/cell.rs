@@ -62,9 +62,7 @@ pub fn cell(metric: Metric, colors: &Colors, view: &CaseView) -> Markup {
             data-value=[estimate]
             title=[reason(&measured)] {
             a.case href=(format!("#{}", case_anchor(case))) {
-                @if let Some((_, status)) = judged {
-                    span.sign aria-hidden="true" { (status.sign) }
-                }
+                @if let Some((_, status)) = judged { (status) }
                 (case.score_text(metric))
                 @if let (Some(interval), Some(value)) = (case.interval(metric), measured.value()) {
                     span.unseen { ", " (interval_text(interval, value)) }

@@ -2,8 +2,10 @@
 
 use maud::{Markup, html};
 
+use crate::charts::is_undominated;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::three_digits;
+use crate::table::{Column, scroll_table};
 
 /// Width of a letter of a label, and height of its line, in the chart's units.
 const LETTER: f64 = 5.8;
@@ -22,35 +24,42 @@ pub struct Point {
     pub error: f64,
 }
 
-/// Tells whether no other point is as fast and as good, and better in one of both.
-pub fn is_undominated(point: &Point, all: &[Point]) -> bool {
-    let beats = |other: &Point| {
-        other.milliseconds <= point.milliseconds
-            && other.error <= point.error
-            && (other.milliseconds, other.error) != (point.milliseconds, point.error)
-    };
-    !all.iter().any(beats)
+impl Point {
+    fn place(&self) -> [f64; 2] {
+        [self.milliseconds, self.error]
+    }
 }
 
-/// Draws filters as discs with their names, and references as lines; below it the same numbers as a table.
-pub fn pareto_chart(points: &[Point], references: &[(String, f64)]) -> Markup {
+/// Shows quality against time as a chart, and the same numbers as a table.
+pub fn pareto_section(points: &[Point], references: &[(String, f64)]) -> Markup {
     if points.is_empty() {
         return html! {
             p { "None of the run's filters was timed with the parameters that it ran with." }
         };
     }
-    let mut sorted = points.to_vec();
+    let places: Vec<[f64; 2]> = points.iter().map(Point::place).collect();
+    let with_front = (points.iter()).map(|point| (point, is_undominated(point.place(), &places)));
+    let mut sorted: Vec<(&Point, bool)> = with_front.collect();
     // Filters that nothing beats are named first: labels that find no room are left out.
-    sorted.sort_by(|a, b| {
-        let beaten = |point| !is_undominated(point, points);
-        (beaten(a), a.milliseconds)
-            .partial_cmp(&(beaten(b), b.milliseconds))
-            .expect("times are numbers")
+    sorted.sort_by(|(a, a_leads), (b, b_leads)| {
+        let times = a.milliseconds.total_cmp(&b.milliseconds);
+        b_leads.cmp(a_leads).then(times)
     });
+    html! {
+        figure.pareto {
+            (chart(&sorted, references))
+            figcaption {
+                "Down and left is good. Blue: no other filter is both as fast and as good. Horizontal bars: quartiles of the time. "
+                "Dashed lines: references, which have no time. FLIP* is FLIP against one shutter for all filters."
+            }
+        }
+        (numbers(&sorted, references))
+    }
+}
+
+/// Draws filters as discs with their names, and references as lines.
+fn chart(points: &[(&Point, bool)], references: &[(String, f64)]) -> Markup {
     let plot = make_plot(points, references);
-    let places: Vec<(f64, f64)> = (sorted.iter())
-        .map(|point| plot.place(point.milliseconds, point.error))
-        .collect();
     let levels = named_levels(references, 0.05 * plot.y.high);
     let end = plot.size[0] - 12.0;
     let level_height = |error: f64| plot.place(plot.x.low, error).1;
@@ -58,85 +67,83 @@ pub fn pareto_chart(points: &[Point], references: &[(String, f64)]) -> Markup {
         let bottom = level_height(*error) - 1.0;
         [end - text_width(title), bottom - LINE, end, bottom]
     });
-    let bars: Vec<[f64; 4]> = (sorted.iter())
-        .map(|point| {
-            let [(left, y), (right, _)] = point.quartiles.map(|time| plot.place(time, point.error));
-            [left, y - 2.0, right, y + 2.0]
+    let bars = points.iter().map(|(point, _)| {
+        let [(left, y), (right, _)] = point.quartiles.map(|time| plot.place(time, point.error));
+        [left, y - 2.0, right, y + 2.0]
+    });
+    let bars: Vec<[f64; 4]> = bars.chain(names_of_levels).collect();
+    let named: Vec<(&str, (f64, f64))> = (points.iter())
+        .map(|(point, _)| {
+            (
+                point.title.as_str(),
+                plot.place(point.milliseconds, point.error),
+            )
         })
-        .chain(names_of_levels)
         .collect();
     let marks = html! {
         @for (title, error) in &levels {
             (plot.level("reference", *error))
             text.reference x=(end) y=(format!("{:.1}", level_height(*error) - 3.0)) text-anchor="end" { (title) }
         }
-        @for point in &sorted {
-            @let class = if is_undominated(point, points) { "" } else { "faint" };
+        @for (point, leads) in points {
             (plot.line("quartiles", &point.quartiles.map(|time| (time, point.error))))
-            (plot.mark((point.milliseconds, point.error), class, 4.5, &words(point)))
+            (plot.mark(point.place().into(), if *leads { "" } else { "faint" }, 4.5, &words(point)))
         }
-        @for (point, label) in sorted.iter().zip(place_labels(&sorted, &places, &bars, plot.size[0])) {
+        @for ((title, _), label) in named.iter().zip(place_labels(&named, &bars, plot.size[0])) {
             @if let Some([left, top]) = label {
-                text.name x=(format!("{left:.1}")) y=(format!("{:.1}", top + LINE - 2.0)) { (point.title) }
+                text.name x=(format!("{left:.1}")) y=(format!("{:.1}", top + LINE - 2.0)) { (title) }
             }
         }
     };
-    html! {
-        figure.pareto {
-            (plot.draw("Mean FLIP* against time; the table below has the numbers", &marks))
-            figcaption {
-                "Down and left is good. Blue: no other filter is both as fast and as good. Horizontal bars: quartiles of the time. "
-                "Dashed lines: references, which have no time. FLIP* is FLIP against one shutter for all filters."
-            }
-        }
-        div.scroll tabindex="0" role="region" aria-label="Quality against time" {
-            table {
-                caption.unseen { "Quality and time" }
-                thead {
-                    tr {
-                        th scope="col" { "filter" }
-                        th scope="col" { "ms" }
-                        th scope="col" { "quartiles" }
-                        th scope="col" { "mean FLIP*" }
-                        th scope="col" { "undominated" }
-                    }
-                }
-                tbody {
-                    @for point in &sorted {
-                        tr {
-                            th scope="row" { (point.title) }
-                            td { (three_digits(point.milliseconds)) }
-                            td { (three_digits(point.quartiles[0])) "–" (three_digits(point.quartiles[1])) }
-                            td { (three_digits(point.error)) }
-                            td { @if is_undominated(point, points) { "✓" } }
-                        }
-                    }
-                    @for (title, error) in references {
-                        tr.reference {
-                            th scope="row" { (title) }
-                            td { "-" }
-                            td { "-" }
-                            td { (three_digits(*error)) }
-                            td {}
-                        }
-                    }
-                }
-            }
-        }
-    }
+    plot.draw(
+        "Mean FLIP* against time; the table below has the numbers",
+        &marks,
+    )
 }
 
-fn make_plot(points: &[Point], references: &[(String, f64)]) -> Plot {
-    let times =
-        (points.iter()).flat_map(|point| point.quartiles.into_iter().chain([point.milliseconds]));
-    let errors = (points.iter().map(|point| point.error)).chain(references.iter().map(|own| own.1));
-    let wide = Plot::wide(
-        Axis::log("ms, logarithmic", times),
-        Axis::linear("mean FLIP*", errors.chain([0.0])),
-    );
+fn numbers(points: &[(&Point, bool)], references: &[(String, f64)]) -> Markup {
+    let columns = ["filter", "ms", "quartiles", "mean FLIP*", "undominated"];
+    let rows = html! {
+        tbody {
+            @for (point, leads) in points {
+                tr {
+                    th scope="row" { (point.title) }
+                    td { (three_digits(point.milliseconds)) }
+                    td { (three_digits(point.quartiles[0])) "–" (three_digits(point.quartiles[1])) }
+                    td { (three_digits(point.error)) }
+                    td { @if *leads { "✓" } }
+                }
+            }
+            @for (title, error) in references {
+                tr.reference {
+                    th scope="row" { (title) }
+                    td { "-" }
+                    td { "-" }
+                    td { (three_digits(*error)) }
+                    td {}
+                }
+            }
+        }
+    };
+    scroll_table(
+        None,
+        "Quality against time",
+        None,
+        &columns.map(Column::Plain),
+        &rows,
+    )
+}
+
+fn make_plot(points: &[(&Point, bool)], references: &[(String, f64)]) -> Plot {
+    let points = || points.iter().map(|(point, _)| point);
+    let times = points().flat_map(|point| point.quartiles.into_iter().chain([point.milliseconds]));
+    let errors = points()
+        .map(|point| point.error)
+        .chain(references.iter().map(|own| own.1));
     Plot {
-        size: [wide.size[0], 380.0],
-        ..wide
+        size: [640.0, 380.0],
+        x: Axis::log("ms, logarithmic", times),
+        y: Axis::linear("mean FLIP*", errors.chain([0.0])),
     }
 }
 
@@ -149,19 +156,15 @@ fn text_width(text: &str) -> f64 {
     LETTER * text.chars().count() as f64
 }
 
-/// Finds the upper left corner of every label: beside its point, where it covers no point, no bar and no other label; none where
+/// Finds the upper left corner of every label: next to its point, where it covers no point, no bar and no other label; none where
 /// there is no room. The first bars are the points' own, in their order.
 fn place_labels(
-    points: &[Point],
-    places: &[(f64, f64)],
+    points: &[(&str, (f64, f64))],
     bars: &[[f64; 4]],
     width: f64,
 ) -> Vec<Option<[f64; 2]>> {
-    let discs = places.iter();
-    let mut taken: Vec<[f64; 4]> = discs
-        .map(|(x, y)| [x - 5.0, y - 5.0, x + 5.0, y + 5.0])
-        .chain(bars.iter().copied())
-        .collect();
+    let discs = (points.iter()).map(|(_, (x, y))| [x - 5.0, y - 5.0, x + 5.0, y + 5.0]);
+    let mut taken: Vec<[f64; 4]> = discs.chain(bars.iter().copied()).collect();
     let free = |own: &[f64; 4], taken: &[[f64; 4]]| {
         let apart = |other: &[f64; 4]| {
             own[2] <= other[0] || other[2] <= own[0] || own[3] <= other[1] || other[3] <= own[1]
@@ -169,8 +172,8 @@ fn place_labels(
         own[0] >= 60.0 && own[2] <= width && own[1] >= 0.0 && taken.iter().all(apart)
     };
     let mut labels = Vec::new();
-    for (index, (point, (x, y))) in points.iter().zip(places).enumerate() {
-        let length = text_width(&point.title);
+    for (index, (title, (x, y))) in points.iter().enumerate() {
+        let length = text_width(title);
         let [start, _, end, _] = bars.get(index).copied().unwrap_or([*x, *y, *x, *y]);
         let (middle, above, below) = (y - LINE / 2.0, y - 7.0 - LINE, y + 6.0);
         let corners = [
@@ -217,53 +220,32 @@ fn named_levels(references: &[(String, f64)], near: f64) -> Vec<(String, f64)> {
 mod tests {
     use super::*;
 
-    fn point(milliseconds: f64, error: f64) -> Point {
-        Point {
-            title: "jump_flood:paper".to_owned(),
-            milliseconds,
-            quartiles: [milliseconds; 2],
-            error,
-        }
-    }
-
-    #[test]
-    fn a_filter_that_another_one_beats_is_dominated() {
-        let all = [(1.0, 0.3), (2.0, 0.1), (2.0, 0.2), (3.0, 0.1)];
-        let all = all.map(|(time, error)| point(time, error));
-        let best: Vec<bool> = (all.iter()).map(|own| is_undominated(own, &all)).collect();
-        assert_eq!(best, [true, true, false, false]);
-    }
-
     #[test]
     fn references_that_lie_together_share_a_name() {
         let references = [("far", 0.9), ("b", 0.52), ("a", 0.5)];
         let references = references.map(|(title, error)| (title.to_owned(), error));
         let levels = named_levels(&references, 0.05);
-        let due = [
+        let expected = [
             ("", 0.5),
             ("2 references: 0.500 to 0.520", 0.52),
             ("far", 0.9),
         ];
-        assert_eq!(levels, due.map(|(title, error)| (title.to_owned(), error)));
+        assert_eq!(
+            levels,
+            expected.map(|(title, error)| (title.to_owned(), error))
+        );
     }
 
     #[test]
     fn labels_cover_neither_points_nor_one_another() {
-        let points = vec![point(1.0, 1.0); 3];
-        let labels = place_labels(
-            &points,
-            &[(200.0, 100.0), (208.0, 100.0), (204.0, 102.0)],
-            &[],
-            640.0,
-        );
+        let title = "jump_flood:paper";
+        let points = [(200.0, 100.0), (208.0, 100.0), (204.0, 102.0)].map(|place| (title, place));
+        let labels = place_labels(&points, &[], 640.0);
         assert!(labels[0].is_some());
         assert!(
             labels[0] != labels[1] && labels[1] != labels[2],
             "{labels:?}"
         );
-        assert_eq!(
-            place_labels(&points[..1], &[(70.0, -20.0)], &[], 90.0),
-            [None]
-        );
+        assert_eq!(place_labels(&[(title, (70.0, -20.0))], &[], 90.0), [None]);
     }
 }

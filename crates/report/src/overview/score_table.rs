@@ -1,18 +1,19 @@
 //! Table of one score: filters, best mean first, against scenes.
 
-use judge::{Level, Outcome, list_summarized};
+use judge::{Level, list_summarized};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
 use suite::{Bench, Case, Overall};
 use tracer::FrameRate;
 
+use super::bench_file::cost_of;
 use super::cell::{Colors, cell};
-use super::costs::{cost_of, cost_text};
-use super::headlines::TableScore;
+use super::costs::cost_text;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
-use crate::filter_id::{FilterId, list_alignments, mean, mean_floor};
+use crate::filter_id::{FilterId, mean};
+use crate::finding_text::Tally;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
 const WHISKERS: f64 = 1.5;
@@ -50,18 +51,16 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
             filter: filter.clone(),
         }
     };
-    let mut groups: Vec<Vec<Row>> = match metric.spans_alignments() {
-        true => vec![filters.iter().map(row).collect()],
-        false => (list_alignments(&filters).into_iter())
-            .map(|own| {
-                filters
-                    .iter()
-                    .filter(|filter| filter.alignment == own)
-                    .map(row)
-                    .collect()
-            })
-            .collect(),
-    };
+    let mut groups: Vec<Vec<Row>> = Vec::new();
+    for own in filters.iter().map(row) {
+        let compares = |group: &&mut Vec<Row>| {
+            metric.spans_alignments() || group[0].filter.alignment == own.filter.alignment
+        };
+        match groups.iter_mut().find(compares) {
+            Some(group) => group.push(own),
+            None => groups.push(vec![own]),
+        }
+    }
     let badness = |row: &Row| {
         row.mean
             .map_or(f64::INFINITY, |own| metric.ideal().badness(own))
@@ -77,52 +76,28 @@ pub fn score_table(
     table: &CaseTable,
     views: &[CaseView],
     thumbnails: &[String],
-    score: &TableScore,
+    (metric, title): (Metric, &str),
     bench: Option<&Bench>,
 ) -> Markup {
-    let metric = score.metric;
     let scenes = &table.scenes;
+    let ideal = metric.ideal();
     let groups = rank_rows(table, metric);
     let rows = || groups.iter().flatten();
     let own = views.iter().filter(|view| !view.case.is_reference);
-    let colors = Colors::over(
-        metric.ideal(),
-        own.filter_map(|view| view.case.estimate(metric)),
-    );
+    let colors = Colors::over(ideal, own.filter_map(|view| view.case.estimate(metric)));
     let has_means = rows().any(|row| row.overall.is_some());
-    let strip = strip_over(
-        rows().filter(|row| !row.filter.is_reference),
-        metric.ideal(),
-    );
+    let strip = strip_over(rows().filter(|row| !row.filter.is_reference), ideal);
     let columns = 1 + scenes.len() + 3 * usize::from(has_means) + usize::from(bench.is_some());
     // What a reader looks for comes first.
-    let order = match metric.ideal() {
+    let order = match ideal {
         Ideal::Highest => "descending",
         Ideal::Lowest | Ideal::Target(_) => "ascending",
     };
     html! {
-        div.scroll tabindex="0" role="region" aria-label=(format!("{} of every case", score.title)) {
+        div.scroll tabindex="0" role="region" aria-label=(format!("{title} of every case")) {
             table.sortable.many[scenes.len() > MANY] data-first=(order) {
                 caption { (caption(metric, has_means, scenes.len())) }
-                thead {
-                    tr {
-                        th scope="col" { button { "filter" } }
-                        @if has_means {
-                            th scope="col" { button { "mean" } }
-                            th.note scope="col" { "95 % CI" }
-                            th.chart scope="col" {
-                                div.ends { span { (metric.number(strip.low)) } span.unseen { " to " } span { (metric.number(strip.high)) } }
-                            }
-                        }
-                        @for (scene, picture) in scenes.iter().zip(thumbnails) {
-                            th.scene scope="col" {
-                                img src=[Some(picture).filter(|own| !own.is_empty())] alt="";
-                                button { (breakable(scene)) }
-                            }
-                        }
-                        @if bench.is_some() { th scope="col" { button { "cost, ms" } } }
-                    }
-                }
+                thead { (heading(scenes, thumbnails, has_means.then(|| ends(metric, &strip)), bench)) }
                 @for group in &groups {
                     @if !metric.spans_alignments() {
                         tbody.group {
@@ -150,6 +125,38 @@ pub fn score_table(
     }
 }
 
+/// Writes the headings of the columns; `ends` of the means' scale are none where there are no means.
+fn heading(
+    scenes: &[&str],
+    thumbnails: &[String],
+    ends: Option<Markup>,
+    bench: Option<&Bench>,
+) -> Markup {
+    html! {
+        tr {
+            th scope="col" { button { "filter" } }
+            @if let Some(ends) = ends {
+                th scope="col" { button { "mean" } }
+                th.note scope="col" { "95 % CI" }
+                th.chart scope="col" { (ends) }
+            }
+            @for (index, scene) in scenes.iter().enumerate() {
+                th.scene scope="col" {
+                    img src=[thumbnails.get(index)] alt="";
+                    button { (breakable(scene)) }
+                }
+            }
+            @if bench.is_some() { th scope="col" { button { "cost, ms" } } }
+        }
+    }
+}
+
+fn ends(metric: Metric, strip: &Strip) -> Markup {
+    html! {
+        div.ends { span { (metric.number(strip.low)) } span.unseen { " to " } span { (metric.number(strip.high)) } }
+    }
+}
+
 fn caption(metric: Metric, has_means: bool, scenes: usize) -> &'static str {
     match (has_means, metric.spans_alignments()) {
         (false, _) if scenes > 1 => "Counts of sub-frames have no mean",
@@ -172,10 +179,9 @@ fn summarized_rate(cases: &[Case]) -> Option<Option<FrameRate>> {
 
 /// Tells whether any required bound on a filter's scores is broken.
 fn is_failing(table: &CaseTable, views: &[CaseView], filter: &FilterId) -> bool {
-    let mut findings = table
-        .cases_of(filter)
-        .flat_map(|(index, _)| &views[index].findings);
-    findings.any(|own| own.level == Level::Required && own.outcome == Outcome::Broken)
+    let cases = table.cases_of(filter);
+    let findings = cases.flat_map(|(index, _)| &views[index].findings);
+    Tally::of(findings, Level::Required).broken > 0
 }
 
 /// Links a filter to its section.
@@ -201,7 +207,10 @@ fn mean_cells(table: &CaseTable, metric: Metric, strip: &Strip, row: &Row) -> Ma
     let class = if own.is_reference { "open" } else { "" };
     // Only where less is better does a floor lie between perfect and the score.
     let floor = match metric.ideal() {
-        Ideal::Lowest => mean_floor(table, &row.filter, metric),
+        Ideal::Lowest => {
+            let cases = table.cases_of(&row.filter);
+            mean(cases.filter_map(|(_, case)| case.floor(metric)))
+        }
         Ideal::Highest | Ideal::Target(_) => None,
     };
     let [low, high] = own.interval.map(|end| metric.number(end));

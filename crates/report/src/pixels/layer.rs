@@ -1,5 +1,7 @@
 //! Pictures of a case, which the page draws from their numbers.
 
+use serde::Serialize;
+
 /// One picture of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Layer {
@@ -29,8 +31,9 @@ pub enum Layer {
     Dilated,
 }
 
-/// Ways to turn numbers into colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Ways to turn numbers into colours, by the words that the script reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Painter {
     /// Radiance, as a display shows it at the chosen exposure.
     Radiance,
@@ -145,20 +148,6 @@ impl Layer {
             Painter::Sides => "beside ahead behind",
             Painter::Motion => "x y",
             Painter::Distance => "m",
-        }
-    }
-}
-
-impl Painter {
-    /// The word that the script reads.
-    pub fn name(self) -> &'static str {
-        match self {
-            Painter::Radiance => "radiance",
-            Painter::Signed => "signed",
-            Painter::Share => "share",
-            Painter::Sides => "sides",
-            Painter::Motion => "motion",
-            Painter::Distance => "distance",
         }
     }
 }

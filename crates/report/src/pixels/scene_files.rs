@@ -3,15 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use frame::{
-    Alignment, ExrFile, FileError, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions,
-};
+use frame::{Alignment, ExrFile, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions};
 use metrics::{Side, object_sides};
 use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run};
 
 use super::layer::Layer;
 use super::planes::Planes;
 use super::png::{embed_picture, thumbnail};
+
+/// Pictures with the numbers of their planes.
+pub type Layers = Vec<(Layer, Vec<usize>)>;
 
 /// The frame of a scene, its truths, and the planes of all its pictures.
 pub struct SceneFiles {
@@ -21,15 +22,16 @@ pub struct SceneFiles {
     pub truths: BTreeMap<Alignment, TruthFile>,
     /// The planes of all its cases.
     pub planes: Planes,
-    /// Accumulation that stands in every profile, with its title, by their alignment.
+    /// Accumulation that is part of every profile, with its title, by their alignment.
     pub accumulations: BTreeMap<Alignment, (String, Image)>,
+    /// Plane of the object that each pixel's centre sees.
+    pub objects: usize,
+    /// The run's.
     folder: PathBuf,
     /// Folder of the same scene as it was rendered, where an engine drew this one.
     traced: Option<PathBuf>,
     /// Those that every case of the scene shows.
-    shared: Vec<(Layer, Vec<usize>)>,
-    /// Plane of the object that each pixel's centre sees.
-    objects: usize,
+    shared: Layers,
 }
 
 /// One truth.
@@ -43,7 +45,7 @@ pub struct TruthFile {
     /// Per object that moves, with its index: where its bleed belongs.
     sides: Vec<(usize, frame::Raster<Side>)>,
     /// Truth and knowability.
-    layers: Vec<(Layer, Vec<usize>)>,
+    layers: Layers,
 }
 
 /// Files that a run left of one case.
@@ -52,17 +54,14 @@ pub struct CaseFiles<'a> {
     pub output: Image,
     /// The error maps.
     pub errors: ErrorMaps<'a>,
-    /// Every picture that there is, with the numbers of its planes.
-    pub layers: Vec<(Layer, Vec<usize>)>,
-    /// The plane of the objects' indices.
-    pub objects: usize,
+    /// Every picture that there is.
+    pub layers: Layers,
 }
 
 impl SceneFiles {
     /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the scene, `folder` is the run's.
     pub fn read(run: &Run, cases: &[&Case], folder: &Path) -> Result<Self, Error> {
-        let own = folder.join(&cases[0].scene);
-        let path = own.join("frame.exr");
+        let path = folder.join(&cases[0].scene).join("frame.exr");
         let frame = Frame::read(&path)?.cropped();
         check_size(&path, frame.size(), (run.render.width, run.render.height))?;
         let mut accumulations = BTreeMap::new();
@@ -74,8 +73,8 @@ impl SceneFiles {
             accumulations.insert(case.alignment, named);
         }
         let mut planes = Planes::default();
-        let velocity = [0, 1].map(|axis| frame.velocity.map(|motion| motion[axis]));
-        let velocity = velocity.map(|plane| planes.add(&plane));
+        let axes = [0, 1].map(|axis| frame.velocity.map(|motion| motion[axis]));
+        let velocity = axes.map(|plane| planes.add(&plane));
         let depth = planes.add(&frame.depth);
         let ids = frame.object_id.map(|id| *id as f32);
         Ok(Self {
@@ -88,30 +87,23 @@ impl SceneFiles {
             truths: BTreeMap::new(),
             accumulations,
             traced: find_traced(run, cases[0]).map(|case| folder.join(&case.scene)),
-            folder: own,
+            folder: folder.to_owned(),
             frame,
             planes,
         })
     }
 
     /// Draws a small truth, that of any alignment, as an address that holds the picture itself.
-    pub fn thumbnail(&self) -> Result<String, Error> {
+    pub fn thumbnail(&self) -> String {
         let truth = self.truths.values().next();
         let image = truth.map_or(&self.frame.color, |truth| &truth.mean.color);
         embed_picture(&thumbnail(image, self.frame.display.stops))
     }
 
-    /// The truth that a case is scored against, read once.
-    fn truth(&mut self, case: &Case) -> Result<&TruthFile, Error> {
-        if !self.truths.contains_key(&case.alignment) {
-            let truth = self.read_truth(case.alignment)?;
-            self.truths.insert(case.alignment, truth);
-        }
-        Ok(&self.truths[&case.alignment])
-    }
-
-    fn read_truth(&mut self, alignment: Alignment) -> Result<TruthFile, Error> {
-        let path = self.folder.join(format!("truth_{alignment}.exr"));
+    /// Reads the truth that a case is scored against.
+    fn read_truth(&mut self, case: &Case) -> Result<TruthFile, Error> {
+        let alignment = case.alignment;
+        let path = (self.folder.join(&case.scene)).join(format!("truth_{alignment}.exr"));
         let truth = Truth::read(&path)?;
         check_size(&path, truth.size(), self.frame.size())?;
         if truth.objects != self.frame.objects {
@@ -163,26 +155,30 @@ impl SceneFiles {
         Ok(Some((Layer::TracedTruth, planes)))
     }
 
-    /// Reads the files that a run left of a case below `folder`, that of its run.json.
-    pub fn read_case<'c>(&mut self, case: &'c Case, folder: &Path) -> Result<CaseFiles<'c>, Error> {
-        let own = folder.join(&case.folder);
+    /// Reads the files that a run left of a case.
+    pub fn read_case<'c>(&mut self, case: &'c Case) -> Result<CaseFiles<'c>, Error> {
+        let own = self.folder.join(&case.folder);
         let file = read_exr(&own.join("output.exr"))?;
         file.expect_finite()?;
-        let errors = ErrorMaps::read(case, folder)?;
+        let errors = ErrorMaps::read(case, &self.folder)?;
         let output = file.color("")?;
-        let size = (output.width, output.height);
-        if size != self.frame.size() || errors.size() != size {
-            let (width, height) = self.frame.size();
+        let sizes = [
+            (output.width, output.height),
+            errors.size(),
+            self.frame.size(),
+        ];
+        let [output_size, error_size, frame_size] =
+            sizes.map(|(width, height)| format!("{width}x{height}"));
+        if output_size != frame_size || error_size != frame_size {
             return Err(Error::Usage(format!(
-                "{}: output.exr has {}x{} pixels, errors.exr {}x{}, the scene's frame {width}x{height}; run the case again",
-                own.display(),
-                size.0,
-                size.1,
-                errors.size().0,
-                errors.size().1
+                "{}: output.exr has {output_size} pixels, errors.exr {error_size}, the scene's frame {frame_size}; run the case again",
+                own.display()
             )));
         }
-        self.truth(case)?;
+        if !self.truths.contains_key(&case.alignment) {
+            let truth = self.read_truth(case)?;
+            self.truths.insert(case.alignment.clone(), truth);
+        }
         let truth = &self.truths[&case.alignment];
         let bleeds = read_bleeds(&file, &self.frame.objects, truth)?;
         let colors = self.planes.add_image(&output);
@@ -198,25 +194,19 @@ impl SceneFiles {
             maps.push((Layer::LabelTotalVariation, "label_tv"));
         }
         for (layer, name) in maps {
-            let plane = self.planes.add(&errors.map(name)?);
-            layers.push((layer, vec![plane]));
+            layers.push((layer, vec![self.planes.add(&errors.map(name)?)]));
         }
-        if file
-            .channels
-            .iter()
-            .any(|channel| channel.name == "dilated.X")
-        {
-            let planes =
-                ["dilated.X", "dilated.Y"].map(|name| Ok(self.planes.add(&file.plane(name)?)));
-            let planes: Result<_, FileError> = planes.into_iter().collect();
-            layers.push((Layer::Dilated, planes?));
+        let mut channels = file.channels.iter();
+        if channels.any(|channel| channel.name == "dilated.X") {
+            let axes = [file.plane("dilated.X")?, file.plane("dilated.Y")?];
+            let planes = axes.map(|plane| self.planes.add(&plane));
+            layers.push((Layer::Dilated, planes.to_vec()));
         }
         layers.sort();
         Ok(CaseFiles {
             output,
             errors,
             layers,
-            objects: self.objects,
         })
     }
 }
@@ -228,41 +218,32 @@ pub fn find_traced<'a>(run: &'a Run, case: &Case) -> Option<&'a Case> {
     cases.find(|own| own.drawn.is_none() && own.scene == *scene && own.exposure == case.exposure)
 }
 
-/// Refuses a file of other pictures than the run's.
-fn check_size(path: &Path, found: (u32, u32), due: (u32, u32)) -> Result<(), Error> {
-    match found == due {
-        true => Ok(()),
-        false => Err(Error::Usage(format!(
-            "{}: has {}x{} pixels, the run's pictures have {}x{}; run the scene again",
-            path.display(),
-            found.0,
-            found.1,
-            due.0,
-            due.1
-        ))),
+/// Refuses a file of another size than the run's pictures.
+fn check_size(path: &Path, found: (u32, u32), expected: (u32, u32)) -> Result<(), Error> {
+    if found == expected {
+        return Ok(());
     }
+    let [found, expected] = [found, expected].map(|(width, height)| format!("{width}x{height}"));
+    Err(Error::Usage(format!(
+        "{}: has {found} pixels, the run's pictures have {expected}; run the scene again",
+        path.display()
+    )))
 }
 
-/// The accumulation that stands in every profile.
+/// Tells whether a case is the accumulation that is part of every profile.
 fn is_in_profiles(case: &Case) -> bool {
     case.is_reference && case.filter == ACCUMULATE && case.preset == "16"
 }
 
 /// Beside, ahead and behind: the sum over moving objects of their matte where the truth never shows them.
 fn read_bleeds(file: &ExrFile, objects: &[String], truth: &TruthFile) -> Result<[Plane; 3], Error> {
-    let nothing: Plane = truth.regions.moving.map(|_| 0.0);
-    let mut bleeds = [(); 3].map(|()| nothing.clone());
+    let mut bleeds = [(); 3].map(|()| truth.regions.moving.map(|_| 0.0));
+    let wanted = [Side::Lateral, Side::Leading, Side::Trailing];
     for (object, sides) in &truth.sides {
         let matte = file.plane(&format!("coverage.{}", objects[*object]))?;
-        for (bleed, wanted) in bleeds
-            .iter_mut()
-            .zip([Side::Lateral, Side::Leading, Side::Trailing])
-        {
-            let own = matte.zip(
-                sides,
-                |matte, side| if *side == wanted { *matte } else { 0.0 },
-            );
-            *bleed = bleed.zip(&own, |sum, own| sum + own);
+        for (bleed, wanted) in bleeds.iter_mut().zip(wanted) {
+            let share = |matte: &f32, side: &Side| if *side == wanted { *matte } else { 0.0 };
+            *bleed = bleed.zip(&matte.zip(sides, share), |sum, own| sum + own);
         }
     }
     Ok(bleeds)

@@ -1,13 +1,15 @@
 //! Player of sequences.
 
+use std::path::Path;
+
 use judge::{Finding, RANKED_BY};
-use maud::{PreEscaped, html};
+use maud::{Markup, html};
 use serde::Serialize;
 use suite::{CHANGE_PICTURE, Run, Sequence};
 
 use super::ranking::ranking_tables;
 use super::scores::score_tables;
-use crate::document::{Document, Siblings};
+use crate::document::{Document, Siblings, script_data};
 
 /// Name of the page, beside run.json: it shows pictures that lie below.
 pub const SEQUENCES_PAGE: &str = "sequences.html";
@@ -33,29 +35,26 @@ struct PlayedFrame {
     flicker: Option<f64>,
 }
 
-/// Makes the page that plays the sequences of a run; none where it has none. `findings` are those about the run. It loads the pictures of the run's folder, in which it
-/// must lie.
+/// Pictures of a frame: the name in attributes, and the title.
+const PICTURES: [(&str, &str); 5] = [
+    ("instant", "instant"),
+    ("truth", "truth"),
+    ("output", "output"),
+    ("error", "error (FLIP)"),
+    ("change", "error of the change"),
+];
+
+/// Makes the page that plays the sequences of a run; none where it has none. `findings` are those about the run. The page must lie in
+/// the run's folder, whose pictures it loads.
 pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     if run.sequences.is_empty() {
         return None;
     }
     let played: Vec<Played> = run.sequences.iter().map(play).collect();
     let data = serde_json::to_string(&played).expect("it is plain data");
-    // No text may end the script that holds it.
-    let data = data.replace('<', "\\u003c");
-    let titles = [
-        ("instant", "instant"),
-        ("truth", "truth"),
-        ("output", "output"),
-        ("error", "error (FLIP)"),
-        ("change", "error of the change"),
-    ];
-    let mut sequences = run.sequences.iter();
-    let first_filter = (sequences.position(|own| !own.is_reference)).unwrap_or(0);
     let mut scenes: Vec<&str> = run.sequences.iter().map(|own| own.scene.as_str()).collect();
     scenes.dedup();
     let frames = run.frames;
-    let rates = rates(frames.per_second);
     let document = Document {
         title: "Shuttertruth sequences",
         heading: html! { a href="report.html" { "Shuttertruth" } },
@@ -67,53 +66,63 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
             main {
                 section #overview {
                     noscript { p { "The pictures need scripts; the tables below do not." } }
-                    div.toolbar #player data-rate=(frames.per_second) {
-                        select #sequence aria-label="Sequence" {
-                            @for (index, own) in played.iter().enumerate() {
-                                option value=(index) selected[index == first_filter] { (own.name) }
-                            }
-                        }
-                        button #play type="button" { "Play" }
-                        button #back type="button" aria-label="Frame before" { "◀" }
-                        button #on type="button" aria-label="Next frame" { "▶" }
-                        fieldset.choice {
-                            legend { "per second" }
-                            @for (index, rate) in rates.iter().enumerate() {
-                                label {
-                                    input type="radio" name="rate" value=(rate) checked[index == 0];
-                                    span { (rate) }
-                                }
-                            }
-                        }
-                        output #readout {}
-                    }
-                    div.sequence #pictures style=(format!("--ratio: {} / {}", run.render.width, run.render.height)) {
-                        @for (name, title) in titles {
-                            figure { img id=(format!("picture_{name}")) alt=(title); figcaption { (title) } }
-                        }
-                    }
-                    p.key {
-                        "Space plays and stops, , and . go frame by frame, 1 to " (rates.len()) " choose the rate, [ and ] the sequence. The \
-                         error of the change is the difference of the output from the frame before, less that of the truth: black is none."
-                    }
+                    (player(run, &played))
                     (ranking_tables(run, scenes.len()))
                     h2 { "Scores over time" }
                     p.note {
                         "Roots of squared errors, in thousandths of display white; lower is better. JOD as it is; higher is better. "
                         "Filters are ranked by " (RANKED_BY.row().name) ". Italics: references."
                         @if findings.iter().any(Finding::is_of_sequence) {
-                            " ✓ bound kept; ✗ bound broken; ? too noisy to decide; ~ limit stricter than the noise allows."
+                            " ✓ bound met; ✗ bound broken; ? too noisy to decide; ~ limit stricter than the noise allows."
                         }
                     }
                     (score_tables(run, findings))
                 }
             }
-            script #sequences type="application/json" { (PreEscaped(data)) }
+            (script_data("sequences", &data))
         },
         scripts: &[include_str!("../assets/sequence.js")],
         siblings: Siblings::Pictures,
     };
     Some(document.render())
+}
+
+/// Writes the controls, and the places of the pictures.
+fn player(run: &Run, played: &[Played]) -> Markup {
+    let mut sequences = run.sequences.iter();
+    let first_filter = (sequences.position(|own| !own.is_reference)).unwrap_or(0);
+    let rates = rates(run.frames.per_second);
+    html! {
+        div.toolbar #player data-rate=(run.frames.per_second) {
+            select #sequence aria-label="Sequence" {
+                @for (index, own) in played.iter().enumerate() {
+                    option value=(index) selected[index == first_filter] { (own.name) }
+                }
+            }
+            button #play type="button" { "Play" }
+            button #back type="button" aria-label="Frame before" { "◀" }
+            button #on type="button" aria-label="Next frame" { "▶" }
+            fieldset.choice {
+                legend { "per second" }
+                @for (index, rate) in rates.iter().enumerate() {
+                    label {
+                        input type="radio" name="rate" value=(rate) checked[index == 0];
+                        span { (rate) }
+                    }
+                }
+            }
+            output #readout {}
+        }
+        div.sequence #pictures style=(format!("--ratio: {} / {}", run.render.width, run.render.height)) {
+            @for (name, title) in PICTURES {
+                figure { img id=(format!("picture_{name}")) alt=(title); figcaption { (title) } }
+            }
+        }
+        p.key {
+            "Space plays and stops, , and . go frame by frame, 1 to " (rates.len()) " choose the rate, [ and ] the sequence. The \
+             error of the change is the difference of the output from the frame before, less that of the truth: black is none."
+        }
+    }
 }
 
 /// The run's own rate, and the usual ones.
@@ -126,28 +135,21 @@ fn rates(own: f64) -> Vec<f64> {
 
 fn play(own: &Sequence) -> Played {
     let truth = format!("truth_{}.png", own.alignment);
-    let path = |folder: &std::path::Path, name: &str| {
-        let parts = folder.join(name);
-        let parts = parts.components();
-        let parts: Vec<_> = parts
-            .map(|part| part.as_os_str().to_string_lossy())
-            .collect();
-        parts.join("/")
+    let path = |folder: &Path, name: &str| {
+        let path = folder.join(name);
+        let parts = path.iter().map(|part| part.to_string_lossy());
+        parts.collect::<Vec<_>>().join("/")
     };
     let root = |square: Option<f64>| square.map(|square| 1000.0 * square.max(0.0).sqrt());
-    let frames = own
-        .frames
-        .iter()
-        .enumerate()
-        .map(|(index, frame)| PlayedFrame {
-            instant: path(&frame.scene, "frame.png"),
-            truth: path(&frame.scene, &truth),
-            output: path(&frame.folder, "output.png"),
-            error: path(&frame.folder, "flip.png"),
-            change: (index > 0).then(|| path(&frame.folder, CHANGE_PICTURE)),
-            mse: root(frame.error),
-            flicker: root(frame.flicker),
-        });
+    let frames = (own.frames.iter().enumerate()).map(|(index, frame)| PlayedFrame {
+        instant: path(&frame.scene, "frame.png"),
+        truth: path(&frame.scene, &truth),
+        output: path(&frame.folder, "output.png"),
+        error: path(&frame.folder, "flip.png"),
+        change: (index > 0).then(|| path(&frame.folder, CHANGE_PICTURE)),
+        mse: root(frame.error),
+        flicker: root(frame.flicker),
+    });
     Played {
         name: format!("{} / {} ({})", own.scene, own.filter, own.alignment),
         frames: frames.collect(),

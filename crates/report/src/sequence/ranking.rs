@@ -21,26 +21,28 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
             }
             @for group in &groups {
                 h3 { (group[0].ranked.alignment) " shutter" @if let Some(rate) = group[0].ranked.rate { ", " (rate.text()) } }
-                div.scroll {
-                    table {
-                        thead {
-                            tr {
-                                th { "filter" }
-                                (metric_heads())
-                                th { "worst scene" }
-                            }
-                        }
-                        tbody { @for own in group { (row(own, scenes)) } }
-                    }
-                }
+                (metric_table(Some("worst scene"), &html! { @for own in group { (row(own, scenes)) } }))
             }
         }
     }
 }
 
-/// Heads the columns of the scores of sequences.
-pub fn metric_heads() -> Markup {
-    html! { @for metric in SequenceMetric::ALL { th title=(metric.row().meaning) { (metric.row().name) } } }
+/// Writes a table of filters with a column for every score of sequences, and perhaps one more.
+pub fn metric_table(last: Option<&str>, rows: &Markup) -> Markup {
+    html! {
+        div.scroll {
+            table {
+                thead {
+                    tr {
+                        th { "filter" }
+                        @for metric in SequenceMetric::ALL { th title=(metric.row().meaning) { (metric.row().name) } }
+                        @if let Some(title) = last { th { (title) } }
+                    }
+                }
+                tbody { (rows) }
+            }
+        }
+    }
 }
 
 fn row(own: &RankedSequence, scenes: usize) -> Markup {

@@ -1,12 +1,12 @@
 //! Tables of scores over time.
 
 use frame::Alignment;
-use judge::{Finding, Level, RankedSequence, rank_sequences_on};
+use judge::{Finding, RankedSequence, rank_sequences_on};
 use maud::{Markup, html};
 use metrics::{Measured, Metric, SequenceMetric};
 use suite::{Run, Sequence};
 
-use super::ranking::metric_heads;
+use super::ranking::metric_table;
 use crate::finding_text::{Status, limit_text};
 
 /// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
@@ -21,21 +21,9 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
     html! {
         @for (scene, alignment) in groups {
             h3 { (scene) ", " (alignment) " shutter" }
-            div.scroll {
-                table {
-                    thead {
-                        tr {
-                            th { "filter" }
-                            (metric_heads())
-                        }
-                    }
-                    tbody {
-                        @for (index, rank, own) in order_rows(run, scene, alignment) {
-                            (row(index, &rank, own, findings))
-                        }
-                    }
-                }
-            }
+            (metric_table(None, &html! {
+                @for (index, rank, own) in order_rows(run, scene, alignment) { (row(index, &rank, own, findings)) }
+            }))
         }
         dl.facts {
             @for metric in SequenceMetric::ALL {
@@ -90,15 +78,11 @@ fn row(index: usize, rank: &str, own: &Sequence, findings: &[Finding]) -> Markup
 fn cell(own: &Sequence, metric: SequenceMetric, finding: Option<&Finding>) -> Markup {
     let score = own.scores.get(metric);
     let status = finding.and_then(|own| Status::of(own.outcome));
-    let required = finding.is_some_and(|own| own.level == Level::Required);
     let mut title = score_title(score);
     title.extend(finding.map(|own| format!(", limit {}: {}", limit_text(own), own.place)));
     html! {
-        td title=(title) class=[status.filter(|_| required).map(|status| status.word)] {
-            @if let Some(status) = status {
-                span.sign aria-hidden="true" { (status.sign) }
-                span.unseen { (status.word) " " }
-            }
+        td title=(title) class=[finding.and_then(Status::required_class)] {
+            @if let Some(status) = status { (status) span.unseen { (status.word) " " } }
             (metric.text(score))
         }
     }

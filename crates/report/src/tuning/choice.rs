@@ -4,6 +4,7 @@ use maud::{Markup, html};
 use tune::{Advice, Preference, Tuning};
 
 use crate::numbers::percent;
+use crate::table::{Column, scroll_table};
 
 /// Writes the outcome in a few sentences.
 pub fn summary(tuning: &Tuning) -> Markup {
@@ -57,33 +58,29 @@ pub fn values(tuning: &Tuning) -> Markup {
         true => "chosen".to_owned(),
         false => format!("trial {}", tuning.choice.trial),
     };
+    let columns = [
+        Column::Plain("parameter"),
+        Column::Plain("start"),
+        Column::Plain(&trial),
+        Column::Text("tried"),
+    ];
+    let rows = html! {
+        tbody {
+            @for (name, range) in &tuning.journal.vary {
+                @let (start, chosen) = (tuning.start.values.get(name), tuning.chosen.values.get(name));
+                tr {
+                    th scope="row" { (name) }
+                    td data-label="start" { @if let Some(value) = start { (value) } }
+                    td data-label=(trial) { @if let Some(value) = chosen { @if start == chosen || !is_offered { (value) } @else { strong { (value) } } } }
+                    td.text data-label="tried" { (range) }
+                }
+            }
+        }
+    };
     html! {
         section {
             h2 { "Values" }
-            div.scroll tabindex="0" role="region" aria-label="Values" {
-                table.stacked {
-                    caption { "Varied parameters" }
-                    thead {
-                        tr {
-                            th scope="col" { "parameter" }
-                            th scope="col" { "start" }
-                            th scope="col" { (trial) }
-                            th.text scope="col" { "tried" }
-                        }
-                    }
-                    tbody {
-                        @for (name, range) in &tuning.journal.vary {
-                            @let (start, chosen) = (tuning.start.values.get(name), tuning.chosen.values.get(name));
-                            tr {
-                                th scope="row" { (name) }
-                                td data-label="start" { @if let Some(value) = start { (value) } }
-                                td data-label=(trial) { @if let Some(value) = chosen { @if start == chosen || !is_offered { (value) } @else { strong { (value) } } } }
-                                td.text data-label="tried" { (range) }
-                            }
-                        }
-                    }
-                }
-            }
+            (scroll_table(Some("stacked"), "Values", Some("Varied parameters"), &columns, &rows))
             p.note {
                 "In the folder, params.json holds these values for " code { "evaluate --params" }
                 @if is_offered { ", and preset.toml holds them for a filter.toml" }

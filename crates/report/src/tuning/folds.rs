@@ -5,8 +5,9 @@ use tune::Fold;
 
 use crate::charts::strip::Strip;
 use crate::numbers::percent;
+use crate::table::{Column, scroll_table};
 
-/// Nothing where there were no two families.
+/// Lists the families; nothing where there were no two.
 pub fn folds(folds: &[Fold]) -> Markup {
     if folds.is_empty() {
         return html! {};
@@ -16,6 +17,30 @@ pub fn folds(folds: &[Fold]) -> Markup {
         .flat_map(|fold| [fold.others.abs(), fold.held_out.abs()]);
     let most = sizes.fold(0.0, f64::max);
     let bar = |value: f64| change_bar(value, most);
+    let columns = [
+        Column::Plain("family left out"),
+        Column::Plain("scenes"),
+        Column::Plain("trial"),
+        Column::Plain("on the others"),
+        Column::Plain("on the family"),
+        Column::Plain("gap"),
+        Column::Chart("others above, family below"),
+    ];
+    let rows = html! {
+        tbody {
+            @for fold in folds {
+                tr {
+                    th scope="row" { (fold.family) }
+                    td { (fold.scenes) }
+                    td { (fold.trial) }
+                    td { (percent(fold.others)) }
+                    td { (percent(fold.held_out)) }
+                    td class=[(fold.gap > 0.0).then_some("worse")] { (format!("{:+.3}", fold.gap)) }
+                    td.chart { (bar(fold.others)) (bar(fold.held_out)) }
+                }
+            }
+        }
+    };
     html! {
         section {
             h2 { "Cross-validation" }
@@ -23,35 +48,7 @@ pub fn folds(folds: &[Fold]) -> Markup {
                 "Each family of scenes is left out of the choice in turn. A gap above 0 means that the choice is worse on the family that \
                  it was made without. The search itself saw every scene: only held-out scenes show how much it overfits."
             }
-            div.scroll tabindex="0" role="region" aria-label="Cross-validation" {
-                table {
-                    caption.unseen { "Families of scenes, each left out of the choice" }
-                    thead {
-                        tr {
-                            th scope="col" { "family left out" }
-                            th scope="col" { "scenes" }
-                            th scope="col" { "trial" }
-                            th scope="col" { "on the others" }
-                            th scope="col" { "on the family" }
-                            th scope="col" { "gap" }
-                            th.chart scope="col" { "others above, family below" }
-                        }
-                    }
-                    tbody {
-                        @for fold in folds {
-                            tr {
-                                th scope="row" { (fold.family) }
-                                td { (fold.scenes) }
-                                td { (fold.trial) }
-                                td { (percent(fold.others)) }
-                                td { (percent(fold.held_out)) }
-                                td class=[(fold.gap > 0.0).then_some("worse")] { (format!("{:+.3}", fold.gap)) }
-                                td.chart { (bar(fold.others)) (bar(fold.held_out)) }
-                            }
-                        }
-                    }
-                }
-            }
+            (scroll_table(None, "Cross-validation", None, &columns, &rows))
         }
     }
 }

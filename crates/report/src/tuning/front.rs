@@ -4,8 +4,10 @@ use maud::{Markup, html};
 use tune::{Advice, Trial, round_bleed};
 
 use super::folder::TuneFolder;
+use crate::charts::is_undominated;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
+use crate::table::{Column, scroll_table};
 
 /// A measure that a chart shows against the error.
 struct Against {
@@ -85,12 +87,6 @@ fn chart(done: &[&Trial], chosen: Option<usize>, against: &Against) -> Markup {
     html! { figure { (plot.draw(&label, &marks)) } }
 }
 
-/// Tells whether no row is as low in both columns and lower in one.
-fn is_undominated(own: [f64; 2], all: &[[f64; 2]]) -> bool {
-    let beats = |other: &[f64; 2]| other[0] <= own[0] && other[1] <= own[1] && *other != own;
-    !all.iter().any(beats)
-}
-
 /// Writes the change of the error in percent.
 fn change(trial: &Trial) -> Option<f64> {
     Some(100.0 * trial.error?.exp_m1())
@@ -101,33 +97,31 @@ fn table(front: &[Trial], start: &Trial, chosen: Option<usize>) -> Markup {
         |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
     // Only what the tuning measured has a column.
     let [timed, bled] = AGAINST.map(|own| front.iter().any(|trial| (own.value)(trial).is_some()));
-    html! {
-        div.scroll tabindex="0" role="region" aria-label="Unbeaten trials" {
-            table.stacked {
-                caption { "Trials that no other one beats in every measure, lowest error first" }
-                thead {
-                    tr {
-                        th scope="col" { "trial" }
-                        th scope="col" { "error" }
-                        @if bled { th scope="col" { "lateral bleed, px" } }
-                        @if timed { th scope="col" { "GPU time" } }
-                        th.text scope="col" { "values that differ from the start" }
-                    }
-                }
-                tbody {
-                    @for trial in front {
-                        tr {
-                            th scope="row" data-label="trial" { (trial.trial) @if Some(trial.trial) == chosen { " (chosen)" } @else if trial.trial == 0 { " (start)" } }
-                            td data-label="error" { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
-                            @if bled { td data-label="lateral bleed, px" { (number(trial.bleed)) } }
-                            @if timed { td data-label="GPU time" { (number(trial.cost)) } }
-                            td.text data-label="values" { (differing(trial, start)) }
-                        }
-                    }
+    let mut columns = vec![Column::Plain("trial"), Column::Plain("error")];
+    columns.extend(bled.then_some(Column::Plain("lateral bleed, px")));
+    columns.extend(timed.then_some(Column::Plain("GPU time")));
+    columns.push(Column::Text("values that differ from the start"));
+    let rows = html! {
+        tbody {
+            @for trial in front {
+                tr {
+                    th scope="row" data-label="trial" { (trial.trial) @if Some(trial.trial) == chosen { " (chosen)" } @else if trial.trial == 0 { " (start)" } }
+                    td data-label="error" { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
+                    @if bled { td data-label="lateral bleed, px" { (number(trial.bleed)) } }
+                    @if timed { td data-label="GPU time" { (number(trial.cost)) } }
+                    td.text data-label="values" { (differing(trial, start)) }
                 }
             }
         }
-    }
+    };
+    let caption = "Trials that no other one beats in every measure, lowest error first";
+    scroll_table(
+        Some("stacked"),
+        "Unbeaten trials",
+        Some(caption),
+        &columns,
+        &rows,
+    )
 }
 
 /// Writes `samples 16, jitter start_offset`.
@@ -140,16 +134,4 @@ fn differing(trial: &Trial, start: &Trial) -> String {
         .map(|(name, value)| format!("{name} {value}"))
         .collect();
     words.join(", ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_trial_that_another_one_beats_in_both_axes_is_dominated() {
-        let all = [[0.0, 1.0], [-2.0, 1.0], [-2.0, 0.9], [-3.0, 1.4]];
-        let found = all.map(|own| is_undominated(own, &all));
-        assert_eq!(found, [false, false, true, true]);
-    }
 }

@@ -4,11 +4,20 @@ use maud::{Markup, html};
 use tune::{ParameterSensitivity, Sensitivity};
 
 use crate::charts::strip::Strip;
+use crate::table::{Column, scroll_table};
 
 /// Lists the parameters, those that matter most first.
 pub fn importance(found: &Sensitivity) -> Markup {
     let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.indices.total.value.total_cmp(&a.indices.total.value));
+    let columns = [
+        Column::Plain("parameter"),
+        Column::Text("constant?"),
+        Column::Plain("first"),
+        Column::Plain("total"),
+        Column::Chart("total, 0 to 1"),
+    ];
+    let rows = html! { tbody { @for (name, own) in rows { (row(name, own)) } } };
     html! {
         section {
             h2 { "Which parameters can become constants" }
@@ -17,21 +26,7 @@ pub fn importance(found: &Sensitivity) -> Markup {
                 "First and total (Sobol): share of the error's variance that the parameter causes alone, and with all others. "
                 "Lines are 95 % CIs."
             }
-            div.scroll tabindex="0" role="region" aria-label="Sensitivity" {
-                table {
-                    caption.unseen { "Parameters by what they change" }
-                    thead {
-                        tr {
-                            th scope="col" { "parameter" }
-                            th.text scope="col" { "constant?" }
-                            th scope="col" { "first" }
-                            th scope="col" { "total" }
-                            th.chart scope="col" { "total, 0 to 1" }
-                        }
-                    }
-                    tbody { @for (name, own) in rows { (row(name, own)) } }
-                }
-            }
+            (scroll_table(None, "Sensitivity", None, &columns, &rows))
         }
     }
 }
@@ -51,9 +46,6 @@ fn row(name: &str, own: &ParameterSensitivity) -> Markup {
 
 /// Draws a share with its interval, from 0 to 1.
 fn bar(value: f64, interval: [f64; 2]) -> Markup {
-    let strip = Strip {
-        low: 0.0,
-        high: 1.0,
-    };
+    let strip = Strip::over([0.0, 1.0].into_iter());
     strip.draw(&html! { (strip.bar(0.0, value, "")) (strip.interval(interval)) })
 }

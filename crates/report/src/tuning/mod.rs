@@ -11,9 +11,9 @@ mod settings;
 mod slices;
 
 use maud::{Markup, html};
-use suite::Error;
 
 use crate::document::{Document, Siblings};
+use suite::Error;
 
 pub use folder::TuneFolder;
 

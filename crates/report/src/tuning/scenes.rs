@@ -3,18 +3,15 @@
 use std::collections::BTreeMap;
 
 use maud::{Markup, html};
-use tune::{HeldOutResult, SceneScore, Tuning, log_ratio};
+use tune::{HeldOutResult, SceneScore, Tuning, log_ratio, pair_scores};
 
 use super::folds::change_bar;
 use crate::numbers::percent;
+use crate::table::{Column, scroll_table};
 
 /// Lists the scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {
-    let pairs: BTreeMap<String, [SceneScore; 2]> = (tuning.start.scenes.iter())
-        .filter_map(|(scene, start)| {
-            Some((scene.clone(), [*start, *tuning.chosen.scenes.get(scene)?]))
-        })
-        .collect();
+    let pairs = pair_scores(&tuning.start.scenes, &tuning.chosen.scenes);
     html! {
         section {
             h2 { "Choice against start on the scenes tuned on" }
@@ -48,40 +45,33 @@ fn table(caption: &str, pairs: &BTreeMap<String, [SceneScore; 2]>) -> Markup {
         .collect();
     rows.sort_by(|(_, [a, _], _), (_, [b, _], _)| b.flip.total_cmp(&a.flip));
     let most = rows.iter().map(|(_, _, log)| log.abs()).fold(0.0, f64::max);
-    let bleed = |score: &SceneScore| {
-        score
-            .bleed
-            .map_or_else(|| "n/a".to_owned(), |bleed| format!("{bleed:.3}"))
+    let bleed = |score: &SceneScore| match score.bleed {
+        Some(bleed) => format!("{bleed:.3}"),
+        None => "n/a".to_owned(),
     };
-    html! {
-        div.scroll tabindex="0" role="region" aria-label=(caption) {
-            table {
-                caption { (caption) }
-                thead {
-                    tr {
-                        th scope="col" { "scene" }
-                        th scope="col" { "FLIP, start" }
-                        th scope="col" { "FLIP, chosen" }
-                        th scope="col" { "change" }
-                        th.chart scope="col" { "← better, worse →" }
-                        th scope="col" { "lateral bleed px, start" }
-                        th scope="col" { "lateral bleed px, chosen" }
-                    }
-                }
-                tbody {
-                    @for (scene, [start, chosen], log) in &rows {
-                        tr {
-                            th scope="row" { (scene) }
-                            td { (format!("{:.4}", start.flip)) }
-                            td { (format!("{:.4}", chosen.flip)) }
-                            td { (percent(*log)) }
-                            td.chart { (change_bar(*log, most)) }
-                            td { (bleed(start)) }
-                            td { (bleed(chosen)) }
-                        }
-                    }
+    let columns = [
+        Column::Plain("scene"),
+        Column::Plain("FLIP, start"),
+        Column::Plain("FLIP, chosen"),
+        Column::Plain("change"),
+        Column::Chart("← better, worse →"),
+        Column::Plain("lateral bleed px, start"),
+        Column::Plain("lateral bleed px, chosen"),
+    ];
+    let rows = html! {
+        tbody {
+            @for (scene, [start, chosen], log) in &rows {
+                tr {
+                    th scope="row" { (scene) }
+                    td { (format!("{:.4}", start.flip)) }
+                    td { (format!("{:.4}", chosen.flip)) }
+                    td { (percent(*log)) }
+                    td.chart { (change_bar(*log, most)) }
+                    td { (bleed(start)) }
+                    td { (bleed(chosen)) }
                 }
             }
         }
-    }
+    };
+    scroll_table(None, caption, Some(caption), &columns, &rows)
 }

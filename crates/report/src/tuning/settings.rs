@@ -3,31 +3,34 @@
 use maud::{Markup, html};
 use tune::JournalHeader;
 
+use crate::table::{Column, scroll_table};
+
 /// Lists all that the trials depended on, and the hashes of the truths.
 pub fn settings(header: &JournalHeader) -> Markup {
-    let limit = |limit: Option<f64>| {
-        limit.map_or_else(
-            || "none".to_owned(),
-            |limit| format!("{limit} times the start's"),
-        )
+    let limit = |limit: Option<f64>| match limit {
+        Some(limit) => format!("{limit} times the start's"),
+        None => "none".to_owned(),
     };
+    let racing = match header.race {
+        true => "clearly worse candidates are dropped",
+        false => "none",
+    };
+    let measured: Vec<&str> = header.objectives.iter().map(|it| it.name()).collect();
     let facts = [
         ("program", header.program.clone()),
         ("filter", format!("{}:{}", header.filter, header.start)),
-        ("measured", header.objectives.join(", ")),
+        ("measured", measured.join(", ")),
         ("cost at most", limit(header.cost_at_most)),
         ("lateral bleed at most", limit(header.bleed_at_most)),
-        (
-            "racing",
-            if header.race {
-                "clearly worse candidates are dropped"
-            } else {
-                "none"
-            }
-            .to_owned(),
-        ),
+        ("racing", racing.to_owned()),
         ("seed of the search", header.seed.to_string()),
     ];
+    let columns = [Column::Plain("scene"), Column::Text("hash of the truth")];
+    let scenes = html! {
+        tbody {
+            @for (scene, hash) in &header.scenes { tr { th scope="row" { (scene) } td.text { code { (hash) } } } }
+        }
+    };
     html! {
         section.provenance {
             h2 { "Provenance" }
@@ -37,15 +40,7 @@ pub fn settings(header: &JournalHeader) -> Markup {
                     @if !header.vary.contains_key(name) { div { dt { (name) } dd { (value) ", not varied" } } }
                 }
             }
-            div.scroll tabindex="0" role="region" aria-label="Scenes" {
-                table.stacked {
-                    caption { "Scenes in the order in which candidates meet them" }
-                    thead { tr { th scope="col" { "scene" } th.text scope="col" { "hash of the truth" } } }
-                    tbody {
-                        @for (scene, hash) in &header.scenes { tr { th scope="row" { (scene) } td.text { code { (hash) } } } }
-                    }
-                }
-            }
+            (scroll_table(Some("stacked"), "Scenes", Some("Scenes in the order in which candidates meet them"), &columns, &scenes))
         }
     }
 }

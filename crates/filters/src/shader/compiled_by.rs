@@ -18,14 +18,14 @@ struct Failure {
     error: FilterError,
 }
 
-/// Tries compilers until one makes what is wanted.
-pub(super) fn try_each<T>(
-    programs: &[&'static str],
-    attempt: impl Fn(&'static str) -> Result<T, FilterError>,
+/// Tries compilers, each with its program, until one makes what is wanted.
+pub(crate) fn try_each<C, T>(
+    compilers: impl Iterator<Item = (&'static str, C)>,
+    attempt: impl Fn(C) -> Result<T, FilterError>,
 ) -> Result<(T, CompiledBy), FilterError> {
     let mut failed = Vec::new();
-    for program in programs {
-        match attempt(program) {
+    for (program, compiler) in compilers {
+        match attempt(compiler) {
             Ok(made) => return Ok((made, CompiledBy { program, failed })),
             Err(error) => failed.push(Failure { program, error }),
         }
@@ -37,15 +37,11 @@ pub(super) fn try_each<T>(
 fn join(mut failed: Vec<Failure>) -> FilterError {
     failed.dedup_by(|a, b| a.error == b.error);
     let reasons: Vec<String> = failed.iter().map(Failure::reason).collect();
-    let first = failed.into_iter().next().expect("a compiler was tried");
-    match (reasons.len(), first.error) {
-        (2.., FilterError::Folder { path, line, .. }) => FilterError::Folder {
-            path,
-            line,
-            reason: reasons.join("\n"),
-        },
-        (_, error) => error,
+    let mut error = (failed.into_iter().next().expect("a compiler was tried")).error;
+    if let (2.., FilterError::Folder { reason, .. }) = (reasons.len(), &mut error) {
+        *reason = reasons.join("\n");
     }
+    error
 }
 
 impl Failure {

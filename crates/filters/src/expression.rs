@@ -2,20 +2,39 @@
 
 /// An expression: numbers, names, `+ - * / ^`, brackets, `floor(..)`, `ceil(..)`, `min(.., ..)` and `max(.., ..)`.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Expression {
+pub(crate) enum Expression {
     /// A number.
     Number(f64),
     /// A parameter or a value of the frame.
     Name(String),
-    /// A negative.
-    Negative(Box<Expression>),
-    /// The largest whole number that is not larger.
-    Floor(Box<Expression>),
-    /// The smallest whole number that is not smaller.
-    Ceil(Box<Expression>),
-    /// Two operands; `<` is the smaller one, `>` the larger one.
-    Binary(char, Box<Expression>, Box<Expression>),
+    /// The value of a function or an operator.
+    Apply(Function, Vec<Expression>),
 }
+
+/// Function or operator of an expression.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Function {
+    /// The first argument with the other sign.
+    Negative,
+    /// The largest whole number that is not larger.
+    Floor,
+    /// The smallest whole number that is not smaller.
+    Ceil,
+    /// The smaller of two.
+    Min,
+    /// The larger of two.
+    Max,
+    /// One of `+ - * / ^`.
+    Operator(char),
+}
+
+/// Functions by name, with the number of their arguments.
+const FUNCTIONS: [(&str, Function, usize); 4] = [
+    ("floor", Function::Floor, 1),
+    ("ceil", Function::Ceil, 1),
+    ("min", Function::Min, 2),
+    ("max", Function::Max, 2),
+];
 
 /// Upper limit on the characters of an expression, which limits its depth as well.
 const MAX_CHARACTERS: usize = 200;
@@ -45,19 +64,19 @@ impl Expression {
         match self {
             Self::Number(number) => *number,
             Self::Name(name) => value(name),
-            Self::Negative(of) => -of.evaluate(value),
-            Self::Floor(of) => of.evaluate(value).floor(),
-            Self::Ceil(of) => of.evaluate(value).ceil(),
-            Self::Binary(operator, left, right) => {
-                let (left, right) = (left.evaluate(value), right.evaluate(value));
-                match operator {
-                    '+' => left + right,
-                    '-' => left - right,
-                    '*' => left * right,
-                    '/' => left / right,
-                    '<' => left.min(right),
-                    '>' => left.max(right),
-                    _ => left.powf(right),
+            Self::Apply(function, arguments) => {
+                let argument = |index: usize| arguments[index].evaluate(value);
+                match function {
+                    Function::Negative => -argument(0),
+                    Function::Floor => argument(0).floor(),
+                    Function::Ceil => argument(0).ceil(),
+                    Function::Min => argument(0).min(argument(1)),
+                    Function::Max => argument(0).max(argument(1)),
+                    Function::Operator('+') => argument(0) + argument(1),
+                    Function::Operator('-') => argument(0) - argument(1),
+                    Function::Operator('*') => argument(0) * argument(1),
+                    Function::Operator('/') => argument(0) / argument(1),
+                    Function::Operator(_) => argument(0).powf(argument(1)),
                 }
             }
         }
@@ -73,8 +92,7 @@ impl Expression {
         match self {
             Self::Number(_) => false,
             Self::Name(name) => is_wanted(name),
-            Self::Negative(of) | Self::Floor(of) | Self::Ceil(of) => of.reads_any(is_wanted),
-            Self::Binary(_, left, right) => left.reads_any(is_wanted) || right.reads_any(is_wanted),
+            Self::Apply(_, arguments) => arguments.iter().any(|it| it.reads_any(is_wanted)),
         }
     }
 }
@@ -88,7 +106,7 @@ impl Parser<'_> {
     fn sum(&mut self) -> Result<Expression, String> {
         let mut left = self.product()?;
         while let Some(operator) = self.take(&['+', '-']) {
-            left = Expression::Binary(operator, Box::new(left), Box::new(self.product()?));
+            left = Expression::Apply(Function::Operator(operator), vec![left, self.product()?]);
         }
         Ok(left)
     }
@@ -96,33 +114,29 @@ impl Parser<'_> {
     fn product(&mut self) -> Result<Expression, String> {
         let mut left = self.power()?;
         while let Some(operator) = self.take(&['*', '/']) {
-            left = Expression::Binary(operator, Box::new(left), Box::new(self.power()?));
+            left = Expression::Apply(Function::Operator(operator), vec![left, self.power()?]);
         }
         Ok(left)
     }
 
     fn power(&mut self) -> Result<Expression, String> {
         if self.take(&['-']).is_some() {
-            return Ok(Expression::Negative(Box::new(self.power()?)));
+            return Ok(Expression::Apply(Function::Negative, vec![self.power()?]));
         }
         let base = self.atom()?;
         match self.take(&['^']) {
             None => Ok(base),
-            Some(operator) => Ok(Expression::Binary(
-                operator,
-                Box::new(base),
-                Box::new(self.power()?),
-            )),
+            Some(operator) => {
+                let operator = Function::Operator(operator);
+                Ok(Expression::Apply(operator, vec![base, self.power()?]))
+            }
         }
     }
 
     fn atom(&mut self) -> Result<Expression, String> {
         if self.take(&['(']).is_some() {
             let inner = self.sum()?;
-            return match self.take(&[')']) {
-                Some(_) => Ok(inner),
-                None => Err("has a bracket without the other".into()),
-            };
+            return self.close().map(|()| inner);
         }
         self.rest = self.rest.trim_start();
         let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
@@ -141,15 +155,22 @@ impl Parser<'_> {
             return (number.map(Expression::Number))
                 .map_err(|_| format!("\"{word}\" is no number"));
         }
-        if matches!(word, "floor" | "ceil") && self.rest.trim_start().starts_with('(') {
-            let inner = Box::new(self.atom()?);
-            return Ok(match word {
-                "floor" => Expression::Floor(inner),
-                _ => Expression::Ceil(inner),
-            });
-        }
-        if matches!(word, "min" | "max") && self.take(&['(']).is_some() {
-            return self.choice(if word == "min" { '<' } else { '>' });
+        let function = FUNCTIONS.iter().find(|(name, ..)| *name == word);
+        if let Some((_, function, count)) = function
+            && self.take(&['(']).is_some()
+        {
+            let mut arguments = vec![self.sum()?];
+            while self.take(&[',']).is_some() {
+                arguments.push(self.sum()?);
+            }
+            self.close()?;
+            return match arguments.len() == *count {
+                true => Ok(Expression::Apply(*function, arguments)),
+                false => Err(format!(
+                    "has {word} of {} values; allowed: {count}",
+                    arguments.len()
+                )),
+            };
         }
         match (self.is_known)(word) {
             true => Ok(Expression::Name(word.to_owned())),
@@ -157,19 +178,10 @@ impl Parser<'_> {
         }
     }
 
-    /// Parses the two operands of `min` or `max`, and the bracket behind them.
-    fn choice(&mut self, operator: char) -> Result<Expression, String> {
-        let left = self.sum()?;
-        let comma = self.take(&[',']);
-        let right = comma.map(|_| self.sum()).transpose()?;
-        match (right, self.take(&[')'])) {
-            (Some(right), Some(_)) => Ok(Expression::Binary(
-                operator,
-                Box::new(left),
-                Box::new(right),
-            )),
-            _ => Err("has min or max without two values in brackets".into()),
-        }
+    fn close(&mut self) -> Result<(), String> {
+        let end = self.take(&[')']);
+        end.map(|_| ())
+            .ok_or("has a bracket without the other".into())
     }
 
     /// Takes one of the characters if it is next.
@@ -219,8 +231,9 @@ mod tests {
             ("(1", "bracket without"),
             ("ceil(1", "bracket without"),
             ("ceil 1", "unknown name \"ceil\""),
-            ("max(1)", "without two values"),
-            ("min(1, 2", "without two values"),
+            ("max(1)", "max of 1 values; allowed: 2"),
+            ("floor(1, 2)", "floor of 2 values; allowed: 1"),
+            ("min(1, 2", "bracket without"),
             ("1 2", "goes on with"),
             ("time", "unknown name \"time\""),
             ("1.2.3", "no number"),
