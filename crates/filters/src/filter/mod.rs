@@ -27,8 +27,8 @@ pub(crate) use pass::{Pass, Repeat, Rounding};
 pub(crate) use pass_shader::{Binding, BindingPlace, PassShader, Stage, VertexShader};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
-pub use reach::ReachBy;
 pub(crate) use reach::Length;
+pub use reach::ReachBy;
 pub use settings::Settings;
 pub(crate) use values::{
     MATRICES, MATRIX_NUMBERS, count_numbers, explain_unknown, find_matrix, list_values,

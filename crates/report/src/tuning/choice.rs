@@ -82,7 +82,7 @@ pub fn values(tuning: &Tuning) -> Markup {
             h2 { "Values" }
             (scroll_table(Some("stacked"), "Values", Some("Varied parameters"), &columns, &rows))
             p.note {
-                "In the folder, params.json holds these values for " code { "evaluate --params" }
+                "In the folder, params.json holds these values for " code { "shuttertruth tune evaluate" }
                 @if is_offered { ", and preset.toml holds them for a filter.toml" }
                 "."
             }

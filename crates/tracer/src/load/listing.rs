@@ -28,7 +28,7 @@ pub fn list_scenes(root: impl Into<Location>) -> Result<Vec<SceneListing>, Scene
     let root = root.into();
     let unreadable = |error| {
         let reason = format!(
-            "the folder of scenes cannot be read: {error}; name another one with --scenes-dir"
+            "the folder of scenes cannot be read: {error}; name another one"
         );
         SceneError::in_file(&root.path, reason)
     };
