@@ -11,7 +11,7 @@ use study::{Question, SECONDS_PER_QUESTION, Study, StudyChoice, draw_session, ma
 use suite::Error;
 
 use crate::arguments::{parse_glob, parse_named};
-use crate::output::{print, print_json, push_wrapped};
+use crate::output::{count_text, print, print_json, push_wrapped};
 
 #[derive(Debug, Args)]
 pub struct AskArgs {
@@ -81,10 +81,7 @@ pub fn execute(args: &AskArgs) -> Result<(), Error> {
 
 fn describe(study: &Study, pairs: usize, questions: usize) -> String {
     let minutes = (questions as f64 * SECONDS_PER_QUESTION / 60.0).ceil();
-    let scenes = match study.scenes.len() {
-        1 => "1 scene".to_owned(),
-        count => format!("{count} scenes"),
-    };
+    let scenes = count_text(study.scenes.len(), "scene", "scenes");
     let shutters = study.shutters.iter().map(|own| {
         format!(
             "{} filters of the {} shutter",

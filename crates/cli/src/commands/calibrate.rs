@@ -59,7 +59,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         metrics => (metrics.iter()).any(|metric| matches!(metric, Metric::Equivalent(_))),
     };
     check_names(
-        &args.measure.scenes.scenes_dir,
+        &args.measure.scenes.root.scenes_dir,
         bounds.values(),
         &plan.filters,
     )?;

@@ -25,7 +25,7 @@ pub fn select_candidate(args: &CandidateArgs) -> Result<FilterChoice, Error> {
 /// Loads the scenes that candidates are scored on, with their bounds for pictures of the size that is asked for.
 pub fn load_candidate_scenes(args: &CandidateArgs) -> Result<Vec<(Scene, SceneBounds)>, Error> {
     load_scenes(
-        &args.scenes.scenes_dir,
+        &args.scenes.root.scenes_dir,
         &args.scenes.names()?,
         Some(args.size),
     )

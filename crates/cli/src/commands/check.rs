@@ -75,7 +75,7 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     refuse_folder("--html", args.html.as_ref())?;
     refuse_folder("--junit", args.junit.as_ref())?;
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
-    let margins = read_margins(&args.measure.scenes.scenes_dir)?;
+    let margins = read_margins(&args.measure.scenes.root.scenes_dir)?;
     let summary_file = args.github.then(find_summary_file).transpose()?;
     let Judged {
         run,
@@ -159,7 +159,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     plan.ladders = bound_subframes(bounds.values(), &plan.filters)
         || (margins.keys()).any(|metric| matches!(metric, Metric::Equivalent(_)));
     check_replicates_for_intervals(plan.render.replicates)?;
-    let root = &args.measure.scenes.scenes_dir;
+    let root = &args.measure.scenes.root.scenes_dir;
     check_names(root, bounds.values(), &plan.filters)?;
     // With a baseline, nothing else need be bounded.
     if !compared {
@@ -211,7 +211,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
         _ => PathBuf::from("."),
     };
     refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;
-    let root = &args.measure.scenes.scenes_dir;
+    let root = &args.measure.scenes.root.scenes_dir;
     let bounds = read_run_bounds(&run, root)?;
     let mut findings = judge(&run, &bounds);
     if findings.is_empty() && !compared {

@@ -67,7 +67,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
         );
     }
     let mut noisy = Vec::new();
-    let choices = select_scenes(&args.scenes.scenes_dir, &args.scenes.names()?)?;
+    let choices = select_scenes(&args.scenes.root.scenes_dir, &args.scenes.names()?)?;
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
     check_frames(args, &choices)?;
     print_expected_renders(args, &choices)?;

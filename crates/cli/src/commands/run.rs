@@ -68,7 +68,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         return refuse_failures(&run.failures);
     }
     // Cases of an earlier run keep their targets.
-    let root = &args.measure.scenes.scenes_dir;
+    let root = &args.measure.scenes.root.scenes_dir;
     for case in &whole.cases {
         if !bounds.contains_key(&case.scene)
             && let Some(earlier) = read_case_bounds(root, case, size)?

@@ -21,7 +21,7 @@ use crate::selection::{select_engine_scenes, select_filters, select_scenes};
 
 /// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.
 pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
-    let scenes_dir = &args.scenes.scenes_dir;
+    let scenes_dir = &args.scenes.root.scenes_dir;
     let (engine_scenes, names) = select_engine_scenes(scenes_dir, &args.scenes.names()?)?;
     if let Some(scene) = engine_scenes.first() {
         refuse_render_options(&args.scenes, scene)?;

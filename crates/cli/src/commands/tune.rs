@@ -115,7 +115,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let held_out = match args.held_out.as_slice() {
         [] => Vec::new(),
-        words => load_scenes(&scene_args.scenes_dir, words, Some(args.held_out_size))?,
+        words => load_scenes(&scene_args.root.scenes_dir, words, Some(args.held_out_size))?,
     };
     let mut open = load_candidate_scenes(candidate)?;
     if scene_args.scenes.is_empty() {

@@ -8,11 +8,10 @@ use frame::{FileError, Tile};
 use serde_json::json;
 use store::{Pack, printable_path};
 use suite::{Error, KeptScene, TILE_SIDE, Verification, Verified, list_kept_scenes, verify_scene};
-use tracer::Location;
 
 use super::ending::Ending;
 use super::kept_truths::choose_seed;
-use crate::arguments::{default_scenes_root, scenes_root_parser, within};
+use crate::arguments::{RootArgs, within};
 use crate::output::{count_text, make_monitor, print, print_json};
 use crate::selection::{choose_names, select_scenes};
 
@@ -29,10 +28,8 @@ pub struct VerifyArgs {
         value_name = "SCENES"
     )]
     pub scenes: Vec<String>,
-    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
-    /// built-in where there is no such folder].
-    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
-    pub scenes_dir: Location,
+    #[command(flatten)]
+    pub root: RootArgs,
     /// Seed of the choice of replicates, rungs and tiles [default: another one each time, which is printed].
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
@@ -108,7 +105,7 @@ fn verify_named(
 ) -> Result<Verified, Error> {
     let mut verified = Verified::default();
     let own: Vec<&KeptScene> = kept.iter().filter(|kept| kept.scene == name).collect();
-    let choices = select_scenes(&args.scenes_dir, &[name.to_owned()]).map_err(|error| {
+    let choices = select_scenes(&args.root.scenes_dir, &[name.to_owned()]).map_err(|error| {
         Error::Usage(format!(
             "{}: cannot be traced again: {error}; truths of an engine only that engine can draw again: name the scenes to verify with \
              --scenes",

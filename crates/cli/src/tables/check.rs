@@ -127,10 +127,7 @@ pub fn comparison_line(comparison: &BaselineComparison) -> String {
         margin,
         ..
     } = comparison;
-    let scenes = match scenes {
-        1 => "1 scene".to_owned(),
-        count => format!("{count} scenes"),
-    };
+    let scenes = count_text(*scenes, "scene", "scenes");
     format!(
         "{}: {filter} {metric}, worse by {} over {scenes}, one-sided 95 % bounds {} and {}; margin {}",
         comparison.kind.label(),

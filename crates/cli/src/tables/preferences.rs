@@ -6,7 +6,7 @@ use study::{
 };
 
 use super::{Table, legend_text};
-use crate::output::{heading, push_wrapped};
+use crate::output::{count_text, heading, push_wrapped};
 
 /// Meaning of the columns of a scale.
 const SCALE_KEY: &str = "Scale: 1 more means that three of four would choose the filter (Bradley and Terry, with Jeffreys' prior); \
@@ -34,7 +34,7 @@ fn push_question(text: &mut String, found: &QuestionResult) {
     let answers: usize = found.sessions.iter().map(|own| own.answers).sum();
     let mut facts = format!(
         "{}, {answers} answers",
-        count(found.sessions.len(), "session")
+        count_text(found.sessions.len(), "session", "sessions")
     );
     if let Some(left) = found.left {
         facts += &format!("; {:.0} % of the choices of a side were left", 100.0 * left);
@@ -55,7 +55,10 @@ fn push_checks(text: &mut String, found: &QuestionResult) {
     let sum =
         |count: fn(&study::SessionFacts) -> usize| found.sessions.iter().map(count).sum::<usize>();
     let (checks, failed) = (sum(|own| own.checks), sum(|own| own.failed_checks));
-    let mut line = format!("{failed} of {} failed", count(checks, "check"));
+    let mut line = format!(
+        "{failed} of {} failed",
+        count_text(checks, "check", "checks")
+    );
     let names = found
         .sessions
         .iter()
@@ -98,8 +101,8 @@ fn push_scale(text: &mut String, scale: &ShutterScale) {
 fn describe(scale: &ShutterScale) -> Vec<String> {
     let answers = format!(
         "{} of {}, {} of them neither",
-        count(scale.comparisons, "comparison"),
-        count(scale.people, "session"),
+        count_text(scale.comparisons, "comparison", "comparisons"),
+        count_text(scale.people, "session", "sessions"),
         scale.neither
     );
     let has_intervals = scale.filters.iter().all(|own| own.interval.is_some());
@@ -116,7 +119,7 @@ fn describe(scale: &ShutterScale) -> Vec<String> {
         lines.push(format!(
             "people chose alike in {:.0} % of {}; coins give 50 %",
             100.0 * agreement.share,
-            count(agreement.pairs, "pair of answers")
+            count_text(agreement.pairs, "pair of answers", "pairs of answers")
         ));
     }
     if !scale.separated.is_empty() {
@@ -163,13 +166,4 @@ fn signed(value: f64) -> String {
 
 fn range([low, high]: [String; 2]) -> String {
     format!("{low} to {high}")
-}
-
-/// Counts things: `1 session`, `2 sessions`, `3 pairs of answers`.
-fn count(count: usize, one: &str) -> String {
-    match (count, one.split_once(' ')) {
-        (1, _) => format!("1 {one}"),
-        (_, Some((first, rest))) => format!("{count} {first}s {rest}"),
-        (_, None) => format!("{count} {one}s"),
-    }
 }

@@ -20,9 +20,9 @@ pub struct SceneWords {
 
 /// Lists the scenes that are rendered, then those that engines drew.
 pub fn list_scene_words(args: &SceneArgs) -> Result<Vec<SceneWords>, Error> {
-    let (drawn, names) = select_engine_scenes(&args.scenes_dir, &args.names()?)?;
+    let (drawn, names) = select_engine_scenes(&args.root.scenes_dir, &args.names()?)?;
     let rendered = match drawn.is_empty() || !names.is_empty() {
-        true => select_scenes(&args.scenes_dir, &names)?,
+        true => select_scenes(&args.root.scenes_dir, &names)?,
         false => Vec::new(),
     };
     let rendered = rendered.iter().map(|choice| words_of_scene(args, choice));
@@ -35,7 +35,7 @@ fn words_of_scene(args: &SceneArgs, choice: &SceneChoice) -> Result<SceneWords, 
         .split_once('@')
         .map_or(String::new(), |(_, variant)| format!("@{variant}"));
     let own = name.split('@').next().unwrap_or_default();
-    let word = match args.scenes_dir.join(own).path == choice.folder.path {
+    let word = match args.root.scenes_dir.join(own).path == choice.folder.path {
         true => name.clone(),
         false => as_path(path_word(&choice.folder.path)?) + &variant,
     };
