@@ -1,6 +1,5 @@
 //! Arguments that commands share.
 
-mod adapter;
 mod candidate;
 mod frame_rates;
 mod input_forms;
@@ -10,9 +9,7 @@ mod programs;
 mod run_options;
 mod scenes;
 mod scenes_root;
-mod sequence;
 
-pub use self::adapter::*;
 pub use self::candidate::*;
 pub use self::frame_rates::*;
 pub use self::input_forms::*;
@@ -22,4 +19,3 @@ pub use self::programs::*;
 pub use self::run_options::*;
 pub use self::scenes::*;
 pub use self::scenes_root::*;
-pub use self::sequence::*;

@@ -1,7 +1,6 @@
 //! Text for terminals, logs and services that read checks.
 
 mod colors;
-mod count;
 mod interrupts;
 mod print;
 mod progress;
@@ -9,7 +8,6 @@ mod verbosity;
 mod wrap;
 
 pub use self::colors::*;
-pub use self::count::*;
 pub use self::interrupts::*;
 pub use self::print::*;
 pub use self::progress::*;
