@@ -17,7 +17,7 @@ use tracer::Location;
 use super::ending::Ending;
 use super::margins::{Margins, read_margins};
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
+use super::pages::{WrittenFile, page_lines, page_path, refuse_folder, write_run_page};
 use super::run_files::write_judged_run;
 use super::run_plan::{
     check_replicates_for_intervals, make_plan, read_case_bounds, scene_folder_below,
@@ -185,10 +185,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     let mut findings = judge(&whole, &bounds);
     add_evidence(&whole, &mut findings, &plan.out)?;
     write_judged_run(&whole, &findings, &plan.out)?;
-    let html = args
-        .html
-        .clone()
-        .unwrap_or_else(|| plan.out.join("report.html"));
+    let html = page_path(args.html.as_ref(), &plan.out);
     let pages = write_run_page(&whole, &findings, &plan.out, &html)?;
     findings.retain(|finding| run.cases.iter().any(|case| finding.is_of(case)));
     Ok(Judged {
@@ -216,8 +213,8 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
     let mut findings = judge(&run, &bounds);
     if findings.is_empty() && !compared {
         refuse!(
-            "{}: no score of it has a bound, and no check is no success; bounds are looked for in {} and beside each scene \
-             below it: name another folder with --scenes-dir",
+            "{}: none of its scores has a bound, and a check without bounds fails; bounds are read from {} and from the \
+             folder of each scene below it: name another folder with --scenes-dir",
             path.display(),
             root.join(BOUNDS_FILE)
         );

@@ -9,7 +9,7 @@ use store::{printable, printable_path};
 use suite::{Error, Part, Run, open_gpu, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
+use super::pages::{WrittenFile, page_lines, page_path, refuse_folder, write_run_page};
 use super::run_files::{write_judged_run, write_run};
 use super::run_plan::{apply_options, make_plan, read_case_bounds};
 use crate::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
@@ -82,10 +82,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         finding.level = Level::Report;
     }
     let json = write_judged_run(&whole, &findings, &plan.out)?;
-    let html = args
-        .html
-        .clone()
-        .unwrap_or_else(|| plan.out.join("report.html"));
+    let html = page_path(args.html.as_ref(), &plan.out);
     let pages = write_run_page(&whole, &findings, &plan.out, &html)?;
     if args.json {
         print(&format!("{json}\n"))?;

@@ -76,7 +76,7 @@ pub fn summary(check: &Check) -> String {
         let _ = writeln!(text, "\nand {} more", notable.len() - MOST_ROWS);
     }
     if !check.comparisons.is_empty() {
-        text += "\n### RunComparison with the baseline\n\n";
+        text += "\n### Comparison with the baseline\n\n";
         for comparison in &check.comparisons {
             let _ = writeln!(text, "- {}", escape_cell(&comparison_line(comparison)));
         }
