@@ -1,4 +1,4 @@
-//! PeopleAgreement between people.
+//! Agreement between people.
 
 use std::collections::HashMap;
 

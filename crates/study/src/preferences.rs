@@ -76,7 +76,7 @@ pub struct ShutterScale {
     /// Groups of filters of which no filter was ever chosen over one of another group, where there is more than one: the distance between
     /// them is what the prior allows.
     pub separated: Vec<Vec<String>>,
-    /// PeopleAgreement between people; none where no two compared the same clips.
+    /// Agreement between people; none where no two compared the same clips.
     pub agreement: Option<PeopleAgreement>,
     /// Scores of the run beside the scale; empty where no run was given.
     pub scores: Vec<ScoreAgreement>,
