@@ -119,7 +119,7 @@ fn check_header(path: &Path, line: &str, expected: &JournalHeader) -> Result<(),
     };
     let (found, expected) = first_difference(&found[name], &fields[name]);
     let way_out = match name.as_str() {
-        "seed" => format!("; to go on with it, give --search-seed {found}"),
+        "seed" => format!("; to go on with it, search with the seed {found}"),
         _ => "; to go on with it, run the command that began it".to_owned(),
     };
     let reason = format!(

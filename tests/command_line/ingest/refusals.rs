@@ -136,7 +136,7 @@ fn folders_that_are_no_captures_are_refused() {
     assert_refused(
         &bench.shuttertruth(&words),
         2,
-        &["--out out/a@b", "allowed: letters"],
+        &["out/a@b: its last part", "allowed: letters"],
     );
 }
 

@@ -151,7 +151,7 @@ fn read_convention(folder: &Path, path: Option<&Path>) -> Result<Convention, Err
         return refuse(
             &default,
             "there is no such file; it says in a table [convention] which velocity and depth the engine has; write one, or name \
-             one with --convention",
+             another file",
         );
     }
     let path = path.unwrap_or(&default);

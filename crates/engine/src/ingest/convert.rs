@@ -130,7 +130,7 @@ fn refuse_other_files(out: &Path) -> Result<(), Error> {
     match out.join("frame.exr").exists() && !EngineScene::is_in(out) {
         false => Ok(()),
         true => Err(Error::Usage(format!(
-            "--out {}: holds a frame that was not ingested, which would be overwritten; name a new folder",
+            "{}: holds a frame that was not ingested, which would be overwritten; name a new folder",
             out.display()
         ))),
     }
@@ -171,7 +171,7 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<SceneId, Error> {
             Ok(id)
         }
         None => Err(Error::Usage(format!(
-            "--out {}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
+            "{}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
             out.display()
         ))),
     }
