@@ -10,7 +10,7 @@
 //! | `metric` | names of all metrics, and a row for each |
 //! | `color`, `label`, `object`, `probe` | formulas: errors of colour, of labels, of one object's matte, of probes |
 //! | `picture` | errors of a whole picture, pooled over regions |
-//! | `worth` | error put into proportion: skill and equivalent sub-frames |
+//! | `skill`, `subframes` | error put into proportion: skill and equivalent sub-frames |
 //! | `reference` | the truth, ready to measure pictures against |
 //! | `sequence` | errors from frame to frame |
 //! | `math` | means, convolutions and powers |
@@ -31,9 +31,9 @@ mod reference;
 mod score;
 mod scores;
 mod sequence;
+mod skill;
 mod subframes;
 mod viewing;
-mod worth;
 
 pub use color::absolute_error::SMAPE_EPSILON;
 pub use color::cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};

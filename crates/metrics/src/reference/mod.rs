@@ -21,9 +21,9 @@ use crate::picture::pooled::Pooled;
 use crate::picture::scores::{Found, score_image, score_labels};
 use crate::picture::seen_truth::SeenTruth;
 use crate::probe::{OriginReference, ProbeMeasurement, Probes};
+use crate::skill::{Ends, score_skill};
 use crate::subframes::Equivalent;
-use crate::worth::ladder::{Curves, ErrorKind};
-use crate::worth::skill::{Ends, score_skill};
+use crate::subframes::ladder::{Curves, ErrorKind};
 use crate::{
     EquivalentScores, MeasureError, Measured, ProbeScores, Region, Regions, Scores, Viewing,
 };
