@@ -5,29 +5,25 @@
 pub enum MeasureError {
     /// Two rasters that should have one size.
     #[error(
-        "{what} is {found_width}x{found_height}, the truth is {width}x{height}; render or filter both at one size"
+        "{what} is {}x{}, the truth is {}x{}; render or filter both at one size",
+        found.0, found.1, truth.0, truth.1
     )]
     Size {
         /// Which input.
         what: String,
-        /// Its width.
-        found_width: u32,
-        /// Its height.
-        found_height: u32,
-        /// The truth's width.
-        width: u32,
-        /// The truth's height.
-        height: u32,
+        /// Its columns and rows.
+        found: (u32, u32),
+        /// The truth's columns and rows.
+        truth: (u32, u32),
     },
     /// More pixels than FLIP takes.
     #[error(
-        "the truth is {width}x{height}; at most {limit} pixels can be measured: render it smaller"
+        "the truth is {}x{}; at most {limit} pixels can be measured: render it smaller",
+        truth.0, truth.1
     )]
     TooLarge {
-        /// The truth's width.
-        width: u32,
-        /// The truth's height.
-        height: u32,
+        /// The truth's columns and rows.
+        truth: (u32, u32),
         /// Number of pixels that are allowed.
         limit: u64,
     },

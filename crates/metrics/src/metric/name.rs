@@ -202,15 +202,7 @@ impl Metric {
             Metric::Image(_, region) => region,
             Metric::StaticContamination => Region::Still,
             Metric::Probe(_) => Region::Knowable,
-            Metric::Object(_)
-            | Metric::Label(_)
-            | Metric::OccluderContamination
-            | Metric::Frozen(_)
-            | Metric::Skill(_)
-            | Metric::Equivalent(_)
-            | Metric::Sequence(_)
-            | Metric::Bleed
-            | Metric::CommonFlip => Region::Moving,
+            _ => Region::Moving,
         }
     }
 

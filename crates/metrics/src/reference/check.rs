@@ -76,8 +76,7 @@ pub fn check_agreement(frame: &Frame, truth: &Truth) -> Result<(), MeasureError>
     let (width, height) = truth.size();
     if u64::from(width) * u64::from(height) > LARGEST_PICTURE {
         return Err(MeasureError::TooLarge {
-            width,
-            height,
+            truth: (width, height),
             limit: LARGEST_PICTURE,
         });
     }
@@ -153,17 +152,14 @@ fn agree<T: std::fmt::Debug + PartialEq>(
 }
 
 fn check_size<T>(raster: &Raster<T>, truth: &Truth, what: &str) -> Result<(), MeasureError> {
-    let (width, height) = truth.size();
-    if (raster.width, raster.height) == (width, height) {
-        Ok(())
-    } else {
-        Err(MeasureError::Size {
+    let (found, truth) = ((raster.width, raster.height), truth.size());
+    match found == truth {
+        true => Ok(()),
+        false => Err(MeasureError::Size {
             what: what.to_owned(),
-            found_width: raster.width,
-            found_height: raster.height,
-            width,
-            height,
-        })
+            found,
+            truth,
+        }),
     }
 }
 

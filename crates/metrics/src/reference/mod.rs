@@ -25,7 +25,8 @@ use crate::skill::{Ends, score_skill};
 use crate::subframes::Equivalent;
 use crate::subframes::ladder::{Curves, ErrorKind};
 use crate::{
-    EquivalentScores, MeasureError, Measured, ProbeScores, Region, Regions, Scores, Viewing,
+    EquivalentScores, MeasureError, Measured, ObjectScores, ProbeScores, Region, Regions, Scores,
+    Viewing,
 };
 use check::{check_agreement, check_brightness, check_ladder, check_picture, check_viewing};
 use frozen::FrozenReference;
@@ -166,19 +167,7 @@ impl<'a> Reference<'a> {
         (self.ended)("checks");
         let displayed = self.display(output);
         let errors = self.map_errors(output, &displayed, self.ended);
-        let pairs = || self.objects.iter().zip(&output.coverage[1..]);
-        let nothing = || Plane::filled(output.color.width, output.color.height, 0.0);
-        let (mut bleed, mut gradient_error) = (nothing(), nothing());
-        let objects = pairs().map(|(object, matte)| {
-            object.add_bleed(matte, &mut bleed);
-            let gradient = object.map_gradient_errors(matte);
-            let pixels = gradient.iter().flat_map(|patch| patch.pixels(bleed.width));
-            for (at, error) in pixels {
-                gradient_error.pixels[at] += error as f32;
-            }
-            object.measure(matte, &errors.label, gradient.as_ref(), &self.regions)
-        });
-        let objects = objects.collect();
+        let (objects, [bleed, gradient_error]) = self.measure_objects(output, &errors);
         (self.ended)("objects");
         let (frozen, frozen_squared) =
             self.frozen
@@ -225,6 +214,27 @@ impl<'a> Reference<'a> {
         };
         self.take_out_unknown(&mut measurement.scores);
         Ok(measurement)
+    }
+
+    /// Scores every object; maps their bleed and the errors of their gradients.
+    fn measure_objects(
+        &self,
+        output: &Picture,
+        errors: &ErrorMaps,
+    ) -> (Vec<ObjectScores>, [Plane; 2]) {
+        let nothing = || Plane::filled(output.color.width, output.color.height, 0.0);
+        let (mut bleed, mut gradient_error) = (nothing(), nothing());
+        let objects = self.objects.iter().zip(&output.coverage[1..]);
+        let scores = objects.map(|(object, matte)| {
+            object.add_bleed(matte, &mut bleed);
+            let gradient = object.map_gradient_errors(matte);
+            let pixels = gradient.iter().flat_map(|patch| patch.pixels(bleed.width));
+            for (at, error) in pixels {
+                gradient_error.pixels[at] += error as f32;
+            }
+            object.measure(matte, &errors.label, gradient.as_ref(), &self.regions)
+        });
+        (scores.collect(), [bleed, gradient_error])
     }
 
     /// Takes out the scores that the truth of an engine cannot tell.
