@@ -41,21 +41,19 @@ pub enum MeasureError {
     },
     /// Infinity or NaN.
     #[error(
-        "{what} holds {found} at pixel ({x}, {y}); every value must be finite: look for a division by zero there"
+        "{what} holds {found} at pixel {at:?}; every value must be finite: look for a division by zero there"
     )]
     NotFinite {
         /// Which raster of which input.
         what: String,
         /// The value.
         found: f32,
-        /// Column.
-        x: u32,
-        /// Row.
-        y: u32,
+        /// Column and row.
+        at: (u32, u32),
     },
     /// Radiance that no comparison can square.
     #[error(
-        "the colour of {what} holds {found} at pixel ({x}, {y}); at the scene's exposures at most {limit:e} can be compared: \
+        "the colour of {what} holds {found} at pixel {at:?}; at the scene's exposures at most {limit:e} can be compared: \
          lower the light, or [display] stops"
     )]
     TooBright {
@@ -63,10 +61,8 @@ pub enum MeasureError {
         what: String,
         /// The value.
         found: f32,
-        /// Column.
-        x: u32,
-        /// Row.
-        y: u32,
+        /// Column and row.
+        at: (u32, u32),
         /// The largest radiance allowed, either sign.
         limit: f32,
     },

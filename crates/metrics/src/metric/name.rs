@@ -41,15 +41,6 @@ pub enum Metric {
     CommonFlip,
 }
 
-impl ObjectMetric {
-    /// Hard bleed on all sides: beside, ahead and behind.
-    pub const BLEEDS: [ObjectMetric; 3] = [
-        ObjectMetric::BleedLateral,
-        ObjectMetric::BleedLeading,
-        ObjectMetric::BleedTrailing,
-    ];
-}
-
 impl SkillMetric {
     /// Returns the error that it is the skill of.
     pub fn error(self) -> Metric {

@@ -48,7 +48,7 @@ pub struct Reference<'a> {
     /// The mean as a display shows it and as FLIP sees it.
     seen: SeenTruth,
     viewing: Viewing,
-    /// Noise floors of every region, from the errors of the truth's first half against the mean: the two differ by as much as the
+    /// Noise floors of every region in the order of [`Region::ALL`], from the errors of the truth's first half against the mean: the two differ by as much as the
     /// mean's own noise.
     noise: [Option<Pooled>; Region::ALL.len()],
     /// The instant: the picture of a filter that does nothing.
@@ -176,7 +176,10 @@ impl<'a> Reference<'a> {
         let static_change = self.map_static_change(&output.color);
         (self.ended)("other maps");
         let pooled = Pooled::over_all(&errors, &self.regions, &self.windows);
-        let pooled = Region::ALL.map(|region| self.find(region, pooled[place_of(region)]));
+        let pooled = Region::ALL.map(|region| -> Found {
+            let (own, noise) = (pooled[region as usize], self.noise[region as usize]);
+            own.zip(noise).ok_or(explain_empty(region))
+        });
         (self.ended)("pooling");
         let [moving, support, still, full, knowable, unknowable] = &pooled;
         let mut measurement = Measurement {
@@ -281,13 +284,6 @@ impl<'a> Reference<'a> {
         ErrorMaps::new((picture, displayed), halves, &self.mean, &self.seen, ended)
     }
 
-    /// Adds the noise of a region to what was pooled over it, or says why nothing was.
-    fn find(&self, region: Region, pooled: Option<Pooled>) -> Found {
-        pooled
-            .zip(self.noise[place_of(region)])
-            .ok_or(explain_empty(region))
-    }
-
     /// Maps the change of the instant's colour where nothing moves; 0 elsewhere.
     fn map_static_change(&self, output: &Image) -> Raster<f64> {
         let changes = absolute_error(output, &self.instant, self.viewing.scale());
@@ -324,13 +320,6 @@ fn mark_whole_windows((width, height): (u32, u32)) -> Raster<bool> {
     Raster::from_fn(width, height, |x, y| {
         x.min(y) >= SSIM_BORDER && x + SSIM_BORDER < width && y + SSIM_BORDER < height
     })
-}
-
-/// Returns the place of a region in [`Region::ALL`].
-fn place_of(region: Region) -> usize {
-    let mut all = Region::ALL.iter();
-    all.position(|other| *other == region)
-        .expect("Region::ALL holds every region")
 }
 
 fn explain_empty(region: Region) -> &'static str {
