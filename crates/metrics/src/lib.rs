@@ -41,14 +41,14 @@ pub use color::flip::{flip_hdr, flip_ldr};
 pub use error::MeasureError;
 pub use frame::{Region, Regions, regions};
 pub use interval::{Interval, jackknife, jackknife_of_percentile};
-pub use maps::{ErrorMap, Maps};
+pub use maps::{ErrorMap, Maps, ProbeMaps};
 pub use metric::{
     EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, Group, ImageMetric,
     ImageScores, LabelMetric, LabelScores, Metric, ObjectMetric, ObjectScores, ProbeMetric,
     ProbeScores, Row, SkillMetric, SkillScores,
 };
 pub use object::sides::{Side, object_sides};
-pub use probe::{ProbeMaps, ProbeMeasurement, Probes};
+pub use probe::{ProbeMeasurement, Probes};
 pub use reference::{ColorReference, Jitter, Measurement, Reference};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
