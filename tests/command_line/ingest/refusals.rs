@@ -102,7 +102,10 @@ fn folders_that_are_no_captures_are_refused() {
         ),
         (
             "engine = \"e\"\nscene = \"../up\"\n",
-            ["scene = \"../up\"", "allowed: the name"],
+            [
+                "capture.toml:2: scene \"../up\"",
+                "allowed: names of a folder",
+            ],
         ),
         (
             "engine = \"e\"\nexposure = 0.5\n",

@@ -222,7 +222,7 @@ fn write_picture(
     file.push_color("", picture);
     file.set("kind", "output");
     file.set("exposure", scene.exposure);
-    file.set("alignment", &scene.alignment);
+    file.set("alignment", scene.alignment);
     provenance.set(&mut file);
     Ok(write_exr(path, &file)?)
 }
