@@ -5,7 +5,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use judge::{Agreement, FilterAtSizes, Results, SizeComparison, compare_sizes};
-use suite::{Error, Headline, Run};
+use metrics::Metric;
+use suite::{Error, Run};
 
 fn main() -> ExitCode {
     let paths: Vec<String> = std::env::args().skip(1).collect();
@@ -28,15 +29,15 @@ fn print_tables(paths: &[String]) -> Result<(), Error> {
     let results: Vec<Results> = (paths.iter())
         .map(|path| read(Path::new(path)))
         .collect::<Result<_, _>>()?;
-    for headline in [Headline::FLIP, Headline::LABEL] {
-        for comparison in compare_sizes(&results, headline)? {
+    for metric in [Metric::FLIP, Metric::LABEL] {
+        for comparison in compare_sizes(&results, metric)? {
             println!(
                 "## {}, {} shutter\n\nMean over {}, and place.\n",
-                headline.name(),
+                metric.name(),
                 comparison.alignment,
                 comparison.scenes.join(", ")
             );
-            print_means(&comparison, headline);
+            print_means(&comparison, metric);
             print_agreement(&comparison);
             print_reversals(&comparison);
         }
@@ -52,16 +53,13 @@ fn read(path: &Path) -> Result<Results, Error> {
     }
 }
 
-fn print_means(comparison: &SizeComparison, headline: Headline) {
+fn print_means(comparison: &SizeComparison, metric: Metric) {
     println!("| filter |{}", size_columns(comparison));
     println!("| --- |{}", " --- |".repeat(comparison.sizes.len()));
     for FilterAtSizes { name, means, ranks } in &comparison.filters {
         let cells = means.iter().zip(ranks).map(|(mean, rank)| {
-            let [low, high] = mean.interval.map(|end| headline.number(end));
-            format!(
-                " {} ({low} to {high}), {rank} |",
-                headline.number(mean.mean)
-            )
+            let [low, high] = mean.interval.map(|end| metric.number(end));
+            format!(" {} ({low} to {high}), {rank} |", metric.number(mean.mean))
         });
         println!("| `{name}` |{}", cells.collect::<String>());
     }

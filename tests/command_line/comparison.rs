@@ -1,6 +1,7 @@
 //! Measurements beside the filters' own scores: references, a common shutter, noise, coarser frames.
 
-use frame::{Frame, Ladder, Picture, Truth};
+use frame::{Alignment, Frame, Ladder, Picture, Truth};
+use metrics::Metric;
 use suite::{Case, DepthFormat, FinishedPicture, Overall, Run, VelocityFormat};
 
 use crate::bench::{Bench, SCENE, assert_done, assert_refused, quick_command, split, stdout};
@@ -22,23 +23,23 @@ fn filters_of_two_alignments_share_a_common_shutter() {
     let bench = Bench::new();
     assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy"]));
     let run = bench.read_run();
-    assert_eq!(run.common_alignment, "centred");
+    assert_eq!(run.common_alignment, Alignment::Centred);
     for case in &run.cases {
         let own = case.common == case.scores.moving;
-        assert_eq!(own, case.alignment == "centred", "{}", case.name());
+        assert_eq!(own, case.alignment == Alignment::Centred, "{}", case.name());
     }
     // The mean of many sub-frames, half an exposure early, does not match the common interval.
     let bars = run.cases.iter().filter(|case| case.preset == "64");
     let many: Vec<&Case> = bars.collect();
     assert_eq!(many.len(), 2, "64 sub-frames of each alignment");
-    assert_eq!(many[0].alignment, "trailing");
+    assert_eq!(many[0].alignment, Alignment::Trailing);
     let late = many[0].common.flip.value().unwrap();
     assert!(late > 4.0 * flip(many[0]), "{late}");
     // A narrower run keeps the cases of the wider one, and so their common shutter.
     assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    assert_eq!(bench.read_run().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, Alignment::Centred);
     assert_done(&bench.run(&["--filters", "velocity_gather:fine", "--no-cache"]));
-    assert_eq!(bench.read_run().common_alignment, "trailing");
+    assert_eq!(bench.read_run().common_alignment, Alignment::Trailing);
 }
 
 #[test]
@@ -48,25 +49,25 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
     let filters = ["--filters", "velocity_gather:fine,bevy"];
     let text = bench.execute(&[&quick_command("run", "64")[..], &filters].concat());
     let run = bench.read_run();
-    let find = |bar: &str, alignment: &str| {
+    let find = |bar: &str, alignment: Alignment| {
         let mut found = run.cases.iter();
         found.find(|case| case.name() == bar && case.alignment == alignment)
     };
     // Skill is measured from a sharp picture of the shutter's middle to the one-frame oracle.
     for (bar, alignment, expected) in [
-        ("accumulate:1", "trailing", 0.0),
-        ("identity", "centred", 0.0),
-        ("scatter_oracle", "trailing", 1.0),
-        ("scatter_oracle", "centred", 1.0),
+        ("accumulate:1", Alignment::Trailing, 0.0),
+        ("identity", Alignment::Centred, 0.0),
+        ("scatter_oracle", Alignment::Trailing, 1.0),
+        ("scatter_oracle", Alignment::Centred, 1.0),
     ] {
         let found = find(bar, alignment).unwrap();
         let skill = found.scores.get("skill_flip".parse().unwrap());
         assert_eq!(skill.value(), Some(expected), "{bar} {alignment}");
     }
-    assert!(find("accumulate:1", "centred").is_none());
+    assert!(find("accumulate:1", Alignment::Centred).is_none());
     // The lag behind the frame has a row of its own.
-    let lag = flip(find("identity", "trailing").unwrap())
-        - flip(find("accumulate:1", "trailing").unwrap());
+    let lag = flip(find("identity", Alignment::Trailing).unwrap())
+        - flip(find("accumulate:1", Alignment::Trailing).unwrap());
     assert!(lag > 0.05, "{lag}");
     let row = text
         .lines()
@@ -291,6 +292,6 @@ fn identity_overall(run: &Run) -> ([f64; 2], Overall) {
     let mean = run
         .overall
         .iter()
-        .find(|mean| (&mean.filter[..], &mean.metric[..]) == ("identity:default", "flip_moving"));
+        .find(|mean| (&mean.filter[..], mean.metric) == ("identity:default", Metric::FLIP));
     (scores.try_into().unwrap(), mean.unwrap().clone())
 }

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use frame::Alignment;
+
 use crate::bench::{Bench, assert_done, assert_refused, files_below, stderr, stdout};
 
 #[test]
@@ -27,7 +29,7 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     let mut sorted = before.clone();
     sorted.sort();
     assert_eq!(after, sorted);
-    assert_eq!(bench.read_run().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, Alignment::Centred);
     assert_eq!(
         bench.read_findings().len(),
         6,

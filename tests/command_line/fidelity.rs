@@ -1,6 +1,7 @@
 //! Presets against transcriptions of the programs that they follow.
 
 use std::process::{Command, Output};
+
 use tests::root;
 
 use crate::bench::{stderr, stdout};

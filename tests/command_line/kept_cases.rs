@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::time::SystemTime;
 
+use frame::Alignment;
 use metrics::{Measured, Metric};
 use tests::filter_folder::{copy_shipped_filter, write_program};
 
@@ -251,14 +252,14 @@ fn a_change_to_the_truth_or_the_frame_measures_all_cases_again() {
 fn another_common_shutter_measures_the_compared_cases_again() {
     let bench = set_up();
     run(&bench, &[]);
-    assert_eq!(bench.read_run().common_alignment, "trailing");
+    assert_eq!(bench.read_run().common_alignment, Alignment::Trailing);
     let again = find_measured_again(&bench, &["--filter", "bevy:default"]);
-    assert_eq!(bench.read_run().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, Alignment::Centred);
     let all = names([&BARS[..], &OF_FILTERS]);
     assert!(again.is_superset(&all), "{again:?}");
     // A narrower run keeps the wider run's shutter.
     assert_eq!(find_measured_again(&bench, &[]), BTreeSet::new());
-    assert_eq!(bench.read_run().common_alignment, "centred");
+    assert_eq!(bench.read_run().common_alignment, Alignment::Centred);
 }
 
 #[test]

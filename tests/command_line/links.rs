@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+
 use tests::root;
 
 /// Folders without pages of the project's own.

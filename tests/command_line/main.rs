@@ -60,10 +60,9 @@ mod variants;
 use std::fs;
 use std::process::Stdio;
 
+use bench::{Bench, assert_done, assert_refused, files_below, split, stdout};
 use tests::filter_folder::copy_shipped_filter;
 use tests::text::assert_contains;
-
-use bench::{Bench, assert_done, assert_refused, files_below, split, stdout};
 
 #[test]
 fn a_run_writes_scores_and_pictures_of_every_case() {

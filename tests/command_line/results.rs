@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use cli::{main_results, picture_name, results_filter_pages, results_page};
 use judge::Results;
-use suite::{Headline, Run};
+use metrics::Metric;
+use suite::Run;
 use tests::filter_folder::copy_changed_filter;
 use tracer::Seal;
 
@@ -119,8 +120,8 @@ fn results_of_two_runs_are_those_of_one() {
     assert_eq!(whole.scores.len(), 6);
 
     let case = plate.cases.iter().find(|case| !case.is_reference).unwrap();
-    let flip = Headline::FLIP.estimate(case).unwrap();
-    let kept = whole.scores[0].score(Headline::FLIP).unwrap();
+    let flip = case.estimate(Metric::FLIP).unwrap();
+    let kept = whole.scores[0].score(Metric::FLIP).unwrap();
     assert!((kept / flip - 1.0).abs() < 1e-3, "{kept} {flip}");
 
     let refused = |runs: &[Run]| Results::from_runs(runs).unwrap_err().to_string();

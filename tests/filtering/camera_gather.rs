@@ -3,9 +3,8 @@
 use filters::{Blur, Filter, Gpu, Input};
 use frame::{Frame, FrameOptions, Image, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
-use tests::open_gpu;
 use tests::shapes::*;
-use tests::unwatched;
+use tests::{open_gpu, unwatched};
 use tracer::{Background, Key, Motion, RenderSettings, Scene, trace_frame};
 
 /// Makes a scene in which a camera flies, turns and zooms past a slanted wall before a sky, and one panel moves by

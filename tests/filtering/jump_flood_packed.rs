@@ -2,9 +2,9 @@
 
 use filters::{Blur, Filter, Gpu, Settings};
 use frame::{FAR_DEPTH, Image, Raster};
+use tests::open_gpu;
 
 use crate::fields::{Field, noise, rectangles};
-use tests::open_gpu;
 
 /// Names of parameters and their values.
 type Changes = &'static [(&'static str, &'static str)];

@@ -40,7 +40,7 @@ fn limit(limit: f64) -> String {
 fn every_metric_except_those_for_reports_can_have_a_bound() {
     for metric in Metric::all() {
         let bounds = read(&format!("[default]\n{metric} = {}", limit(0.25)), "");
-        if metric.report_only().is_some() {
+        if metric.row().report_only.is_some() {
             let message = bounds.unwrap_err();
             assert!(message.contains("bounds.toml:2: "), "{message}");
             assert!(message.contains("is for reports and no bound"), "{message}");
@@ -48,9 +48,9 @@ fn every_metric_except_those_for_reports_can_have_a_bound() {
         }
         let bounds = bounds.unwrap();
         let bounds = bounds.of("identity", "default");
-        let names: Vec<_> = bounds.iter().map(|(name, b)| (name, b.limit)).collect();
-        assert_eq!(names, [(&metric.name(), 0.25)]);
-        assert_eq!(bounds[&metric.name()].level, Level::Required);
+        let names: Vec<_> = bounds.iter().map(|(own, b)| (*own, b.limit)).collect();
+        assert_eq!(names, [(metric, 0.25)]);
+        assert_eq!(bounds[&metric].level, Level::Required);
     }
 }
 
@@ -96,7 +96,7 @@ fn limits_hold_only_at_their_own_size() {
         assert!(two.contains(part), "{two}");
     }
     // At another size, the limit for any size is left.
-    let left = |size| small.clone().at(size).of("identity", "default")["flip_moving"].limit;
+    let left = |size| small.clone().at(size).of("identity", "default")[&Metric::FLIP].limit;
     assert_eq!([left((160, 90)), left((320, 180))], [0.2, 0.1]);
 }
 
@@ -115,7 +115,10 @@ fn every_metric_of_sequences_can_have_a_bound_for_a_number_of_frames() {
             "[filter.identity]\n{name} = {{ limit = 0.25, frames = 4, {fps}why = \"w\" }}\n"
         );
         let bounds = read(&single, &text).unwrap();
-        assert_eq!(bounds.of("identity", "default")[name].limit, 0.25);
+        assert_eq!(
+            bounds.of("identity", "default")[&Metric::Sequence(metric)].limit,
+            0.25
+        );
         let at = |count, per_second| Frames { count, per_second };
         let lengths = |frames| {
             let scenes = std::iter::once(&bounds);
@@ -133,9 +136,9 @@ fn every_metric_of_sequences_can_have_a_bound_for_a_number_of_frames() {
         assert_eq!(lengths(at(4, 24.0)).is_err(), metric.depends_on_rate());
         // `run` leaves out limits for another length, as it does those for another size.
         let left = |frames| bounds.clone().over(frames).of("identity", "default");
-        assert!(left(at(4, 60.0)).contains_key(name));
-        assert!(!left(at(1, 60.0)).contains_key(name));
-        assert!(left(at(1, 60.0)).contains_key("flip_moving"));
+        assert!(left(at(4, 60.0)).contains_key(&Metric::Sequence(metric)));
+        assert!(!left(at(1, 60.0)).contains_key(&Metric::Sequence(metric)));
+        assert!(left(at(1, 60.0)).contains_key(&Metric::FLIP));
         // Limits that nothing judges are no check.
         assert_contains(
             &read("", &text).unwrap_err(),
@@ -164,7 +167,7 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
         let bounds = judge::read_bounds(folder.path(), &scene, asked)?;
         judge::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
         let size = judge::size_for_bounds(std::iter::once(&bounds), &filters, asked)?;
-        let limit = bounds.of("identity", "default")["flip_moving"].limit;
+        let limit = bounds.of("identity", "default")[&Metric::FLIP].limit;
         Ok::<_, suite::Error>((limit, size))
     };
     let refused = |asked| read(asked).unwrap_err().to_string();
@@ -380,9 +383,15 @@ fn a_narrower_bound_overrides_a_wider_one_and_a_scene_s_bound_overrides_the_shar
         + &level("filter.\"identity:default\"", &limits(1, 6.0));
     let bounds = read(&all, &own).unwrap();
     let found = bounds.of("identity", "default");
-    let found: Vec<f64> = names.iter().map(|name| found[*name].limit).collect();
+    let found: Vec<f64> = names
+        .iter()
+        .map(|name| found[&name.parse().unwrap()].limit)
+        .collect();
     assert_eq!(found, [6.0, 5.0, 4.0, 3.0, 2.0, 1.0]);
     let other = bounds.of("velocity_gather", "fine");
-    let found: Vec<f64> = names.iter().map(|name| other[*name].limit).collect();
+    let found: Vec<f64> = names
+        .iter()
+        .map(|name| other[&name.parse().unwrap()].limit)
+        .collect();
     assert_eq!(found, [4.0, 4.0, 4.0, 1.0, 1.0, 1.0]);
 }

@@ -76,7 +76,7 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
 fn assert_required(check: &Check, scene: &str, filter: &str, metric: &str) {
     let required = (check.findings.iter()).any(|finding| {
         (&finding.scene[..], &finding.filter[..]) == (scene, filter)
-            && finding.metric == metric
+            && finding.metric.name() == metric
             && finding.level == Level::Required
     });
     assert!(

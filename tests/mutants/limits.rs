@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use judge::{Level, Outcome, SceneBounds, default_metrics, judge_scores};
-use metrics::{BoundMetric, Metric};
+use metrics::Metric;
 use suite::{Case, Error, Run};
 use tests::limits::calibrate_scene;
 use tracer::Scene;
@@ -68,9 +68,8 @@ pub fn widen_limits(
     journal: &mut Journal,
     due: &dyn Fn() -> bool,
 ) -> Result<(), Error> {
-    let metrics: Vec<BoundMetric> = (Metric::all().into_iter())
-        .filter(|metric| metric.report_only().is_none())
-        .map(BoundMetric::Frame)
+    let metrics: Vec<Metric> = (Metric::all().into_iter())
+        .filter(|metric| metric.row().report_only.is_none())
         .collect();
     for choice in &bench.scenes {
         let scene = &choice.scene;

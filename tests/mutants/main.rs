@@ -14,12 +14,11 @@ mod verdict;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use suite::Error;
-
 use bench::Bench;
 use journal::Journal;
 use options::Options;
 use subject::Subject;
+use suite::Error;
 use verdict::find_verdicts;
 
 fn main() -> ExitCode {

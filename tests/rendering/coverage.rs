@@ -1,15 +1,15 @@
 //! Coverage of shapes in motion, against closed forms.
 
 use frame::{Alignment, Shutter, Truth};
+use glam::{DQuat, DVec2, DVec3};
+use tests::half_plane::half_plane;
+use tests::shapes::*;
+use tests::unwatched;
 use tracer::{Key, Mesh, Motion, RenderSettings, Scene, trace_truth};
 
 use crate::moving_shapes::{
     DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, pixel_corner, render_truth, truth_settings,
 };
-use glam::{DQuat, DVec2, DVec3};
-use tests::half_plane::half_plane;
-use tests::shapes::*;
-use tests::unwatched;
 
 /// Directions of motion, in degrees.
 const ANGLES: [f64; 4] = [0.0, 30.0, 45.0, 90.0];

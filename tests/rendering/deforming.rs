@@ -1,15 +1,15 @@
 //! Deforming meshes, against rigid ones, closed forms and brute force.
 
 use frame::{Alignment, FrameOptions, Truth, VelocityKind};
-use tracer::{Key, Mesh, Motion, Ray, RenderSettings, Scene, Shape, Stage, trace_frame};
-
-use crate::moving_shapes::{DISTANCE, HEIGHT, WIDTH, expect_coverage, pixel_corner, render_truth};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::brute_force::expect_what_every_triangle_gives;
 use tests::half_plane::half_plane;
 use tests::random::Numbers;
 use tests::shapes::*;
 use tests::unwatched;
+use tracer::{Key, Mesh, Motion, Ray, RenderSettings, Scene, Shape, Stage, trace_frame};
+
+use crate::moving_shapes::{DISTANCE, HEIGHT, WIDTH, expect_coverage, pixel_corner, render_truth};
 
 /// Makes a mesh with key shapes: `place` moves each vertex.
 fn deforming_mesh(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Vec3) -> Mesh {

@@ -3,12 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use frame::Truth;
-use tracer::{Background, EnvironmentMap, Key, Material, Motion, Scene, Sun, Texture, Turn};
-
-use crate::small_truths::render_truth;
 use glam::{DQuat, DVec3, Vec2, Vec3};
 use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_pooled_agreement};
+use tracer::{Background, EnvironmentMap, Key, Material, Motion, Scene, Sun, Texture, Turn};
+
+use crate::small_truths::render_truth;
 
 /// Fails unless the first component agrees with one known value.
 fn expect_everywhere(what: &str, truth: &Truth, expected: f64) {

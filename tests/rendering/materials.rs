@@ -1,12 +1,12 @@
 //! Renders of glossy materials, against known answers.
 
 use frame::Truth;
-use tracer::{Background, Finish, Key, Material, Motion, Scene};
-
-use crate::small_truths::render_truth;
 use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::statistics::estimate_pixels;
+use tracer::{Background, Finish, Key, Material, Motion, Scene};
+
+use crate::small_truths::render_truth;
 
 const GLOSSY: [Finish; 6] = [
     Finish::Conductor { roughness: 0.0 },

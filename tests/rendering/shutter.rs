@@ -1,6 +1,10 @@
 //! Alignments, gradual shutters and rolling shutters, against closed forms.
 
 use frame::{Alignment, Efficiency, Shutter, ShutterError, ShutterProfile};
+use glam::{DQuat, DVec2, DVec3};
+use tests::half_plane::{area, half_plane};
+use tests::shapes::*;
+use tests::unwatched;
 use tracer::{
     Interpolation, Key, Motion, Scene, TraceError, replicate_hash, trace_ladder, trace_truth,
 };
@@ -8,10 +12,6 @@ use tracer::{
 use crate::moving_shapes::{
     DISTANCE, HEIGHT, SPEED, WIDTH, expect_coverage, pixel_corner, render_truth, truth_settings,
 };
-use glam::{DQuat, DVec2, DVec3};
-use tests::half_plane::{area, half_plane};
-use tests::shapes::*;
-use tests::unwatched;
 
 /// Makes a white half-plane on black whose edge lies `along(t)` pixels from the centre in the direction of `normal`.
 fn half_plane_scene(normal: DVec2, times: &[f64], along: impl Fn(f64) -> f64) -> Scene {

@@ -1,8 +1,7 @@
 //! Tiles of frames, replicates and rungs, rendered alone: they hold what the whole holds there.
 
 use frame::{Alignment, Tile, VelocityKind};
-use tests::scenes;
-use tests::unwatched;
+use tests::{scenes, unwatched};
 use tracer::{
     LadderTracer, RenderSettings, TruthTracer, load_scene, trace_frame, trace_frame_tile,
     trace_truth,

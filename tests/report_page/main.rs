@@ -13,11 +13,10 @@ mod overview;
 
 use std::path::PathBuf;
 
-use report::{LARGEST_PAGE, write_report};
-
 use bench::{Bench, assert_done};
 use browser::{Browser, address_of};
 use numbers::read_out;
+use report::{LARGEST_PAGE, write_report};
 
 /// Makes the page of the bench's last run; returns its path.
 fn make_page(bench: &Bench) -> PathBuf {

@@ -1,9 +1,9 @@
 //! Finishes and environments read from a scene's files.
 
+use image::{ImageBuffer, Rgb32FImage};
 use tracer::{Background, EnvironmentMap, Finish, Scene};
 
 use crate::scene_folder::Folder;
-use image::{ImageBuffer, Rgb32FImage};
 
 /// Loads the finish of the material `paint` with more MTL statements.
 fn load_finish(statements: &str) -> Finish {

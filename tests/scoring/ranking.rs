@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use cli::run_table;
-use metrics::{ImageMetric, Measured, Reference, Region, Scores};
+use frame::Alignment;
+use metrics::{ImageMetric, Measured, Metric, Reference, Region, Scores};
 use suite::{Case, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
 use tracer::{Family, RenderSettings};
@@ -12,18 +13,18 @@ use tracer::{Family, RenderSettings};
 const SCENES: [f64; 5] = [0.6, 0.8, 1.0, 1.2, 1.4];
 
 /// A filter or reference: its alignment, and its mean FLIP and FLIP*.
-type Entry = (&'static str, bool, &'static str, f64, f64);
+type Entry = (&'static str, bool, Alignment, f64, f64);
 
 /// Difficulties of the five scenes of `make run`.
 const ENTRIES: [Entry; 8] = [
-    ("identity", true, "trailing", 0.270, 0.154),
-    ("scatter_oracle", true, "trailing", 0.050, 0.120),
-    ("accumulate:1", true, "trailing", 0.156, 0.250),
-    ("identity", true, "centred", 0.154, 0.154),
-    ("scatter_oracle", true, "centred", 0.024, 0.024),
-    ("jump_flood:paper", false, "trailing", 0.100, 0.140),
-    ("kino:default", false, "centred", 0.087, 0.087),
-    ("jimenez:wicked", false, "centred", 0.253, 0.253),
+    ("identity", true, Alignment::Trailing, 0.270, 0.154),
+    ("scatter_oracle", true, Alignment::Trailing, 0.050, 0.120),
+    ("accumulate:1", true, Alignment::Trailing, 0.156, 0.250),
+    ("identity", true, Alignment::Centred, 0.154, 0.154),
+    ("scatter_oracle", true, Alignment::Centred, 0.024, 0.024),
+    ("jump_flood:paper", false, Alignment::Trailing, 0.100, 0.140),
+    ("kino:default", false, Alignment::Centred, 0.087, 0.087),
+    ("jimenez:wicked", false, Alignment::Centred, 0.253, 0.253),
 ];
 
 /// Makes scores whose values do not matter.
@@ -47,7 +48,7 @@ fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common)
     };
     let flip = flip * SCENES[scene];
     let sharp = match alignment {
-        "centred" => "identity",
+        Alignment::Centred => "identity",
         _ => "accumulate:1",
     };
     let [sharp, best] = [sharp, "scatter_oracle"].map(of);
@@ -74,8 +75,8 @@ fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common)
         command: None,
         convention: None,
         nonlinearity: None,
-        alignment: alignment.to_owned(),
-        truth_hash: alignment.to_owned(),
+        alignment,
+        truth_hash: alignment.to_string(),
         scores,
         intervals: BTreeMap::new(),
         common: moving,
@@ -103,7 +104,7 @@ fn make_run() -> Run {
             replicates: 2,
             ..RenderSettings::default()
         },
-        common_alignment: "centred".to_owned(),
+        common_alignment: Alignment::Centred,
         overall: overall(&cases),
         read_back: 0,
         failures: Vec::new(),
@@ -113,7 +114,7 @@ fn make_run() -> Run {
 
 fn mean<'a>(run: &'a Run, filter: &str, metric: &str) -> &'a Overall {
     let mut found = run.overall.iter();
-    let found = found.find(|mean| mean.filter == filter && mean.metric == metric);
+    let found = found.find(|mean| mean.filter == filter && mean.metric.name() == metric);
     found.unwrap_or_else(|| panic!("{metric} of {filter} has no mean"))
 }
 
@@ -239,7 +240,7 @@ fn skill_over_scenes_is_a_ratio_of_means() {
     let means = overall(&cases);
     let found = means
         .iter()
-        .find(|mean| mean.filter == "kino:default" && mean.metric == "skill_flip")
+        .find(|mean| mean.filter == "kino:default" && mean.metric == Metric::SKILL)
         .unwrap();
     let [way, gained] = [0.6 * (0.154 - 0.024), 0.6 * (0.154 - 0.087)];
     let due = (gained + 0.010) / (way + 0.001);
@@ -251,7 +252,9 @@ fn scenes_without_skill_are_counted() {
     let mut run = make_run();
     assert!(!print_table(&run).contains("Scenes that skill applies to"));
     let centred = run.cases.iter_mut();
-    for case in centred.filter(|case| case.scene == "scene_2" && case.alignment == "centred") {
+    for case in
+        centred.filter(|case| case.scene == "scene_2" && case.alignment == Alignment::Centred)
+    {
         case.scores.skill.flip = Measured::not_applicable("it serves a test");
     }
     run.overall = overall(&run.cases);

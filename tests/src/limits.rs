@@ -3,11 +3,11 @@
 use std::fs;
 
 use judge::{SceneBounds, calibrate, read_bounds_file};
-use metrics::BoundMetric;
+use metrics::Metric;
 use suite::Run;
 
 /// Makes the bounds of a scene that `calibrate` proposes after several runs of sound filters.
-pub fn calibrate_scene(runs: &[Run], metrics: &[BoundMetric], scene: &str) -> SceneBounds {
+pub fn calibrate_scene(runs: &[Run], metrics: &[Metric], scene: &str) -> SceneBounds {
     assert!(!metrics.is_empty(), "limits are for metrics");
     let none = SceneBounds::default();
     let calibration = calibrate(runs, |_| &none, metrics);

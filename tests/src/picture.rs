@@ -4,7 +4,6 @@ use filters::{Blur, Filter, Input, Settings};
 use frame::{Image, Plane, Raster, Vectors};
 
 use crate::open_gpu;
-
 use crate::ramp::Ramp;
 
 /// A surface as one pixel sees it.

@@ -9,11 +9,11 @@ mod tables;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
+use suite::Error;
 
 use clap::FromArgMatches;
 use clap::error::ErrorKind;
 use filters::FilterError;
-use suite::Error;
 
 use commands::Ending;
 use environment::set_environment;

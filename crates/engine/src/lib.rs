@@ -3,17 +3,17 @@
 mod audit;
 mod capture;
 mod export;
+mod files;
 mod import;
 mod ingest;
+mod statistics;
 
 pub use audit::{
-    Buffer, CaptureAudit, Cause, Defect, DepthAudit, ObjectAudit, ObjectShown, audit_capture,
+    Buffer, CaptureAudit, Cause, Defect, ObjectAudit, ObjectShown, audit_capture,
     write_audit_picture,
 };
-pub use capture::description::{CAPTURE_FILE, CaptureDescription};
+pub use capture::description::CaptureDescription;
 pub use capture::folder::Capture;
-pub use export::{
-    ExportError, FRAMES_PER_SECOND, MANIFEST_FORMAT, Manifest, ManifestLens, Timeline, export_gltf,
-};
+pub use export::{FRAMES_PER_SECOND, Manifest, Timeline, export_gltf};
 pub use import::{ImportPlan, Imported, Motions, Up, import};
 pub use ingest::{Ingested, ingest};

@@ -3,7 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use metrics::{BoundMetric, Ideal, Interval, Measured, Metric, PERFECT_JOD, Score, SequenceMetric};
+use metrics::{
+    Ideal, Interval, LabelMetric, Measured, Metric, ObjectMetric, PERFECT_JOD, ProbeMetric, Score,
+    SequenceMetric,
+};
 use suite::{Case, Frames, Intervals, Run};
 
 use crate::bounds::SceneBounds;
@@ -18,11 +21,11 @@ const LEAST_PART: f64 = 0.05;
 const ABOVE_STRICTEST: f64 = 1.2;
 
 /// Metrics that notice small changes of a kernel. No bound asks them of every filter: what a good one scores differs from scene to scene.
-const NOTICING: [&str; 4] = [
-    "static_contamination",
-    "gather_spread",
-    "deficit",
-    "label_tv_p95",
+const NOTICING: [Metric; 4] = [
+    Metric::StaticContamination,
+    Metric::Probe(ProbeMetric::GatherSpread),
+    Metric::Object(ObjectMetric::Deficit),
+    Metric::Label(LabelMetric::P95),
 ];
 
 /// Smallest limit on an error, by its unit: a tenth of a pixel, half a hundredth of anything else. If a score is 0 in every run,
@@ -30,13 +33,13 @@ const NOTICING: [&str; 4] = [
 const LEAST_LIMITS: [(&str, f64); 2] = [("px", 0.1), ("", 0.005)];
 
 /// The score that has a perfect value to which higher values come nearer.
-const JOD: BoundMetric = BoundMetric::Sequence(SequenceMetric::Jod);
+const JOD: Metric = Metric::Sequence(SequenceMetric::Jod);
 
 /// Scores of several runs, per scene and filter.
 #[derive(Clone, Debug, Default)]
 pub struct Calibration {
     /// Score in every run to which it applies, per scene, `filter:preset` and metric.
-    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<String, Vec<Sample>>>>,
+    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<Metric, Vec<Sample>>>>,
     /// Columns and rows of the pictures.
     pub size: (u32, u32),
     /// Frames of the sequences.
@@ -55,8 +58,6 @@ pub struct Sample {
 /// Limit that a filter keeps on a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proposal {
-    /// Name of the metric.
-    pub metric: String,
     /// Proposed limit.
     pub limit: f64,
     /// Reason for it, in one line.
@@ -68,7 +69,7 @@ pub struct Proposal {
 pub fn calibrate<'a>(
     runs: &[Run],
     bounds: impl Fn(&Case) -> &'a SceneBounds,
-    metrics: &[BoundMetric],
+    metrics: &[Metric],
 ) -> Calibration {
     let first = runs.first();
     let mut calibration = Calibration {
@@ -85,32 +86,32 @@ pub fn calibrate<'a>(
             continue;
         }
         let of_frames = default_metrics(bounds(case), &case.filter, &case.preset);
-        let wanted = |metric: BoundMetric| match (metrics.is_empty(), metric) {
-            (true, BoundMetric::Frame(_)) => of_frames.contains(&metric),
-            (true, BoundMetric::Sequence(_)) => true,
+        let wanted = |metric: Metric| match (metrics.is_empty(), metric) {
+            (true, Metric::Sequence(_)) => true,
+            (true, _) => of_frames.contains(&metric),
             (false, _) => metrics.contains(&metric),
         };
         let filters = calibration.scores.entry(case.scene.clone()).or_default();
         let scores = filters.entry(case.name()).or_default();
-        let mut add = |metric: BoundMetric, measured: Measured, intervals: &Intervals| {
+        let mut add = |metric: Metric, measured: Measured, intervals: &Intervals| {
             if let Measured::Score(score) = measured
                 && wanted(metric)
             {
-                let interval = intervals.get(&metric.name()).copied();
+                let interval = intervals.get(&metric).copied();
                 let sample = Sample { score, interval };
-                scores.entry(metric.name()).or_default().push(sample);
+                scores.entry(metric).or_default().push(sample);
             }
         };
         for metric in Metric::all() {
             let measured = case.scores.get(metric);
-            add(BoundMetric::Frame(metric), measured, &case.intervals);
+            add(metric, measured, &case.intervals);
         }
         for (metric, own) in SequenceMetric::ALL
             .into_iter()
             .flat_map(|metric| sequence.map(|own| (metric, own)))
         {
             let measured = own.scores.get(metric).clone();
-            add(BoundMetric::Sequence(metric), measured, &own.intervals);
+            add(Metric::Sequence(metric), measured, &own.intervals);
         }
     }
     calibration
@@ -118,18 +119,17 @@ pub fn calibrate<'a>(
 
 /// Lists the metrics that a filter preset gets limits on if none are named: those that have bounds in the scene, and those that notice
 /// changes of a kernel which these let pass.
-pub fn default_metrics(bounds: &SceneBounds, filter: &str, preset: &str) -> Vec<BoundMetric> {
+pub fn default_metrics(bounds: &SceneBounds, filter: &str, preset: &str) -> Vec<Metric> {
     let bounded = bounds.of(filter, preset).into_keys();
-    let names: BTreeSet<String> = bounded.chain(NOTICING.map(str::to_owned)).collect();
-    let metric = |name: &String| name.parse().expect("bounds are on metrics");
-    names.iter().map(metric).collect()
+    let metrics: BTreeSet<Metric> = bounded.chain(NOTICING).collect();
+    metrics.into_iter().collect()
 }
 
 /// Proposes the limit that follows from the scores of one metric. It is the worst value that any interval reaches, since a check
 /// asks that of a score, plus a margin: three standard deviations between runs, or a twentieth of the worst score if that is more.
 /// It is at least 1.2 times as far from perfect as the strictest limit that the truth's noise carries, and at least a tenth of a
 /// pixel or half a hundredth. It is rounded to two digits, away from perfect. Parts of JOD are parts of its distance from 10.
-pub fn propose(metric: BoundMetric, samples: &[Sample]) -> Proposal {
+pub fn propose(metric: Metric, samples: &[Sample]) -> Proposal {
     let ideal = metric.ideal();
     let worst_of = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let badness: Vec<f64> = (samples.iter())
@@ -177,11 +177,7 @@ pub fn propose(metric: BoundMetric, samples: &[Sample]) -> Proposal {
         number(deviation),
         samples.len()
     );
-    Proposal {
-        metric: metric.name(),
-        limit,
-        why,
-    }
+    Proposal { limit, why }
 }
 
 /// Returns the standard deviation of at least one value; 0 for one value.
@@ -210,10 +206,9 @@ impl Calibration {
         let mut text = String::new();
         for (filter, metrics) in self.scores.get(scene).into_iter().flatten() {
             let _ = writeln!(text, "[filter.\"{filter}\"]");
-            for (name, samples) in metrics {
-                let metric: BoundMetric = name.parse().expect("calibrated scores are of metrics");
-                let length = self.length(metric);
-                let Proposal { metric, limit, why } = propose(metric, samples);
+            for (metric, samples) in metrics {
+                let length = self.length(*metric);
+                let Proposal { limit, why } = propose(*metric, samples);
                 let _ = writeln!(
                     text,
                     "{metric} = {{ limit = {limit:?}, {length}size = [{width}, {height}], why = \"{why}\" }}"
@@ -225,14 +220,14 @@ impl Calibration {
     }
 
     /// Writes the keys of a limit that say for which frames it holds; empty for a score of single frames.
-    fn length(&self, metric: BoundMetric) -> String {
+    fn length(&self, metric: Metric) -> String {
         let Frames { count, per_second } = self.frames;
         match metric {
-            BoundMetric::Sequence(own) if own.depends_on_rate() => {
+            Metric::Sequence(own) if own.depends_on_rate() => {
                 format!("frames = {count}, fps = {per_second:?}, ")
             }
-            BoundMetric::Sequence(_) => format!("frames = {count}, "),
-            BoundMetric::Frame(_) => String::new(),
+            Metric::Sequence(_) => format!("frames = {count}, "),
+            _ => String::new(),
         }
     }
 }

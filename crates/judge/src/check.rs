@@ -3,9 +3,7 @@
 use std::collections::HashSet;
 
 use serde::Serialize;
-use suite::Case;
-use suite::refuse_failures;
-use suite::{Error, Failure, Run};
+use suite::{Case, Error, Failure, Run, refuse_failures};
 
 use crate::baseline::BaselineComparison;
 use crate::decision::Decision;

@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use frame::{Frame, Image, Ladder, Picture, Truth, read_exr, rung_file};
-use metrics::{Metric, Reference, Regions};
+use metrics::{Reference, Regions};
 use store::ladder_folder;
-use suite::ErrorMaps;
-use suite::{Case, Error, Run};
+use suite::{Case, Error, ErrorMaps, Run};
 
 use crate::decoys::{Decoys, FEW_SUBFRAMES};
 use crate::finding::Finding;
@@ -29,7 +28,7 @@ pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Resul
             }
         }
     }
-    let truth_of = |case: &Case| (case.scene.clone(), case.alignment.clone());
+    let truth_of = |case: &Case| (case.scene.clone(), case.alignment);
     for group in notable.chunk_by_mut(|(one, _), (next, _)| truth_of(one) == truth_of(next)) {
         add_evidence_of_truth(group, folder)?;
     }
@@ -90,7 +89,7 @@ impl WorstPlaces<'_> {
         finding: &Finding,
         folder: &Path,
     ) -> Result<Worst, Error> {
-        let metric: Metric = (finding.metric.parse()).expect("a finding is about a metric");
+        let metric = finding.metric;
         let map_name = metric.row().map.name();
         let map = errors.map(map_name)?;
         let (x, y) = worst_block(metric, &map, self.regions);

@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use metrics::{BoundMetric, Interval, Measured};
+use metrics::{Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
-use suite::Sequence;
-use suite::{Case, Run};
+use suite::{Case, Run, Sequence};
 
 use crate::bounds::Level;
 use crate::decision::Decision;
@@ -26,8 +25,8 @@ pub struct Finding {
     pub scene: String,
     /// `filter:preset`, and the form of its input if that is not the usual one.
     pub filter: String,
-    /// Name of the metric.
-    pub metric: String,
+    /// Metric of the score.
+    pub metric: Metric,
     /// Its unit; empty for a pure number.
     pub unit: String,
     /// Score; none if the metric does not apply.
@@ -70,7 +69,7 @@ pub struct Finding {
 
 /// Estimates the samples per pixel that would settle the score: doubles the run's until the interval, whose width falls as the root
 /// of the samples, leaves the limit outside. Assumes that its middle stays.
-fn samples_to_settle(run: &Run, metric: BoundMetric, interval: &Interval, limit: f64) -> u64 {
+fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64) -> u64 {
     let middle = metric.ideal().badness((interval.low + interval.high) / 2.0);
     let apart = (middle - limit_as_badness(metric.ideal(), limit)).abs();
     let half_width = (interval.high - interval.low) / 2.0;
@@ -100,11 +99,11 @@ impl Finding {
         sequence: Option<&Sequence>,
         judged: JudgedScore,
     ) -> Self {
-        let name = judged.metric.clone();
+        let metric = judged.metric;
         let is_judged = |_: &&Sequence| judged.outcome != Outcome::NotJudged;
         let sequence = sequence.filter(is_judged);
-        let interval = sequence.and_then(|own| own.intervals.get(&name).copied());
-        let worst_frame = sequence.and_then(|own| own.worst_frames.get(&name).copied());
+        let interval = sequence.and_then(|own| own.intervals.get(&metric).copied());
+        let worst_frame = sequence.and_then(|own| own.worst_frames.get(&metric).copied());
         let frames = sequence.into_iter().flat_map(|own| &own.frames);
         let worst = frames.zip(0..).find(|(_, at)| Some(*at) == worst_frame);
         let finding = Self::with_interval(run, case, judged, interval);
@@ -122,12 +121,11 @@ impl Finding {
         interval: Option<Interval>,
     ) -> Self {
         let JudgedScore {
-            metric: name,
+            metric,
             bound,
             measured,
             outcome,
         } = judged;
-        let metric: BoundMetric = name.parse().expect("a judged score is a metric's");
         let (score, reason) = match measured {
             Measured::Score(score) => (Some(score), None),
             Measured::NotApplicable { reason } => (None, Some(reason)),
@@ -137,7 +135,7 @@ impl Finding {
             level: bound.level,
             scene: case.scene.clone(),
             filter: case.name(),
-            metric: name,
+            metric,
             unit: metric.unit().to_owned(),
             value: score.map(|score| score.value),
             interval,
@@ -166,11 +164,6 @@ impl Finding {
     /// Returns true for a finding about a score of a sequence.
     pub fn is_of_sequence(&self) -> bool {
         self.frames.is_some()
-    }
-
-    /// Returns the metric whose score it is about.
-    pub fn bound_metric(&self) -> BoundMetric {
-        self.metric.parse().expect("a judged score is a metric's")
     }
 
     /// Returns the decision that follows from this finding alone.

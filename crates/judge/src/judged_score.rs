@@ -1,8 +1,7 @@
 //! Scores of one picture or one sequence, each compared with its bound.
 
-use metrics::{BoundMetric, Measured, Scores, SequenceMetric};
-use suite::Sequence;
-use suite::{Frames, Intervals};
+use metrics::{Measured, Metric, Scores, SequenceMetric};
+use suite::{Frames, Intervals, Sequence};
 
 use crate::bounds::{Bound, Bounds};
 use crate::outcome::{Outcome, judge_score};
@@ -13,8 +12,8 @@ const NO_SEQUENCE: &str = "a frame of the sequence has no scores";
 /// One bounded score and the outcome of its bound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JudgedScore {
-    /// Name of the metric.
-    pub metric: String,
+    /// Metric of the score.
+    pub metric: Metric,
     /// Bound on the score.
     pub bound: Bound,
     /// Score.
@@ -30,18 +29,16 @@ pub fn judge_scores(
     intervals: Option<&Intervals>,
     bounds: &Bounds,
 ) -> Vec<JudgedScore> {
-    let judged = bounds.iter().filter_map(|(name, bound)| {
-        let BoundMetric::Frame(metric) = parse(name) else {
-            return None;
-        };
-        let measured = scores.get(metric);
-        let interval = intervals.map(|intervals| intervals.get(name));
-        Some(JudgedScore {
-            metric: name.clone(),
+    let of_frames = (bounds.iter()).filter(|(metric, _)| !matches!(metric, Metric::Sequence(_)));
+    let judged = of_frames.map(|(metric, bound)| {
+        let measured = scores.get(*metric);
+        let interval = intervals.map(|intervals| intervals.get(metric));
+        JudgedScore {
+            metric: *metric,
             bound: bound.clone(),
-            outcome: judge_score(parse(name), &measured, interval, bound.limit),
+            outcome: judge_score(*metric, &measured, interval, bound.limit),
             measured,
-        })
+        }
     });
     judged.collect()
 }
@@ -60,8 +57,8 @@ pub fn judge_sequence(
     // A run with intervals has some in every sequence.
     let intervals = sequence.map(|own| &own.intervals);
     let intervals = intervals.filter(|intervals| !intervals.is_empty());
-    let judged = bounds.iter().filter_map(|(name, bound)| {
-        let BoundMetric::Sequence(metric) = parse(name) else {
+    let judged = bounds.iter().filter_map(|(metric, bound)| {
+        let Metric::Sequence(own) = *metric else {
             return None;
         };
         let length = bound.length.expect("a limit on a sequence has a length");
@@ -71,24 +68,20 @@ pub fn judge_sequence(
                 (Measured::not_applicable(reason), Outcome::NotJudged)
             }
             true => {
-                let measured = measure(metric);
-                let interval = intervals.map(|intervals| intervals.get(name));
-                let outcome = judge_score(parse(name), &measured, interval, bound.limit);
+                let measured = measure(own);
+                let interval = intervals.map(|intervals| intervals.get(metric));
+                let outcome = judge_score(*metric, &measured, interval, bound.limit);
                 (measured, outcome)
             }
         };
         Some(JudgedScore {
-            metric: name.clone(),
+            metric: *metric,
             bound: bound.clone(),
             measured,
             outcome,
         })
     });
     judged.collect()
-}
-
-fn parse(name: &str) -> BoundMetric {
-    (name.parse()).expect("bounds were checked when they were read")
 }
 
 /// Says why a limit on a sequence was not judged.

@@ -1,14 +1,11 @@
 //! Findings about a run, as a file beside it.
 
 use std::path::Path;
-use std::str::FromStr;
 
 use frame::{read_bounded, write_atomically};
-use metrics::BoundMetric;
 use serde::{Deserialize, Serialize};
 use store::{MOST_RUN_BYTES, read_text_within, to_lines};
-use suite::is_below;
-use suite::{Error, PROGRAM, Run};
+use suite::{Error, PROGRAM, Run, is_below};
 
 use crate::Finding;
 
@@ -85,9 +82,8 @@ impl Judgement {
     }
 }
 
-/// Refuses a finding about an unknown metric, or with a place outside of the run's pictures or folder.
+/// Refuses a finding with a place outside of the run's pictures or folder.
 fn check_finding(finding: &Finding, run: &Run) -> Result<(), String> {
-    BoundMetric::from_str(&finding.metric)?;
     match &finding.worst {
         Some(worst) if worst.x >= run.render.width || worst.y >= run.render.height => Err(format!(
             "the worst place ({}, {}) lies outside of {}x{} pixels",

@@ -27,9 +27,8 @@ pub use baseline::{
 };
 pub use bounds::{
     BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
-    bound_subframes, check_lengths, check_names, is_of_subframes, read_bounds,
-    read_bounds_beside_scenes, read_bounds_file, require_bounds, size_for_bounds,
-    sized_bounds_file,
+    bound_subframes, check_lengths, check_names, read_bounds, read_bounds_beside_scenes,
+    read_bounds_file, require_bounds, size_for_bounds, sized_bounds_file,
 };
 pub use calibrate::{Calibration, Proposal, Sample, calibrate, default_metrics};
 pub use check::{CHECK_FORMAT, Check, check};

@@ -1,6 +1,6 @@
 //! Outcome of one bound.
 
-use metrics::{BoundMetric, Ideal, Interval, Measured};
+use metrics::{Ideal, Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
 
 /// Relation of a score to its bound.
@@ -34,7 +34,7 @@ impl Outcome {
 /// Compares a score with a limit: by its interval if `interval` is given, by its value otherwise. `Some(None)` is a score whose
 /// interval the truth cannot tell.
 pub fn judge_score(
-    metric: BoundMetric,
+    metric: Metric,
     measured: &Measured,
     interval: Option<Option<&Interval>>,
     limit: f64,

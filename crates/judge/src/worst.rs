@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use frame::{FileError, Image, Plane, Raster, display_srgb, write_png};
 use metrics::{Metric, Regions};
 use serde::{Deserialize, Serialize};
-
 use suite::magma;
 
 /// Place of the largest error.

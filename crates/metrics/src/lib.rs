@@ -15,7 +15,6 @@
 //! | `sequence` | errors from frame to frame |
 //! | `math` | means, convolutions and powers |
 
-mod bound_metric;
 mod color;
 mod error;
 mod interval;
@@ -36,7 +35,6 @@ mod subframes;
 mod viewing;
 mod worth;
 
-pub use bound_metric::BoundMetric;
 pub use color::absolute_error::SMAPE_EPSILON;
 pub use color::cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
 pub use color::flip::{flip_hdr, flip_ldr};

@@ -56,6 +56,38 @@ impl Scores {
                 self.worst_of(metric, ObjectMetric::LabelTotalVariation, false)
             }
             Metric::Equivalent(metric) => self.equivalent_subframes.get(metric).measured(),
+            Metric::Bleed => self.get(self.behind(metric)),
+            Metric::Sequence(_) => Measured::not_applicable("it is a score of a sequence"),
+            Metric::CommonFlip => Measured::not_applicable("it was measured against one shutter"),
+        }
+    }
+
+    /// Returns the metric behind a score: for bleed that of the side with the most.
+    pub fn behind(&self, metric: Metric) -> Metric {
+        let Metric::Bleed = metric else {
+            return metric;
+        };
+        let largest = self.largest_bleed();
+        Metric::Object(largest.map_or(ObjectMetric::BleedLateral, |(side, _)| side))
+    }
+
+    /// Writes a score, or an estimate of it, as tables do: `0.063`, `4.80>`, `<1`, `n/a`.
+    pub fn text(&self, metric: Metric, value: Option<f64>) -> String {
+        match (metric, value) {
+            // Counts of sub-frames have ends that no estimate has.
+            (Metric::SUBFRAMES, _) => self.equivalent_subframes.mse.to_string(),
+            (_, None) => "n/a".to_owned(),
+            (Metric::Bleed, Some(value)) => metric.number(value) + self.bleed_mark(),
+            (_, Some(value)) => metric.number(value),
+        }
+    }
+
+    /// Returns the mark that says on which side the largest bleed is.
+    fn bleed_mark(&self) -> &'static str {
+        match self.largest_bleed() {
+            Some((ObjectMetric::BleedLeading, _)) => ">",
+            Some((ObjectMetric::BleedTrailing, _)) => "<",
+            _ => "",
         }
     }
 

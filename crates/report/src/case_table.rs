@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::filter_id::FilterId;
 use suite::{Bench, Case, Run};
+
+use crate::filter_id::FilterId;
 
 /// A run's cases with a row per filter and a column per scene: it finds a case without a walk over all.
 pub struct CaseTable<'a> {

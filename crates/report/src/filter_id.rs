@@ -1,5 +1,6 @@
 //! Identity of filters: what a row of every table stands for.
 
+use frame::Alignment;
 use suite::{Case, Overall};
 
 /// A filter preset with one form of its input, or a reference with one shutter.
@@ -10,7 +11,7 @@ pub struct FilterId {
     /// True of a reference: `identity`, `scatter_oracle`, `accumulate:N`.
     pub is_reference: bool,
     /// The shutter alignment that it is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
 }
 
 impl FilterId {
@@ -19,7 +20,7 @@ impl FilterId {
         Self {
             name: case.name(),
             is_reference: case.is_reference,
-            alignment: case.alignment.clone(),
+            alignment: case.alignment,
         }
     }
 

@@ -2,6 +2,8 @@
 
 use filters::{Filter, Source};
 use maud::{Markup, html};
+use metrics::Metric;
+use suite::Case;
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, case_anchor};
@@ -10,16 +12,15 @@ use crate::overview::bench_file::cost_of;
 use crate::overview::costs::cost_text;
 use crate::table::Column::{Plain, Text};
 use crate::table::{Column, scroll_table};
-use suite::{Case, Headline};
 
 /// Scores beside the error in the table of scenes.
-const SCORES: [(Headline, &str); 6] = [
-    (Headline::FLIP, "FLIP"),
-    (Headline::SKILL, "skill"),
-    (Headline::GROWTH, "growth"),
-    (Headline::LOSS, "loss"),
-    (Headline::Bleed, "bleed"),
-    (Headline::PSNR, "PSNR"),
+const SCORES: [(Metric, &str); 6] = [
+    (Metric::FLIP, "FLIP"),
+    (Metric::SKILL, "skill"),
+    (Metric::GROWTH, "growth"),
+    (Metric::LOSS, "loss"),
+    (Metric::Bleed, "bleed"),
+    (Metric::PSNR, "PSNR"),
 ];
 
 /// Writes the section of a filter; `thumbnails` are addresses of the scenes' truths.
@@ -79,7 +80,7 @@ fn source_rows(source: &Source) -> Markup {
 
 /// Lists the scenes, largest error first, each with a link to its case.
 fn weakest(table: &CaseTable, cases: &[&Case], thumbnails: &[String]) -> Markup {
-    let error = |case: &Case| Headline::FLIP.estimate(case).unwrap_or(f64::NEG_INFINITY);
+    let error = |case: &Case| case.estimate(Metric::FLIP).unwrap_or(f64::NEG_INFINITY);
     let mut sorted = cases.to_vec();
     sorted.sort_by(|a, b| error(b).total_cmp(&error(a)));
     let mut columns = vec![Column::Plain("scene")];
@@ -95,7 +96,7 @@ fn weakest(table: &CaseTable, cases: &[&Case], thumbnails: &[String]) -> Markup 
                         (case.scene)
                     }
                 }
-                @for (headline, title) in SCORES { td data-label=(title) { (headline.text(case)) } }
+                @for (metric, title) in SCORES { td data-label=(title) { (case.score_text(metric)) } }
                 td.text { (case.exposes) }
             }
         }

@@ -96,14 +96,14 @@ pub fn finding_status(finding: &Finding) -> &'static str {
 /// Writes the score beside its limit: `flip_moving 0.0921 (95 % CI 0.0893 to 0.0950); limit 0.0500, floor 0.0021`. Of a score whose
 /// limit is on its distance from an ideal, it writes the distance: `extent 0.0385 from 1 (95 % CI 0.0354 to 0.0416); limit 0.0400`.
 pub fn finding_score(finding: &Finding) -> String {
-    let ideal = finding.bound_metric().ideal();
+    let ideal = finding.metric.ideal();
     let limited = |value: f64| match ideal {
         Ideal::Target(target) => {
             format!("{} from {target}", finding.with_unit(ideal.badness(value)))
         }
         _ => finding.with_unit(value),
     };
-    let mut text = finding.metric.clone();
+    let mut text = finding.metric.name();
     text.extend(length_text(finding).map(|length| format!(" over {length}")));
     if let Some(value) = finding.value {
         let estimate = finding.interval.map_or(value, |own| own.center);
@@ -129,7 +129,7 @@ pub fn finding_score(finding: &Finding) -> String {
 /// Writes the limit of a score that stands beside it: `0.0500`, or `0.0400 from 1` for a limit on the distance from an ideal.
 pub fn limit_text(finding: &Finding) -> String {
     let limit = number(finding.limit);
-    match finding.bound_metric().ideal() {
+    match finding.metric.ideal() {
         Ideal::Target(target) => format!("{limit} from {target}"),
         _ => limit,
     }

@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use frame::{Raster, read_png, write_atomically, write_png};
+use metrics::Metric;
+use suite::{Case, Error, IDENTITY, Run};
 
 use crate::run_facts::command;
-use suite::{Case, Error, Headline, IDENTITY, Run};
 
 /// File name of the contact sheet.
 const SHEET: &str = "truths.png";
@@ -65,8 +66,8 @@ fn find_entries(run: &Run) -> Vec<[&Case; 2]> {
 /// Ranks the filters of one scene by skill; by FLIP against the common shutter where the oracle is no better than no blur,
 /// so that there is no skill. None where nothing moves.
 fn find_entry<'a>(cases: &[&'a Case]) -> Option<[&'a Case; 2]> {
-    let skills = cases.iter().map(|case| Headline::SKILL.estimate(case));
-    let errors = (cases.iter()).map(|case| Some(-Headline::CommonFlip.estimate(case)?));
+    let skills = cases.iter().map(|case| case.estimate(Metric::SKILL));
+    let errors = (cases.iter()).map(|case| Some(-case.estimate(Metric::CommonFlip)?));
     let keys: Vec<f64> = (skills.collect::<Option<_>>()).or_else(|| errors.collect())?;
     let ranked = || keys.iter().zip(cases);
     let (_, best) = ranked().max_by(|(a, _), (b, _)| a.total_cmp(b))?;
@@ -97,7 +98,7 @@ fn section(best: &Case, worst: &Case) -> String {
     );
     for (label, case) in [("best", best), ("worst", worst)] {
         let [skill, flip, common] =
-            [Headline::SKILL, Headline::FLIP, Headline::CommonFlip].map(|score| score.text(case));
+            [Metric::SKILL, Metric::FLIP, Metric::CommonFlip].map(|score| case.score_text(score));
         let name = case.name();
         let _ = writeln!(
             text,

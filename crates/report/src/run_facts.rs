@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use filters::AdapterDescription;
+use frame::Alignment;
 use maud::{Markup, html};
 use suite::{Case, Run};
 
@@ -60,7 +61,7 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
         ("pictures", pictures),
         ("truth", truth),
         ("frame", frame),
-        ("shutter in common", run.common_alignment.clone()),
+        ("shutter in common", run.common_alignment.to_string()),
     ]
 }
 
@@ -117,10 +118,10 @@ pub fn truth_text(case: &Case) -> String {
 
 /// Writes a row per scene and shutter.
 fn truths(table: &CaseTable) -> Markup {
-    let mut shown: HashSet<(&str, &str)> = HashSet::new();
+    let mut shown: HashSet<(&str, Alignment)> = HashSet::new();
     let cases = table.scenes.iter().flat_map(|scene| table.cases_on(scene));
     html! {
-        @for (_, case) in cases.filter(|(_, own)| shown.insert((&own.scene, &own.alignment))) {
+        @for (_, case) in cases.filter(|(_, own)| shown.insert((&own.scene, own.alignment))) {
             tr {
                 th scope="row" { (case.scene) }
                 td.text { (case.family.map_or("", |family| family.name())) }

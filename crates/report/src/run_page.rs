@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use maud::{Markup, PreEscaped, html};
+use suite::Run;
 
 use crate::case::legend::colors;
 use crate::case::viewer::viewer;
 use crate::document::{Document, Siblings, script_data};
 use crate::pixels::report_files::{Place, folder_name};
 use crate::sequence::SEQUENCES_PAGE;
-use suite::Run;
 
 /// Scripts in the order in which they run.
 const SCRIPTS: [&str; 8] = [

@@ -1,5 +1,6 @@
 //! The file of answers that the page writes.
 
+use frame::Alignment;
 use serde::{Deserialize, Serialize};
 
 use crate::question::Question;
@@ -52,7 +53,7 @@ pub struct Answer {
     /// Scene.
     pub scene: String,
     /// Alignment of the shutter.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Filter on the left, [`TRUTH_CLIP`] or [`SHARP_CLIP`].
     pub left: String,
     /// Filter on the right, likewise.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Image, read_bounded, read_png};
+use frame::{Alignment, Image, read_bounded, read_png};
 use glob::Pattern;
 use suite::{Error, Run, Sequence, SequenceFrame};
 
@@ -26,7 +26,7 @@ pub type ClipFiles = Vec<PathBuf>;
 struct Item {
     scene: String,
     filter: String,
-    alignment: String,
+    alignment: Alignment,
     frames: Vec<SequenceFrame>,
 }
 
@@ -42,7 +42,7 @@ pub fn make_study(
     choice: &StudyChoice,
 ) -> Result<(Study, Vec<ClipFiles>), Error> {
     let items = choose_items(run, choice)?;
-    let scenes = list_once(items.iter().map(|item| &item.scene));
+    let scenes = list_once(items.iter().map(|item| item.scene.clone()));
     let mut shutters = Vec::new();
     let mut clips: Vec<Vec<ClipFiles>> = Vec::new();
     for scene in &scenes {
@@ -52,11 +52,11 @@ pub fn make_study(
             folder.join(&own.scene).join("frame.png")
         })]);
     }
-    for alignment in list_once(items.iter().map(|item| &item.alignment)) {
+    for alignment in list_once(items.iter().map(|item| item.alignment)) {
         let own: Vec<&Item> = (items.iter())
             .filter(|item| item.alignment == alignment)
             .collect();
-        let filters = list_once(own.iter().map(|item| &item.filter));
+        let filters = list_once(own.iter().map(|item| item.filter.clone()));
         let truth = format!("truth_{alignment}.png");
         let mut truth_hashes = Vec::new();
         for (scene, clips) in scenes.iter().zip(&mut clips) {
@@ -135,7 +135,7 @@ fn choose_items(run: &Run, choice: &StudyChoice) -> Result<Vec<Item>, Error> {
             None => Ok(()),
             Some(pattern) => Err(Error::Usage(format!(
                 "{option}: \"{pattern}\" fits nothing in the run; it has {}",
-                list_once(all.iter().map(name)).join(", ")
+                list_once(all.iter().map(|item| name(item).as_str())).join(", ")
             ))),
         }
     };
@@ -162,7 +162,7 @@ fn list_items(run: &Run) -> Vec<Item> {
         let item = |own: &Sequence| Item {
             scene: own.scene.clone(),
             filter: own.filter.clone(),
-            alignment: own.alignment.clone(),
+            alignment: own.alignment,
             frames: own.frames.clone(),
         };
         return own.map(item).collect();
@@ -171,7 +171,7 @@ fn list_items(run: &Run) -> Vec<Item> {
     own.map(|case| Item {
         scene: case.scene.clone(),
         filter: case.name(),
-        alignment: case.alignment.clone(),
+        alignment: case.alignment,
         frames: vec![SequenceFrame {
             scene: PathBuf::from(&case.scene),
             folder: case.folder.clone(),
@@ -244,11 +244,11 @@ fn read_picture(path: &Path, (width, height): (u32, u32)) -> Result<Image, Error
 }
 
 /// Lists each name once, in order.
-fn list_once<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
-    let mut listed: Vec<String> = Vec::new();
+fn list_once<T: PartialEq>(names: impl Iterator<Item = T>) -> Vec<T> {
+    let mut listed: Vec<T> = Vec::new();
     for name in names {
-        if !listed.contains(name) {
-            listed.push(name.clone());
+        if !listed.contains(&name) {
+            listed.push(name);
         }
     }
     listed

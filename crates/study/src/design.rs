@@ -141,13 +141,15 @@ fn shuffle<T>(list: &mut [T], random: &mut Random) {
 mod tests {
     use std::collections::BTreeMap;
 
+    use frame::Alignment;
+
     use super::*;
     use crate::paired_counts::PairedCounts;
     use crate::study::StudyShutter;
 
     fn study(filters: &[usize], scenes: usize, most_pairs: usize) -> Study {
         let shutter = |(index, count): (usize, &usize)| StudyShutter {
-            alignment: ["centred", "trailing"][index].to_owned(),
+            alignment: [Alignment::Centred, Alignment::Trailing][index],
             filters: (0..*count)
                 .map(|filter| format!("filter:{filter}"))
                 .collect(),

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use frame::Alignment;
 use serde::Serialize;
 use suite::{Error, PROGRAM, Run};
 
@@ -61,7 +62,7 @@ pub struct SessionFacts {
 #[derive(Clone, Debug, Serialize)]
 pub struct ShutterScale {
     /// Alignment of the shutter.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Number of sessions that compare any of its filters.
     pub people: usize,
     /// Number of comparisons.
@@ -161,7 +162,7 @@ fn scale_shutter(
     }
     let scores = run.map(|run| compare_scores(run, study, shutter, sessions, &scale));
     Ok(ShutterScale {
-        alignment: own.alignment.clone(),
+        alignment: own.alignment,
         people: people.len(),
         comparisons: all.len(),
         neither: all.iter().filter(|own| own.share == 0.5).count(),

@@ -1,8 +1,8 @@
 //! Agreement of scores with people.
 
-use metrics::SequenceMetric;
+use metrics::{Metric, SequenceMetric};
 use serde::Serialize;
-use suite::{Case, Headline, Run, Sequence, TWO_SIDED, Weighted, scene_mean};
+use suite::{Case, Run, Sequence, TWO_SIDED, Weighted, scene_mean};
 
 use crate::preference_scale::{FEWEST_PEOPLE, PreferenceScale};
 use crate::rank_correlation::rank_correlation;
@@ -10,13 +10,13 @@ use crate::session::Session;
 use crate::study::Study;
 
 /// Scores of single pictures that are compared with people. Of a sequence they are those of the first frame.
-const OF_PICTURES: [Headline; 6] = [
-    Headline::FLIP,
-    Headline::PSNR,
-    Headline::GROWTH,
-    Headline::LOSS,
-    Headline::Bleed,
-    Headline::LABEL,
+const OF_PICTURES: [Metric; 6] = [
+    Metric::FLIP,
+    Metric::PSNR,
+    Metric::GROWTH,
+    Metric::LOSS,
+    Metric::Bleed,
+    Metric::LABEL,
 ];
 /// Fewer filters than this have no order to speak of.
 const FEWEST_RANKED: usize = 3;
@@ -24,8 +24,8 @@ const FEWEST_RANKED: usize = 3;
 /// How well one score predicts people.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScoreAgreement {
-    /// Name of the score.
-    pub score: String,
+    /// Score.
+    pub score: Metric,
     /// Rank correlation of its mean over the scenes with the scale: 1 if people rank the filters as the score does. None with fewer than
     /// three filters, or where the score does not apply.
     pub correlation: Option<f64>,
@@ -41,7 +41,7 @@ pub struct ScoreAgreement {
 
 /// A score of every filter of one shutter.
 struct ScoreTable {
-    name: String,
+    score: Metric,
     /// How bad each filter is, scene by scene; none where the score does not apply.
     badness: Vec<Vec<Option<f64>>>,
 }
@@ -75,7 +75,7 @@ fn compare_score(
         .collect();
     let mean = (!people.is_empty()).then(|| scene_mean(&people, TWO_SIDED));
     ScoreAgreement {
-        score: table.name.clone(),
+        score: table.score,
         correlation,
         correlation_interval: (can_have_interval.then(|| percentiles(resampled))).flatten(),
         predicted: mean.map(|mean| mean.mean),
@@ -128,18 +128,18 @@ fn percentiles(mut values: Vec<f64>) -> Option<[f64; 2]> {
 
 fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
     let own = &study.shutters[shutter];
-    let table = |name: String, badness: &dyn Fn(&str, &str) -> Option<f64>| {
+    let table = |score: Metric, badness: &dyn Fn(&str, &str) -> Option<f64>| {
         let of_scene = |scene: &String| {
             let filters = own.filters.iter();
             filters.map(|filter| badness(scene, filter)).collect()
         };
         ScoreTable {
-            name,
+            score,
             badness: study.scenes.iter().map(of_scene).collect(),
         }
     };
     let sequences = SequenceMetric::ALL.iter().map(|metric| {
-        table(metric.row().name.to_owned(), &|scene, filter| {
+        table(Metric::Sequence(*metric), &|scene, filter| {
             let is_wanted = |it: &&Sequence| {
                 !it.is_reference
                     && (it.scene == scene && it.alignment == own.alignment)
@@ -150,15 +150,15 @@ fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
             Some(metric.row().ideal.badness(value))
         })
     });
-    let pictures = OF_PICTURES.iter().map(|headline| {
-        table(headline.name(), &|scene, filter| {
+    let pictures = OF_PICTURES.iter().map(|metric| {
+        table(*metric, &|scene, filter| {
             let is_wanted = |it: &&Case| {
                 !it.is_reference
                     && (it.scene == scene && it.alignment == own.alignment)
                     && it.name() == filter
             };
             let case = run.cases.iter().find(is_wanted)?;
-            Some(headline.ideal().badness(headline.estimate(case)?))
+            Some(metric.ideal().badness(case.estimate(*metric)?))
         })
     });
     match run.frames.is_one() {
@@ -215,7 +215,7 @@ mod tests {
         let compare = |badness: [f64; 4]| {
             let scene: Vec<Option<f64>> = badness.map(Some).into();
             let table = ScoreTable {
-                name: "flip".to_owned(),
+                score: Metric::FLIP,
                 badness: vec![scene.clone(), scene],
             };
             compare_score(&table, 0, &all, &scale)

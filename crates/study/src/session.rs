@@ -170,7 +170,7 @@ fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
             right,
             ..
         } = answer;
-        let found = [scene, alignment, left, right].map(String::as_str);
+        let found = [scene.as_str(), alignment.name(), left, right];
         if found != expected {
             return Err(format!(
                 "{} is about {}; the seed {} shows {} there; give the file as the page wrote it",
@@ -204,7 +204,7 @@ fn shown<'a>(study: &'a Study, trial: &ShownPair) -> [&'a str; 4] {
     };
     let scene = study.scenes[trial.scene].as_str();
     let [left, right] = [trial.left, trial.right].map(name);
-    [scene, &shutter.alignment, left, right]
+    [scene, shutter.alignment.name(), left, right]
 }
 
 /// Names what differs between two studies.

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use frame::Alignment;
 use serde::{Deserialize, Serialize};
 use suite::{Frames, MOST_FRAMES};
 
@@ -37,7 +38,7 @@ pub struct Study {
 #[serde(deny_unknown_fields)]
 pub struct StudyShutter {
     /// Alignment of the shutter. Filters of two shutters have two truths, and are not compared.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Names of the filters, as run.json has them: `jump_flood:paper`.
     pub filters: Vec<String>,
     /// Hashes of the truths' inputs: per scene those of its frames.
@@ -75,7 +76,7 @@ impl Study {
                 self.scenes.len()
             ));
         }
-        refuse_twice("scene", self.scenes.iter())?;
+        refuse_twice("scene", self.scenes.iter().map(String::as_str))?;
         let rate = self.frames.per_second;
         if !(1..=MOST_FRAMES).contains(&self.frames.count) || !rate.is_finite() || rate <= 0.0 {
             return Err(format!(
@@ -83,7 +84,10 @@ impl Study {
                 self.frames.count, rate
             ));
         }
-        refuse_twice("shutter", self.shutters.iter().map(|own| &own.alignment))?;
+        refuse_twice(
+            "shutter",
+            self.shutters.iter().map(|own| own.alignment.name()),
+        )?;
         if self.shutters.is_empty() {
             return Err("asks about no filter; allowed: two or more of one shutter".to_owned());
         }
@@ -106,7 +110,7 @@ impl Study {
                 own.filters.len()
             ));
         }
-        refuse_twice("filter", own.filters.iter())?;
+        refuse_twice("filter", own.filters.iter().map(String::as_str))?;
         if let Some(name) = own.filters.iter().find(|name| name.starts_with('[')) {
             return Err(format!(
                 "asks about a filter \"{name}\"; brackets stand for the truth and the sharp frame"
@@ -135,7 +139,7 @@ pub(super) fn round_size(filters: usize, distance: usize) -> usize {
     }
 }
 
-fn refuse_twice<'a>(what: &str, mut names: impl Iterator<Item = &'a String>) -> Result<(), String> {
+fn refuse_twice<'a>(what: &str, mut names: impl Iterator<Item = &'a str>) -> Result<(), String> {
     let mut seen = HashSet::new();
     match names.find(|name| !seen.insert(*name)) {
         None => Ok(()),

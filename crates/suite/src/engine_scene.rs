@@ -35,7 +35,7 @@ pub struct EngineScene {
     /// Time that the shutter is open, in frames.
     pub exposure: f64,
     /// Alignment of the shutter.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Number of sub-frames that the truth is the mean of; 0 where there is no truth.
     pub subframes: u32,
     /// Distance that 99 % of the moving pixels move at most between two sub-frames, in pixels.
@@ -76,9 +76,6 @@ impl EngineScene {
                 found.format
             ));
         }
-        if let Err(reason) = found.alignment.parse::<Alignment>() {
-            return refuse(reason);
-        }
         if !is_engine_scene(&found.name) {
             return refuse(format!(
                 "name \"{}\"; allowed: names of a folder and of an engine, such as railing@three.js_0.187.0",
@@ -100,11 +97,6 @@ impl EngineScene {
     pub fn filter_name(&self) -> &str {
         let at = self.name.rfind('@').map_or(0, |at| at + 1);
         &self.name[at..]
-    }
-
-    /// Returns the alignment of the shutter.
-    pub fn alignment(&self) -> Alignment {
-        (self.alignment.parse()).expect("the alignment was checked when the file was read")
     }
 
     /// Says what the pictures are.
@@ -153,7 +145,7 @@ impl EngineScene {
 
     /// Reads the truth, and copies its file with that of its ladder into a scene's folder of a run.
     pub(crate) fn copy_truth(&self, folder: &Path) -> Result<Truth, Error> {
-        let alignment = self.alignment();
+        let alignment = self.alignment;
         for rung in &self.ladder {
             self.copy(&self.rung_path(*rung), folder)?;
         }
@@ -189,7 +181,7 @@ impl EngineScene {
 
     /// Names the file of a rung below the folder of the scene.
     fn rung_path(&self, subframes: u32) -> String {
-        let folder = ladder_folder(self.alignment());
+        let folder = ladder_folder(self.alignment);
         format!("{folder}/{}", rung_file(subframes))
     }
 

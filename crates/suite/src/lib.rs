@@ -47,7 +47,7 @@ pub use measure::estimate::{
 pub use measure::job_costs::{JobCost, SceneJobs, estimate_jobs, estimate_report};
 pub use measure::part::Part;
 pub use measure::plan::RunPlan;
-pub use measure::probes::{pack_planes, unpack_planes};
+pub use measure::probes::{filter_input, pack_planes, unpack_planes};
 pub use measure::references::{TruthReferences, scene_viewing};
 pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
 pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
@@ -75,7 +75,6 @@ pub use score::finished_picture::{FinishedPicture, read_finished_picture};
 pub use score::numbered::{find_numbered, numbered_file};
 pub use score::scores::{Scored, missing_scores, score};
 pub use score::sequence::{ScoredSequence, SequenceTruth, file_at_frame, score_sequence};
-pub use stats::headline::Headline;
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::scene_mean::{

@@ -104,7 +104,7 @@ pub struct Camera {
 
 /// A thin lens: a disc across the view axis, around the camera's position. It has no errors and does not darken the picture: a pixel
 /// is the mean of what the pinholes at all points of the disc see.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Lens {
     /// Diameter in metres, above 0.
     pub aperture: f64,

@@ -1,9 +1,6 @@
 //! Advice on the choice of a tuning: take it, or keep the start.
 
-use std::collections::BTreeMap;
-
-use crate::comparison::{Difference, PairedComparison, Preference};
-use crate::target::SceneScore;
+use crate::comparison::{Difference, PairedComparison, Preference, pair_scores};
 use crate::tuning::Tuning;
 
 /// Least change of the error, in the log, that is worth another value: half of the last digit that tables show of a change.
@@ -40,10 +37,7 @@ impl Tuning {
 
     /// Compares the choice with the start on the scenes tuned on; none without scenes that both have.
     fn compare_with_start(&self) -> Option<Difference> {
-        let chosen = &self.chosen.scenes;
-        let pairs: BTreeMap<String, [SceneScore; 2]> = (self.start.scenes.iter())
-            .filter_map(|(scene, start)| Some((scene.clone(), [*start, *chosen.get(scene)?])))
-            .collect();
+        let pairs = pair_scores(&self.start.scenes, &self.chosen.scenes);
         (!pairs.is_empty()).then(|| PairedComparison::new(pairs).flip)
     }
 }

@@ -1,11 +1,10 @@
 //! Candidate of a tuning, ready to blur one scene after another.
 
 use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Settings, UploadedInput};
-use frame::{Image, Plane};
-use suite::{Monitor, Runner};
-use suite::{pack_planes, unpack_planes};
+use frame::{Frame, Image, Plane};
+use suite::{Monitor, Runner, filter_input, pack_planes, unpack_planes};
 
-use crate::target::Target;
+use crate::rendered_scene::RenderedScene;
 
 /// A filter's kernels and the inputs of all scenes, on the GPU: every candidate uses them, and so costs its blurs alone.
 pub struct SharedKernels<'a> {
@@ -20,12 +19,12 @@ impl<'a> SharedKernels<'a> {
     pub fn compile(
         gpu: &'a Gpu,
         filter: &Filter,
-        targets: &[Target],
+        scenes: &[RenderedScene],
         bleed: bool,
     ) -> Result<Self, FilterError> {
         let kernels = Kernels::compile(gpu, filter)?;
-        let inputs = (targets.iter())
-            .map(|target| with_input(target, bleed, |input| kernels.upload(input)))
+        let inputs = (scenes.iter())
+            .map(|scene| with_input(&scene.frame, bleed, |input| kernels.upload(input)))
             .collect::<Result<_, _>>()?;
         Ok(Self { kernels, inputs })
     }
@@ -49,27 +48,29 @@ pub struct Candidate<'e, 'a> {
 pub type Blurred = (Image, Option<Vec<Plane>>);
 
 impl<'a> Candidate<'_, 'a> {
-    /// Blurs a scene, given with its index; its mattes too if `bleed` is to be measured.
+    /// Blurs the frame of a scene, given by its index; its mattes too if `bleed` is to be measured.
     pub fn blur(
         &mut self,
-        (index, target): (usize, &Target),
+        scene: usize,
+        frame: &Frame,
         bleed: bool,
     ) -> Result<Blurred, FilterError> {
-        let frame = &target.scene.frame;
         let size = frame.size();
         if self.runner.as_ref().is_none_or(|(made, _)| *made != size) {
             self.runner = Some((size, self.make_runner(size)?));
         }
         let (_, runner) = self.runner.as_mut().expect("it was just made");
         let outputs = match (runner, self.shared) {
-            (Runner::Kernels(blur), Some(shared)) => blur.run_uploaded(&shared.inputs[index])?,
-            (runner, _) => with_input(target, bleed, |input| runner.run(input))?,
+            (Runner::Kernels(blur), Some(shared)) => blur.run_uploaded(&shared.inputs[scene])?,
+            (runner, _) => with_input(frame, bleed, |input| runner.run(input))?,
         };
-        let outputs: Vec<Image> = (outputs.iter())
-            .map(|output| output.cropped(frame.guard_band))
-            .collect();
-        let coverage = bleed.then(|| unpack_planes(&outputs[1..], frame.coverage.len()));
-        Ok((outputs[0].clone(), coverage))
+        let mut outputs = outputs
+            .iter()
+            .map(|output| output.cropped(frame.guard_band));
+        let color = outputs.next().expect("a filter blurs the colour");
+        let mattes: Vec<Image> = outputs.collect();
+        let coverage = bleed.then(|| unpack_planes(&mattes, frame.coverage.len()));
+        Ok((color, coverage))
     }
 
     fn make_runner(&self, size: (u32, u32)) -> Result<Runner<'a>, FilterError> {
@@ -83,22 +84,12 @@ impl<'a> Candidate<'_, 'a> {
     }
 }
 
-/// Calls `use_it` with the scene's frame; behind its colour the mattes, if they are to be blurred.
-fn with_input<T>(target: &Target, bleed: bool, use_it: impl FnOnce(&Input) -> T) -> T {
-    let frame = &target.scene.frame;
+/// Calls `run` with a frame: its colour, and after it the mattes, if they are to be blurred.
+fn with_input<T>(frame: &Frame, bleed: bool, run: impl FnOnce(&Input) -> T) -> T {
     let mattes = match bleed {
         true => pack_planes(&frame.coverage),
         false => Vec::new(),
     };
     let color: Vec<&Image> = std::iter::once(&frame.color).chain(&mattes).collect();
-    use_it(&Input {
-        color: &color,
-        velocity: &frame.velocity,
-        depth: &frame.depth,
-        reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
-        camera: frame.camera,
-        exposure: frame.exposure,
-        frames_per_second: frame.frames_per_second,
-        frame_index: 0,
-    })
+    run(&filter_input(frame, &color))
 }

@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 
 use filters::Settings;
 use serde::{Deserialize, Serialize};
-use suite::Error;
-use suite::{FEWEST_SCENES, ONE_SIDED, plain_mean};
-use tracer::{Progress, TraceError};
+use suite::{Error, FEWEST_SCENES, ONE_SIDED, plain_mean};
+use tracer::Progress;
 
 use crate::evaluator::Evaluator;
 use crate::loss::log_ratio;
@@ -88,26 +87,30 @@ pub fn compare_candidates(
     first: &Settings,
     second: &Settings,
 ) -> Result<PairedComparison, Error> {
-    let all: Vec<usize> = (0..evaluator.targets.len()).collect();
+    let all = evaluator.all_scenes();
     let total = 2 * all.len() as u64;
     let monitor = evaluator.monitor;
     let [first, second] = monitor.watch("both sets of parameters", |watch| {
         let mut done = 0;
         let mut score = |settings: &Settings| {
-            let scores = evaluator.score_candidate(settings, &all, |_, _| {
+            evaluator.score(settings, &all, |_, _| {
                 done += 1;
                 watch(Progress { done, total }).is_continue()
-            })?;
-            match scores.len() == all.len() {
-                true => Ok::<_, Error>(scores),
-                false => Err(TraceError::Cancelled.into()),
-            }
+            })
         };
         Ok::<_, Error>([score(first)?, score(second)?])
     })?;
-    let names = evaluator.targets.iter().map(|it| it.scene.name.clone());
-    let pairs = first.into_iter().zip(second).map(|(a, b)| [a, b]);
-    Ok(PairedComparison::new(names.zip(pairs).collect()))
+    Ok(PairedComparison::new(pair_scores(&first, &second)))
+}
+
+/// Pairs the scores of two candidates on the scenes that both have.
+pub fn pair_scores(
+    first: &BTreeMap<String, SceneScore>,
+    second: &BTreeMap<String, SceneScore>,
+) -> BTreeMap<String, [SceneScore; 2]> {
+    (first.iter())
+        .filter_map(|(scene, score)| Some((scene.clone(), [*score, *second.get(scene)?])))
+        .collect()
 }
 
 impl PairedComparison {

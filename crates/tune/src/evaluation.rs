@@ -6,7 +6,6 @@ use filters::{Settings, Value};
 use serde::{Deserialize, Serialize};
 use suite::Error;
 
-use crate::cost::Stopwatch;
 use crate::evaluator::Evaluator;
 use crate::loss::{mean_log_ratio, worst_bleed};
 use crate::target::SceneScore;
@@ -26,8 +25,8 @@ pub struct Evaluation {
     pub scenes: BTreeMap<String, SceneScore>,
 }
 
-/// Evaluates a candidate on scenes by their indices; `on_score` as in [`Evaluator::score_candidate`]. An evaluation that
-/// `on_score` ends early is an error.
+/// Evaluates a candidate on scenes by their indices. Calls `on_score` with each score as soon as it is known; an evaluation that it
+/// ends early, by returning false, is an error.
 pub fn evaluate_candidate(
     evaluator: &mut Evaluator,
     settings: &Settings,
@@ -36,38 +35,17 @@ pub fn evaluate_candidate(
     on_score: impl FnMut(usize, &SceneScore) -> bool,
 ) -> Result<Evaluation, Error> {
     let start = evaluator.choice.settings.clone();
-    let start = score_by_name(evaluator, &start, scenes, |_, _| true)?;
-    let scores = score_by_name(evaluator, settings, scenes, on_score)?;
-    if scores.len() < scenes.len() {
-        return Err(tracer::TraceError::Cancelled.into());
-    }
-    let stopwatch = match (evaluator.gpu, scenes) {
-        (Some(gpu), [first, ..]) if cost => Some(Stopwatch {
-            gpu,
-            choice: &evaluator.choice,
-            frame: &evaluator.targets[*first].scene.frame,
-        }),
-        _ => None,
-    };
+    let start = evaluator.score(&start, scenes, |_, _| true)?;
+    let scores = evaluator.score(settings, scenes, on_score)?;
     Ok(Evaluation {
         values: settings.values.clone(),
         error: mean_log_ratio(&scores, &start, |_| true)
             .ok_or_else(|| Error::Usage("scenes: none is named; name at least one".to_owned()))?,
         bleed: worst_bleed(&scores),
-        cost: (stopwatch.map(|own| own.measure_ratio(settings))).transpose()?,
+        cost: match scenes.first() {
+            Some(first) if cost => evaluator.measure_cost(settings, *first)?,
+            _ => None,
+        },
         scenes: scores,
     })
-}
-
-fn score_by_name(
-    evaluator: &mut Evaluator,
-    settings: &Settings,
-    scenes: &[usize],
-    on_score: impl FnMut(usize, &SceneScore) -> bool,
-) -> Result<BTreeMap<String, SceneScore>, Error> {
-    let scores = evaluator.score_candidate(settings, scenes, on_score)?;
-    let names = scenes
-        .iter()
-        .map(|scene| &evaluator.targets[*scene].scene.name);
-    Ok(names.cloned().zip(scores).collect())
 }

@@ -1,32 +1,36 @@
 //! Scoring of candidates on scenes.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::mpsc;
 
-use filters::{Gpu, Settings};
+use filters::{Blur, FilterError, Gpu, Settings};
 use frame::{Image, Plane};
-use suite::{Error, FilterChoice, Monitor};
+use suite::{Error, FilterChoice, Monitor, filter_input};
+use tracer::TraceError;
 
 use crate::candidate::{Candidate, SharedKernels};
 use crate::rendered_scene::RenderedScene;
 use crate::target::{SceneScore, Target};
 
+/// Rounds of one candidate and the start in turn; odd, so that the median is one of them.
+const ROUNDS: usize = 5;
+
 /// A filter on scenes that are loaded once; scores that were measured before come from memory.
 pub struct Evaluator<'a> {
-    /// Adapter that candidates run on.
-    pub gpu: Option<&'a Gpu>,
+    /// Adapter that candidates run on; none if the filter is a program.
+    gpu: Option<&'a Gpu>,
     /// The filter with the values that tuning starts from.
     pub choice: FilterChoice,
     /// The scenes.
     pub targets: Vec<Target<'a>>,
     /// True if mattes are blurred as well, which takes about twice the time.
-    pub bleed: bool,
+    bleed: bool,
     /// Monitor that can end the work.
-    pub monitor: Monitor,
+    pub(crate) monitor: Monitor,
     /// The filter's kernels; none if it is a program.
     shared: Option<SharedKernels<'a>>,
-    /// Scores by candidate and scene.
-    memory: HashMap<(String, usize), SceneScore>,
+    /// Scores by scene, of each candidate.
+    memory: HashMap<String, BTreeMap<String, SceneScore>>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -45,12 +49,8 @@ impl<'a> Evaluator<'a> {
             Some(_) => None,
             None => {
                 let gpu = gpu.expect("an adapter was opened for the kernels");
-                Some(SharedKernels::compile(
-                    gpu,
-                    &choice.filter,
-                    &targets,
-                    bleed,
-                )?)
+                let filter = &choice.filter;
+                Some(SharedKernels::compile(gpu, filter, scenes, bleed)?)
             }
         };
         Ok(Self {
@@ -64,43 +64,45 @@ impl<'a> Evaluator<'a> {
         })
     }
 
-    /// Takes over a score that was measured before; ignores scenes that are not loaded.
-    pub fn remember(&mut self, settings: &Settings, scene: &str, score: SceneScore) {
-        let index = self.targets.iter().position(|it| it.scene.name == scene);
-        if let Some(index) = index {
-            self.memory.insert((memory_key(settings), index), score);
-        }
+    /// Lists the indices of all scenes.
+    pub(crate) fn all_scenes(&self) -> Vec<usize> {
+        (0..self.targets.len()).collect()
     }
 
-    /// Scores one candidate on some scenes, by their indices, and returns the scores in that order. Calls `on_score` with
-    /// each score as soon as it is known; if that returns false, the work ends and the scores so far are returned.
-    pub fn score_candidate(
+    /// Takes over scores that were measured before.
+    pub(crate) fn remember(&mut self, settings: &Settings, scores: &BTreeMap<String, SceneScore>) {
+        let known = self.memory.entry(memory_key(settings)).or_default();
+        known.extend(scores.clone());
+    }
+
+    /// Scores one candidate on some scenes, by their indices. Calls `on_score` with each score as soon as it is known.
+    ///
+    /// # Errors
+    /// The filter fails, or `on_score` returned false before all scenes had a score, which cancels the work.
+    pub(crate) fn score(
         &mut self,
         settings: &Settings,
         scenes: &[usize],
         mut on_score: impl FnMut(usize, &SceneScore) -> bool,
-    ) -> Result<Vec<SceneScore>, Error> {
+    ) -> Result<BTreeMap<String, SceneScore>, Error> {
+        let name = |scene: usize| &self.targets[scene].scene.name;
         let key = memory_key(settings);
-        let mut found = Vec::new();
-        let known = |scene: &usize| self.memory.get(&(key.clone(), *scene)).copied();
-        let missing: Vec<usize> = (scenes.iter().copied())
-            .filter(|scene| known(scene).is_none())
-            .collect();
-        let mut goes_on = true;
-        for scene in scenes.iter().filter(|scene| !missing.contains(scene)) {
-            let score = known(scene).expect("it is not missing");
-            goes_on = goes_on && on_score(*scene, &score);
+        let mut scores = self.memory.get(&key).cloned().unwrap_or_default();
+        let (known, missing): (Vec<usize>, Vec<usize>) =
+            (scenes.iter()).partition(|scene| scores.contains_key(name(**scene)));
+        let mut known = known.into_iter();
+        if known.all(|scene| on_score(scene, &scores[name(scene)])) && !missing.is_empty() {
+            let measured = self.measure(settings, &missing, &mut on_score)?;
+            let named = (measured.into_iter()).map(|(scene, score)| (name(scene).clone(), score));
+            scores.extend(named);
         }
-        if goes_on && !missing.is_empty() {
-            found = self.measure(settings, &missing, &mut on_score)?;
-        }
-        let measured = found.into_iter();
-        self.memory
-            .extend(measured.map(|(scene, score)| ((key.clone(), scene), score)));
-        let scores = scenes.iter();
-        Ok(scores
-            .map_while(|scene| self.memory.get(&(key.clone(), *scene)).copied())
-            .collect())
+        let found = scenes.iter().map(|scene| {
+            let name = name(*scene);
+            Some((name.clone(), *scores.get(name)?))
+        });
+        let found: Option<BTreeMap<String, SceneScore>> = found.collect();
+        self.memory.insert(key, scores);
+        found.ok_or(TraceError::Cancelled.into())
     }
 
     /// Blurs scene after scene while the pictures before are being scored.
@@ -122,7 +124,7 @@ impl<'a> Evaluator<'a> {
             };
             for scene in scenes {
                 let target = &self.targets[*scene];
-                let (color, mattes) = candidate.blur((*scene, target), self.bleed)?;
+                let (color, mattes) = candidate.blur(*scene, &target.scene.frame, self.bleed)?;
                 check_finite(&target.scene.name, &color, mattes.as_deref())?;
                 let sender = sender.clone();
                 scope.spawn(move |_| {
@@ -146,6 +148,36 @@ impl<'a> Evaluator<'a> {
         }
         Ok(found)
     }
+
+    /// Times all passes of a candidate and of the start in turns on one scene, by its index, and returns the median of the ratios.
+    /// Runs one round before them that does not count. None for a program, which no GPU can time.
+    pub(crate) fn measure_cost(
+        &self,
+        settings: &Settings,
+        scene: usize,
+    ) -> Result<Option<f64>, FilterError> {
+        let Some(gpu) = self.gpu else {
+            return Ok(None);
+        };
+        let frame = &self.targets[scene].scene.frame;
+        let (width, height) = frame.size();
+        let blur = |settings| Blur::new(gpu, &self.choice.filter, settings, width, height);
+        let color = [&frame.color];
+        let input = filter_input(frame, &color);
+        let (mut start, mut candidate) = (blur(&self.choice.settings)?, blur(settings)?);
+        let (start, candidate) = (start.load(&input)?, candidate.load(&input)?);
+        let mut ratios = Vec::new();
+        for round in 0..=ROUNDS {
+            let [before, own] = [&start, &candidate].map(|it| {
+                let passes = it.time()?;
+                Ok::<f64, FilterError>(passes.iter().map(|pass| pass.seconds).sum())
+            });
+            let ratio = own? / before?;
+            ratios.extend((round > 0).then_some(ratio));
+        }
+        ratios.sort_by(f64::total_cmp);
+        Ok(Some(ratios[ROUNDS / 2]))
+    }
 }
 
 fn memory_key(settings: &Settings) -> String {
@@ -154,12 +186,8 @@ fn memory_key(settings: &Settings) -> String {
 
 /// Refuses a picture that no score can be taken of.
 fn check_finite(scene: &str, color: &Image, mattes: Option<&[Plane]>) -> Result<(), Error> {
-    let mut values = (color.pixels.as_flattened().iter()).chain(
-        mattes
-            .unwrap_or_default()
-            .iter()
-            .flat_map(|matte| &matte.pixels),
-    );
+    let mattes = mattes.unwrap_or_default().iter().flat_map(|it| &it.pixels);
+    let mut values = color.pixels.as_flattened().iter().chain(mattes);
     match values.all(|value| value.is_finite()) {
         true => Ok(()),
         false => Err(Error::Usage(format!(

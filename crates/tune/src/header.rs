@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use filters::Value;
 use serde::{Deserialize, Serialize};
 
+use crate::options::Objective;
+
 /// Version of the layout of a journal.
 pub const JOURNAL_FORMAT: u32 = 1;
 
@@ -27,8 +29,8 @@ pub struct JournalHeader {
     pub design: Vec<Vec<f64>>,
     /// Scene names in the order in which candidates meet them, each with the content hash of its truth.
     pub scenes: Vec<(String, String)>,
-    /// Scores that are measured: `flip`, `bleed` (lateral), `cost`.
-    pub objectives: Vec<String>,
+    /// Scores that are measured.
+    pub objectives: Vec<Objective>,
     /// Upper limit on the cost, as a ratio to the start's.
     pub cost_at_most: Option<f64>,
     /// Upper limit on the lateral bleed of the worst scene, as a ratio to the start's.

@@ -26,7 +26,7 @@ pub struct HeldOutResult {
 }
 
 /// Reads all results so far.
-pub fn read_held_out_results(path: &Path) -> Result<Vec<HeldOutResult>, Error> {
+fn read_held_out_results(path: &Path) -> Result<Vec<HeldOutResult>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }

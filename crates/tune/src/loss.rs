@@ -12,22 +12,33 @@ pub const LEAST_BLEED: f64 = 0.01;
 const LEAST_FLIP: f64 = 1e-6;
 /// Weight of an exceeded limit or bound, per fraction of the limit: 10 % too much cost weighs as much as an error 22 % larger.
 const PENALTY: f64 = 2.0;
+/// Divisor for limits that are smaller, such as the bleed of a start that never bleeds.
+const SMALLEST_LIMIT: f64 = 0.05;
 
 /// Returns the log of a scene's error over that of the start: below 0 is better.
 pub fn log_ratio(score: &SceneScore, start: &SceneScore) -> f64 {
     (score.flip.max(LEAST_FLIP) / start.flip.max(LEAST_FLIP)).ln()
 }
 
-/// Averages [`log_ratio`] over the scenes of `scores` that `counts` takes; none if it takes no scene.
+/// Lists [`log_ratio`] of the scenes of `scores` that `counts` takes.
+pub fn log_ratios(
+    scores: &BTreeMap<String, SceneScore>,
+    start: &BTreeMap<String, SceneScore>,
+    counts: impl Fn(&str) -> bool,
+) -> Vec<f64> {
+    (scores.iter())
+        .filter(|(scene, _)| counts(scene))
+        .map(|(scene, score)| log_ratio(score, &start[scene]))
+        .collect()
+}
+
+/// Averages [`log_ratios`]; none if `counts` takes no scene.
 pub fn mean_log_ratio(
     scores: &BTreeMap<String, SceneScore>,
     start: &BTreeMap<String, SceneScore>,
     counts: impl Fn(&str) -> bool,
 ) -> Option<f64> {
-    let ratios: Vec<f64> = (scores.iter())
-        .filter(|(scene, _)| counts(scene))
-        .map(|(scene, score)| log_ratio(score, &start[scene]))
-        .collect();
+    let ratios = log_ratios(scores, start, counts);
     (!ratios.is_empty()).then(|| ratios.iter().sum::<f64>() / ratios.len() as f64)
 }
 
@@ -51,6 +62,3 @@ pub fn penalty(value: Option<f64>, limit: Option<f64>) -> f64 {
 pub fn bounds_penalty(excess: f64) -> f64 {
     PENALTY * excess.min(1.0)
 }
-
-/// Divisor for limits that are smaller, such as the bleed of a start that never bleeds.
-const SMALLEST_LIMIT: f64 = 0.05;

@@ -4,13 +4,10 @@ use std::collections::BTreeMap;
 
 use filters::{FilterError, Settings};
 use suite::Error;
-use tracer::TraceError;
 
-use crate::cost::Stopwatch;
 use crate::evaluator::Evaluator;
-use crate::loss::{FAILED, bounds_penalty, log_ratio, mean_log_ratio, penalty, worst_bleed};
-use crate::objective::Objective;
-use crate::options::TuneOptions;
+use crate::loss::{FAILED, bounds_penalty, log_ratios, mean_log_ratio, penalty, worst_bleed};
+use crate::options::{Objective, TuneOptions};
 use crate::search::Search;
 use crate::selection::ChoiceLimits;
 use crate::target::SceneScore;
@@ -73,33 +70,7 @@ fn measure_trial(
     settings: &Settings,
     trial: &mut Trial,
 ) -> Result<(), Error> {
-    let all: Vec<usize> = (0..evaluator.targets.len()).collect();
-    let best = (trials.iter().filter(|trial| trial.is_done()))
-        .min_by(|a, b| a.loss.total_cmp(&b.loss))
-        .filter(|_| options.race);
-    let mut met = 0;
-    while met < all.len() {
-        let until = match (best, met) {
-            (None, _) => all.len(),
-            (Some(_), 0) => RACE_FROM.min(all.len()),
-            (Some(_), _) => (met + RACE_STEP).min(all.len()),
-        };
-        let scores = evaluator.score_candidate(settings, &all[met..until], |_, _| {
-            !(options.monitor.interrupted)()
-        })?;
-        if scores.len() < until - met {
-            return Err(TraceError::Cancelled.into());
-        }
-        for (target, score) in evaluator.targets[met..until].iter().zip(scores) {
-            trial.scenes.insert(target.scene.name.clone(), score);
-        }
-        met = until;
-        if met < all.len() && best.is_some_and(|best| is_clearly_worse(&trial.scenes, &best.scenes))
-        {
-            trial.outcome = TrialOutcome::Dropped;
-            break;
-        }
-    }
+    race(options, evaluator, trials, settings, trial)?;
     let start = trials.first().map_or(&trial.scenes, |trial| &trial.scenes);
     let error = mean_log_ratio(&trial.scenes, start, |_| true).expect("there are scenes");
     let excess: f64 = (evaluator.targets.iter())
@@ -112,7 +83,12 @@ fn measure_trial(
     trial.error = Some(error);
     trial.bleed = worst_bleed(&trial.scenes);
     if options.measures(Objective::Cost) && trial.is_done() {
-        trial.cost = Some(measure_cost(evaluator, settings, trial, trials)?);
+        let same = trials.iter().find(|other| other.values == trial.values);
+        trial.cost = match same.and_then(|same| same.cost) {
+            _ if trials.is_empty() => Some(1.0),
+            Some(cost) => Some(cost),
+            None => evaluator.measure_cost(settings, 0)?,
+        };
     }
     let limits = match trials.is_empty() {
         true => ChoiceLimits::default(),
@@ -125,34 +101,37 @@ fn measure_trial(
     Ok(())
 }
 
-fn is_clearly_worse(
-    scores: &BTreeMap<String, SceneScore>,
-    best: &BTreeMap<String, SceneScore>,
-) -> bool {
-    let differences: Vec<f64> = (scores.iter())
-        .map(|(scene, score)| log_ratio(score, &best[scene]))
-        .collect();
-    signed_rank_p_value(&differences) < RACE_LEVEL
+/// Scores a candidate on scene after scene, until it is clearly worse than the best trial before.
+fn race(
+    options: &TuneOptions,
+    evaluator: &mut Evaluator,
+    trials: &[Trial],
+    settings: &Settings,
+    trial: &mut Trial,
+) -> Result<(), Error> {
+    let best = (trials.iter().filter(|trial| trial.is_done()))
+        .min_by(|a, b| a.loss.total_cmp(&b.loss))
+        .filter(|_| options.race);
+    let mut left = evaluator.all_scenes();
+    while !left.is_empty() {
+        let step = match best {
+            None => left.len(),
+            Some(_) if trial.scenes.is_empty() => RACE_FROM,
+            Some(_) => RACE_STEP,
+        };
+        let next: Vec<usize> = left.drain(..step.min(left.len())).collect();
+        let is_wanted = |_: usize, _: &SceneScore| !(options.monitor.interrupted)();
+        trial
+            .scenes
+            .extend(evaluator.score(settings, &next, is_wanted)?);
+        if !left.is_empty() && best.is_some_and(|best| is_clearly_worse(trial, best)) {
+            trial.outcome = TrialOutcome::Dropped;
+            break;
+        }
+    }
+    Ok(())
 }
 
-/// Measures the cost relative to the start: 1 for the start itself, and the earlier result for values that were tried before.
-fn measure_cost(
-    evaluator: &Evaluator,
-    settings: &Settings,
-    trial: &Trial,
-    trials: &[Trial],
-) -> Result<f64, Error> {
-    let same = trials.iter().find(|other| other.values == trial.values);
-    if trials.is_empty() {
-        return Ok(1.0);
-    }
-    if let Some(cost) = same.and_then(|same| same.cost) {
-        return Ok(cost);
-    }
-    let stopwatch = Stopwatch {
-        gpu: evaluator.gpu.expect("only kernels are timed"),
-        choice: &evaluator.choice,
-        frame: &evaluator.targets[0].scene.frame,
-    };
-    Ok(stopwatch.measure_ratio(settings)?)
+fn is_clearly_worse(trial: &Trial, best: &Trial) -> bool {
+    signed_rank_p_value(&log_ratios(&trial.scenes, &best.scenes, |_| true)) < RACE_LEVEL
 }

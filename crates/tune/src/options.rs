@@ -5,14 +5,25 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use judge::SceneBounds;
-use suite::{Error, FilterChoice, Monitor};
+use suite::{Error, FilterChoice, Monitor, named};
 use tracer::{RenderSettings, Scene};
 
 use crate::loss::LEAST_BLEED;
-use crate::objective::Objective;
 use crate::selection::ChoiceLimits;
 use crate::space::Space;
 use crate::trial::Trial;
+
+named! {
+    /// A score that trials are judged by, apart from the others.
+    pub enum Objective {
+        /// `flip_moving`; always measured.
+        Flip = "flip",
+        /// `bleed_lateral` of the worst scene.
+        Bleed = "bleed",
+        /// GPU time.
+        Cost = "cost",
+    }
+}
 
 /// Filter, scenes, limits and effort of a tuning.
 pub struct TuneOptions {
@@ -83,11 +94,8 @@ impl TuneOptions {
         let tuned_on = |name: &str| {
             (self.scenes.iter()).any(|(scene, _)| folder_name(&scene.name) == folder_name(name))
         };
-        match self
-            .held_out
-            .iter()
-            .find(|(scene, _)| tuned_on(&scene.name))
-        {
+        let mut held_out = self.held_out.iter();
+        match held_out.find(|(scene, _)| tuned_on(&scene.name)) {
             Some((scene, _)) => Err(Error::Usage(format!(
                 "scene {}: it is tuned on, and so proves nothing as a held-out scene; name it in one of the two lists",
                 scene.name

@@ -1,6 +1,6 @@
 //! Choice of a tuning as a preset of filter.toml.
 
-use filters::{TuningRecord, Value};
+use filters::TuningRecord;
 
 use crate::options::TuneOptions;
 use crate::tuning::Tuning;
@@ -33,11 +33,8 @@ pub fn tuned_preset_toml(tuning: &Tuning, options: &TuneOptions) -> String {
     for parameter in &options.choice.filter.parameters {
         let value = &tuning.values[&parameter.name];
         if *value != parameter.default {
-            text += &match value {
-                Value::Integer(value) => format!("{} = {value}\n", parameter.name),
-                Value::Real(value) => format!("{} = {value:?}\n", parameter.name),
-                Value::Choice(value) => format!("{} = \"{value}\"\n", parameter.name),
-            };
+            let value = toml::Value::try_from(value).expect("a value is plain data");
+            text += &format!("{} = {value}\n", parameter.name);
         }
     }
     text

@@ -3,21 +3,15 @@
 use std::path::Path;
 
 use frame::{Alignment, Frame, Truth};
-use metrics::Viewing;
-use tracer::{Family, RenderSettings, Scene};
-
 use judge::SceneBounds;
-use suite::render_frame;
-use suite::render_truth;
-use suite::scene_viewing;
-use suite::{Error, Monitor};
+use metrics::Viewing;
+use suite::{Error, Monitor, render_frame, render_truth, scene_viewing};
+use tracer::{RenderSettings, Scene};
 
 /// A scene, rendered once and measured against hundreds of times.
 pub struct RenderedScene {
     /// The scene's name, with its variant.
     pub name: String,
-    /// The scene's family.
-    pub family: Family,
     /// Input of the filter.
     pub frame: Frame,
     /// Reference that pictures are compared with.
@@ -39,7 +33,6 @@ pub fn render_scenes(
     let render_scene = |(scene, bounds): &(Scene, SceneBounds)| {
         Ok(RenderedScene {
             name: scene.name.clone(),
-            family: scene.family,
             frame: render_frame(scene, render, out, monitor)?,
             truth: render_truth(scene, render, alignment, out, monitor)?,
             viewing: scene_viewing(scene),

@@ -5,9 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use filters::Settings;
 use serde::{Deserialize, Serialize};
 
-use crate::loss::{log_ratio, mean_log_ratio};
+use crate::loss::{log_ratios, mean_log_ratio};
 use crate::space::Space;
-use crate::target::SceneScore;
 use crate::trial::Trial;
 
 /// Upper limits on the choice.
@@ -59,7 +58,7 @@ pub fn choose_trial(
         .map(|trial| Some((trial, mean_log_ratio(&trial.scenes, start, &counts)?)))
         .collect::<Option<_>>()?;
     let (best, least) = (allowed.iter().copied()).min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-    let standard_error = standard_error_of_mean(best, start, &counts);
+    let standard_error = standard_error_of_mean(&log_ratios(&best.scenes, start, &counts));
     let distance = |trial: &Trial| space.distance(&trial_settings(space, trial), &space.start);
     let (chosen, _) = (allowed.iter())
         .filter(|(_, error)| *error <= least + standard_error)
@@ -81,16 +80,8 @@ pub fn trial_settings(space: &Space, trial: &Trial) -> Settings {
     settings
 }
 
-/// Returns the standard error of a trial's mean log ratio; 0 for a single scene, which says nothing about others.
-fn standard_error_of_mean(
-    trial: &Trial,
-    start: &BTreeMap<String, SceneScore>,
-    counts: &impl Fn(&str) -> bool,
-) -> f64 {
-    let scenes = trial.scenes.iter().filter(|(scene, _)| counts(scene));
-    let ratios: Vec<f64> = scenes
-        .map(|(scene, score)| log_ratio(score, &start[scene]))
-        .collect();
+/// Returns the standard error of the mean of scenes' log ratios; 0 for a single scene, which says nothing about others.
+fn standard_error_of_mean(ratios: &[f64]) -> f64 {
     if ratios.len() < 2 {
         return 0.0;
     }

@@ -64,12 +64,8 @@ pub fn analyze_sensitivity(
     seed: u64,
     watch: Watch,
 ) -> Result<Sensitivity, Error> {
-    let all: Vec<usize> = (0..evaluator.targets.len()).collect();
-    let names: Vec<String> = (evaluator.targets.iter())
-        .map(|target| target.scene.name.clone())
-        .collect();
-    let start = evaluator.score_candidate(&space.start, &all, |_, _| true)?;
-    let start: BTreeMap<_, _> = names.iter().cloned().zip(start).collect();
+    let all = evaluator.all_scenes();
+    let start = evaluator.score(&space.start, &all, |_, _| true)?;
     let axes = space.axes.len();
     let planned = count_candidates(axes, rows);
     let (mut candidates, mut failed) = (0, 0);
@@ -83,12 +79,8 @@ pub fn analyze_sensitivity(
             return Err(TraceError::Cancelled.into());
         }
         candidates += 1;
-        match evaluator.score_candidate(&space.settings(point), &all, |_, _| !interrupted()) {
-            Ok(scores) if scores.len() == all.len() => {
-                let scores = names.iter().cloned().zip(scores).collect();
-                Ok(mean_log_ratio(&scores, &start, |_| true).expect("there are scenes"))
-            }
-            Ok(_) => Err(TraceError::Cancelled.into()),
+        match evaluator.score(&space.settings(point), &all, |_, _| !interrupted()) {
+            Ok(scores) => Ok(mean_log_ratio(&scores, &start, |_| true).expect("there are scenes")),
             Err(error) if error.is_interruption() => Err(error),
             Err(_) => {
                 failed += 1;
@@ -120,33 +112,4 @@ pub fn analyze_sensitivity(
         failed,
         parameters,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const PARAMETER: &str = r#"{"constant": false, "slice": [], "indices": "#;
-    const INDICES: &str = r#"{"first": {"value": 0.1, "low": 0, "high": 0.2}, "total": {"value": 0.3, "low": 0.2, "high": 0.4}}"#;
-
-    #[test]
-    fn effects_of_an_older_version_are_left_out_where_there_are_indices() {
-        let effects = r#""effects": {"mean": 0.1, "mean_size": 0.2, "deviation": 0.3}"#;
-        let text = format!(
-            r#"{{"candidates": 9, "failed": 0, "trajectories": 3, "parameters": {{"samples": {PARAMETER}{INDICES}, {effects}}}}}}}"#
-        );
-        let read: Sensitivity = serde_json::from_str(&text).unwrap();
-        assert_eq!(read.parameters["samples"].indices.total.value, 0.3);
-    }
-
-    #[test]
-    fn effects_of_an_older_version_alone_are_refused() {
-        let read: Result<ParameterSensitivity, _> =
-            serde_json::from_str(&format!("{PARAMETER}null}}"));
-        let error = read.unwrap_err().to_string();
-        assert!(
-            error.contains("no Sobol indices") && error.contains("Morris screening"),
-            "{error}"
-        );
-    }
 }

@@ -85,29 +85,18 @@ pub fn sobol_indices<E>(
 }
 
 fn first_index(rows: &[&Row], axis: usize) -> f64 {
-    share_of_variance(
-        rows,
-        |row| (row.b - row.mixed[axis]).powi(2),
-        |left| 1.0 - left,
-    )
+    share_of_variance(rows, |row| row.b - row.mixed[axis]).map_or(0.0, |share| 1.0 - share)
 }
 
 fn total_index(rows: &[&Row], axis: usize) -> f64 {
-    share_of_variance(rows, |row| (row.a - row.mixed[axis]).powi(2), |left| left)
+    share_of_variance(rows, |row| row.a - row.mixed[axis]).unwrap_or(0.0)
 }
 
-/// Divides half of the mean of squares by the variance.
-fn share_of_variance(
-    rows: &[&Row],
-    square: impl Fn(&Row) -> f64,
-    index: impl Fn(f64) -> f64,
-) -> f64 {
+/// Divides half of the mean of squared differences by the variance; none of a constant function.
+fn share_of_variance(rows: &[&Row], difference: impl Fn(&Row) -> f64) -> Option<f64> {
     let variance = pooled_variance(rows);
-    if variance <= 0.0 {
-        return 0.0;
-    }
-    let squares: f64 = rows.iter().map(|row| square(row)).sum();
-    index(squares / (2.0 * rows.len() as f64 * variance))
+    let squares: f64 = rows.iter().map(|row| difference(row).powi(2)).sum();
+    (variance > 0.0).then(|| squares / (2.0 * rows.len() as f64 * variance))
 }
 
 fn pooled_variance(rows: &[&Row]) -> f64 {

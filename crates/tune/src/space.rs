@@ -1,7 +1,6 @@
 //! Parameters that a tuning may change, and their mapping to the unit cube.
 
 use filters::{Filter, Kind, Parameter, Scale, Settings, Value};
-
 use suite::Error;
 
 /// Some parameters of a filter with their ranges, around a set of values.
@@ -110,27 +109,20 @@ fn narrow(kind: &Kind, range: &str) -> Result<Kind, String> {
             kind.allowed()
         ))
     };
-    match (kind, ends) {
-        (Kind::Integer { scale, .. }, Some((Value::Integer(min), Value::Integer(max)))) => {
-            match min < max {
-                true => Ok(Kind::Integer {
-                    min,
-                    max,
-                    scale: *scale,
-                }),
-                false => refuse("the range is empty"),
-            }
+    let mut narrowed = kind.clone();
+    match (&mut narrowed, ends) {
+        (Kind::Integer { min, max, .. }, Some((Value::Integer(low), Value::Integer(high)))) => {
+            (*min, *max) = (low, high);
         }
-        (Kind::Real { scale, .. }, Some((Value::Real(min), Value::Real(max)))) => match min < max {
-            true => Ok(Kind::Real {
-                min,
-                max,
-                scale: *scale,
-            }),
-            false => refuse("the range is empty"),
-        },
-        (Kind::Choice { .. }, _) => Err("a choice has no range; name it alone".to_owned()),
-        _ => refuse("no range within the parameter's own"),
+        (Kind::Real { min, max, .. }, Some((Value::Real(low), Value::Real(high)))) => {
+            (*min, *max) = (low, high);
+        }
+        (Kind::Choice { .. }, _) => return Err("a choice has no range; name it alone".to_owned()),
+        _ => return refuse("no range within the parameter's own"),
+    }
+    match can_vary(&narrowed) {
+        true => Ok(narrowed),
+        false => refuse("the range is empty"),
     }
 }
 

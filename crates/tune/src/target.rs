@@ -1,6 +1,6 @@
 //! Scene that candidates are scored on.
 
-use frame::{Image, Plane, Raster, Region};
+use frame::{Image, Plane, Region};
 use judge::Bounds;
 use metrics::{ImageMetric, Metric, ObjectMetric, Reference, flip_ldr};
 use serde::{Deserialize, Serialize};
@@ -26,8 +26,6 @@ pub struct Target<'a> {
     pub bounds: Bounds,
     reference: Reference<'a>,
     mean: Image,
-    /// Pixels where anything moves.
-    moving: Raster<bool>,
 }
 
 impl<'a> Target<'a> {
@@ -35,8 +33,7 @@ impl<'a> Target<'a> {
     pub fn new(scene: &'a RenderedScene, filter: &str, preset: &str) -> Result<Self, Error> {
         let frame = scene.frame.cropped();
         let reference = Reference::new(&frame, &scene.truth, None, &scene.viewing)?;
-        let moving = reference.regions.moving.clone();
-        if !moving.pixels.contains(&true) {
+        if !reference.regions.moving.pixels.contains(&true) {
             return Err(Error::Usage(format!(
                 "scene {}: nothing moves on screen, so there is nothing to tune; leave the scene out",
                 scene.name
@@ -46,7 +43,6 @@ impl<'a> Target<'a> {
             scene,
             bounds: scene.bounds.of(filter, preset),
             mean: scene.truth.mean().color,
-            moving,
             reference,
         })
     }
@@ -62,7 +58,10 @@ impl<'a> Target<'a> {
     /// Measures `flip_moving` and nothing else.
     fn flip(&self, color: &Image) -> f64 {
         let errors = flip_ldr(&self.mean, color, &self.scene.viewing);
-        let inside = errors.pixels.iter().zip(&self.moving.pixels);
+        let inside = errors
+            .pixels
+            .iter()
+            .zip(&self.reference.regions.moving.pixels);
         let inside = inside.filter_map(|(error, moves)| moves.then_some(f64::from(*error)));
         let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));
         sum / count
@@ -78,12 +77,7 @@ impl<'a> Target<'a> {
             (bleed, score.bleed, start.bleed),
         ];
         let excess = measured.into_iter().filter_map(|(metric, value, start)| {
-            let bound = self.bounds.get(&metric.name())?;
-            // A limit for another picture size says nothing about this one.
-            (bound
-                .size
-                .is_none_or(|size| size == self.scene.truth.size()))
-            .then_some(())?;
+            let bound = self.bounds.get(&metric)?;
             let limit = bound.limit.max(start?);
             Some((value? / limit - 1.0).max(0.0))
         });

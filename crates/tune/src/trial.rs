@@ -54,17 +54,14 @@ impl Trial {
             return Err(format!("trial {}, expected {number}", self.trial));
         }
         if !self.values.keys().eq(header.vary.keys()) {
-            let names = |names: Vec<&String>| match names.as_slice() {
-                [] => "nothing".to_owned(),
-                names => (names.iter())
-                    .map(|name| name.as_str())
-                    .collect::<Vec<_>>()
-                    .join(", "),
+            let names = |names: Vec<String>| match names.is_empty() {
+                true => "nothing".to_owned(),
+                false => names.join(", "),
             };
             return Err(format!(
                 "it changes {}, and this tuning {}",
-                names(self.values.keys().collect()),
-                names(header.vary.keys().collect())
+                names(self.values.keys().cloned().collect()),
+                names(header.vary.keys().cloned().collect())
             ));
         }
         let known = |scene: &&String| header.scenes.iter().any(|(name, _)| name == *scene);
@@ -73,11 +70,8 @@ impl Trial {
                 "it ran on {scene}, which is no scene of this tuning"
             ));
         }
-        let scores = self.scenes.values();
-        if let Some(wrong) = scores
-            .map(|score| score.flip)
-            .find(|flip| !(0.0..=1.0).contains(flip))
-        {
+        let mut flips = self.scenes.values().map(|score| score.flip);
+        if let Some(wrong) = flips.find(|flip| !(0.0..=1.0).contains(flip)) {
             return Err(format!("flip is {wrong}; allowed: 0 to 1"));
         }
         let is_whole = match self.outcome {

@@ -14,8 +14,7 @@ use crate::header::{JOURNAL_FORMAT, JournalHeader};
 use crate::held_out::{HeldOutResult, record_held_out_result};
 use crate::journal::{Journal, journal_error};
 use crate::next_trial::run_next_trial;
-use crate::objective::Objective;
-use crate::options::TuneOptions;
+use crate::options::{Objective, TuneOptions};
 use crate::pareto::{pareto_front, round_bleed};
 use crate::rendered_scene::render_scenes;
 use crate::search::Search;
@@ -78,8 +77,7 @@ pub fn tune(
     let search = make_search(options)?;
     let header = make_header(options, &evaluator, &search);
     let mut journal = Journal::open(&out.join("journal.jsonl"), &header)?;
-    check_values(options, &journal.trials)?;
-    remember_trials(&mut evaluator, options, &journal.trials);
+    remember_trials(&mut evaluator, options, &journal.trials)?;
     while journal.trials.len() < options.budget {
         if (monitor.interrupted)() {
             return Err(TraceError::Cancelled.into());
@@ -99,10 +97,15 @@ pub fn tune(
     Ok(tuning)
 }
 
-/// Refuses trials of a journal with values that the filter does not take.
-fn check_values(options: &TuneOptions, trials: &[Trial]) -> Result<(), Error> {
+/// Hands the scores of a journal to the evaluator, which then need not measure them again. Refuses trials with values that the filter
+/// does not take.
+fn remember_trials(
+    evaluator: &mut Evaluator,
+    options: &TuneOptions,
+    trials: &[Trial],
+) -> Result<(), Error> {
     for trial in trials {
-        let mut settings = options.choice.settings.clone();
+        let mut settings = options.space.start.clone();
         for (name, value) in &trial.values {
             (settings.set_value(&options.choice.filter, name, value.clone())).map_err(|error| {
                 // The header is the first line.
@@ -110,6 +113,7 @@ fn check_values(options: &TuneOptions, trials: &[Trial]) -> Result<(), Error> {
                 journal_error(&options.out.join("journal.jsonl"), line, &error.to_string())
             })?;
         }
+        evaluator.remember(&settings, &trial.scenes);
     }
     Ok(())
 }
@@ -147,23 +151,11 @@ fn make_header(options: &TuneOptions, evaluator: &Evaluator, search: &Search) ->
         vary: options.space.axes.iter().map(axis).collect(),
         design: search.design.clone(),
         scenes: evaluator.targets.iter().map(scene).collect(),
-        objectives: (options.objectives.iter())
-            .map(|objective| objective.name().to_owned())
-            .collect(),
+        objectives: options.objectives.clone(),
         cost_at_most: options.cost_at_most,
         bleed_at_most: options.bleed_at_most,
         race: options.race,
         seed: options.seed,
-    }
-}
-
-/// Hands the scores of a journal to the evaluator, which then need not measure them again.
-fn remember_trials(evaluator: &mut Evaluator, options: &TuneOptions, trials: &[Trial]) {
-    for trial in trials {
-        let settings = trial_settings(&options.space, trial);
-        for (scene, score) in &trial.scenes {
-            evaluator.remember(&settings, scene, *score);
-        }
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fs;
 
 use frame::{Frame, Truth, read_exr};
+use metrics::Metric;
 
 use super::{IDENTITY, assert_ends, bound, json, make_bounded, verdict};
 use crate::bench::{Bench, SCENE, assert_refused};
@@ -16,7 +17,7 @@ fn scores_within_their_bounds_pass() {
         "what is kept is not listed: {text}"
     );
     let case = &bench.read_filter_cases()[0];
-    let interval = case.intervals["flip_moving"];
+    let interval = case.intervals[&Metric::FLIP];
     let value = case
         .scores
         .get("flip_moving".parse().unwrap())

@@ -3,6 +3,7 @@
 use std::fs;
 
 use judge::Outcome;
+use metrics::{Metric, SequenceMetric};
 use suite::Run;
 
 use super::{IDENTITY, assert_ends, json};
@@ -40,7 +41,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     assert_ends(&single, 0, &parts);
     let not_judged = bench.read_findings();
     let outcomes = |findings: &[judge::Finding]| -> Vec<(String, Outcome)> {
-        let pairs = findings.iter().map(|own| (own.metric.clone(), own.outcome));
+        let pairs = findings.iter().map(|own| (own.metric.name(), own.outcome));
         pairs.collect()
     };
     let due = |names: [(&str, Outcome); 4]| names.map(|(name, own)| (name.to_owned(), own));
@@ -81,10 +82,10 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
         (Outcome::Broken, Some(3))
     );
     let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
-    let interval = own.intervals["flicker"];
+    let interval = own.intervals[&Metric::Sequence(SequenceMetric::Flicker)];
     assert_eq!(flicker.interval, Some(interval));
     assert!(interval.low < flicker.value.unwrap() && flicker.value.unwrap() < interval.high);
-    let worst = own.worst_frames["flicker"];
+    let worst = own.worst_frames[&Metric::Sequence(SequenceMetric::Flicker)];
     assert_eq!(flicker.worst_frame, Some(worst));
     assert_eq!(flicker.pictures, own.frames[worst as usize].folder);
     assert!(

@@ -8,12 +8,13 @@ mod tables;
 use std::fs;
 use std::time::Instant;
 
-use crate::bench::{stderr, stdout};
-use crate::links::find_pages;
 use page::{Step, find_steps};
 use quick::shorten;
 use reader::Reader;
 use tests::root;
+
+use crate::bench::{stderr, stdout};
+use crate::links::find_pages;
 
 /// Commands that are not run, and why.
 const NOT_RUN: [(&str, &str); 46] = [

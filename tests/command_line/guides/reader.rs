@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use tests::root;
+
 use super::page::{Step, find_steps};
 use crate::bench::files_below;
-use tests::root;
 
 /// A copy of what the commands of the guides need of the repository.
 pub struct Reader {

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Output, Stdio};
 
 use cli::{annotations, check_text, summary};
-use frame::{Frame, Truth};
+use frame::{Alignment, Frame, Truth};
 use judge::{CHECK_FORMAT, Check, Decision};
 use store::printable_table;
 use suite::Failure;
@@ -128,7 +128,7 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
         failures: vec![Failure {
             scene: hostile.to_owned(),
             filter: hostile.to_owned(),
-            alignment: "trailing".to_owned(),
+            alignment: Alignment::Trailing,
             reason: hostile.to_owned(),
         }],
         findings: Vec::new(),

@@ -7,11 +7,11 @@ mod use_of_folders;
 
 use std::fs;
 
+use capture::{Capture, SIZE};
 use frame::{FAR_DEPTH, Frame, Truth, VelocityKind};
 use metrics::{Measured, Metric};
 
 use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stdout};
-use capture::{Capture, SIZE};
 
 /// Name of the scene in every table.
 const NAME: &str = "mine@Test_Engine_1.2";

@@ -94,7 +94,7 @@ fn folders_that_are_no_captures_are_refused() {
         ),
         (
             "engine = \"e\"\nalignment = \"late\"",
-            ["capture.toml:2:", "trailing, centred, leading"],
+            ["capture.toml:2:", "`trailing`, `centred`, `leading`"],
         ),
         (
             "engine = \"e\"\nexposure = 0.0\n",

@@ -43,7 +43,7 @@ fn answer(
         };
         Answer {
             scene: study.scenes[pair.scene].clone(),
-            alignment: shutter.alignment.clone(),
+            alignment: shutter.alignment,
             left: name(pair.left),
             right: name(pair.right),
             choice: choose(pair, index),

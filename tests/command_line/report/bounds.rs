@@ -1,5 +1,7 @@
 //! Bounds on the page of a finished run.
 
+use metrics::Metric;
+
 use super::{between, filter_case, find_article, make_page};
 use crate::bench::{Bench, assert_done, quick_command, stdout};
 
@@ -19,7 +21,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
 
     assert!(page.contains("2 required bounds: 1 broken, 0 too noisy to decide."));
     // The estimate without the truth's noise, with its interval.
-    let interval = &case.intervals["flip_moving"];
+    let interval = &case.intervals[&Metric::FLIP];
     let flip = interval.center;
     let cell = format!(
         "<td class=\"required\" data-value=\"{flip}\"><a class=\"case\" href=\"#plate/identity:default\">\

@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::fs;
 
+use metrics::Metric;
+
 use super::{WORDS, address, between, find_article, make_page, panel, planes};
 use crate::bench::{Bench, assert_done, assert_refused, split};
 
@@ -34,7 +36,7 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
     }
     let ranking = between(&page, "aria-label=\"FLIP of every case\"", "</table>")[0];
     let mut means: Vec<_> = (run.overall.iter())
-        .filter(|mean| mean.metric == "flip_moving")
+        .filter(|mean| mean.metric == Metric::FLIP)
         .collect();
     means.sort_by(|a, b| a.mean.total_cmp(&b.mean));
     assert_eq!(means.len(), 9, "seven references and two filters");

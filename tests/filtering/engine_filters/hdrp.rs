@@ -1,10 +1,9 @@
 //! The presets of Unity HDRP.
 
-use tests::random::Random;
-
 use tests::picture::{
     BLACK_WALL, Picture, Surface, column, light, moving_edge, ramp_length, white,
 };
+use tests::random::Random;
 
 #[test]
 fn an_intensity_of_one_is_a_shutter_of_180_degrees() {

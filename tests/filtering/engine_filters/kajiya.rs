@@ -1,11 +1,10 @@
 //! The preset of kajiya.
 
-use tests::random::Random;
-
 use tests::picture::{
     BLACK_WALL, Picture, Surface, column, light_above, moving_edge, ramp_length, slow_above_fast,
     white,
 };
+use tests::random::Random;
 
 #[test]
 fn kajiya_smears_seven_sixteenths_of_the_motion() {

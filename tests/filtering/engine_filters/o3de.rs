@@ -1,8 +1,7 @@
 //! The preset of the Open 3D Engine.
 
-use tests::random::Random;
-
 use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_length, white};
+use tests::random::Random;
 
 #[test]
 fn o3de_smears_ten_times_as_far_as_the_exposure() {

@@ -17,10 +17,9 @@ use std::path::{Path, PathBuf};
 
 use filters::{Blur, Filter, FilterError, Input, Settings};
 use frame::Image;
-use tests::open_gpu;
 use tests::picture::{Picture, Surface};
-use tests::root;
 use tests::text::assert_contains;
+use tests::{open_gpu, root};
 
 use super::folders::example;
 

@@ -6,12 +6,12 @@ mod paper;
 mod way_back;
 
 use filters::{Blur, Filter, Gpu, Settings, Value};
-
-use crate::fields::{Field, noise, rectangles};
 use flood::Chosen;
 use paper::{Jitter, Paper, Reference};
 use tests::open_gpu;
 use way_back::Source;
+
+use crate::fields::{Field, noise, rectangles};
 
 /// Makes fields of odd sizes, wide and tall; two of random pixels, two of objects.
 fn fields() -> Vec<(&'static str, Field)> {

@@ -8,10 +8,10 @@ mod tiles;
 
 use filters::{Blur, Filter, Settings, Value};
 use frame::{Image, Raster};
-
-use crate::fields::{self, Field, rectangles};
 use tests::open_gpu;
 use tiles::{Tiles, Vec2, length};
+
+use crate::fields::{self, Field, rectangles};
 
 /// Makes fields of odd sizes, wide and tall, none a multiple of a tile; two of random pixels, two of objects over a
 /// slow background.

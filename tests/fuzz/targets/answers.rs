@@ -1,16 +1,16 @@
 //! Files of people's answers, which the page of `ask` writes and `preferences` reads.
 
 use cli::preferences_table;
+use frame::Alignment;
 use study::{
     ANSWERS_FORMAT, Answer, AnswerFile, Chosen, Clip, DisplayFacts, Question, SHARP_CLIP,
     ShownPair, Study, StudyShutter, TRUTH_CLIP, draw_session, find_preferences, read_sessions,
 };
 use suite::Frames;
 
-use crate::huge;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// A file of answers, alone and beside one that is as it should be.
 pub static TARGET: Target = Target {
@@ -70,7 +70,7 @@ fn study() -> Study {
         frames: Frames::default(),
         scenes: vec!["plate".to_owned(), "fan".to_owned()],
         shutters: vec![StudyShutter {
-            alignment: "centred".to_owned(),
+            alignment: Alignment::Centred,
             filters: filters.map(str::to_owned).to_vec(),
             truth_hashes: vec![vec!["0".repeat(64)], vec!["1".repeat(64)]],
             blurred_scenes: vec![0],
@@ -89,7 +89,7 @@ fn answer(study: &Study, shown: ShownPair) -> Answer {
     };
     Answer {
         scene: study.scenes[shown.scene].clone(),
-        alignment: own.alignment.clone(),
+        alignment: own.alignment,
         left: name(shown.left),
         right: name(shown.right),
         choice: Chosen::Left,

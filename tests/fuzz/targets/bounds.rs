@@ -9,11 +9,10 @@ use judge::{
 use suite::{Frames, Run};
 
 use super::run_json::of;
-use crate::huge;
 use crate::place::Place;
 use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// bounds.toml beside the scenes, and beside a scene.
 pub static TARGET: Target = Target {

@@ -5,11 +5,10 @@ use std::path::PathBuf;
 use cli::{Programs, select_filters};
 use filters::Filter;
 
-use crate::huge;
 use crate::place::Place;
 use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// filter.toml.
 pub static MANIFEST: Target = Target {

@@ -6,11 +6,10 @@ use std::path::Path;
 use serde_json::Value;
 use store::{Manifest, PACK_FORMAT, Pack, PackedFile};
 
-use crate::huge;
 use crate::place::Place;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// Where the files of a pack lie.
 const PATHS: [&str; 3] = [

@@ -10,14 +10,14 @@ use judge::{
     Acceptance, Baseline, Finding, Judgement, Margin, RunBounds, Side, accept_scores, add_evidence,
     check, compare_runs, compare_with_baseline, judge, read_bounds,
 };
+use metrics::{Metric, ObjectMetric};
 use report::{LARGEST_PAGE, compare_page, write_report};
 use suite::{Run, write_layers};
 
-use crate::huge;
 use crate::place::Place;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// run.json.
 pub static RUN: Target = Target {
@@ -159,14 +159,18 @@ fn accept_run(run: &Run, old: Option<Baseline>) {
     }
 }
 
-fn margins() -> BTreeMap<String, Margin> {
-    let metrics = ["flip_moving", "skill_flip", "extent"];
+fn margins() -> BTreeMap<Metric, Margin> {
+    let metrics = [
+        Metric::FLIP,
+        Metric::SKILL,
+        Metric::Object(ObjectMetric::Extent),
+    ];
     let margins = metrics.map(|metric| {
         let margin = Margin {
             width: 0.01,
             place: "bounds.toml:1".to_owned(),
         };
-        (metric.to_owned(), margin)
+        (metric, margin)
     });
     margins.into()
 }

@@ -9,11 +9,10 @@ use frame::{Alignment, FrameOptions, Image, VelocityKind};
 use tracer::{RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
 
 use super::none;
-use crate::huge;
 use crate::place::Place;
 use crate::seeds::{Seed, read_shipped};
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// scene.toml.
 pub static SCENE: Target = Target {

@@ -5,11 +5,10 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::thread;
 
 use crate::fixture::{PROGRAM, RENDER};
-use crate::huge;
 use crate::place::Place;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// Lines of standard input to a running program.
 pub static TARGET: Target = Target {

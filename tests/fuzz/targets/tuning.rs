@@ -6,10 +6,9 @@ use report::{TuneFolder, tuning_page};
 use tune::Journal;
 
 use super::run_json::of;
-use crate::huge;
 use crate::seeds::Seed;
 use crate::target::{Shape, Target};
-use crate::tokens;
+use crate::{huge, tokens};
 
 /// journal.jsonl.
 pub static JOURNAL: Target = Target {

@@ -7,15 +7,14 @@ mod defects;
 use std::path::PathBuf;
 
 use cli::{Programs, select_filters, select_scenes};
+use defects::{DEFECTS, Defect};
 use filters::Gpu;
 use judge::{Check, Decision, RunBounds, check, judge};
-use metrics::BoundMetric;
+use metrics::Metric;
 use suite::{Case, FilterChoice, InputFormat, Monitor, Run, RunPlan, measure_scenes, open_gpu};
 use tests::filter_folder::copy_changed_filter;
 use tests::limits::calibrate_scene;
 use tracer::{RenderSettings, Scene};
-
-use defects::{DEFECTS, Defect};
 
 /// Scenes: one thing that slides, far and at an angle; two that pass one another; many that turn, fly and hide one
 /// another; many that cross; some that leave the picture; thin ones.
@@ -81,7 +80,7 @@ impl Bench {
         let runs: Vec<Run> = (CALIBRATED_WITH.into_iter())
             .map(|seed| bench.run(choices(filters.iter().map(|name| (*name).to_owned())), seed))
             .collect();
-        let metrics = METRICS.map(|name| name.parse::<BoundMetric>().unwrap());
+        let metrics = METRICS.map(|name| name.parse::<Metric>().unwrap());
         for name in NAMES {
             let bounds = calibrate_scene(&runs, &metrics, name);
             bench.bounds.insert(name.to_owned(), bounds);

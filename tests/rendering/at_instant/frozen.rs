@@ -1,8 +1,5 @@
 //! Shading at the instant: the frozen colour of a truth.
 
-use super::{
-    DISTANCE, EXPOSURE, HEIGHT, SPEED, WIDTH, panel_over_wall, render_truth, render_truth_with,
-};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use frame::Alignment;
@@ -10,6 +7,10 @@ use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{Background, Finish, Key, Material, Motion, RenderSettings, Sun, trace_frame};
+
+use super::{
+    DISTANCE, EXPOSURE, HEIGHT, SPEED, WIDTH, panel_over_wall, render_truth, render_truth_with,
+};
 
 #[test]
 fn the_frozen_truth_of_a_still_scene_equals_its_truth() {

@@ -1,15 +1,16 @@
 //! Places at the instant, and parts that no frame can know.
 
-use super::{
-    DISTANCE, EXPOSURE, HEIGHT, SPEED, STEP_ERROR, WIDTH, for_each_column, mean_over,
-    panel_over_wall, render_truth,
-};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use frame::{Alignment, AtInstant};
 use glam::DVec3;
 use tests::shapes::*;
 use tracer::{Key, Motion, Turn};
+
+use super::{
+    DISTANCE, EXPOSURE, HEIGHT, SPEED, STEP_ERROR, WIDTH, for_each_column, mean_over,
+    panel_over_wall, render_truth,
+};
 
 #[test]
 fn uncovered_background_and_pixels_beyond_the_border_are_unknowable() {

@@ -9,7 +9,6 @@ use frame::{
     Accumulation, Alignment, AtInstant, Channel, ExrFile, FileError, Frame, Ladder, Samples, Truth,
     read_exr, rung_file, write_atomically, write_exr,
 };
-
 use made::{HEIGHT, WIDTH, a_frame, a_truth, image, objects, picture, plane, profiles, provenance};
 
 #[test]

@@ -5,8 +5,7 @@ use std::cell::OnceCell;
 use filters::{Blur, Filter, Gpu, Input};
 use frame::{Alignment, Frame, Image, Picture, Truth};
 use metrics::{Metric, Reference, Scores};
-use tests::open_gpu;
-use tests::unwatched;
+use tests::{open_gpu, unwatched};
 use tracer::{RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 
 /// Settings of a small frame and its truths. The two replicates of a truth share as many samples as the frame has.

@@ -1,9 +1,9 @@
 //! Materials and textures from MTL and picture files.
 
+use glam::Vec3;
 use tracer::{Material, Translucency};
 
 use crate::scene_folder::{Folder, SCENE};
-use glam::Vec3;
 
 #[test]
 fn a_material_can_change_for_one_object_only() {

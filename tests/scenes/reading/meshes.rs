@@ -1,9 +1,9 @@
 //! Meshes, groups and key shapes from OBJ files.
 
+use glam::{Vec2, Vec3};
 use tracer::load_scene;
 
 use crate::scene_folder::{Folder, MTL, OBJ};
-use glam::{Vec2, Vec3};
 
 #[test]
 fn a_group_is_a_mesh_of_its_own_and_faces_keep_their_materials() {

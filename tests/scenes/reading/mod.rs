@@ -5,10 +5,10 @@ mod meshes;
 mod motions;
 
 use frame::{Efficiency, ShutterProfile};
+use glam::DVec3;
 use tracer::{Background, Family, Interpolation, Parent, load_scene};
 
 use crate::scene_folder::{Folder, OBJ, SCENE};
-use glam::DVec3;
 
 #[test]
 fn the_documented_example_loads() {

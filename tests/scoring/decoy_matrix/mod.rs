@@ -4,14 +4,14 @@
 mod decoys;
 mod scenes;
 
+use decoys::{APART, decoys};
 use frame::Picture;
 use judge::{Bounds, Outcome, judge_scores, read_bounds_file};
 use metrics::{Measured, Metric, Reference, Scores};
+use scenes::scenes;
 use tests::synthetic::{Blur, Scene, VIEWING};
 
 use crate::noisy;
-use decoys::{APART, decoys};
-use scenes::scenes;
 
 /// Reads the bounds of every filter on every scene, required or not.
 fn shared_bounds() -> Bounds {
@@ -60,7 +60,7 @@ fn broken_bounds(scores: &Scores, bounds: &Bounds) -> Vec<String> {
     let judged = judge_scores(scores, None, bounds).into_iter();
     judged
         .filter_map(|judged| match judged.outcome {
-            Outcome::Broken => Some(judged.metric),
+            Outcome::Broken => Some(judged.metric.name()),
             Outcome::Kept | Outcome::NotApplicable => None,
             other => panic!("{}: {other:?}", judged.metric),
         })

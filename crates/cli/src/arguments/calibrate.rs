@@ -1,9 +1,7 @@
 //! Arguments of `calibrate`.
 
-use std::str::FromStr;
-
 use clap::Args;
-use metrics::BoundMetric;
+use metrics::Metric;
 
 use super::measure::MeasureArgs;
 use super::parse::parse_runs;
@@ -28,6 +26,6 @@ pub struct CalibrateArgs {
     )]
     pub adapters: Vec<String>,
     /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination; with --frames all of sequences too].
-    #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = BoundMetric::from_str)]
-    pub metrics: Vec<BoundMetric>,
+    #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::parse_bounded)]
+    pub metrics: Vec<Metric>,
 }

@@ -187,7 +187,7 @@ fn parse_speed(text: &str, unit: &str, example: &str) -> Result<f64, String> {
 
 /// Parses an objective of a search.
 pub fn parse_objective(text: &str) -> Result<Objective, String> {
-    (Objective::ALL.into_iter())
+    (Objective::ALL.iter().copied())
         .find(|objective| objective.name() == text)
         .ok_or_else(|| "allowed: flip, bleed, cost".to_owned())
 }

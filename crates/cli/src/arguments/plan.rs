@@ -1,7 +1,6 @@
 //! Arguments of `plan`.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::Args;
 use metrics::Metric;
@@ -24,7 +23,7 @@ pub struct PlanArgs {
     #[arg(help_heading = "Jobs", long, value_name = "K", value_parser = parse_runs, conflicts_with_all = ["frames", "fps", "intervals", "common", "adapter"])]
     pub runs: Option<u32>,
     /// Metrics of the calibration, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination].
-    #[arg(help_heading = "Jobs", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::from_str, requires = "runs")]
+    #[arg(help_heading = "Jobs", long, value_delimiter = ',', value_name = "METRICS", value_parser = parse_frame_metric, requires = "runs")]
     pub metrics: Vec<Metric>,
     /// Folder for the truths and the parts of all jobs [default: parts in --out].
     #[arg(help_heading = "Jobs", long, value_name = "DIR")]
@@ -32,4 +31,14 @@ pub struct PlanArgs {
     /// Print one line of JSON per job: job, arguments, inputs, outputs, cpu_seconds, and memory in bytes.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
+}
+
+/// Reads the name of a score of single frames, of which calibrations are planned.
+fn parse_frame_metric(text: &str) -> Result<Metric, String> {
+    match Metric::parse_bounded(text)? {
+        Metric::Sequence(_) => {
+            Err("is a score of a sequence, and single frames are planned".to_owned())
+        }
+        metric => Ok(metric),
+    }
 }

@@ -1,7 +1,7 @@
 //! The command `calibrate`.
 
 use judge::{BOUNDS_FILE, bound_subframes, calibrate, check_names};
-use metrics::{BoundMetric, Metric};
+use metrics::Metric;
 use store::printable_path;
 use suite::{Error, Run, RunPlan, estimate_run, measure_scenes, open_gpu, refuse_failures};
 use tracer::{Progress, Watch};
@@ -33,8 +33,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     plan.jitter_frames = 0;
     plan.ladders = match args.metrics.as_slice() {
         [] => bound_subframes(bounds.values(), &plan.filters),
-        metrics => (metrics.iter())
-            .any(|metric| matches!(metric, BoundMetric::Frame(Metric::Equivalent(_)))),
+        metrics => (metrics.iter()).any(|metric| matches!(metric, Metric::Equivalent(_))),
     };
     check_names(
         &args.measure.scenes.scenes_dir,
@@ -66,7 +65,7 @@ fn print_expected_runs(args: &CalibrateArgs, plan: &RunPlan) {
 
 /// Refuses metrics of sequences where single frames are measured.
 fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
-    let is_of_sequence = |metric: &&BoundMetric| matches!(metric, BoundMetric::Sequence(_));
+    let is_of_sequence = |metric: &&Metric| matches!(metric, Metric::Sequence(_));
     match args.metrics.iter().find(is_of_sequence) {
         Some(metric) if args.sequence.frames().is_one() => Err(Error::Usage(format!(
             "--metrics: {metric} is a score of a sequence, and single frames would be measured; say of how many frames with \

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use frame::FileError;
 use judge::{
     BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
-    check_lengths, check_names, compare_with_baseline, is_of_subframes, judge, require_bounds,
-    size_for_bounds,
+    check_lengths, check_names, compare_with_baseline, judge, require_bounds, size_for_bounds,
 };
+use metrics::Metric;
 use store::{printable_path, refuse_tracked};
 use suite::{Error, Run, open_gpu};
 use tracer::Location;
@@ -117,7 +117,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     plan.check()?;
     plan.intervals = true;
     plan.ladders = bound_subframes(bounds.values(), &plan.filters)
-        || margins.keys().any(|name| is_of_subframes(name));
+        || (margins.keys()).any(|metric| matches!(metric, Metric::Equivalent(_)));
     check_replicates_for_intervals(plan.render.replicates)?;
     let root = &args.measure.scenes.scenes_dir;
     check_names(root, bounds.values(), &plan.filters)?;

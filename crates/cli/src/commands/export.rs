@@ -1,6 +1,6 @@
 //! The command `export`.
 
-use engine::{ExportError, Manifest, export_gltf};
+use engine::{Manifest, export_gltf};
 use store::printable_path;
 use suite::{Error, PROGRAM};
 
@@ -20,8 +20,7 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
     let mut text = String::new();
     for choice in &choices {
         let folder = args.gltf.join(&choice.scene.name);
-        let manifest =
-            export_gltf(&choice.scene, &choice.folder, PROGRAM, &folder).map_err(word_error)?;
+        let manifest = export_gltf(&choice.scene, &choice.folder, PROGRAM, &folder)?;
         text += &describe(&manifest, &printable_path(&folder));
     }
     print(&text)
@@ -47,11 +46,4 @@ fn describe(manifest: &Manifest, folder: &str) -> String {
         manifest.instant,
         manifest.previous,
     )
-}
-
-fn word_error(error: ExportError) -> Error {
-    match error {
-        ExportError::File(error) => error.into(),
-        error => Error::Usage(error.to_string()),
-    }
 }

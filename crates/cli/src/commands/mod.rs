@@ -45,11 +45,10 @@ mod try_filters;
 mod tune;
 mod verify;
 
-use suite::Error;
-
 pub use self::ending::Ending;
 use self::threads::work_on_threads;
 use crate::arguments::{Cli, Command};
+use suite::Error;
 
 /// Executes the command.
 pub fn execute(cli: Cli) -> Result<Ending, Error> {

@@ -87,7 +87,7 @@ fn leave_out_filters(
 ) -> Result<Vec<FilterChoice>, Error> {
     let mut taken = vec![false; filters.len()];
     for scene in engine_scenes {
-        let alignment = scene.alignment();
+        let alignment = scene.alignment;
         let mut left_out = [0, 0];
         for (choice, taken) in filters.iter().zip(&mut taken) {
             match (

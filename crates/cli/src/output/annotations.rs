@@ -112,7 +112,7 @@ fn summary_row(finding: &Finding) -> String {
 /// Names the metric, and the length of the sequence.
 fn metric_cell(finding: &Finding) -> String {
     match length_text(finding) {
-        None => finding.metric.clone(),
+        None => finding.metric.name(),
         Some(length) => format!("{} over {length}", finding.metric),
     }
 }

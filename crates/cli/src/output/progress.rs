@@ -7,11 +7,10 @@ use std::sync::{LazyLock, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
-use terminal_size::{Width, terminal_size_of};
-use tracer::Progress;
-
 use store::printable;
 use suite::{Monitor, Step};
+use terminal_size::{Width, terminal_size_of};
+use tracer::Progress;
 
 use super::interrupts::was_interrupted;
 use super::print::print_error;

@@ -1,7 +1,6 @@
 //! Tables of a bench.
 
 use filters::Clock;
-
 use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, ReachCost, Spread};
 
 use super::columns::number_table;

@@ -1,9 +1,9 @@
 //! Table of a run: one row per case.
 
 use judge::lag_text;
-use metrics::Scores;
+use metrics::{Metric, Scores};
 use store::printable;
-use suite::{Case, Headline, Run};
+use suite::{Case, Run};
 
 use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::Table;
@@ -12,13 +12,13 @@ use super::scene_means::means_table;
 use crate::output::colors;
 
 const CASE_COLUMNS: [Column; 7] = [
-    ("FLIP", Headline::FLIP),
-    ("skill", Headline::SKILL),
-    ("grow", Headline::GROWTH),
-    ("loss", Headline::LOSS),
-    ("bleed", Headline::Bleed),
-    ("TV", Headline::LABEL),
-    ("N_eq", Headline::SUBFRAMES),
+    ("FLIP", Metric::FLIP),
+    ("skill", Metric::SKILL),
+    ("grow", Metric::GROWTH),
+    ("loss", Metric::LOSS),
+    ("bleed", Metric::Bleed),
+    ("TV", Metric::LABEL),
+    ("N_eq", Metric::SUBFRAMES),
 ];
 
 /// Title of FLIP against the shutter that all cases are compared with.
@@ -30,15 +30,15 @@ pub fn run_table(run: &Run) -> String {
     let mut missing = Missing::default();
     for scene in list_once(run.cases.iter().map(|case| case.scene.as_str())) {
         let of_scene = || run.cases.iter().filter(|case| case.scene == scene);
-        for alignment in list_once(of_scene().map(|case| case.alignment.as_str())) {
+        for alignment in list_once(of_scene().map(|case| case.alignment)) {
             table.push_text(&colors::heading(&format!("{scene}, {alignment} shutter")));
             for case in of_scene().filter(|case| case.alignment == alignment) {
                 let row = bracket_name(&case.name(), case.is_reference);
                 let mut cells = case_cells(&row, &case.scores);
-                cells.extend([noise_cell(case), Headline::CommonFlip.text(case)]);
+                cells.extend([noise_cell(case), case.score_text(Metric::CommonFlip)]);
                 let columns = CASE_COLUMNS.into_iter();
-                for (title, headline) in columns.chain([(COMMON_FLIP, Headline::CommonFlip)]) {
-                    missing.note(title, &headline.measured(case), [scene, &row]);
+                for (title, metric) in columns.chain([(COMMON_FLIP, Metric::CommonFlip)]) {
+                    missing.note(title, &case.measured(metric), [scene, &row]);
                 }
                 table.push_styled(cells, row_style(case.is_reference));
             }
@@ -83,7 +83,7 @@ fn case_table(title: &str, more: &[&str]) -> Table {
 fn case_cells(name: &str, scores: &Scores) -> Vec<String> {
     let texts = CASE_COLUMNS
         .iter()
-        .map(|(_, headline)| headline.text_of_scores(scores));
+        .map(|(_, metric)| scores.text(*metric, scores.get(*metric).value()));
     std::iter::once(name.to_owned()).chain(texts).collect()
 }
 

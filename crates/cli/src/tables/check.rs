@@ -4,13 +4,13 @@ use std::fmt::Write;
 use std::path::Path;
 
 use judge::{BaselineComparison, Check, Decision, Finding, Level, Outcome, number};
+use report::{finding_score, finding_status, length_text, way_out, worst_frame_text};
 use store::printable_path;
 
 use crate::output::colors::{bad, doubtful, good, heading};
 use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
 use crate::tables::failures::failures_text;
-use report::{finding_score, finding_status, length_text, way_out, worst_frame_text};
 
 /// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then comparisons, then counts. Targets, which
 /// fail nothing, are listed where `targets` asks for them. `out` is the folder of the run's pictures.

@@ -1,13 +1,13 @@
 //! Parts that tables of cases and tables of means share.
 
-use suite::Headline;
+use metrics::Metric;
 
 use super::layout::{Align, Table};
 use crate::output::colors;
 use crate::output::wrap::push_wrapped;
 
 /// A column: its title and its score.
-pub type Column = (&'static str, Headline);
+pub type Column = (&'static str, Metric);
 
 /// Puts the names of references into brackets: they are no filters.
 pub fn bracket_name(name: &str, is_reference: bool) -> String {
@@ -39,8 +39,8 @@ pub fn number_table(titles: &[&str]) -> Table {
     Table::new(titles, &align)
 }
 
-/// Lists each text once, in order.
-pub fn list_once<'a>(all: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+/// Lists each thing once, in order.
+pub fn list_once<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     let mut listed = Vec::new();
     for one in all {
         if !listed.contains(&one) {

@@ -3,13 +3,14 @@
 use judge::{
     Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, rank_changes,
 };
+use metrics::Metric;
+use report::ChangeCells;
 use store::printable;
 
 use super::layout::{Align, Table};
 use crate::output::colors::{bad, doubtful, faint, good};
 use crate::output::count::count_text;
 use crate::output::wrap::push_wrapped;
-use report::ChangeCells;
 
 /// Upper limit on changed cases in the table; `--json` and the page have all.
 const CASES: usize = 12;
@@ -67,7 +68,7 @@ fn means_table(means: &[MeanChange]) -> String {
             MeanKind::Worse => bad,
             _ => doubtful,
         };
-        push_change(&mut table, &mean.metric, mean.into(), style);
+        push_change(&mut table, mean.metric, mean.into(), style);
     }
     let mut text = match filter {
         "" => String::new(),
@@ -109,7 +110,7 @@ fn changes_table(changes: &[Change]) -> String {
                 ChangeKind::Better => good,
                 _ => bad,
             };
-            push_change(&mut table, &change.metric, change.into(), style);
+            push_change(&mut table, change.metric, change.into(), style);
         }
     }
     let mut text = "\n".to_owned() + &table.text();
@@ -135,9 +136,9 @@ fn change_table(title: &str) -> Table {
     )
 }
 
-fn push_change(table: &mut Table, metric: &str, cells: ChangeCells, style: fn(&str) -> String) {
+fn push_change(table: &mut Table, metric: Metric, cells: ChangeCells, style: fn(&str) -> String) {
     table.push(vec![
-        metric.to_owned(),
+        metric.name(),
         cells.first,
         cells.second,
         style(&cells.change),

@@ -1,6 +1,7 @@
 //! Table of what filters score at each frame rate.
 
-use suite::{Case, Headline, InputFormat};
+use metrics::Metric;
+use suite::{Case, InputFormat};
 use tracer::FrameRate;
 
 use super::columns::{legend_text, list_once, number_table};
@@ -95,11 +96,9 @@ fn mean_flip(cases: &[Case], row: &Row, name: &str) -> String {
     let of_row =
         |case: &&Case| case.rate == row.rate && (case.input == row.input || case.is_reference);
     let own = (cases.iter().filter(of_row)).filter(|case| column(case).as_deref() == Some(name));
-    let flips: Vec<f64> = own
-        .filter_map(|case| Headline::FLIP.estimate(case))
-        .collect();
+    let flips: Vec<f64> = own.filter_map(|case| case.estimate(Metric::FLIP)).collect();
     match flips.len() {
         0 => "n/a".to_owned(),
-        count => Headline::FLIP.number(flips.iter().sum::<f64>() / count as f64),
+        count => Metric::FLIP.number(flips.iter().sum::<f64>() / count as f64),
     }
 }

@@ -1,7 +1,8 @@
 //! Table of what each form of the input costs each filter.
 
 use judge::list_summarized;
-use suite::{Case, Headline, InputFormat, ShutterRule};
+use metrics::Metric;
+use suite::{Case, InputFormat, ShutterRule};
 
 use super::columns::{legend_text, list_once, number_table};
 
@@ -54,7 +55,7 @@ pub fn input_forms_text(cases: &[Case]) -> String {
 
 /// Averages the change of FLIP over the scenes that have both scores.
 fn mean_cost(cases: &[&Case], full: &[&Case], name: &str, change: &str) -> Option<f64> {
-    let flip = |case: &Case| Headline::FLIP.estimate(case);
+    let flip = |case: &Case| case.estimate(Metric::FLIP);
     let of_scene = |own: &&&Case| {
         let changed = format!("{name} {change}");
         let other =

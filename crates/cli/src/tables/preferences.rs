@@ -154,7 +154,7 @@ fn score_table(scores: &[ScoreAgreement]) -> String {
     for own in scores {
         let percent = |share: f64| format!("{:.0}", 100.0 * share);
         table.push(vec![
-            own.score.clone(),
+            own.score.name(),
             own.correlation.map_or_else(none, signed),
             own.correlation_interval
                 .map_or_else(none, |ends| range(ends.map(signed))),

@@ -1,8 +1,9 @@
 //! Summary of a run: the ranking of its filters, and the references beside them.
 
+use frame::Alignment;
 use judge::{MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, rank_for_summary};
-use suite::{Case, Headline};
-
+use metrics::Metric;
+use suite::Case;
 use tracer::FrameRate;
 
 use super::columns::{legend_text, list_once};
@@ -51,11 +52,11 @@ fn limit_rows(groups: &mut [Vec<RankedFilter>], rows: usize) -> usize {
 
 /// Names the shutter of a group: `centred shutter`, with the frame rate if it is none of the scenes' files.
 pub fn group_text(ranked: &RankedFilter) -> String {
-    shutter_text(&ranked.alignment, ranked.rate)
+    shutter_text(ranked.alignment, ranked.rate)
 }
 
 /// Names a shutter and a frame rate.
-pub fn shutter_text(alignment: &str, rate: Option<FrameRate>) -> String {
+pub fn shutter_text(alignment: Alignment, rate: Option<FrameRate>) -> String {
     let rate = rate.map_or(String::new(), |rate| format!(", {}", rate.text()));
     format!("{alignment} shutter{rate}")
 }
@@ -91,7 +92,7 @@ pub fn ranked_name(ranked: &RankedFilter) -> String {
 
 /// ` 2-4 jimenez:hdrp`, its FLIP, the interval, and the worst scene.
 fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
-    let number = |value: f64| Headline::FLIP.number(value);
+    let number = |value: f64| Metric::FLIP.number(value);
     let interval = match ranked.interval {
         Some([low, high]) => format!("{} to {}", number(low), number(high)),
         None => "-".to_owned(),
@@ -116,13 +117,13 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     if names.is_empty() {
         return String::new();
     }
-    let shutters: Vec<(&str, Option<FrameRate>)> = groups
+    let shutters: Vec<(Alignment, Option<FrameRate>)> = groups
         .iter()
-        .map(|group| (group[0].alignment.as_str(), group[0].rate))
+        .map(|group| (group[0].alignment, group[0].rate))
         .collect();
     let columns: Vec<String> = (shutters.iter())
         .map(|(alignment, rate)| match rate {
-            None => (*alignment).to_owned(),
+            None => alignment.to_string(),
             Some(rate) => format!("{alignment} {}", rate.word()),
         })
         .collect();
@@ -133,7 +134,7 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
         .chain(columns.iter().map(|_| Align::Right))
         .collect();
     let mut table = Table::new(&titles, &align);
-    let of_shutter = |(alignment, rate): &(&str, Option<FrameRate>)| -> Vec<&Case> {
+    let of_shutter = |(alignment, rate): &(Alignment, Option<FrameRate>)| -> Vec<&Case> {
         let is_own = |case: &&Case| case.alignment == *alignment && case.rate == *rate;
         references().filter(is_own).collect()
     };
@@ -148,7 +149,7 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     }
     let lags: Vec<Option<f64>> = of_shutters.iter().map(|own| mean_lag(own)).collect();
     if lags.iter().any(Option::is_some) {
-        let text = |lag: &Option<f64>| lag.map_or("-".to_owned(), |lag| Headline::FLIP.number(lag));
+        let text = |lag: &Option<f64>| lag.map_or("-".to_owned(), |lag| Metric::FLIP.number(lag));
         push(LAG, lags.iter().map(text).collect());
     }
     table.text()
@@ -156,11 +157,11 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
 
 fn mean_flip<'a>(cases: impl Iterator<Item = &'a &'a Case>) -> String {
     let values: Vec<f64> = cases
-        .filter_map(|case| Headline::FLIP.estimate(case))
+        .filter_map(|case| case.estimate(Metric::FLIP))
         .collect();
     match values.len() {
         0 => "n/a".to_owned(),
-        count => Headline::FLIP.number(values.iter().sum::<f64>() / count as f64),
+        count => Metric::FLIP.number(values.iter().sum::<f64>() / count as f64),
     }
 }
 

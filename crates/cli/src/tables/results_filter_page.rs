@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use filters::Filter;
 use judge::{RankedFilter, ResultScores, Results};
-use suite::Headline;
+use metrics::Metric;
 use tracer::{Location, SceneListing, list_scenes};
 
 use super::results_page::{cost_text, list_filters, main_results, mean, sealed_of};
@@ -97,11 +97,11 @@ fn push_scores(page: &mut String, name: &str, results: &Results, sealed: Option<
 fn worst_scenes(name: &str, results: &Results) -> String {
     let own = results.scores.iter().filter(|own| own.name == name);
     let mut errors: Vec<(&str, f64)> = own
-        .filter_map(|own| Some((own.scene.as_str(), own.score(Headline::FLIP)?)))
+        .filter_map(|own| Some((own.scene.as_str(), own.score(Metric::FLIP)?)))
         .collect();
     errors.sort_by(|a, b| b.1.total_cmp(&a.1));
     let texts: Vec<String> = (errors.iter().take(WORST))
-        .map(|(scene, error)| format!("{scene} {}", Headline::FLIP.number(*error)))
+        .map(|(scene, error)| format!("{scene} {}", Metric::FLIP.number(*error)))
         .collect();
     texts.join(", ")
 }

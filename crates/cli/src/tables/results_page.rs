@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_with_last};
-use suite::{Error, FEWEST_SCENES, Headline};
+use metrics::Metric;
+use suite::{Error, FEWEST_SCENES};
 use tracer::{Family, Location, list_scenes};
 
 use super::columns::list_once;
@@ -91,9 +93,8 @@ fn push_size(
     }
     let sealed_groups = sealed.map(|sealed| sealed.ranking(None));
     for group in results.ranking(None) {
-        let alignment = &group[0].alignment;
-        let others =
-            (sealed_groups.iter().flatten()).find(|other| other[0].alignment == *alignment);
+        let alignment = group[0].alignment;
+        let others = (sealed_groups.iter().flatten()).find(|other| other[0].alignment == alignment);
         let _ = write!(page, "\n### {width}x{height}, {alignment} shutter\n\n");
         let beside = Beside {
             sealed: others.map(Vec::as_slice),
@@ -183,7 +184,7 @@ fn ranking_row(ranked: &RankedFilter, beside: &Beside) -> Vec<String> {
         cells.push(cost.map_or("-".to_owned(), cost_text));
     }
     let (scene, worst) = &ranked.worst;
-    cells.push(format!("{scene} {}", Headline::FLIP.number(*worst)));
+    cells.push(format!("{scene} {}", Metric::FLIP.number(*worst)));
     cells
 }
 
@@ -197,7 +198,7 @@ pub(super) fn cost_text(cost: &ResultCost) -> String {
 }
 
 pub(super) fn mean(ranked: &RankedFilter) -> String {
-    let number = |value| Headline::FLIP.number(value);
+    let number = |value| Metric::FLIP.number(value);
     match ranked.interval {
         Some([low, high]) => {
             format!(
@@ -216,9 +217,9 @@ fn push_agreement(
     page: &mut String,
     results: &Results,
     sealed: &Results,
-    alignment: &str,
+    alignment: Alignment,
 ) -> Result<(), Error> {
-    let compared = compare_with_last(&[results, sealed], Headline::FLIP)?;
+    let compared = compare_with_last(&[results, sealed], Metric::FLIP)?;
     let Some(SizeComparison { agreement, .. }) =
         (compared.into_iter()).find(|own| own.alignment == alignment)
     else {
@@ -251,13 +252,13 @@ fn push_agreement(
 
 /// The mean of each filter over the scenes of each family, with its rank there if the scenes are enough to order filters.
 fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
-    let alignment = &group[0].alignment;
+    let alignment = group[0].alignment;
     let families: Vec<(Family, Vec<RankedFilter>)> = (FAMILIES.into_iter())
         .filter_map(|family| {
             let groups = results.ranking(Some(family)).into_iter();
             let own = groups
                 .into_iter()
-                .find(|own| own[0].alignment == *alignment)?;
+                .find(|own| own[0].alignment == alignment)?;
             Some((family, own))
         })
         .collect();
@@ -279,7 +280,7 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
                 Some(own) => {
                     let text = match own.scenes >= FEWEST_SCENES {
                         true => format!("{}, {}", mean(own), own.rank_text()),
-                        false => Headline::FLIP.number(own.mean),
+                        false => Metric::FLIP.number(own.mean),
                     };
                     write!(page, " {text} |")
                 }

@@ -1,6 +1,8 @@
 //! Tables of means over scenes.
 
-use suite::{Headline, Overall, rank_filters};
+use frame::Alignment;
+use metrics::{Metric, SkillMetric};
+use suite::{Overall, rank_filters};
 
 use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::Table;
@@ -9,48 +11,54 @@ use crate::output::colors;
 
 /// Columns behind FLIP, which ranks filters of one alignment.
 const MEAN_COLUMNS: [Column; 5] = [
-    ("PSNR", Headline::PSNR),
-    ("grow", Headline::GROWTH),
-    ("loss", Headline::LOSS),
-    ("bleed", Headline::Bleed),
-    ("TV", Headline::LABEL),
+    ("PSNR", Metric::PSNR),
+    ("grow", Metric::GROWTH),
+    ("loss", Metric::LOSS),
+    ("bleed", Metric::Bleed),
+    ("TV", Metric::LABEL),
 ];
 /// Columns behind skill, which ranks filters of all alignments.
 const SKILL_COLUMNS: [Column; 3] = [
-    ("MSE", Headline::SKILL_MSE),
-    ("TV", Headline::SKILL_LABEL),
-    ("FLIP*", Headline::CommonFlip),
+    ("MSE", Metric::Skill(SkillMetric::Mse)),
+    ("TV", Metric::Skill(SkillMetric::LabelTotalVariation)),
+    ("FLIP*", Metric::CommonFlip),
 ];
 /// Makes the tables of means, best first: by FLIP among filters of one shutter alignment, by skill among all. Empty for a single
 /// scene.
 pub fn means_table(overall: &[Overall]) -> String {
-    let groups = rank_filters(overall, Headline::FLIP);
+    let groups = rank_filters(overall, Metric::FLIP);
     if groups.is_empty() {
         return String::new();
     }
     let mut by_flip = means_heading(overall, "FLIP", &MEAN_COLUMNS, None);
     for group in groups {
-        let heading = shutter_text(&group[0].alignment, group[0].rate);
+        let heading = shutter_text(group[0].alignment, group[0].rate);
         by_flip.push_text(&colors::heading(&heading));
         for row in group {
             push_mean(
                 &mut by_flip,
                 overall,
                 row,
-                (Headline::FLIP, &MEAN_COLUMNS),
+                (Metric::FLIP, &MEAN_COLUMNS),
                 None,
             );
         }
     }
     let mut text = "\n".to_owned() + &by_flip.text();
-    for group in rank_filters(overall, Headline::SKILL) {
+    for group in rank_filters(overall, Metric::SKILL) {
         let mut by_skill = means_heading(overall, "skill", &SKILL_COLUMNS, Some("shutter"));
         if let Some(rate) = group[0].rate {
             by_skill.push_text(&colors::heading(&rate.text()));
         }
         for row in group {
-            let columns = (Headline::SKILL, &SKILL_COLUMNS[..]);
-            push_mean(&mut by_skill, overall, row, columns, Some(&row.alignment));
+            let columns = (Metric::SKILL, &SKILL_COLUMNS[..]);
+            push_mean(
+                &mut by_skill,
+                overall,
+                row,
+                columns,
+                Some(row.alignment.name()),
+            );
         }
         text += "\n";
         text += &by_skill.text();
@@ -65,16 +73,14 @@ pub fn means_table(overall: &[Overall]) -> String {
 
 /// Notes the shutters for which skill applies to fewer scenes than FLIP.
 fn fewer_scenes_note(overall: &[Overall]) -> String {
-    let count = |headline: Headline, alignment: &str| {
-        let name = headline.name();
+    let count = |metric: Metric, alignment: Alignment| {
         let mut own = overall.iter();
-        let own = own.find(|mean| mean.metric == name && mean.alignment == alignment);
+        let own = own.find(|mean| mean.metric == metric && mean.alignment == alignment);
         own.map_or(0, |mean| mean.scenes)
     };
-    let alignments = list_once(overall.iter().map(|mean| mean.alignment.as_str()));
+    let alignments = list_once(overall.iter().map(|mean| mean.alignment));
     let counted = alignments.into_iter().filter_map(|alignment| {
-        let [skill, flip] =
-            [Headline::SKILL, Headline::FLIP].map(|headline| count(headline, alignment));
+        let [skill, flip] = [Metric::SKILL, Metric::FLIP].map(|metric| count(metric, alignment));
         (skill < flip).then(|| format!("{skill} of {flip} {alignment}"))
     });
     let counted: Vec<String> = counted.collect();
@@ -101,7 +107,7 @@ fn push_mean(
     table: &mut Table,
     overall: &[Overall],
     row: &Overall,
-    (by, others): (Headline, &[Column]),
+    (by, others): (Metric, &[Column]),
     last: Option<&str>,
 ) {
     let [low, high] = row.interval.map(|end| by.number(end));
@@ -110,10 +116,9 @@ fn push_mean(
         by.number(row.mean),
         format!("{low} to {high}"),
     ];
-    for (_, headline) in others {
-        let name = headline.name();
-        let own = (overall.iter()).find(|mean| mean.metric == name && mean.is_of_same(row));
-        cells.push(own.map_or("n/a".to_owned(), |own| headline.number(own.mean)));
+    for (_, metric) in others {
+        let own = (overall.iter()).find(|mean| mean.metric == *metric && mean.is_of_same(row));
+        cells.push(own.map_or("n/a".to_owned(), |own| metric.number(own.mean)));
     }
     cells.extend(last.map(str::to_owned));
     table.push_styled(cells, row_style(row.is_reference));

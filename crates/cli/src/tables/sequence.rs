@@ -119,7 +119,7 @@ fn sequence_table(run: &Run, scenes: &[&str]) -> String {
     for scene in scenes {
         let of_scene = || run.sequences.iter().filter(|own| own.scene == *scene);
         let groups = rank_sequences_on(run, scene);
-        for alignment in list_once(of_scene().map(|own| own.alignment.as_str())) {
+        for alignment in list_once(of_scene().map(|own| own.alignment)) {
             let heading = format!("{}, {alignment} shutter", printable(scene));
             table.push_text(&colors::heading(&heading));
             let of_shutter: Vec<&Sequence> = of_scene()

@@ -15,7 +15,9 @@ use crate::audit::expected_motion::ExpectedMotion;
 use crate::audit::shown::{LEAST_SHOWN, ObjectShown, count_shown};
 use crate::audit::velocity_audit::{ObjectAudit, audit_velocity};
 use crate::audit::views::find_other_views;
+use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::Capture;
+use crate::files::refuse;
 
 /// Part of the pixels whose depth must be known before it tells, without ids, what the engine shows there.
 const LEAST_KNOWN: f64 = 0.3;
@@ -60,10 +62,12 @@ pub fn audit_capture(
 ) -> Result<(CaptureAudit, ExpectedMotion), Error> {
     let instant = capture.description.instant;
     if instant != 0.0 {
-        return Err(Error::Usage(format!(
-            "{}: instant = {instant}; allowed for an audit: 0, the `instant` of the exported manifest",
-            capture.folder.join("capture.toml").display()
-        )));
+        return refuse(
+            &capture.folder.join(CAPTURE_FILE),
+            &format!(
+                "instant = {instant}; allowed for an audit: 0, the `instant` of the exported manifest"
+            ),
+        );
     }
     let size = [capture.color.width, capture.color.height];
     let expected = ExpectedMotion::trace(scene, size)?;
@@ -87,43 +91,35 @@ pub fn audit_capture(
     let pixels = right.object_id.pixels.len();
     let alike = (0..pixels).filter(|at| shows(*at, *at)).count() as f64 / pixels as f64;
     let objects = count_shown(&right.object_id, ids, &names, &shows);
-    let missed: Vec<&ObjectShown> = objects.iter().filter(|it| it.is_missed()).collect();
-    let is_missed = |name: &str| missed.iter().any(|object| object.object == name);
+    let is_missed = |name: &str| (objects.iter()).any(|it| it.is_missed() && it.object == name);
     let is_clear = |at: usize| {
         let object = right.object_id.pixels[at] as usize;
         (alike < LEAST_KNOWN || shows(at, at)) && !is_missed(&names[object])
     };
     let regions = select_clear_pixels(right, names.len(), &is_clear);
     let (velocity, wrong_velocity) = audit_velocity(&capture.velocity, &expected, &regions, &names);
+    let depth = pair.compare(&regions);
 
     let views = find_other_views(capture, &pair, scene)?;
     let is_view = |buffer: Buffer| views.iter().any(|finding| finding.buffer == buffer);
     let shows_other_view = is_view(Buffer::Picture)
         || is_view(Buffer::ObjectId)
         || is_view(Buffer::Depth) && ids.is_none();
-    let mut findings = match shows_other_view {
+    let missed = match shows_other_view {
         true => Vec::new(),
-        false => word_missed(&missed, alike, ids),
+        false => word_missed(&objects, alike, ids),
     };
-    let shows_scene = !shows_other_view && findings.is_empty();
-    // Whatever else differs follows from that.
-    let is_all = shows_other_view || findings.iter().any(|finding| finding.object.is_none());
-    let keeps_color = !is_view(Buffer::Color);
-    let keeps_depth = !is_view(Buffer::Depth);
-    findings.extend(views);
-    if !is_all {
-        findings.extend(wrong_velocity);
-        let depth = wrong_depth.into_iter().filter(|_| keeps_depth);
-        let of_shown = |finding: &Defect| finding.object.as_deref().is_none_or(|it| !is_missed(it));
-        let depth = depth.filter(of_shown);
-        findings.extend(
-            depth.map(|finding| match ids.is_none() && finding.object.is_some() {
-                true => finding.with("or the engine does not draw it there: object.exr would tell"),
-                false => finding,
-            }),
-        );
-        if keeps_color {
-            findings.extend(audit_color(&capture.color, scene, &regions, &names)?);
+    let mut wrong = Vec::new();
+    // Whatever else differs follows from another view, or from a picture of something else.
+    if !shows_other_view && missed.iter().all(|finding| finding.object.is_some()) {
+        wrong.extend(wrong_velocity);
+        if !is_view(Buffer::Depth) {
+            let of_shown = |it: &Defect| it.object.as_deref().is_none_or(|name| !is_missed(name));
+            let depth = wrong_depth.into_iter().filter(of_shown);
+            wrong.extend(depth.map(|it| doubt_depth(it, ids.is_some())));
+        }
+        if !is_view(Buffer::Color) {
+            wrong.extend(audit_color(&capture.color, scene, &regions, &names)?);
         }
     }
     let audit = CaptureAudit {
@@ -132,18 +128,30 @@ pub fn audit_capture(
         size,
         has_ids: ids.is_some(),
         alike,
-        shows_scene,
+        shows_scene: !shows_other_view && missed.is_empty(),
         velocity,
-        depth: pair.compare(&regions),
+        depth,
         compares_color: scene.is_unlit(),
-        findings,
+        findings: [missed, views, wrong].concat(),
         objects,
     };
     Ok((audit, expected))
 }
 
+/// Adds to a wrong depth of an object that the object may not be drawn, if no ids say so.
+fn doubt_depth(finding: Defect, has_ids: bool) -> Defect {
+    match has_ids || finding.object.is_none() {
+        true => finding,
+        false => finding.with("or the engine does not draw it there: object.exr would tell"),
+    }
+}
+
 /// Words what the engine shows too little of: all of the picture, or single objects.
-fn word_missed(missed: &[&ObjectShown], alike: f64, ids: Option<&Raster<u32>>) -> Vec<Defect> {
+fn word_missed(objects: &[ObjectShown], alike: f64, ids: Option<&Raster<u32>>) -> Vec<Defect> {
+    let mut missed = objects
+        .iter()
+        .filter(|object| object.is_missed())
+        .peekable();
     let other = |object: Option<&str>, shown: f64| {
         let found = Explanation::by(Cause::OtherView, 1.0 - shown);
         Defect::new(Buffer::Picture, object, found)
@@ -153,11 +161,11 @@ fn word_missed(missed: &[&ObjectShown], alike: f64, ids: Option<&Raster<u32>>) -
         None => "by its depth, as the convention has it; object.exr would tell more",
     };
     let least = 100.0 * LEAST_SHOWN;
-    if !missed.is_empty() && alike < LEAST_ALIKE {
+    if missed.peek().is_some() && alike < LEAST_ALIKE {
         let text = format!("{:.1} % of the pixels agree, {by}", 100.0 * alike);
         return vec![other(None, alike).with(&text)];
     }
-    let findings = missed.iter().map(|object| {
+    let findings = missed.map(|object| {
         let text = format!(
             "{:.1} % of its {} pixels agree, {by}; needed: {least} %",
             100.0 * object.shown,

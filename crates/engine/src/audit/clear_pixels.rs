@@ -5,12 +5,21 @@ use std::ops::RangeInclusive;
 use frame::Raster;
 use tracer::PointLayers;
 
+/// Fewest pixels of an object that is judged.
+pub const FEWEST_PIXELS: usize = 9;
+
 /// Pixels of one object that can be compared.
 pub struct ClearPixels {
     /// Number of the object, 0 for the background.
     pub object: u32,
     /// Places in the raster.
     pub pixels: Vec<usize>,
+}
+
+/// Selects the objects with enough pixels to judge them.
+pub fn select_judged(regions: &[ClearPixels]) -> Vec<&ClearPixels> {
+    let is_judged = |region: &&ClearPixels| region.pixels.len() >= FEWEST_PIXELS;
+    regions.iter().filter(is_judged).collect()
 }
 
 /// Selects per object the pixels whose eight neighbours show the same object, if the engine shows the same there.

@@ -1,21 +1,18 @@
 //! Audit of colour, in scenes whose colours do not depend on light.
 
-use std::ops::ControlFlow;
-
-use frame::Image;
-use tracer::{RenderSettings, Scene, TraceError, trace_frame};
+use frame::{ColorSampling, Image};
+use tracer::{Scene, TraceError};
 
 use crate::audit::cause::Cause;
-use crate::audit::clear_pixels::ClearPixels;
+use crate::audit::clear_pixels::{ClearPixels, select_judged};
 use crate::audit::defect::{Buffer, Defect, Explanation};
-use crate::audit::depth_audit::median;
+use crate::audit::rendered_view::render_view;
+use crate::statistics::median;
 
 /// Greatest difference of an object's mean colour, relative to its brightest channel: filters of textures differ.
 const TOLERANCE: f64 = 0.05;
 /// Radiance that may be added to a right colour: a step of 8 bits, on black.
 const DARKEST: f64 = 0.002;
-/// Fewest pixels of an object that is judged.
-const FEWEST_PIXELS: usize = 9;
 /// Samples per pixel of the right colour: edges within a texture and lenses need some.
 const SAMPLES: u32 = 16;
 
@@ -46,16 +43,9 @@ pub fn audit_color(
     if !scene.is_unlit() {
         return Ok(Vec::new());
     }
-    let settings = RenderSettings {
-        width: found.width,
-        height: found.height,
-        samples_per_pixel: SAMPLES,
-        replicates: 1,
-        ..RenderSettings::default()
-    };
-    let right = trace_frame(scene, &settings, &|_| ControlFlow::Continue(()))?.color;
-    let judged = (regions.iter()).filter(|region| region.pixels.len() >= FEWEST_PIXELS);
-    let colors: Vec<ObjectColor> = judged
+    let size = [found.width, found.height];
+    let right = render_view(scene, size, SAMPLES, ColorSampling::default())?.color;
+    let colors: Vec<ObjectColor> = (select_judged(regions).into_iter())
         .map(|region| ObjectColor {
             object: region.object,
             found: mean_color(found, &region.pixels),
@@ -64,16 +54,13 @@ pub fn audit_color(
         .collect();
     let is_wrong = |color: &&ObjectColor| !color.is_right_at(1.0);
     let wrong: Vec<&ObjectColor> = colors.iter().filter(is_wrong).collect();
-    let brightness = |color: &[f64; 3]| color.iter().sum::<f64>();
-    let ratios = wrong
-        .iter()
-        .map(|it| brightness(&it.found) / brightness(&it.right));
-    let scale = median(ratios);
-    let is_all = scale > 0.0 && colors.iter().all(|color| color.is_right_at(scale));
     if wrong.is_empty() {
         return Ok(Vec::new());
     }
-    if is_all {
+    let brightness = |color: &[f64; 3]| color.iter().sum::<f64>();
+    let ratios = (wrong.iter()).map(|it| brightness(&it.found) / brightness(&it.right));
+    let scale = median(ratios);
+    if scale > 0.0 && colors.iter().all(|color| color.is_right_at(scale)) {
         let cause = Explanation::by(Cause::Brightness(scale), 1.0);
         return Ok(vec![Defect::new(Buffer::Color, None, cause)]);
     }

@@ -5,17 +5,16 @@ use serde::Serialize;
 use tracer::{PointLayers, Scene};
 
 use crate::audit::cause::Cause;
-use crate::audit::clear_pixels::ClearPixels;
+use crate::audit::clear_pixels::{ClearPixels, select_judged};
 use crate::audit::defect::{Buffer, Defect, Explanation};
+use crate::statistics::{median, percentile};
 
 /// Relative difference of depths that are taken for equal.
 const TOLERANCE: f64 = 0.01;
 /// Rounding of a depth buffer between 0 and 1 that is no defect: a few steps of 24 bits.
 const BUFFER_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 /// Part of the pixels that must be right, or that a cause must explain.
-const LEAST_EXPLAINED: f64 = 0.95;
-/// Fewest pixels of an object that is judged.
-const FEWEST_PIXELS: usize = 9;
+pub const LEAST_EXPLAINED: f64 = 0.95;
 
 /// Agreement of an engine's depth with the scene's.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -30,7 +29,7 @@ pub struct DepthAudit {
     pub agreeing: f64,
 }
 
-/// An engine's depth beside the scene's.
+/// An engine's depth and the scene's.
 pub struct DepthPair<'a> {
     /// The engine's, in metres.
     pub found: &'a Plane,
@@ -55,12 +54,10 @@ impl DepthPair<'_> {
             |at: &usize| relative_difference(self.found.pixels[*at], self.right.depth.pixels[*at]);
         let mut differences: Vec<f64> = pixels.iter().map(difference).collect();
         differences.sort_by(f64::total_cmp);
-        let last = differences.len().saturating_sub(1) as f64;
-        let at_part = |part: f64| differences.get((part * last).round() as usize);
         DepthAudit {
             pixels: pixels.len(),
-            median: at_part(0.5).copied().unwrap_or(0.0),
-            p95: at_part(0.95).copied().unwrap_or(0.0),
+            median: percentile(&differences, 0.5).unwrap_or(0.0),
+            p95: percentile(&differences, 0.95).unwrap_or(0.0),
             agreeing: self.share(&pixels, &self.right.depth),
         }
     }
@@ -72,62 +69,68 @@ impl DepthPair<'_> {
         names: &[String],
         scene: &Scene,
     ) -> (Vec<Defect>, Raster<bool>) {
-        let mut explained = self.mark(&self.right.depth);
-        let judged: Vec<&ClearPixels> = (regions.iter())
-            .filter(|region| region.pixels.len() >= FEWEST_PIXELS)
-            .collect();
-        let is_wrong =
-            |region: &ClearPixels| self.share(&region.pixels, &self.right.depth) < LEAST_EXPLAINED;
-        let wrong: Vec<&ClearPixels> = (judged.iter().copied()).filter(|it| is_wrong(it)).collect();
+        let right = &self.right.depth;
+        let judged = select_judged(regions);
+        let is_wrong = |region: &&ClearPixels| self.share(&region.pixels, right) < LEAST_EXPLAINED;
+        let wrong: Vec<&ClearPixels> = judged.iter().copied().filter(is_wrong).collect();
         if wrong.is_empty() {
-            return (Vec::new(), explained);
+            return (Vec::new(), self.mark(right));
         }
         let along_ray = self.along_ray(scene);
         let all: Vec<usize> = wrong.iter().flat_map(|it| it.pixels.clone()).collect();
         let is_all = wrong.len() > 1 || wrong.len() == judged.len();
-        let of_all = |(_, plane): &(Cause, Plane)| {
+        let of_all = |plane: &Plane| {
             let shares = judged.iter().map(|it| self.share(&it.pixels, plane));
             shares.fold(1.0, f64::min)
         };
         let causes = self.list_causes(&all, &along_ray, self.near.is_some());
         if is_all && let Some((found, plane)) = find_cause(causes, &of_all) {
-            return (
-                vec![Defect::new(Buffer::Depth, None, found)],
-                self.mark(&plane),
-            );
+            let defect = Defect::new(Buffer::Depth, None, found);
+            return (vec![defect], self.mark(&plane));
         }
-        let mut findings = Vec::new();
-        for region in wrong {
+        let (findings, explained) = self.explain_objects(&wrong, names, &along_ray);
+        let unknown = findings
+            .iter()
+            .filter(|it| it.cause == Cause::Unknown)
+            .count();
+        if findings.len() == 1 || 2 * unknown <= findings.len() {
+            return (findings, explained);
+        }
+        let share = 100.0 * (1.0 - self.share(&all, right));
+        let text = format!(
+            "it differs by more than 1 % at {share:.0} % of the pixels of {} objects; check the camera, and depth, near and far in \
+             the convention",
+            findings.len()
+        );
+        let unknown = Explanation::by(Cause::Unknown, 0.0);
+        let defect = Defect::new(Buffer::Depth, None, unknown).with(&text);
+        (vec![defect], explained)
+    }
+
+    /// Finds a cause for each object whose depth is wrong.
+    fn explain_objects(
+        &self,
+        wrong: &[&ClearPixels],
+        names: &[String],
+        along_ray: &Plane,
+    ) -> (Vec<Defect>, Raster<bool>) {
+        let mut explained = self.mark(&self.right.depth);
+        let findings = wrong.iter().map(|region| {
             // The planes of a projection are those of every object.
-            let causes = self.list_causes(&region.pixels, &along_ray, false);
-            let of_object = |(_, plane): &(Cause, Plane)| self.share(&region.pixels, plane);
+            let causes = self.list_causes(&region.pixels, along_ray, false);
+            let found = find_cause(causes, &|plane| self.share(&region.pixels, plane));
+            if let Some((_, plane)) = &found {
+                let ids = &self.right.object_id.pixels;
+                let own = (0..ids.len()).filter(|at| ids[*at] == region.object);
+                own.for_each(|at| explained.pixels[at] = self.is_explained(at, plane));
+            }
             let unknown = Explanation::by(Cause::Unknown, 0.0);
-            let found = match find_cause(causes, &of_object) {
-                None => unknown,
-                Some((found, plane)) => {
-                    let ids = &self.right.object_id.pixels;
-                    let own = (0..ids.len()).filter(|at| ids[*at] == region.object);
-                    own.for_each(|at| explained.pixels[at] = self.is_explained(at, &plane));
-                    found
-                }
-            };
+            let found = found.map_or(unknown, |(found, _)| found);
             let is_background = matches!(found.cause, Cause::DepthOfBackground(_));
             let object = (!is_background).then(|| names[region.object as usize].as_str());
-            findings.push(Defect::new(Buffer::Depth, object, found));
-        }
-        let is_unknown = |it: &&Defect| it.cause == Cause::Unknown;
-        let unknown = findings.iter().filter(is_unknown).count();
-        if findings.len() > 1 && 2 * unknown > findings.len() {
-            let share = 100.0 * (1.0 - self.share(&all, &self.right.depth));
-            let text = format!(
-                "it differs by more than 1 % at {share:.0} % of the pixels of {} objects; check the camera, and depth, near and far \
-                 in the convention",
-                findings.len()
-            );
-            let unknown = Explanation::by(Cause::Unknown, 0.0);
-            findings = vec![Defect::new(Buffer::Depth, None, unknown).with(&text)];
-        }
-        (findings, explained)
+            Defect::new(Buffer::Depth, object, found)
+        });
+        (findings.collect(), explained)
     }
 
     /// Lists causes with the depth that each leads to, fitted to some pixels; the simplest first. NaN allows any depth.
@@ -138,19 +141,10 @@ impl DepthPair<'_> {
         has_planes: bool,
     ) -> Vec<(Cause, Plane)> {
         let right = &self.right.depth;
-        let pairs = || {
-            pixels
-                .iter()
-                .map(|at| [self.found.pixels[*at], right.pixels[*at]])
-        };
-        let behind = median(
-            pairs()
-                .filter(|it| is_far(it[1]))
-                .map(|it| f64::from(it[0])),
-        );
-        let surfaces: Vec<[f64; 2]> = (pairs().filter(|it| !is_far(it[1])))
-            .map(|it| it.map(f64::from))
-            .collect();
+        let pairs = (pixels.iter()).map(|at| [self.found.pixels[*at], right.pixels[*at]]);
+        let (behind, surfaces): (Vec<_>, Vec<_>) =
+            (pairs.map(|it| it.map(f64::from))).partition(|[_, right]| is_far(*right as f32));
+        let background = median(behind.iter().map(|[found, _]| *found));
         let of_surfaces = |depth: &dyn Fn(f64) -> f64| {
             right.map(|right| match is_far(*right) {
                 true => f32::NAN,
@@ -158,15 +152,12 @@ impl DepthPair<'_> {
             })
         };
         let mut causes = Vec::new();
-        if behind.is_finite() {
-            let plane = right.map(|right| {
-                if is_far(*right) {
-                    behind as f32
-                } else {
-                    *right
-                }
+        if background.is_finite() {
+            let plane = right.map(|right| match is_far(*right) {
+                true => background as f32,
+                false => *right,
             });
-            causes.push((Cause::DepthOfBackground(behind), plane));
+            causes.push((Cause::DepthOfBackground(background), plane));
         }
         if surfaces.is_empty() {
             return causes;
@@ -177,9 +168,7 @@ impl DepthPair<'_> {
         causes.push((Cause::DepthScale(scale), scaled));
         if has_planes {
             // A projection with other planes changes 1 / depth by a factor and a constant.
-            let points = surfaces
-                .iter()
-                .map(|[found, right]| [1.0 / right, 1.0 / found]);
+            let points = (surfaces.iter()).map(|[found, right]| [1.0 / right, 1.0 / found]);
             let [factor, constant] = fit_line(points);
             let fitted = of_surfaces(&|depth| 1.0 / (factor / depth + constant));
             causes.push((Cause::DepthPlanes(1.0 / factor), fitted));
@@ -225,17 +214,16 @@ impl DepthPair<'_> {
 /// Finds the first cause that explains enough.
 fn find_cause(
     causes: Vec<(Cause, Plane)>,
-    share: &dyn Fn(&(Cause, Plane)) -> f64,
+    share: &dyn Fn(&Plane) -> f64,
 ) -> Option<(Explanation, Plane)> {
-    causes.into_iter().find_map(|cause| {
-        let explained = share(&cause);
-        let (cause, plane) = cause;
+    causes.into_iter().find_map(|(cause, plane)| {
+        let explained = share(&plane);
         (explained >= LEAST_EXPLAINED).then(|| (Explanation::by(cause, explained), plane))
     })
 }
 
 /// Tells whether nothing is seen at a depth.
-pub fn is_far(depth: f32) -> bool {
+fn is_far(depth: f32) -> bool {
     depth >= 0.1 * FAR_DEPTH
 }
 
@@ -245,13 +233,6 @@ fn relative_difference(found: f32, expected: f32) -> f64 {
         (false, false) => f64::from((found - expected).abs() / expected),
         _ => 1.0,
     }
-}
-
-/// Returns the median; NaN of nothing.
-pub fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// Fits slope and constant by least squares.

@@ -68,12 +68,8 @@ impl ExpectedMotion {
     }
 }
 
-/// Turns the order of the rows round.
+/// Reverses the order of the rows.
 pub(super) fn upside_down<T: Clone>(raster: &Raster<T>) -> Raster<T> {
-    let rows = raster.pixels.chunks_exact(raster.width as usize).rev();
-    Raster {
-        pixels: rows.flatten().cloned().collect(),
-        width: raster.width,
-        height: raster.height,
-    }
+    let (width, height) = (raster.width, raster.height);
+    Raster::from_fn(width, height, |x, y| raster.at(x, height - 1 - y).clone())
 }

@@ -3,7 +3,7 @@
 use frame::Vectors;
 
 use crate::audit::cause::Cause;
-use crate::audit::depth_audit::median;
+use crate::statistics::median;
 
 /// Largest end-point error of a right velocity, in pixels: rounding of half floats, and of an engine's own matrices.
 pub(super) const TOLERANCE: f64 = 0.1;
@@ -57,32 +57,30 @@ pub fn find_offset(found: &Vectors, right: &Vectors, pixels: &[usize]) -> (Cause
 
 /// Lists limits on the length and on the axes, where any velocity is cut.
 fn list_cut(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
-    let most = |measure: &dyn Fn([f64; 2]) -> f64| {
-        let all = pixels
-            .iter()
-            .map(|at| measure(found.pixels[*at].map(f64::from)));
-        all.fold(0.0, f64::max)
-    };
     let largest = |[x, y]: [f64; 2]| f64::max(x.abs(), y.abs());
-    let cut_part = |limit: f64, measure: &dyn Fn([f64; 2]) -> f64| {
-        let beyond = |at: &&usize| measure(right.pixels[**at].map(f64::from)) > limit + TOLERANCE;
-        pixels.iter().filter(beyond).count() as f64 / pixels.len() as f64
+    let find_limit = |measure: fn([f64; 2]) -> f64| {
+        let measured = |vectors: &Vectors, at: usize| measure(vectors.pixels[at].map(f64::from));
+        let limit = (pixels.iter())
+            .map(|at| measured(found, *at))
+            .fold(0.0, f64::max);
+        let beyond = pixels
+            .iter()
+            .filter(|at| measured(right, **at) > limit + TOLERANCE);
+        let cut_part = beyond.count() as f64 / pixels.len() as f64;
+        (limit > TOLERANCE && cut_part > LEAST_CUT).then_some(limit)
     };
-    let mut list = Vec::new();
-    let limit = most(&length);
-    if limit > TOLERANCE && cut_part(limit, &length) > LEAST_CUT {
+    let shorter = find_limit(length).map(|limit| {
         let cut = right.map(|right| {
             let own = length(right.map(f64::from)).max(f64::MIN_POSITIVE);
             right.map(|part| (f64::from(part) * (limit / own).min(1.0)) as f32)
         });
-        list.push((Cause::Clipped(limit), cut));
-    }
-    let limit = most(&largest);
-    if limit > TOLERANCE && cut_part(limit, &largest) > LEAST_CUT {
+        (Cause::Clipped(limit), cut)
+    });
+    let within = find_limit(largest).map(|limit| {
         let cut = right.map(|right| right.map(|part| part.clamp(-limit as f32, limit as f32)));
-        list.push((Cause::ClippedAxes(limit), cut));
-    }
-    list
+        (Cause::ClippedAxes(limit), cut)
+    });
+    shorter.into_iter().chain(within).collect()
 }
 
 /// Finds out whether the numbers lie on a grid of few steps, each next to the right number; returns that grid's velocity.

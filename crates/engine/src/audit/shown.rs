@@ -3,12 +3,10 @@
 use frame::Raster;
 use serde::Serialize;
 
-use crate::audit::clear_pixels::{is_inside, neighbours};
+use crate::audit::clear_pixels::{FEWEST_PIXELS, is_inside, neighbours};
 
 /// Part of each object that must be where the scene has it, at its edges within a pixel.
 pub const LEAST_SHOWN: f64 = 0.9;
-/// Fewest pixels of an object that is judged.
-const FEWEST_PIXELS: usize = 9;
 
 /// Agreement of what an engine shows with an object of the scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -6,18 +6,15 @@ use frame::Vectors;
 use serde::Serialize;
 
 use crate::audit::cause::Cause;
-use crate::audit::clear_pixels::ClearPixels;
+use crate::audit::clear_pixels::{ClearPixels, select_judged};
 use crate::audit::defect::{Buffer, Defect, Explanation};
-use crate::audit::depth_audit::median;
+use crate::audit::depth_audit::LEAST_EXPLAINED;
 use crate::audit::expected_motion::ExpectedMotion;
 use crate::audit::fitted_motion::{TOLERANCE, find_offset, fit_candidates, length};
+use crate::statistics::{median, percentile};
 
 /// The same as a part of the speed.
 const RELATIVE_TOLERANCE: f64 = 0.01;
-/// Part of the pixels that must be right, or that a cause must explain.
-const LEAST_EXPLAINED: f64 = 0.95;
-/// Fewest pixels of an object that is judged.
-const FEWEST_PIXELS: usize = 9;
 /// Part of the pixels by which two causes may differ and still look the same.
 const LOOKS_SAME: f64 = 0.005;
 /// Signs and axes that may be wrong together with another cause; none first.
@@ -58,9 +55,7 @@ pub fn audit_velocity(
     regions: &[ClearPixels],
     names: &[String],
 ) -> (Vec<ObjectAudit>, Vec<Defect>) {
-    let judged: Vec<&ClearPixels> = (regions.iter())
-        .filter(|region| region.pixels.len() >= FEWEST_PIXELS)
-        .collect();
+    let judged = select_judged(regions);
     let objects: Vec<ObjectAudit> = (judged.iter())
         .map(|region| audit_object(found, expected, region, &names[region.object as usize]))
         .collect();
@@ -71,10 +66,7 @@ pub fn audit_velocity(
     if wrong.is_empty() {
         return (objects, Vec::new());
     }
-    let pixels: Vec<usize> = wrong
-        .iter()
-        .flat_map(|region| region.pixels.clone())
-        .collect();
+    let pixels: Vec<usize> = wrong.iter().flat_map(|it| it.pixels.clone()).collect();
     let is_all = wrong.len() > 1 || wrong.len() == judged.len();
     if is_all && let Some(found) = explain_all(found, expected, &judged, &pixels) {
         let defect = Defect::new(Buffer::Velocity, None, found);
@@ -162,19 +154,16 @@ fn audit_object(
             .map(|at| dot(a.pixels[*at], b.pixels[*at]))
             .sum()
     };
-    let speed = median(
-        region
-            .pixels
-            .iter()
-            .map(|at| length(right.pixels[*at].map(f64::from))),
-    );
+    let speed = |at: &usize| length(right.pixels[*at].map(f64::from));
+    let speed = median(region.pixels.iter().map(speed));
+    let at_part = |part: f64| percentile(&errors, part).expect("a judged object has pixels");
     let width = found.width as usize;
     ObjectAudit {
         object: name.to_owned(),
         pixels: region.pixels.len(),
         speed,
-        median: errors[errors.len() / 2],
-        p95: errors[(0.95 * (errors.len() - 1) as f64).round() as usize],
+        median: at_part(0.5),
+        p95: at_part(0.95),
         worst: error(worst),
         worst_at: [(worst % width) as u32, (worst / width) as u32],
         scale: (speed > TOLERANCE).then(|| product(found, right) / product(right, right)),

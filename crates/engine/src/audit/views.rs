@@ -1,15 +1,15 @@
 //! Views of the scene that a capture may show instead of the right one: other frames, and rows upside down.
 
-use std::ops::ControlFlow;
-
-use frame::{ColorSampling, Frame, FrameOptions, Image, Plane, Raster};
-use tracer::{RenderSettings, Scene, TraceError, trace_frame};
+use frame::{ColorSampling, Frame, Image, Plane, Raster};
+use tracer::{Scene, TraceError};
 
 use crate::audit::cause::Cause;
 use crate::audit::defect::{Buffer, Defect, Explanation};
-use crate::audit::depth_audit::{DepthPair, median};
+use crate::audit::depth_audit::DepthPair;
 use crate::audit::expected_motion::upside_down;
+use crate::audit::rendered_view::render_view;
 use crate::capture::folder::Capture;
+use crate::statistics::median;
 
 /// Greatest number of frames, late or early, that is looked for.
 const MOST_FRAMES: u32 = 2;
@@ -74,28 +74,21 @@ pub fn find_other_views(
 ) -> Result<Vec<Defect>, TraceError> {
     let size = [depth.found.width, depth.found.height];
     let right = trace_view(scene, size, 0, Cause::Unknown)?;
-    let flipped = View {
+    let mut views = vec![View {
         cause: Cause::UpsideDown,
         object_id: upside_down(&right.object_id),
         depth: upside_down(&right.depth),
         color: upside_down(&right.color),
-    };
-    let mut tallies = vec![(
-        flipped.cause,
-        tally_buffers(capture, depth, &right, &flipped),
-    )];
+    }];
     for count in 1..=MOST_FRAMES {
         let frames = count as i32;
-        for (time, cause) in [
-            (-frames, Cause::DrawnLate(count)),
-            (frames, Cause::DrawnEarly(count)),
-        ] {
-            // A motion may leave the world beyond its keys.
-            if let Ok(view) = trace_view(scene, size, time, cause) {
-                tallies.push((cause, tally_buffers(capture, depth, &right, &view)));
-            }
-        }
+        // A motion may leave the world beyond its keys.
+        views.extend(trace_view(scene, size, -frames, Cause::DrawnLate(count)));
+        views.extend(trace_view(scene, size, frames, Cause::DrawnEarly(count)));
     }
+    let tallies: Vec<(Cause, [Tally; 3])> = (views.iter())
+        .map(|view| (view.cause, tally_buffers(capture, depth, &right, view)))
+        .collect();
     let mut findings: Vec<Defect> = Vec::new();
     for (at, buffer) in BUFFERS.into_iter().enumerate() {
         let shown = tallies
@@ -240,30 +233,14 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
 }
 
 /// Traces what a rasteriser writes some frames after the instant. Unlit colours have no noise.
-fn trace_view(
-    scene: &Scene,
-    [width, height]: [u32; 2],
-    time: i32,
-    cause: Cause,
-) -> Result<View, TraceError> {
-    let settings = RenderSettings {
-        width,
-        height,
-        samples_per_pixel: 1,
-        replicates: 1,
-        options: FrameOptions {
-            color: ColorSampling::Point,
-            ..FrameOptions::default()
-        },
-        ..RenderSettings::default()
-    };
+fn trace_view(scene: &Scene, size: [u32; 2], time: i32, cause: Cause) -> Result<View, TraceError> {
     let scene = scene.clone().pinhole().unlit().later_by(f64::from(time));
     let Frame {
         object_id,
         depth,
         color,
         ..
-    } = trace_frame(&scene, &settings, &|_| ControlFlow::Continue(()))?;
+    } = render_view(&scene, size, 1, ColorSampling::Point)?;
     Ok(View {
         cause,
         object_id,

@@ -6,8 +6,10 @@ use filters::{Convention, DepthKind};
 use frame::{
     ExrFile, FAR_DEPTH, Image, Plane, Raster, Samples, Vectors, read_exr, read_png, scene_linear,
 };
-
+use store::printable;
 use suite::{Error, SIDES};
+
+use crate::files::refuse;
 
 /// Most by which a number of a depth buffer may leave the buffer's range, as rounding makes it.
 const RANGE_ROUNDING: f32 = 1e-3;
@@ -22,7 +24,7 @@ pub fn find_picture(folder: &Path, stem: &str) -> Result<Option<PathBuf>, Error>
     match (exr.is_file(), png.is_file()) {
         (true, true) => refuse(
             &png,
-            "stands beside an OpenEXR file of the same name; remove one of them",
+            "is in one folder with an OpenEXR file of the same name; remove one of them",
         ),
         (true, false) => Ok(Some(exr)),
         (false, true) => Ok(Some(png)),
@@ -66,29 +68,24 @@ pub fn read_velocity(path: &Path) -> Result<Vectors, Error> {
 /// Reads depth as the engine has it; infinite numbers of linear depth become the background's.
 pub fn read_depth(path: &Path, convention: &Convention) -> Result<Plane, Error> {
     let file = open(path)?;
-    let name = find_channel(&file, &["Z", "R", "depth"], "Z, R or depth")?;
+    let name = find_channel(&file, &["Z", "R", "depth"])?;
     let depth = file.plane(name)?;
-    let range = match convention.depth {
-        DepthKind::Linear => f32::MIN_POSITIVE..=f32::INFINITY,
-        DepthKind::Forward | DepthKind::Reversed => -RANGE_ROUNDING..=1.0 + RANGE_ROUNDING,
-        DepthKind::Ndc => -1.0 - RANGE_ROUNDING..=1.0 + RANGE_ROUNDING,
+    let from_0 = -RANGE_ROUNDING..=1.0 + RANGE_ROUNDING;
+    let (range, allowed) = match convention.depth {
+        DepthKind::Linear => (
+            f32::MIN_POSITIVE..=f32::INFINITY,
+            "\"linear\" allows metres above 0",
+        ),
+        DepthKind::Forward => (from_0, "\"forward\" allows 0 to 1"),
+        DepthKind::Reversed => (from_0, "\"reversed\" allows 0 to 1"),
+        DepthKind::Ndc => (
+            -1.0 - RANGE_ROUNDING..=1.0 + RANGE_ROUNDING,
+            "\"ndc\" allows -1 to 1",
+        ),
     };
-    if let Some(at) = depth.pixels.iter().position(|it| !range.contains(it)) {
-        let allowed = match convention.depth {
-            DepthKind::Linear => "depth = \"linear\" allows metres above 0",
-            DepthKind::Forward => "depth = \"forward\" allows 0 to 1",
-            DepthKind::Reversed => "depth = \"reversed\" allows 0 to 1",
-            DepthKind::Ndc => "depth = \"ndc\" allows -1 to 1",
-        };
-        return refuse(
-            path,
-            &format!(
-                "channel \"{name}\" holds {} at pixel {}; {allowed}: name the depth that the engine has in its convention",
-                depth.pixels[at],
-                place(&depth, at)
-            ),
-        );
-    }
+    let allowed =
+        format!("depth = {allowed}: name the depth that the engine has in its convention");
+    check_values(&file, name, &depth, |depth| range.contains(depth), &allowed)?;
     Ok(match convention.depth {
         DepthKind::Linear => depth.map(|metres| metres.min(FAR_DEPTH)),
         DepthKind::Ndc => depth.map(|depth| depth.clamp(-1.0, 1.0)),
@@ -96,18 +93,18 @@ pub fn read_depth(path: &Path, convention: &Convention) -> Result<Plane, Error> 
     })
 }
 
-/// Names of a channel of object ids, beside colours or alone.
+/// Names of a channel of object ids, in a file with colours or alone.
 const OBJECT_CHANNELS: [&str; 2] = ["object", "object.id"];
 
 /// Reads object ids; 0 is the background, which the file may hold as 0, as -1, or as the largest unsigned integer.
 pub fn read_objects(path: &Path) -> Result<Raster<u32>, Error> {
     let file = open(path)?;
     let names = [OBJECT_CHANNELS[0], OBJECT_CHANNELS[1], "R"];
-    let name = find_channel(&file, &names, "object, object.id or R")?;
+    let name = find_channel(&file, &names)?;
     take_objects(&file, name)
 }
 
-/// Reads the object ids that stand beside the colours of a picture; none where it has none.
+/// Reads the object ids of a picture's file; none if it has none.
 pub fn read_objects_beside_color(path: &Path) -> Result<Option<Raster<u32>>, Error> {
     if is_png(path) {
         return Ok(None);
@@ -126,18 +123,9 @@ fn take_objects(file: &ExrFile, name: &str) -> Result<Raster<u32>, Error> {
     }
     let ids = file.plane(name)?;
     let is_id = |id: &f32| (-1.0..=LARGEST_ID).contains(id) && id.fract() == 0.0;
-    match ids.pixels.iter().position(|id| !is_id(id)) {
-        None => Ok(ids.map(|id| id.max(0.0) as u32)),
-        Some(at) => refuse(
-            &file.path,
-            &format!(
-                "channel \"{name}\" holds {} at pixel {}; allowed: whole numbers, 0 or -1 for the background; draw ids \
-                 without blending or antialiasing",
-                ids.pixels[at],
-                place(&ids, at)
-            ),
-        ),
-    }
+    let allowed = "allowed: whole numbers, 0 or -1 for the background; draw ids without blending or antialiasing";
+    check_values(file, name, &ids, is_id, allowed)?;
+    Ok(ids.map(|id| id.max(0.0) as u32))
 }
 
 /// Refuses a picture of another size than the colour's.
@@ -176,11 +164,10 @@ fn check_sides(path: &Path, (width, height): (u32, u32)) -> Result<(), Error> {
 }
 
 /// Finds the first of some channels that a file has.
-fn find_channel<'a>(file: &ExrFile, names: &[&'a str], allowed: &str) -> Result<&'a str, Error> {
-    let found = names.iter().find(|name| file.has_channel(name));
-    match found {
+fn find_channel<'a>(file: &ExrFile, names: &[&'a str]) -> Result<&'a str, Error> {
+    match names.iter().find(|name| file.has_channel(name)) {
         Some(name) => Ok(name),
-        None => refuse_channels(file, allowed),
+        None => refuse_channels(file, &format!("one of {}", names.join(", "))),
     }
 }
 
@@ -192,35 +179,33 @@ fn refuse_channels<T>(file: &ExrFile, allowed: &str) -> Result<T, Error> {
         &file.path,
         &format!(
             "has the channels {}; needed: {allowed}",
-            store::printable(&names.join(", "))
+            printable(&names.join(", "))
         ),
     )
 }
 
 /// Refuses a channel with NaN or infinity, and names the pixel.
 fn check_finite(file: &ExrFile, names: &[&str]) -> Result<(), Error> {
-    for name in names {
-        let plane = file.plane(name)?;
-        if let Some(at) = plane.pixels.iter().position(|value| !value.is_finite()) {
-            return refuse(
-                &file.path,
-                &format!(
-                    "channel \"{name}\" holds {} at pixel {}; every number must be finite: look for a division by 0 in the \
-                     engine, or for a half float that overflowed",
-                    plane.pixels[at],
-                    place(&plane, at)
-                ),
-            );
-        }
-    }
-    Ok(())
+    let allowed = "every number must be finite: look for a division by 0 in the engine, or for a half float that overflowed";
+    let mut names = names.iter();
+    names.try_for_each(|name| {
+        check_values(file, name, &file.plane(name)?, |it| it.is_finite(), allowed)
+    })
 }
 
-fn place(plane: &Plane, at: usize) -> String {
-    let width = plane.width as usize;
-    format!("({}, {})", at % width, at / width)
-}
-
-fn refuse<T>(path: &Path, reason: &str) -> Result<T, Error> {
-    Err(Error::Usage(format!("{}: {reason}", path.display())))
+/// Refuses a channel with a number that is not allowed, and names the pixel.
+fn check_values(
+    file: &ExrFile,
+    name: &str,
+    plane: &Plane,
+    is_allowed: impl Fn(&f32) -> bool,
+    allowed: &str,
+) -> Result<(), Error> {
+    let Some(at) = plane.pixels.iter().position(|value| !is_allowed(value)) else {
+        return Ok(());
+    };
+    let (value, width) = (plane.pixels[at], plane.width as usize);
+    let (x, y) = (at % width, at / width);
+    let found = format!("channel \"{name}\" holds {value} at pixel ({x}, {y})");
+    refuse(&file.path, &format!("{found}; {allowed}"))
 }

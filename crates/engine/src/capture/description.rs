@@ -4,10 +4,11 @@ use std::path::Path;
 
 use frame::{Alignment, MOST_STOPS, is_hidden};
 use serde::Deserialize;
-use tracer::FrameRate;
-
 use store::read_text;
 use suite::Error;
+use tracer::FrameRate;
+
+use crate::files::refuse;
 
 /// Name of the file.
 pub const CAPTURE_FILE: &str = "capture.toml";
@@ -18,7 +19,7 @@ const LONGEST_ENGINE: usize = 160;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaptureDescription {
-    /// Engine and version, such as `three.js 0.187.0`, and behind that in brackets what else matters.
+    /// Engine and version, such as `three.js 0.187.0`, and after it in brackets what else matters.
     pub engine: String,
     /// Scene of the suite that the engine drew, with its variant.
     #[serde(default)]
@@ -27,7 +28,7 @@ pub struct CaptureDescription {
     #[serde(default)]
     pub exposure: Option<f64>,
     /// Alignment of their shutter: `trailing`, `centred` or `leading`.
-    #[serde(default, deserialize_with = "parse_alignment")]
+    #[serde(default)]
     pub alignment: Option<Alignment>,
     /// Time of the frame, in frames after the instant that the exported manifest names.
     #[serde(default)]
@@ -45,20 +46,22 @@ impl CaptureDescription {
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(CAPTURE_FILE);
         if !path.is_file() {
-            return Err(Error::Usage(format!(
-                "{}: there is no such file; a capture has one that names its engine: engine = \"my engine 1.0\"",
-                path.display()
-            )));
+            return refuse(
+                &path,
+                "there is no such file; a capture has one that names its engine: engine = \"my engine 1.0\"",
+            );
         }
         let text = read_text(&path)?;
         let description: Self = toml::from_str(&text).map_err(|error| {
-            let line = error.span().map_or(1, |span| line_of(&text, span.start));
+            let before = error.span().map_or("", |span| &text[..span.start]);
+            let line = 1 + before.matches('\n').count();
             let reason = error.message().replace('\n', "; ");
             Error::Usage(format!("{}:{line}: {reason}", path.display()))
         })?;
-        (description.check())
-            .map_err(|reason| Error::Usage(format!("{}: {reason}", path.display())))?;
-        Ok(description)
+        match description.check() {
+            Ok(()) => Ok(description),
+            Err(reason) => refuse(&path, &reason),
+        }
     }
 
     /// Refuses texts that would disturb a terminal or a page, and numbers that make no sense.
@@ -113,21 +116,6 @@ fn is_scene_name(text: &str) -> bool {
         None => 2,
     };
     text.split('@').count() <= most && text.split('@').all(is_word)
-}
-
-/// Counts the lines up to an offset.
-fn line_of(text: &str, offset: usize) -> usize {
-    1 + text.as_bytes()[..offset.min(text.len())]
-        .iter()
-        .filter(|byte| **byte == b'\n')
-        .count()
-}
-
-fn parse_alignment<'a, D: serde::Deserializer<'a>>(
-    deserializer: D,
-) -> Result<Option<Alignment>, D::Error> {
-    let text = String::deserialize(deserializer)?;
-    text.parse().map(Some).map_err(serde::de::Error::custom)
 }
 
 #[cfg(test)]

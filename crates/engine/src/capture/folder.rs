@@ -1,9 +1,10 @@
 //! A capture as its folder has it, brought to the convention of frames.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::{Convention, DepthKind, VelocityTime};
-use frame::{Alignment, Image, Plane, Raster, Vectors};
+use frame::{Alignment, FileError, Image, Plane, Raster, Vectors};
 use store::read_text;
 use suite::Error;
 
@@ -13,13 +14,14 @@ use crate::capture::buffers::{
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
+use crate::files::refuse;
 
 /// Name of the file of a capture that holds its convention.
 pub const CONVENTION_FILE: &str = "engine.toml";
 /// Name of the folder of a capture that holds its sub-frames.
 pub const SUBFRAMES: &str = "subframes";
 
-/// An engine's pictures of one instant, and what lies beside them. All rasters have the same size.
+/// An engine's pictures of one instant, and its sub-frames. All rasters have the same size.
 #[derive(Clone, Debug)]
 pub struct Capture {
     /// Folder of the files.
@@ -49,16 +51,17 @@ impl Capture {
     /// named.
     pub fn read(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
         if !folder.is_dir() {
-            return Err(Error::Usage(format!(
-                "{}: there is no such folder; name one that holds an engine's {CAPTURE_FILE}, color.exr, velocity.exr and \
-                 depth.exr",
-                folder.display()
-            )));
+            return refuse(
+                folder,
+                &format!(
+                    "there is no such folder; name one that holds an engine's {CAPTURE_FILE}, color.exr, velocity.exr and \
+                     depth.exr"
+                ),
+            );
         }
         let description = CaptureDescription::read(folder)?;
         let convention = read_convention(folder, convention)?;
-        let find = |stem: &str| find_picture(folder, stem);
-        let Some(color_path) = find("color")? else {
+        let Some(color_path) = find_picture(folder, "color")? else {
             return refuse_missing(&folder.join("color.exr"), "the radiance of one instant");
         };
         let stops = description.stops.unwrap_or(0.0);
@@ -86,7 +89,7 @@ impl Capture {
         if let Some(ids) = &object_id {
             check_size(&path, ids, &color)?;
         }
-        let blurred_path = find("blurred")?;
+        let blurred_path = find_picture(folder, "blurred")?;
         let blurred = (blurred_path.as_ref())
             .map(|path| read_color(path, &convention, stops))
             .transpose()?;
@@ -111,11 +114,8 @@ impl Capture {
     /// Reads one of the sub-frames as scene-linear radiance.
     pub fn read_subframe(&self, index: usize) -> Result<Image, Error> {
         let path = &self.subframes[index];
-        let subframe = read_color(
-            path,
-            &self.convention,
-            self.description.stops.unwrap_or(0.0),
-        )?;
+        let stops = self.description.stops.unwrap_or(0.0);
+        let subframe = read_color(path, &self.convention, stops)?;
         check_size(path, &subframe, &self.color)?;
         Ok(subframe)
     }
@@ -150,11 +150,11 @@ impl Capture {
 fn read_convention(folder: &Path, path: Option<&Path>) -> Result<Convention, Error> {
     let default = folder.join(CONVENTION_FILE);
     if path.is_none() && !default.is_file() {
-        return Err(Error::Usage(format!(
-            "{}: there is no such file; it says in a table [convention] which velocity and depth the engine has; write one, \
-             or name one with --convention",
-            default.display()
-        )));
+        return refuse(
+            &default,
+            "there is no such file; it says in a table [convention] which velocity and depth the engine has; write one, or name \
+             one with --convention",
+        );
     }
     let path = path.unwrap_or(&default);
     Ok(Convention::parse(path, &read_text(path)?)?)
@@ -186,17 +186,21 @@ fn require(folder: &Path, name: &str, holds: &str) -> Result<PathBuf, Error> {
 }
 
 fn refuse_missing<T>(path: &Path, holds: &str) -> Result<T, Error> {
-    Err(Error::Usage(format!(
-        "{}: there is no such file; it holds {holds}, without which no filter can blur: save that buffer from the engine",
-        path.display()
-    )))
+    refuse(
+        path,
+        &format!(
+            "there is no such file; it holds {holds}, without which no filter can blur: save that buffer from the engine"
+        ),
+    )
 }
 
 fn refuse_key<T>(folder: &Path, key: &str, about: &str) -> Result<T, Error> {
-    Err(Error::Usage(format!(
-        "{}: lacks a line such as `{key}` ({about}); sub-frames and blurred pictures are of a shutter: add it",
-        folder.join(CAPTURE_FILE).display()
-    )))
+    refuse(
+        &folder.join(CAPTURE_FILE),
+        &format!(
+            "lacks a line such as `{key}` ({about}); sub-frames and blurred pictures are of a shutter: add it"
+        ),
+    )
 }
 
 /// Lists the sub-frames by their numbers from 0; none where there is no folder of them.
@@ -207,42 +211,44 @@ fn list_subframes(
 ) -> Result<Vec<PathBuf>, Error> {
     let own = folder.join(SUBFRAMES);
     let ending = if is_png(color) { "png" } else { "exr" };
-    let mut names = Vec::new();
+    let mut paths = Vec::new();
     if own.is_dir() {
-        let entries = std::fs::read_dir(&own)
-            .and_then(|entries| entries.map(|entry| Ok(entry?.file_name())).collect());
-        let entries: Vec<_> =
-            entries.map_err(|source| frame::FileError::io(&own, "read", source))?;
-        for name in entries {
-            let name = name.to_string_lossy().into_owned();
-            match Path::new(&name).extension().and_then(|own| own.to_str()) {
-                Some(found) if found == ending => names.push(name),
+        let fail = |source| FileError::io(&own, "read", source);
+        for entry in fs::read_dir(&own).map_err(fail)? {
+            let path = entry.map_err(fail)?.path();
+            match path.extension().and_then(|found| found.to_str()) {
+                Some(found) if found == ending => paths.push(path),
                 Some(found @ ("exr" | "png")) => {
-                    return Err(Error::Usage(format!(
-                        "{}: is a .{found}, the colour a .{ending}; allowed: sub-frames in the form of the colour",
-                        own.join(&name).display()
-                    )));
+                    let reason = format!(
+                        "is a .{found}, the colour a .{ending}; allowed: sub-frames in the form of the colour"
+                    );
+                    return refuse(&path, &reason);
                 }
                 _ => {}
             }
         }
     }
-    names.sort();
-    let due = |index: usize| format!("{index:04}.{ending}");
-    if let Some(index) = (0..names.len()).find(|index| names[*index] != due(*index)) {
-        return Err(Error::Usage(format!(
-            "{}: stands in the place of {}; allowed: sub-frames numbered from 0000 without a gap",
-            own.join(&names[index]).display(),
-            due(index)
-        )));
+    paths.sort();
+    for (index, path) in paths.iter().enumerate() {
+        let expected = format!("{index:04}.{ending}");
+        if !path.ends_with(&expected) {
+            return refuse(
+                path,
+                &format!(
+                    "stands in the place of {expected}; allowed: sub-frames numbered from 0000 without a gap"
+                ),
+            );
+        }
     }
     match description.subframes {
-        Some(expected) if expected != names.len() => Err(Error::Usage(format!(
-            "{}: holds {} sub-frames, {CAPTURE_FILE} says {expected}; capture all of them, or correct subframes = {expected}",
-            own.display(),
-            names.len()
-        ))),
-        _ => Ok(names.iter().map(|name| own.join(name)).collect()),
+        Some(expected) if expected != paths.len() => refuse(
+            &own,
+            &format!(
+                "holds {} sub-frames, {CAPTURE_FILE} says {expected}; capture all of them, or correct subframes = {expected}",
+                paths.len()
+            ),
+        ),
+        _ => Ok(paths),
     }
 }
 

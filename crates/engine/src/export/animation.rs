@@ -1,157 +1,128 @@
 //! Animation channels of nodes.
 
 use glam::{DQuat, DVec3};
-use gltf_json::animation::{Animation, Channel, Interpolation, Property, Sampler, Target};
-use gltf_json::validation::Checked;
-use gltf_json::{Accessor, Index, Node};
-use tracer::Shape;
+use serde_json::{Value, json};
+use tracer::{Motion, Shape};
 
-use crate::export::buffer::Document;
-use crate::export::motion::{CubicKey, Track, Tracks};
+use crate::export::document::{Document, widen};
+use crate::export::motion::{Track, Tracks};
 use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
 
 /// The animation of a scene: channels and samplers.
-#[derive(Debug, Default)]
-pub struct Channels {
-    channels: Vec<Channel>,
-    samplers: Vec<Sampler>,
+pub struct Channels<'a> {
+    timeline: &'a Timeline,
+    channels: Vec<Value>,
+    samplers: Vec<Value>,
 }
 
-impl Channels {
-    /// Poses a node at the start of the timeline, and adds a channel for each part of its pose that changes.
-    pub fn add_motion(
+impl<'a> Channels<'a> {
+    /// Begins an animation in which nothing moves.
+    pub fn new(timeline: &'a Timeline) -> Self {
+        Self {
+            timeline,
+            channels: Vec::new(),
+            samplers: Vec::new(),
+        }
+    }
+
+    /// Adds a node in its pose at the start of the timeline, and a channel for each part of its pose that changes.
+    pub fn push_node(
         &mut self,
         document: &mut Document,
-        node: Index<Node>,
-        tracks: &Tracks,
-        timeline: &Timeline,
-    ) {
+        mut node: Value,
+        motion: &Motion,
+    ) -> usize {
         let Tracks {
             translation,
             rotation,
             scale,
-        } = tracks;
-        let posed = &mut document.root.nodes[node.value()];
-        posed.translation = Some(floats(first_of(translation)));
-        posed.rotation = Some(gltf_json::scene::UnitQuaternion(turn(first_of(rotation))));
-        posed.scale = Some(floats(first_of(scale)));
-        self.add_track(
-            document,
-            node,
-            Property::Translation,
-            translation,
-            floats,
-            timeline,
-        );
-        self.add_track(document, node, Property::Rotation, rotation, turn, timeline);
-        self.add_track(document, node, Property::Scale, scale, floats, timeline);
+        } = Tracks::of(motion, self.timeline);
+        node["translation"] = json!(floats(first_of(&translation)).map(widen));
+        node["rotation"] = json!(turn(first_of(&rotation)).map(widen));
+        node["scale"] = json!(floats(first_of(&scale)).map(widen));
+        let node = document.push("nodes", node);
+        self.add_track(document, node, "translation", &translation, floats);
+        self.add_track(document, node, "rotation", &rotation, turn);
+        self.add_track(document, node, "scale", &scale, floats);
+        node
     }
 
     /// Adds the weights of a node's morph targets: between two shapes those of the two, and beyond the ends as between the nearest
     /// two, so that one weight is below 0 or above 1 there.
-    pub fn add_shapes(
-        &mut self,
-        document: &mut Document,
-        node: Index<Node>,
-        shapes: &[Shape],
-        timeline: &Timeline,
-    ) {
-        let times = timeline.cut(shapes.iter().map(|shape| shape.time));
+    pub fn add_shapes(&mut self, document: &mut Document, node: usize, shapes: &[Shape]) {
+        let times = self.timeline.cut(shapes.iter().map(|shape| shape.time));
         let weights: Vec<[f32; 1]> = (times.iter())
             .flat_map(|time| weigh_shapes(shapes, *time).into_iter().skip(1))
             .map(|weight| [weight as f32])
             .collect();
         let output = document.push_floats(&weights, None);
-        let input = push_times(document, &times, timeline);
-        self.add(
-            node,
-            Property::MorphTargetWeights,
-            Interpolation::Linear,
-            input,
-            output,
-        );
+        self.add(document, node, "weights", "LINEAR", &times, output);
     }
 
     /// Adds the animation, if anything moves.
     pub fn finish(self, document: &mut Document) {
         if !self.channels.is_empty() {
-            document.root.push(Animation {
-                extensions: None,
-                extras: None,
-                channels: self.channels,
-                name: Some("scene".to_owned()),
-                samplers: self.samplers,
+            let animation = json!({
+                "channels": self.channels,
+                "name": "scene",
+                "samplers": self.samplers,
             });
+            document.push("animations", animation);
         }
     }
 
     fn add_track<T: Copy, const N: usize>(
         &mut self,
         document: &mut Document,
-        node: Index<Node>,
-        property: Property,
+        node: usize,
+        path: &str,
         track: &Track<T>,
         value: fn(T) -> [f32; N],
-        timeline: &Timeline,
     ) {
-        let (times, values, interpolation): (Vec<f64>, Vec<[f32; N]>, Interpolation) = match track {
+        let (times, values, interpolation): (Vec<f64>, Vec<[f32; N]>, &str) = match track {
             Track::Still(_) => return,
             Track::Linear(keys) => {
-                let (times, values): (Vec<f64>, Vec<T>) = keys.iter().copied().unzip();
-                (
-                    times,
-                    values.into_iter().map(value).collect(),
-                    Interpolation::Linear,
-                )
+                let (times, values) = keys.iter().map(|(time, own)| (*time, value(*own))).unzip();
+                (times, values, "LINEAR")
             }
             Track::Cubic(keys) => {
                 // Slopes are per second there.
                 let slope =
                     |own: T| value(own).map(|part| (f64::from(part) * FRAMES_PER_SECOND) as f32);
-                let triple = |key: &CubicKey<T>| {
-                    [slope(key.slope_in), value(key.value), slope(key.slope_out)]
-                };
-                (
-                    keys.iter().map(|key| key.time).collect(),
-                    keys.iter().flat_map(triple).collect(),
-                    Interpolation::CubicSpline,
-                )
+                let times = keys.iter().map(|(time, _)| *time).collect();
+                let triples = keys.iter().flat_map(|(_, [before, own, after])| {
+                    [slope(*before), value(*own), slope(*after)]
+                });
+                (times, triples.collect(), "CUBICSPLINE")
             }
         };
-        let input = push_times(document, &times, timeline);
         let output = document.push_floats(&values, None);
-        self.add(node, property, interpolation, input, output);
+        self.add(document, node, path, interpolation, &times, output);
     }
 
+    /// Adds a channel whose values are in the accessor `output`.
     fn add(
         &mut self,
-        node: Index<Node>,
-        property: Property,
-        interpolation: Interpolation,
-        input: Index<Accessor>,
-        output: Index<Accessor>,
+        document: &mut Document,
+        node: usize,
+        path: &str,
+        interpolation: &str,
+        times: &[f64],
+        output: usize,
     ) {
-        let sampler = Index::push(
-            &mut self.samplers,
-            Sampler {
-                extensions: None,
-                extras: None,
-                input,
-                interpolation: Checked::Valid(interpolation),
-                output,
-            },
-        );
-        self.channels.push(Channel {
-            sampler,
-            target: Target {
-                extensions: None,
-                extras: None,
-                node,
-                path: Checked::Valid(property),
-            },
-            extensions: None,
-            extras: None,
-        });
+        let seconds: Vec<[f32; 1]> = (times.iter())
+            .map(|time| [self.timeline.seconds(*time) as f32])
+            .collect();
+        let input = document.push_limited(&seconds, None);
+        self.channels.push(json!({
+            "sampler": self.samplers.len(),
+            "target": { "node": node, "path": path },
+        }));
+        self.samplers.push(json!({
+            "input": input,
+            "interpolation": interpolation,
+            "output": output,
+        }));
     }
 }
 
@@ -167,18 +138,11 @@ fn weigh_shapes(shapes: &[Shape], time: f64) -> Vec<f64> {
     weights
 }
 
-fn push_times(document: &mut Document, times: &[f64], timeline: &Timeline) -> Index<Accessor> {
-    let seconds: Vec<[f32; 1]> = (times.iter())
-        .map(|time| [timeline.seconds(*time) as f32])
-        .collect();
-    document.push_limited(&seconds, None)
-}
-
 fn first_of<T: Copy>(track: &Track<T>) -> T {
     match track {
         Track::Still(value) => *value,
         Track::Linear(keys) => keys[0].1,
-        Track::Cubic(keys) => keys[0].value,
+        Track::Cubic(keys) => keys[0].1[1],
     }
 }
 

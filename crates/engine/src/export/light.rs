@@ -5,59 +5,43 @@ use std::path::Path;
 
 use frame::{ExrFile, FileError, Image, write_exr};
 use glam::{DQuat, DVec3};
-use gltf_json::Index;
-use gltf_json::Node;
-use gltf_json::extensions::root::KhrLightsPunctual;
-use gltf_json::extensions::scene::khr_lights_punctual::{
-    KhrLightsPunctual as LightOfNode, Light, Type,
-};
-use gltf_json::scene::UnitQuaternion;
-use gltf_json::validation::Checked;
+use serde_json::{Value, json};
 use tracer::{Background, Sun};
 
-use crate::export::buffer::Document;
+use crate::export::document::{Document, widen};
 
 /// Name of the sky's file.
 pub const SKY: &str = "sky.exr";
+/// Extension that has words for a sun.
+pub const SUN_EXTENSION: &str = "KHR_lights_punctual";
 /// Columns and rows of a sky that is no picture.
 const SIZE: (u32, u32) = (512, 256);
 
-/// Adds the sun as a directional light. Its intensity, in lux there, is the irradiance on a surface that faces it.
-pub fn push_sun(document: &mut Document, sun: &Sun) -> Index<Node> {
+/// Describes the sun as a directional light. Its intensity, in lux there, is the irradiance on a surface that faces it.
+pub fn sun_light(sun: &Sun) -> Value {
     let strength = sun.irradiance.max_element();
     let color = match strength > 0.0 {
         true => sun.irradiance / strength,
         false => sun.irradiance,
     };
-    let extensions = document.root.extensions.get_or_insert_default();
-    let lights = extensions
-        .khr_lights_punctual
-        .get_or_insert_with(|| KhrLightsPunctual { lights: Vec::new() });
-    let light = Index::push(
-        &mut lights.lights,
-        Light {
-            color: color.to_array(),
-            extensions: None,
-            extras: None,
-            intensity: strength,
-            name: Some("sun".to_owned()),
-            range: None,
-            spot: None,
-            type_: Checked::Valid(Type::Directional),
-        },
-    );
-    // Light goes along the node's -Z, away from the sun.
-    let rotation = DQuat::from_rotation_arc(DVec3::Z, sun.direction);
-    let own = gltf_json::extensions::scene::Node {
-        khr_lights_punctual: Some(LightOfNode { light }),
-        ..Default::default()
-    };
-    document.root.push(Node {
-        extensions: Some(own),
-        name: Some("sun".to_owned()),
-        rotation: Some(UnitQuaternion(rotation.as_quat().to_array())),
-        ..Node::default()
+    json!({
+        "color": color.to_array().map(widen),
+        "intensity": widen(strength),
+        "name": "sun",
+        "type": "directional",
     })
+}
+
+/// Adds the node of the sun, whose light is the document's only one.
+pub fn push_sun(document: &mut Document, sun: &Sun) -> usize {
+    // Light goes along the node's -Z, away from the sun.
+    let rotation = DQuat::from_rotation_arc(DVec3::Z, sun.direction).as_quat();
+    let node = json!({
+        "extensions": { SUN_EXTENSION: { "light": 0 } },
+        "name": "sun",
+        "rotation": rotation.to_array().map(widen),
+    });
+    document.push("nodes", node)
 }
 
 /// Writes the radiance of every direction by longitude and latitude: the middle of the picture lies towards -Z, its right quarter

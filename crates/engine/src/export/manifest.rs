@@ -1,23 +1,23 @@
-//! The manifest beside an exported scene: what an engine needs and glTF cannot say.
+//! The manifest of an exported scene: what an engine needs and glTF cannot say.
 
 use std::collections::BTreeMap;
 
 use frame::Alignment;
 use serde::Serialize;
-use tracer::{Background, Scene};
+use tracer::{Background, Lens, Scene};
 
 use crate::export::light::SKY;
 use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
 
 /// Version of the layout of `manifest.json`.
-pub const MANIFEST_FORMAT: u32 = 1;
+const MANIFEST_FORMAT: u32 = 1;
 /// Name of the file.
 pub const MANIFEST: &str = "manifest.json";
 
 /// What an engine needs to draw an exported scene as the tracer does.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Manifest {
-    /// [`MANIFEST_FORMAT`].
+    /// Version of the layout.
     pub format: u32,
     /// Program name and version.
     pub program: String,
@@ -42,7 +42,7 @@ pub struct Manifest {
     /// Vertical field of view in degrees.
     pub vertical_fov: f64,
     /// Lens of the camera; none of a pinhole. glTF has no words for it.
-    pub lens: Option<ManifestLens>,
+    pub lens: Option<Lens>,
     /// Display exposure in stops; the radiance of the picture is without it.
     pub stops: f32,
     /// Irradiance of the sun on a surface that faces it, linear Rec.709; none without a sun.
@@ -57,15 +57,6 @@ pub struct Manifest {
     pub objects: Vec<String>,
     /// Notes on what an engine must know about the numbers, a sentence each.
     pub conventions: Vec<&'static str>,
-}
-
-/// A thin lens.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ManifestLens {
-    /// Diameter in metres.
-    pub aperture: f64,
-    /// Distance along the view axis at which points are sharp, in metres.
-    pub focus: f64,
 }
 
 const CONVENTIONS: [&str; 7] = [
@@ -104,10 +95,7 @@ impl Manifest {
             shutter: Alignment::ALL.into_iter().map(shutter).collect(),
             has_shutter_profile: scene.shutter_profile != frame::ShutterProfile::default(),
             vertical_fov: scene.camera.vertical_fov_at(0.0).to_degrees(),
-            lens: scene.camera.lens.map(|lens| ManifestLens {
-                aperture: lens.aperture,
-                focus: lens.focus,
-            }),
+            lens: scene.camera.lens,
             stops: scene.display.stops,
             sun_irradiance: scene.sun.map(|sun| sun.irradiance.to_array()),
             sun_angular_radius: scene.sun.map(|sun| sun.angular_radius.to_degrees()),

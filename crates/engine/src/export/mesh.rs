@@ -3,21 +3,13 @@
 use std::collections::BTreeMap;
 
 use glam::Vec3;
-use gltf_json::buffer::Target;
-use gltf_json::mesh::{Mode, MorphTarget, Primitive, Semantic};
-use gltf_json::validation::Checked;
-use gltf_json::{Index, Material, Mesh};
-use tracer::Shape;
+use serde_json::{Value, json};
+use tracer::{Mesh, Shape};
 
-use crate::export::buffer::Document;
+use crate::export::document::{Document, Target};
 
 /// Adds a mesh with a material per slot. Shapes become morph targets: what each has more than the first.
-pub fn push_mesh(
-    document: &mut Document,
-    name: &str,
-    mesh: &tracer::Mesh,
-    materials: &[Index<Material>],
-) -> Index<Mesh> {
+pub fn push_mesh(document: &mut Document, name: &str, mesh: &Mesh, materials: &[usize]) -> usize {
     let mut groups: BTreeMap<(u32, bool), Vec<[u32; 3]>> = BTreeMap::new();
     for (triangle, slot) in mesh.triangles.iter().zip(&mesh.slots) {
         let is_smooth = triangle.iter().all(|corner| has_normal(mesh, *corner));
@@ -26,7 +18,7 @@ pub fn push_mesh(
             .or_default()
             .push(*triangle);
     }
-    let primitives: Vec<Primitive> = (groups.into_iter())
+    let primitives: Vec<Value> = (groups.into_iter())
         .map(|((slot, is_smooth), triangles)| {
             push_primitive(
                 document,
@@ -38,17 +30,13 @@ pub fn push_mesh(
         })
         .collect();
     let targets = mesh.shapes.len().saturating_sub(1);
-    document.root.push(Mesh {
-        extensions: None,
-        extras: None,
-        name: Some(name.to_owned()),
-        primitives,
-        weights: (targets > 0).then(|| vec![0.0; targets]),
-    })
+    let weights = (targets > 0).then(|| vec![0.0; targets]);
+    let mesh = json!({ "name": name, "primitives": primitives, "weights": weights });
+    document.push("meshes", mesh)
 }
 
 /// Tells whether a vertex has a normal in every shape. The tracer takes the facet's where there is none, as glTF does.
-fn has_normal(mesh: &tracer::Mesh, vertex: u32) -> bool {
+fn has_normal(mesh: &Mesh, vertex: u32) -> bool {
     let is_given = |normals: &[Vec3]| {
         (normals.get(vertex as usize)).is_some_and(|normal| *normal != Vec3::ZERO)
     };
@@ -57,11 +45,11 @@ fn has_normal(mesh: &tracer::Mesh, vertex: u32) -> bool {
 
 fn push_primitive(
     document: &mut Document,
-    mesh: &tracer::Mesh,
+    mesh: &Mesh,
     triangles: &[[u32; 3]],
     is_smooth: bool,
-    material: Index<Material>,
-) -> Primitive {
+    material: usize,
+) -> Value {
     // Vertices in the order in which the triangles use them, without those of other primitives.
     let mut vertices: Vec<u32> = Vec::new();
     let mut places: BTreeMap<u32, u32> = BTreeMap::new();
@@ -78,65 +66,53 @@ fn push_primitive(
             .map(|vertex| values[*vertex as usize].to_array())
             .collect()
     };
-    let array = Some(Target::ArrayBuffer);
-    let mut attributes = BTreeMap::new();
+    let array = Some(Target::Vertices);
     let positions = document.push_limited(&pick(&mesh.positions), array);
-    attributes.insert(Checked::Valid(Semantic::Positions), positions);
-    if is_smooth {
-        let normals = document.push_floats(&pick(&mesh.normals), array);
-        attributes.insert(Checked::Valid(Semantic::Normals), normals);
-    }
-    if !mesh.texcoords.is_empty() && is_textured(document, material) {
+    let normals = is_smooth.then(|| document.push_floats(&pick(&mesh.normals), array));
+    let is_textured = !mesh.texcoords.is_empty() && is_textured(document, material);
+    let texcoords = is_textured.then(|| {
         // Down from the top there, up from the bottom here.
         let texcoords: Vec<[f32; 2]> = (vertices.iter())
             .map(|vertex| mesh.texcoords[*vertex as usize])
             .map(|texcoord| [texcoord.x, 1.0 - texcoord.y])
             .collect();
-        let texcoords = document.push_floats(&texcoords, array);
-        attributes.insert(Checked::Valid(Semantic::TexCoords(0)), texcoords);
-    }
-    let targets: Vec<MorphTarget> = (mesh.shapes.iter().skip(1))
+        document.push_floats(&texcoords, array)
+    });
+    let targets: Vec<Value> = (mesh.shapes.iter().skip(1))
         .map(|shape| push_target(document, mesh, shape, is_smooth, &pick))
         .collect();
-    Primitive {
-        attributes,
-        extensions: None,
-        extras: None,
-        indices: Some(document.push_indices(&indices)),
-        material: Some(material),
-        mode: Checked::Valid(Mode::Triangles),
-        targets: (!targets.is_empty()).then_some(targets),
-    }
+    json!({
+        "attributes": { "POSITION": positions, "NORMAL": normals, "TEXCOORD_0": texcoords },
+        "indices": document.push_indices(&indices),
+        "material": material,
+        "targets": (!targets.is_empty()).then_some(targets),
+    })
 }
 
-fn is_textured(document: &Document, material: Index<Material>) -> bool {
-    let material = &document.root.materials[material.value()];
-    let color = &material.pbr_metallic_roughness.base_color_texture;
-    color.is_some() || material.emissive_texture.is_some()
+fn is_textured(document: &Document, material: usize) -> bool {
+    let material = &document.list("materials")[material];
+    let color = &material["pbrMetallicRoughness"]["baseColorTexture"];
+    color.is_object() || material["emissiveTexture"].is_object()
 }
 
 fn push_target(
     document: &mut Document,
-    mesh: &tracer::Mesh,
+    mesh: &Mesh,
     shape: &Shape,
     is_smooth: bool,
     pick: &impl Fn(&[Vec3]) -> Vec<[f32; 3]>,
-) -> MorphTarget {
+) -> Value {
     let difference = |own: &[Vec3], first: &[Vec3]| -> Vec<Vec3> {
         own.iter()
             .zip(first)
             .map(|(own, first)| own - first)
             .collect()
     };
-    let array = Some(Target::ArrayBuffer);
-    let positions = pick(&difference(&shape.positions, &mesh.positions));
+    let array = Some(Target::Vertices);
     let normals = is_smooth.then(|| {
         let normals = pick(&difference(&shape.normals, &mesh.normals));
         document.push_floats(&normals, array)
     });
-    MorphTarget {
-        positions: Some(document.push_limited(&positions, array)),
-        normals,
-        tangents: None,
-    }
+    let positions = pick(&difference(&shape.positions, &mesh.positions));
+    json!({ "POSITION": document.push_limited(&positions, array), "NORMAL": normals })
 }

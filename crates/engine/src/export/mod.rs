@@ -5,18 +5,16 @@
 //! glTF cannot: times of the shutter, object ids, and how numbers are meant.
 
 mod animation;
-mod buffer;
 mod document;
-mod error;
 mod light;
 mod manifest;
 mod material;
 mod mesh;
 mod motion;
+mod scene;
 mod textures;
 mod timeline;
 
-pub use document::export_gltf;
-pub use error::ExportError;
-pub use manifest::{MANIFEST_FORMAT, Manifest, ManifestLens};
+pub use manifest::Manifest;
+pub use scene::export_gltf;
 pub use timeline::{FRAMES_PER_SECOND, Timeline};

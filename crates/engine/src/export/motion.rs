@@ -15,28 +15,15 @@ const MOST_HALVINGS: u32 = 12;
 /// chords, or at an end twice a chord less such a mean.
 const OVER_CHORD: f64 = 6.0;
 
-/// Values of one quantity at the times of keys.
+/// Values of one quantity at the times of keys, in frames relative to the instant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Track<T> {
     /// The quantity never changes.
     Still(T),
-    /// Linear between keys: time in frames, and value.
+    /// Linear between keys.
     Linear(Vec<(f64, T)>),
-    /// Cubic Hermite curves between keys.
-    Cubic(Vec<CubicKey<T>>),
-}
-
-/// A key of a cubic curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CubicKey<T> {
-    /// Frames relative to the instant.
-    pub time: f64,
-    /// Slope before the key, per frame.
-    pub slope_in: T,
-    /// Value.
-    pub value: T,
-    /// Slope after the key, per frame.
-    pub slope_out: T,
+    /// Cubic Hermite curves between keys: slope before the key, per frame, value, and slope after it.
+    Cubic(Vec<(f64, [T; 3])>),
 }
 
 /// Place, turn and scale of a node.
@@ -54,41 +41,21 @@ impl Tracks {
     /// Follows a motion through a timeline.
     pub fn of(motion: &Motion, timeline: &Timeline) -> Self {
         let times = timeline.cut(motion.keys.iter().map(|key| key.time));
-        let is_cubic = motion.interpolation == Interpolation::Cubic;
-        let follow = |part: fn(Pose) -> DVec3| {
-            let value = |time: f64| part(Pose::of(motion, time));
-            match is_cubic {
-                true => follow_cubic(&times, value),
-                false => follow_linear(&times, value),
-            }
+        let follow = match motion.interpolation {
+            Interpolation::Linear => follow_linear,
+            Interpolation::Cubic => follow_cubic,
         };
+        let pose = |time: f64| motion.at(time).to_scale_rotation_translation();
+        let rotation = |time: f64| pose(time).1.normalize();
         Self {
-            translation: follow(|pose| pose.translation),
-            rotation: follow_turns(motion, &times),
-            scale: follow(|pose| pose.scale),
+            translation: follow(&times, &|time| pose(time).2),
+            rotation: follow_turns(&times, &rotation, fastest_turn(motion)),
+            scale: follow(&times, &|time| pose(time).0),
         }
     }
 }
 
-/// A pose, taken apart.
-struct Pose {
-    translation: DVec3,
-    rotation: DQuat,
-    scale: DVec3,
-}
-
-impl Pose {
-    fn of(motion: &Motion, time: f64) -> Self {
-        let (scale, rotation, translation) = motion.at(time).to_scale_rotation_translation();
-        Self {
-            translation,
-            rotation: rotation.normalize(),
-            scale,
-        }
-    }
-}
-
-fn follow_linear(times: &[f64], value: impl Fn(f64) -> DVec3) -> Track<DVec3> {
+fn follow_linear(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<DVec3> {
     let keys: Vec<(f64, DVec3)> = times.iter().map(|time| (*time, value(*time))).collect();
     match keys.iter().all(|(_, own)| is_close(*own, keys[0].1)) {
         true => Track::Still(keys[0].1),
@@ -97,36 +64,30 @@ fn follow_linear(times: &[f64], value: impl Fn(f64) -> DVec3) -> Track<DVec3> {
 }
 
 /// Follows a curve that is a cubic polynomial between each two times: its value at four times gives the slopes at both ends.
-fn follow_cubic(times: &[f64], value: impl Fn(f64) -> DVec3) -> Track<DVec3> {
-    let mut keys: Vec<CubicKey<DVec3>> = (times.iter())
-        .map(|time| CubicKey {
-            time: *time,
-            slope_in: DVec3::ZERO,
-            value: value(*time),
-            slope_out: DVec3::ZERO,
-        })
+fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<DVec3> {
+    let mut keys: Vec<(f64, [DVec3; 3])> = (times.iter())
+        .map(|time| (*time, [DVec3::ZERO, value(*time), DVec3::ZERO]))
         .collect();
     let mut is_still = true;
     for next in 1..keys.len() {
-        let [from, to] = [keys[next - 1].time, keys[next].time];
+        let [from, to] = [times[next - 1], times[next]];
         let duration = to - from;
         // The value at a key may belong to the piece after it, which has the same value there.
         let [a, b, c, d] = [0.0, 1.0, 2.0, 3.0].map(|third| value(from + duration * third / 3.0));
         is_still &= [b, c, d].iter().all(|own| is_close(*own, a));
         let per_frame = 1.0 / (2.0 * duration);
-        keys[next - 1].slope_out = (-11.0 * a + 18.0 * b - 9.0 * c + 2.0 * d) * per_frame;
-        keys[next].slope_in = (-2.0 * a + 9.0 * b - 18.0 * c + 11.0 * d) * per_frame;
+        keys[next - 1].1[2] = (-11.0 * a + 18.0 * b - 9.0 * c + 2.0 * d) * per_frame;
+        keys[next].1[0] = (-2.0 * a + 9.0 * b - 18.0 * c + 11.0 * d) * per_frame;
     }
     match is_still {
-        true => Track::Still(keys[0].value),
+        true => Track::Still(value(times[0])),
         false => Track::Cubic(keys),
     }
 }
 
-/// Follows a turn by keys between which the shorter way at a constant angular velocity is the turn's own.
-fn follow_turns(motion: &Motion, times: &[f64]) -> Track<DQuat> {
-    let rotation = |time: f64| Pose::of(motion, time).rotation;
-    let fastest = fastest_turn(motion);
+/// Follows a turn by keys between which the shorter way at a constant angular velocity is the turn's own. The turn is at most as fast
+/// as `fastest`, in radians per frame.
+fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) -> Track<DQuat> {
     let mut keys = vec![(times[0], rotation(times[0]))];
     for span in times.windows(2) {
         let steps = ((span[1] - span[0]) * fastest / WIDEST_TURN)
@@ -139,7 +100,7 @@ fn follow_turns(motion: &Motion, times: &[f64]) -> Track<DQuat> {
                 true => span[1],
                 false => from + step,
             };
-            refine(&rotation, from, to, MOST_HALVINGS, &mut keys);
+            refine(rotation, from, to, MOST_HALVINGS, &mut keys);
         }
     }
     for index in 1..keys.len() {
@@ -148,10 +109,8 @@ fn follow_turns(motion: &Motion, times: &[f64]) -> Track<DQuat> {
         }
     }
     let first = keys[0].1;
-    match keys
-        .iter()
-        .all(|(_, own)| own.angle_between(first) < TOLERANCE)
-    {
+    let is_first = |(_, own): &(f64, DQuat)| own.angle_between(first) < TOLERANCE;
+    match keys.iter().all(is_first) {
         true => Track::Still(first),
         false => Track::Linear(keys),
     }
@@ -159,7 +118,7 @@ fn follow_turns(motion: &Motion, times: &[f64]) -> Track<DQuat> {
 
 /// Adds the keys after `from` up to `to`, more of them where the turn is not steady.
 fn refine(
-    rotation: &impl Fn(f64) -> DQuat,
+    rotation: &dyn Fn(f64) -> DQuat,
     from: f64,
     to: f64,
     halvings: u32,

@@ -4,16 +4,13 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, display_srgb, write_atomically};
-use gltf_json::texture::{Info, MagFilter, MinFilter, Sampler, WrappingMode};
-use gltf_json::validation::Checked;
-use gltf_json::{Image, Index};
+use serde_json::json;
 use tracer::limits::LARGEST_IMAGE_FILE;
 use tracer::{Location, Scene, Texture};
 
-use crate::export::buffer::Document;
-use crate::export::error::ExportError;
+use crate::export::document::Document;
 
-/// Folder of the textures, beside the document.
+/// Folder of the textures, next to the document.
 const FOLDER: &str = "textures";
 
 /// Textures that are written so far.
@@ -22,9 +19,8 @@ pub struct Textures<'a> {
     /// Where the scene came from: on disk, or in the program.
     origin: &'a Location,
     folder: PathBuf,
-    sampler: Option<Index<Sampler>>,
     /// Textures of the document: those that are files of the scene, and those that join a colour with an opacity.
-    known: BTreeMap<[Option<usize>; 2], Index<gltf_json::Texture>>,
+    known: BTreeMap<[Option<usize>; 2], usize>,
 }
 
 impl<'a> Textures<'a> {
@@ -34,20 +30,19 @@ impl<'a> Textures<'a> {
             scene,
             origin,
             folder: folder.to_owned(),
-            sampler: None,
             known: BTreeMap::new(),
         }
     }
 
-    /// Adds the file of a texture as it is.
+    /// Adds the file of a texture as it is; returns its index in the document.
     pub fn add_file(
         &mut self,
         document: &mut Document,
         texture: usize,
-    ) -> Result<Info, ExportError> {
+    ) -> Result<usize, FileError> {
         let key = [Some(texture), None];
         if let Some(known) = self.known.get(&key) {
-            return Ok(info(*known));
+            return Ok(*known);
         }
         let path = &self.scene.textures[texture].path;
         let bytes = self.origin.at(path).read(LARGEST_IMAGE_FILE)?;
@@ -64,10 +59,10 @@ impl<'a> Textures<'a> {
         document: &mut Document,
         color: Option<usize>,
         opacity: usize,
-    ) -> Result<Info, ExportError> {
+    ) -> Result<usize, FileError> {
         let key = [color, Some(opacity)];
         if let Some(known) = self.known.get(&key) {
-            return Ok(info(*known));
+            return Ok(*known);
         }
         let color_texture = color.map(|index| &self.scene.textures[index]);
         let opacity_texture = &self.scene.textures[opacity];
@@ -97,12 +92,8 @@ impl<'a> Textures<'a> {
             None => format!("opacity_{opacity}.png"),
         };
         let mut bytes = std::io::Cursor::new(Vec::new());
-        picture
-            .write_to(&mut bytes, image::ImageFormat::Png)
-            .map_err(|error| ExportError::Texture {
-                path: self.folder.join(FOLDER).join(&name),
-                reason: error.to_string(),
-            })?;
+        (picture.write_to(&mut bytes, image::ImageFormat::Png))
+            .expect("a picture in memory can be encoded");
         self.write(&name, &bytes.into_inner())?;
         Ok(self.push(document, key, name))
     }
@@ -111,43 +102,18 @@ impl<'a> Textures<'a> {
         write_atomically(&self.folder.join(FOLDER).join(name), bytes)
     }
 
-    fn push(&mut self, document: &mut Document, key: [Option<usize>; 2], name: String) -> Info {
-        let root = &mut document.root;
-        let sampler = *self.sampler.get_or_insert_with(|| {
-            root.push(Sampler {
-                mag_filter: Some(Checked::Valid(MagFilter::Linear)),
-                min_filter: Some(Checked::Valid(MinFilter::LinearMipmapLinear)),
-                wrap_s: Checked::Valid(WrappingMode::Repeat),
-                wrap_t: Checked::Valid(WrappingMode::Repeat),
-                ..Sampler::default()
-            })
-        });
-        let image = root.push(Image {
-            buffer_view: None,
-            mime_type: None,
-            name: Some(name.clone()),
-            uri: Some(format!("{FOLDER}/{name}")),
-            extensions: None,
-            extras: None,
-        });
-        let texture = root.push(gltf_json::Texture {
-            name: Some(name),
-            sampler: Some(sampler),
-            source: image,
-            extensions: None,
-            extras: None,
-        });
+    fn push(&mut self, document: &mut Document, key: [Option<usize>; 2], name: String) -> usize {
+        if document.list("samplers").is_empty() {
+            // Linear, and linear between mipmaps; textures repeat by default.
+            let sampler = json!({ "magFilter": 9729, "minFilter": 9987 });
+            document.push("samplers", sampler);
+        }
+        let image = json!({ "name": name, "uri": format!("{FOLDER}/{name}") });
+        let image = document.push("images", image);
+        let texture = json!({ "name": name, "sampler": 0, "source": image });
+        let texture = document.push("textures", texture);
         self.known.insert(key, texture);
-        info(texture)
-    }
-}
-
-fn info(texture: Index<gltf_json::Texture>) -> Info {
-    Info {
-        index: texture,
-        tex_coord: 0,
-        extensions: None,
-        extras: None,
+        texture
     }
 }
 

@@ -18,74 +18,80 @@ const FILLED: f64 = 0.75;
 
 /// Writes the whole text. The world's origin lies below the model's middle, at the stand's upper face.
 pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
-    let radius = model.radius();
     let half_fov = (0.5 * VERTICAL_FOV).to_radians();
-    let distance = radius / (FILLED * half_fov.sin());
-    let middle = model.half_size()[1];
+    let distance = model.radius() / (FILLED * half_fov.sin());
+    // Length of a pixel at the model's middle, in metres.
+    let pixel = 2.0 * distance * half_fov.tan() / f64::from(SIZE[1]);
     let file = plan.model.file_name().unwrap_or_default().to_string_lossy();
-    let exposes = format!("Imported from {file}: {}.", plan.motions.sentence());
     let motions = &plan.motions;
-    let mut text = format!(
+    let exposes = format!("Imported from {file}: {}.", motions.sentence());
+    let [width, height] = SIZE;
+    format!(
         "# Made by `shuttertruth import`; yours to change.\n\
          exposes = {exposes}\nfamily = \"{family}\"\nexposure = {exposure}\nsize = [{width}, {height}]\n\n\
-         [camera]\nvertical_fov = {VERTICAL_FOV}\n",
+         [camera]\nvertical_fov = {VERTICAL_FOV}\n{path}\n\n\
+         [background]\n\
+         gradient = {{ ground = [0.25, 0.24, 0.22], horizon = [0.8, 0.85, 0.95], zenith = [0.3, 0.45, 0.8] }}\n\n\
+         [sun]\ndirection = [-0.3, 0.9, 0.6]\nirradiance = [2.0, 1.9, 1.7]\n\n\
+         {set}{stand}\n{object}",
         exposes = toml::Value::from(exposes),
         family = motions.family().name(),
         exposure = number(plan.exposure),
-        width = SIZE[0],
-        height = SIZE[1],
-    );
+        path = camera_path(model.half_size()[1], distance, motions.orbit),
+        set = set_objects(model.radius()),
+        stand = stand_motion(motions.spin, motions.slide.map(|speed| speed * pixel)),
+        object = model_object(model),
+    )
+}
+
+/// Writes where the camera is, and how it goes around the model at a speed in degrees per frame.
+fn camera_path(middle: f64, distance: f64, orbit: Option<f64>) -> String {
     let view = |turn: f64| {
-        let position = from_camera(VIEW[0] + turn, distance);
-        let position = [position[0], position[1] + middle, position[2]];
-        format!(
-            "position = {}, look_at = {}",
-            vector(position),
-            vector([0.0, middle, 0.0])
-        )
+        let [x, y, z] = from_camera(VIEW[0] + turn, distance);
+        [vector([x, y + middle, z]), vector([0.0, middle, 0.0])]
     };
-    match motions.orbit {
-        None => text += &view(0.0).replace(", look_at", "\nlook_at"),
-        // Points on the circle; cubic curves through them stay on it to a hundredth of a thousandth.
-        Some(speed) => {
-            text += "interpolation = \"cubic\"\nkeys = [\n";
-            for time in [-1.0, -0.5, 0.0, 0.5, 1.0] {
-                text += &format!("    {{ time = {time:?}, {} }},\n", view(speed * time));
-            }
-            text += "]";
-        }
-    }
-    text += "\n\n[background]\n\
-         gradient = { ground = [0.25, 0.24, 0.22], horizon = [0.8, 0.85, 0.95], zenith = [0.3, 0.45, 0.8] }\n\n\
-         [sun]\ndirection = [-0.3, 0.9, 0.6]\nirradiance = [2.0, 1.9, 1.7]\n\n";
-    let height = STAND_HEIGHT * radius;
-    let behind = from_camera(VIEW[0], -WALL_DISTANCE * radius);
-    text += &format!(
+    let Some(speed) = orbit else {
+        let [position, target] = view(0.0);
+        return format!("position = {position}\nlook_at = {target}");
+    };
+    // Points on the circle; cubic curves through them stay on it to a hundredth of a thousandth.
+    let keys = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|time| {
+        let [position, target] = view(speed * time);
+        format!("    {{ time = {time:?}, position = {position}, look_at = {target} }},\n")
+    });
+    format!("interpolation = \"cubic\"\nkeys = [\n{}]", keys.concat())
+}
+
+/// Writes floor, wall and stand, for a model of a radius.
+fn set_objects(radius: f64) -> String {
+    let wall = from_camera(VIEW[0], -WALL_DISTANCE * radius);
+    format!(
         "[object.floor]\nmesh = \"floor.obj\"\ntranslation = {}\nrotation = {{ axis = [1, 0, 0], degrees = -90 }}\n\n\
          [object.wall]\nmesh = \"wall.obj\"\ntranslation = {}\nrotation = {{ axis = [0, 1, 0], degrees = {} }}\n\n\
          [object.stand]\nmesh = \"stand.obj\"\n",
-        vector([0.0, -height, 0.0]),
-        vector([behind[0], 0.0, behind[2]]),
+        vector([0.0, -STAND_HEIGHT * radius, 0.0]),
+        vector([wall[0], 0.0, wall[2]]),
         number(VIEW[0]),
-    );
-    // Length of a pixel at the model's middle, in metres.
-    let pixel = 2.0 * distance * half_fov.tan() / f64::from(SIZE[1]);
-    text += &stand_motion(motions.spin, motions.slide.map(|speed| speed * pixel));
+    )
+}
+
+/// Writes the model, whose lowest point stands on the stand's middle.
+fn model_object(model: &Model) -> String {
     let [low, high] = model.corners;
     let below_middle = [
         -0.5 * (low[0] + high[0]),
         -low[1],
         -0.5 * (low[2] + high[2]),
     ];
-    text += &format!(
-        "\n[object.model]\nmesh = {}\nparent = \"stand\"\ntranslation = {}\n",
+    format!(
+        "[object.model]\nmesh = {}\nparent = \"stand\"\ntranslation = {}\n{}",
         toml::Value::from(model.mesh.as_str()),
-        vector(below_middle)
-    );
-    if model.up == Up::Z {
-        text += "rotation = { axis = [1, 0, 0], degrees = -90 }\n";
-    }
-    text
+        vector(below_middle),
+        match model.up {
+            Up::Y => "",
+            Up::Z => "rotation = { axis = [1, 0, 0], degrees = -90 }\n",
+        }
+    )
 }
 
 /// Writes keys one frame before and after the instant, from degrees and metres per frame.

@@ -1,24 +1,21 @@
-//! Import of an OBJ file as a scene folder: the model on a stand, floor and wall behind it, a camera framed on it, and motion.
+//! Import of an OBJ file as a scene folder: the model on a stand, floor and wall, a camera framed on it, and motion.
 
 mod document;
-mod folder;
 mod model;
-mod motion;
 mod plan;
 mod set;
 
 use std::fs;
 use std::path::Path;
 
-use frame::FileError;
+use frame::{FileError, write_atomically};
 use suite::Error;
 use tracer::load_scene;
 
-use self::folder::{check_new, create};
 use self::model::Model;
 pub use self::model::Up;
-pub use self::motion::Motions;
-pub use self::plan::ImportPlan;
+pub use self::plan::{ImportPlan, Motions};
+use crate::files::refuse;
 
 /// An imported scene.
 pub struct Imported {
@@ -36,18 +33,16 @@ pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
-    create(parent)?;
-    let staging = tempfile::tempdir_in(parent)
-        .map_err(|source| FileError::io(parent, "create a folder in", source))?;
+    let fail = |source| FileError::io(parent, "create a folder in", source);
+    fs::create_dir_all(parent).map_err(fail)?;
+    let staging = tempfile::tempdir_in(parent).map_err(fail)?;
     // The inner folder is renamed at the end; the temporary one vanishes whatever happens.
     let folder = staging.path().join("scene");
-    create(&folder)?;
 
     let model = Model::copy(&plan.model, plan.plain, plan.up, &folder)?;
     set::write_set(&folder, &model)?;
     let document = document::scene_toml(plan, &model);
-    let path = folder.join("scene.toml");
-    fs::write(&path, document).map_err(|source| FileError::io(&path, "write", source))?;
+    write_atomically(&folder.join("scene.toml"), document.as_bytes())?;
     let scene = load_scene(&folder, None)?;
 
     fs::rename(&folder, &plan.out).map_err(|source| FileError::io(&plan.out, "write", source))?;
@@ -55,4 +50,20 @@ pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
         exposes: scene.exposes,
         triangles: (scene.meshes.iter()).map(|mesh| mesh.triangles.len()).sum(),
     })
+}
+
+/// Refuses a folder that exists, or whose name no scene may have.
+fn check_new(out: &Path) -> Result<(), Error> {
+    if out.exists() {
+        return refuse(out, "exists already; name a folder that is new");
+    }
+    let name = out.file_name().unwrap_or_default().to_string_lossy();
+    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    match !name.is_empty() && name.chars().all(allowed) {
+        true => Ok(()),
+        false => refuse(
+            out,
+            "the folder's name becomes the scene's name; allowed are letters, digits, _ and -",
+        ),
+    }
 }

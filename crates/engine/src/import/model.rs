@@ -4,16 +4,15 @@ use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Component, Path, PathBuf};
 
-use frame::{FileError, read_bounded};
-use suite::Error;
-use suite::named;
+use frame::{FileError, read_bounded, write_atomically};
+use suite::{Error, named};
 use tracer::limits::LARGEST_MESH_FILE;
 use tracer::{SceneError, load_scene_and_files};
 
-use crate::import::folder::create;
+use crate::files::refuse;
 
 /// Name of the folder of the model's files, in the scene's folder.
-pub const FOLDER: &str = "model";
+const FOLDER: &str = "model";
 
 /// Radii of models that can be imported, in metres.
 const RADII: RangeInclusive<f64> = 1e-6..=1e9;
@@ -42,7 +41,6 @@ impl Model {
     /// Copies the OBJ file and what it names into the folder of a new scene.
     pub fn copy(path: &Path, plain: bool, up: Up, scene: &Path) -> Result<Self, Error> {
         let folder = scene.join(FOLDER);
-        create(&folder)?;
         let path = (path.canonicalize()).map_err(|source| FileError::io(path, "read", source))?;
         let name = path.file_name().unwrap_or_default();
         let copy = folder.join(name);
@@ -62,12 +60,9 @@ impl Model {
                 loaded
             }
         };
-        let name = name.to_str().ok_or_else(|| {
-            Error::Usage(format!(
-                "{}: the name is not Unicode; rename the file",
-                path.display()
-            ))
-        })?;
+        let Some(name) = name.to_str() else {
+            return refuse(&path, "the name is not Unicode; rename the file");
+        };
         let upright = |p: [f64; 3]| match up {
             Up::Y => p,
             Up::Z => [p[0], p[2], -p[1]],
@@ -94,12 +89,13 @@ impl Model {
         if RADII.contains(&radius) {
             return Ok(());
         }
-        Err(Error::Usage(format!(
-            "{}: the model's radius is {radius:e} m; allowed: {:e} to {:e}; scale it",
-            path.display(),
-            RADII.start(),
-            RADII.end()
-        )))
+        let [least, greatest] = [RADII.start(), RADII.end()];
+        refuse(
+            path,
+            &format!(
+                "the model's radius is {radius:e} m; allowed: {least:e} to {greatest:e}; scale it"
+            ),
+        )
     }
 
     /// Returns half of the size along each axis, in metres.
@@ -132,10 +128,10 @@ fn load(scene: &Path, obj: &Path) -> Result<LoadedModel, SceneError> {
          [background]\nconstant = [1, 1, 1]\n[object.model]\nmesh = {}\n",
         toml::Value::from(obj.to_string_lossy().into_owned())
     );
-    fs::write(&document, text).map_err(|error| SceneError {
+    write_atomically(&document, text.as_bytes()).map_err(|error| SceneError {
         path: document.clone(),
         line: None,
-        reason: format!("cannot be written: {error}"),
+        reason: error.to_string(),
     })?;
     let (scene, files) =
         load_scene_and_files(scene, None).map_err(|error| match error.path == document {
@@ -148,9 +144,9 @@ fn load(scene: &Path, obj: &Path) -> Result<LoadedModel, SceneError> {
             false => error,
         })?;
     let mesh = &scene.meshes[0];
-    let used = mesh.triangles.iter().flatten();
+    let corners = mesh.triangles.iter().flatten();
     Ok(LoadedModel {
-        positions: used
+        positions: corners
             .map(|index| mesh.positions[*index as usize].as_dvec3().to_array())
             .collect(),
         files: files.into_iter().filter(|file| *file != document).collect(),
@@ -186,7 +182,7 @@ fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
         }
         plain += "\n";
     }
-    fs::write(copy, plain).map_err(|source| FileError::io(copy, "write", source))
+    write_atomically(copy, plain.as_bytes())
 }
 
 /// Copies files to the same places below `folder` that they have below the model's folder.
@@ -198,15 +194,17 @@ fn copy_all(files: &[PathBuf], model: &Path, folder: &Path) -> Result<(), Error>
             parts.all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
         });
         let Some(below) = below else {
-            return Err(Error::Usage(format!(
-                "{}: {} lies outside of the model's folder; move it there and mend the file that names it, or import the model plain: the shape alone, in grey",
-                model.display(),
-                file.display()
-            )));
+            return refuse(
+                model,
+                &format!(
+                    "{} lies outside of the model's folder; move it there and mend the file that names it, or import the model \
+                     plain: the shape alone, in grey",
+                    file.display()
+                ),
+            );
         };
-        let copy = folder.join(below);
-        create(copy.parent().unwrap_or(folder))?;
-        fs::copy(file, &copy).map_err(|source| FileError::io(&copy, "write", source))?;
+        let bytes = fs::read(file).map_err(|source| FileError::io(file, "read", source))?;
+        write_atomically(&folder.join(below), &bytes)?;
     }
     Ok(())
 }

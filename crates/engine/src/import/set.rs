@@ -1,10 +1,9 @@
 //! Set of an imported scene: stand, floor and wall, all patterned, so that a blur over them shows.
 
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
-use frame::{FileError, Raster, write_png};
+use frame::{FileError, Raster, write_atomically, write_png};
 
 use crate::import::model::Model;
 
@@ -43,17 +42,12 @@ pub fn write_set(scene: &Path, model: &Model) -> Result<(), FileError> {
         ("wall.obj", plane("wall", EXTENT * radius, radius)),
         ("stand.obj", stand(model)),
     ] {
-        let path = scene.join(name);
-        fs::write(&path, text).map_err(|source| FileError::io(&path, "write", source))?;
+        write_atomically(&scene.join(name), text.as_bytes())?;
     }
-    write_png(
-        &scene.join("floor.png"),
-        &squares([0.55, 0.52, 0.5], [0.72, 0.7, 0.66]),
-    )?;
-    write_png(
-        &scene.join("wall.png"),
-        &squares([0.5, 0.6, 0.68], [0.62, 0.72, 0.8]),
-    )
+    let floor = squares([0.55, 0.52, 0.5], [0.72, 0.7, 0.66]);
+    write_png(&scene.join("floor.png"), &floor)?;
+    let wall = squares([0.5, 0.6, 0.68], [0.62, 0.72, 0.8]);
+    write_png(&scene.join("wall.png"), &wall)
 }
 
 /// Writes a square that faces +Z, its texture repeated every two squares.

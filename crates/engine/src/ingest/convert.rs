@@ -7,15 +7,18 @@ use frame::{
     Truth, VelocityKind, display_srgb, write_exr, write_png,
 };
 use store::{Sharing, claim, ladder_folder, refuse_long_names, refuse_scene};
-use suite::velocity_wheel;
-use suite::{BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word};
-use suite::{Error, PROGRAM};
+use suite::{
+    BLURRED, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM, engine_name,
+    name_in_one_word, velocity_wheel,
+};
 use tracer::Watch;
 
 use crate::capture::folder::Capture;
-use crate::ingest::engine_truth::{NOT_TRACED, average_subframes, part_of};
+use crate::files::write_json;
+use crate::ingest::engine_truth::{EngineTruth, NOT_TRACED, average_subframes, part_of};
 use crate::ingest::moving::{mark_reached, usual_top_speed};
 use crate::ingest::objects::{draw_coverage, name_objects};
+use crate::statistics::median;
 
 /// A capture that was ingested.
 pub struct Ingested {
@@ -58,71 +61,79 @@ pub fn ingest(
     let (exposure, alignment) = capture.shutter()?;
     let shutter = alignment.shutter(exposure);
     let shutter = shutter.expect("the exposure was checked when it was read");
-    let made = match capture.subframes.is_empty() {
+    let averaged = match capture.subframes.is_empty() {
         true => None,
-        false => Some(average_subframes(
-            capture,
-            (shutter, alignment),
-            &objects,
-            &provenance,
-            watch,
-        )?),
+        false => {
+            let shutter = (shutter, alignment);
+            Some(average_subframes(
+                capture,
+                shutter,
+                &objects,
+                &provenance,
+                watch,
+            )?)
+        }
     };
-    let _claim = claim(out, [], Sharing::Alone)?;
-    let show =
-        |name: &str, image: &Image| write_png(&out.join(name), &display_srgb(image, display.stops));
-    let frame = make_frame(capture, &scene, (display, objects), provenance.clone());
-    frame.write(&out.join("frame.exr"))?;
-    show("frame.png", &frame.color)?;
-    write_png(&out.join("velocity.png"), &velocity_wheel(&frame))?;
-    if let Some(picture) = &capture.blurred {
-        write_picture(&out.join(BLURRED), picture, &scene, &provenance)?;
-        show("blurred.png", picture)?;
-    }
-    let mut truth = None;
-    let mut restless = 0.0;
-    if let Some(made) = made {
-        let alignment = made.truth.alignment;
-        let rungs = made.ladder.rungs.iter();
+    let frame = make_frame(capture, &scene, (display, objects), provenance);
+    if let Some(averaged) = &averaged {
+        let rungs = averaged.ladder.rungs.iter();
         scene.ladder = rungs.map(|rung| rung.subframes).collect();
-        made.ladder
-            .write_rungs(&out.join(ladder_folder(alignment)))?;
-        made.truth
-            .write(&out.join(format!("truth_{alignment}.exr")))?;
-        show(&format!("truth_{alignment}.png"), &made.truth.mean().color)?;
-        truth = Some(made.truth);
-        restless = made.restless;
     }
-    let json = serde_json::to_string_pretty(&scene).expect("a scene is plain data") + "\n";
-    frame::write_atomically(&out.join(INGESTED_FILE), json.as_bytes())?;
-    let unblurred = truth
-        .as_ref()
-        .map_or_else(|| frame.color.clone(), |truth| truth.mean().color);
+    let restless = averaged.as_ref().map_or(0.0, |averaged| averaged.restless);
+    let truth = write_files(capture, &scene, &frame, averaged, out)?;
+    let unblurred = (truth.as_ref()).map_or(frame.color, |truth| truth.mean().color);
     // Noise changes colours where nothing moves; it leaves velocity alone.
-    let still = mark_reached(&capture.velocity, shutter).map(|is_reached| !is_reached);
-    let gain =
-        (capture.blurred.as_ref()).and_then(|picture| median_ratio(picture, &unblurred, &still));
+    let reached = mark_reached(&capture.velocity, shutter);
+    let blurred = capture.blurred.as_ref();
     let moving = truth.as_ref().map(|truth| part_of(&truth.support.moving));
     Ok(Ingested {
+        gain: blurred.and_then(|picture| median_ratio(picture, &unblurred, &reached)),
         scene,
         truth,
         moving,
         restless,
-        gain,
     })
 }
 
-/// Returns the median of the ratios of two pictures' radiance over some pixels; none where the second one is black.
-fn median_ratio(picture: &Image, other: &Image, chosen: &Raster<bool>) -> Option<f64> {
+/// Writes all files of an ingested capture, and pictures of them for people; returns the truth.
+fn write_files(
+    capture: &Capture,
+    scene: &EngineScene,
+    frame: &Frame,
+    averaged: Option<EngineTruth>,
+    out: &Path,
+) -> Result<Option<Truth>, Error> {
+    let _claim = claim(out, [], Sharing::Alone)?;
+    let stops = frame.display.stops;
+    let show = |name: &str, image: &Image| write_png(&out.join(name), &display_srgb(image, stops));
+    frame.write(&out.join("frame.exr"))?;
+    show("frame.png", &frame.color)?;
+    write_png(&out.join("velocity.png"), &velocity_wheel(frame))?;
+    if let Some(picture) = &capture.blurred {
+        write_picture(&out.join(BLURRED), picture, scene, &frame.provenance)?;
+        show("blurred.png", picture)?;
+    }
+    let mut written = None;
+    if let Some(EngineTruth { truth, ladder, .. }) = averaged {
+        let alignment = truth.alignment;
+        ladder.write_rungs(&out.join(ladder_folder(alignment)))?;
+        truth.write(&out.join(format!("truth_{alignment}.exr")))?;
+        show(&format!("truth_{alignment}.png"), &truth.mean().color)?;
+        written = Some(truth);
+    }
+    write_json(&out.join(INGESTED_FILE), scene)?;
+    Ok(written)
+}
+
+/// Returns the median of the ratios of two pictures' radiance over the pixels that are not left out; none where the second one is
+/// black.
+fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Option<f64> {
     let radiance = |pixel: &[f32; 3]| pixel.iter().map(|value| f64::from(*value)).sum::<f64>();
     let pairs = picture.pixels.iter().zip(&other.pixels);
-    let mut ratios: Vec<f64> = (pairs.zip(&chosen.pixels))
-        .filter(|((_, other), chosen)| **chosen && radiance(other) > 0.0)
-        .map(|((own, other), _)| radiance(own) / radiance(other))
-        .collect();
-    let middle = ratios.len() / 2;
-    ratios.sort_by(f64::total_cmp);
-    ratios.get(middle).copied()
+    let ratios = (pairs.zip(&left_out.pixels))
+        .filter(|((_, other), left_out)| !**left_out && radiance(other) > 0.0)
+        .map(|((own, other), _)| radiance(own) / radiance(other));
+    Some(median(ratios)).filter(|ratio| ratio.is_finite())
 }
 
 /// Refuses a folder that holds another frame, as a run leaves it for a scene.
@@ -149,7 +160,7 @@ fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
         scene: capture.description.scene.clone(),
         size: [capture.color.width, capture.color.height],
         exposure,
-        alignment: alignment.name().to_owned(),
+        alignment,
         subframes,
         step: length / f64::from(subframes.max(1)),
         ladder: Vec::new(),
@@ -235,50 +246,20 @@ fn hash_capture(capture: &Capture) -> Result<String, Error> {
         capture.description, capture.convention
     );
     hasher.update(how.as_bytes());
-    let Capture {
-        color,
-        velocity,
-        depth,
-        blurred,
-        ..
-    } = capture;
-    let mut add = |values: &mut dyn Iterator<Item = f32>| {
-        for value in values {
-            hasher.update(&value.to_le_bytes());
-        }
-    };
-    add(&mut color.pixels.iter().flatten().copied());
-    add(&mut velocity.pixels.iter().flatten().copied());
-    add(&mut depth.pixels.iter().copied());
+    let colors = |image: &Image| image.pixels.clone().into_iter().flatten();
     let ids = capture.object_id.iter().flat_map(|ids| &ids.pixels);
-    add(&mut ids.map(|id| *id as f32));
-    add(&mut blurred
-        .iter()
-        .flat_map(|image| image.pixels.iter().flatten().copied()));
+    let values = colors(&capture.color)
+        .chain(capture.velocity.pixels.iter().flatten().copied())
+        .chain(capture.depth.pixels.iter().copied())
+        .chain(ids.map(|id| *id as f32))
+        .chain(capture.blurred.iter().flat_map(colors));
+    for value in values {
+        hasher.update(&value.to_le_bytes());
+    }
     for path in &capture.subframes {
         let bytes =
             std::fs::read(path).map_err(|source| frame::FileError::io(path, "read", source))?;
         hasher.update(&bytes);
     }
     Ok(hasher.finalize().to_hex().to_string())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_gain_is_that_of_still_pixels() {
-        let other = Raster::from_fn(4, 1, |x, _| [x as f32; 3]);
-        // The black pixel has no ratio, and the last one moves.
-        let picture = Raster::from_fn(4, 1, |x, _| {
-            [if x == 3 { 90.0 } else { 1.25 * x as f32 }; 3]
-        });
-        let still = Raster::from_fn(4, 1, |x, _| x < 3);
-        assert_eq!(median_ratio(&picture, &other, &still), Some(1.25));
-        assert_eq!(
-            median_ratio(&picture, &other, &Raster::filled(4, 1, false)),
-            None
-        );
-    }
 }

@@ -10,6 +10,7 @@ use tracer::{Progress, TraceError, Watch};
 
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
+use crate::files::refuse;
 use crate::ingest::moving::{ColorRange, mark_reached};
 use crate::ingest::objects::draw_coverage;
 
@@ -43,7 +44,7 @@ pub fn average_subframes(
 ) -> Result<EngineTruth, Error> {
     check_count(capture)?;
     let averages = Averages::read(capture, objects.len(), watch)?;
-    let halves = averages.halves.each_ref().map(Sum::mean);
+    let halves = averages.whole.halves.each_ref().map(Sum::mean);
     let changed = averages.range.mark_changed();
     let reached = mark_reached(&capture.velocity, shutter);
     let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
@@ -96,12 +97,14 @@ fn check_count(capture: &Capture) -> Result<(), Error> {
     let count = capture.subframes.len();
     match count.is_multiple_of(2) && (FEWEST_SUBFRAMES..=MOST_SUBFRAMES).contains(&count) {
         true => Ok(()),
-        false => Err(Error::Usage(format!(
-            "{}: holds {count} sub-frames; allowed: even numbers from {FEWEST_SUBFRAMES} to {MOST_SUBFRAMES}, at the \
-             midpoints of equal parts of the shutter that {CAPTURE_FILE} names: half of them tell the noise of the others; \
-             capture 32, for instance",
-            capture.folder.join(SUBFRAMES).display()
-        ))),
+        false => refuse(
+            &capture.folder.join(SUBFRAMES),
+            &format!(
+                "holds {count} sub-frames; allowed: even numbers from {FEWEST_SUBFRAMES} to {MOST_SUBFRAMES}, at the midpoints of \
+                 equal parts of the shutter that {CAPTURE_FILE} names: half of them show the noise of the others; capture 32, for \
+                 instance"
+            ),
+        ),
     }
 }
 
@@ -113,11 +116,7 @@ fn pick_subframes(rung: u32, count: usize, half: usize) -> Vec<usize> {
         let doubled = (2 * part + 1) * count;
         let later = doubled / (2 * rung);
         let is_between = doubled.is_multiple_of(2 * rung);
-        if half == 0 && is_between {
-            later - 1
-        } else {
-            later
-        }
+        later - usize::from(half == 0 && is_between)
     });
     picks.collect()
 }
@@ -139,7 +138,8 @@ fn find_movers(support: &Support) -> Vec<bool> {
 
 /// All means that are made of the sub-frames, each of which is read once.
 struct Averages {
-    halves: [Sum; HALVES],
+    /// The mean of all sub-frames.
+    whole: Rung,
     rungs: Vec<Rung>,
     range: ColorRange,
 }
@@ -149,16 +149,17 @@ impl Averages {
     fn read(capture: &Capture, objects: usize, watch: Watch) -> Result<Self, Error> {
         let count = capture.subframes.len();
         let size = (capture.color.width, capture.color.height);
-        let none = || Sum::new(size, objects);
+        let make_rung = |subframes: u32, picks: [Vec<usize>; HALVES]| Rung {
+            subframes,
+            picks,
+            halves: [0, 1].map(|_| Sum::new(size, objects)),
+        };
+        let every_other = |half: usize| (half..count).step_by(HALVES).collect();
         let rungs = LADDER.into_iter();
         let mut averages = Self {
-            halves: std::array::from_fn(|_| none()),
+            whole: make_rung(count as u32, [0, 1].map(every_other)),
             rungs: (rungs.filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count))
-                .map(|subframes| Rung {
-                    subframes,
-                    picks: [0, 1].map(|half| pick_subframes(subframes, count, half)),
-                    halves: [none(), none()],
-                })
+                .map(|rung| make_rung(rung, [0, 1].map(|half| pick_subframes(rung, count, half))))
                 .collect(),
             range: ColorRange::new(size, capture.description.stops.unwrap_or(0.0)),
         };
@@ -183,8 +184,7 @@ impl Averages {
 
     fn add(&mut self, index: usize, picture: &Picture) {
         self.range.add(&picture.color);
-        self.halves[index % HALVES].add(picture);
-        for rung in &mut self.rungs {
+        for rung in std::iter::once(&mut self.whole).chain(&mut self.rungs) {
             for (picks, half) in rung.picks.iter().zip(&mut rung.halves) {
                 if picks.contains(&index) {
                     half.add(picture);
@@ -194,12 +194,12 @@ impl Averages {
     }
 }
 
-/// The mean of a few of the sub-frames.
+/// The mean of some of the sub-frames.
 struct Rung {
     subframes: u32,
     /// Indices of the sub-frames, per half.
-    picks: [Vec<usize>; 2],
-    halves: [Sum; 2],
+    picks: [Vec<usize>; HALVES],
+    halves: [Sum; HALVES],
 }
 
 impl Rung {
@@ -262,10 +262,10 @@ mod tests {
             for part in 0..rung as usize {
                 let places = halves.each_ref().map(|picks| picks[part] as f64 + 0.5);
                 let middle = 0.5 * (places[0] + places[1]) / count as f64;
-                let due = (part as f64 + 0.5) / f64::from(rung);
+                let expected = (part as f64 + 0.5) / f64::from(rung);
                 // Where the parts are no whole number of sub-frames, the nearest is at most half of one away.
                 assert!(
-                    (middle - due).abs() <= 0.5 / count as f64 + 1e-12,
+                    (middle - expected).abs() <= 0.5 / count as f64 + 1e-12,
                     "{rung} of {count}: {halves:?}"
                 );
             }

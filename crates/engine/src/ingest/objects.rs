@@ -4,6 +4,7 @@ use frame::{Plane, Raster};
 use suite::Error;
 
 use crate::capture::folder::{Capture, SUBFRAMES};
+use crate::files::refuse;
 
 /// Name of what is no object.
 const BACKGROUND: &str = "background";
@@ -22,10 +23,10 @@ pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec
             Some(ids) => largest = largest.max(largest_id(&ids)),
             None if index == 0 => return Ok(vec![BACKGROUND.to_owned()]),
             None => {
-                return Err(Error::Usage(format!(
-                    "{}: has no channel \"object\", which the sub-frames before it have; allowed: ids in all of them, or in none",
-                    capture.subframes[index].display()
-                )));
+                return refuse(
+                    &capture.subframes[index],
+                    "has no channel \"object\", which the sub-frames before it have; allowed: ids in all of them, or in none",
+                );
             }
         }
     }
@@ -40,12 +41,14 @@ pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec
     };
     match largest < named.len() && named.len() <= MOST_OBJECTS + 1 {
         true => Ok(named),
-        false => Err(Error::Usage(format!(
-            "{}: object.exr and {SUBFRAMES} hold ids up to {largest}; allowed: up to {}, as the scene's manifest.json numbers \
-             its objects; draw these ids, or leave object.exr out",
-            capture.folder.display(),
-            named.len().min(MOST_OBJECTS + 1) - 1
-        ))),
+        false => refuse(
+            &capture.folder,
+            &format!(
+                "object.exr and {SUBFRAMES} hold ids up to {largest}; allowed: up to {}, as the scene's manifest.json numbers its \
+                 objects; draw these ids, or leave object.exr out",
+                named.len().min(MOST_OBJECTS + 1) - 1
+            ),
+        ),
     }
 }
 

@@ -1,10 +1,9 @@
 //! Parser of `filter.toml`, up to a filter without kernels.
 
 use std::path::Path;
-use std::str::FromStr;
 
 use frame::Alignment;
-use serde::{Deserialize, Deserializer, de::Error};
+use serde::Deserialize;
 use toml::Spanned;
 
 use super::command::{add_environment, read_command};
@@ -27,7 +26,6 @@ struct Manifest {
     reach: Option<Spanned<String>>,
     reach_by: Option<Spanned<ReachEntry>>,
     cannot: Option<Spanned<String>>,
-    #[serde(deserialize_with = "read_alignment")]
     alignment: Alignment,
     #[serde(default)]
     mirror_symmetric: bool,
@@ -46,10 +44,6 @@ struct Manifest {
     texture: Vec<Spanned<TextureEntry>>,
     #[serde(default)]
     pass: Vec<Spanned<PassEntry>>,
-}
-
-fn read_alignment<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Alignment, D::Error> {
-    Alignment::from_str(&String::deserialize(deserializer)?).map_err(D::Error::custom)
 }
 
 /// Parses `filter.toml` into a filter that still lacks its kernels.

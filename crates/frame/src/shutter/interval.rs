@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 use super::error::ShutterError;
 use super::limits::{LONGEST_EXPOSURE, SHORTEST_EXPOSURE};
 use crate::FileError;
@@ -39,7 +41,8 @@ impl Shutter {
 }
 
 /// Position of the shutter interval relative to the frame's instant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Alignment {
     /// `[-m, 0]`: the smear lies behind the mover.
     Trailing,

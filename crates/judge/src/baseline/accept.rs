@@ -72,7 +72,7 @@ pub fn accept_scores(
 
 fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
     let truths = baseline.truths.entry(case.scene.clone()).or_default();
-    let old = truths.insert(case.alignment.clone(), case.truth_hash.clone());
+    let old = truths.insert(case.alignment, case.truth_hash.clone());
     if old.is_some_and(|old| old != case.truth_hash) {
         return refuse(&format!(
             "{} ({}): the truth is another than the baseline's, and accepting some cases alone would leave scores of both; accept \
@@ -82,7 +82,7 @@ fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
     }
     let scores = (Metric::all().into_iter()).filter_map(|metric| {
         Some((
-            metric.name(),
+            metric,
             round_to_six_digits(case.scores.get(metric).value()?),
         ))
     });

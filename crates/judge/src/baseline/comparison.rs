@@ -2,12 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::str::FromStr;
 
 use metrics::{Measured, Metric};
 use serde::Serialize;
-use suite::{Case, Error, Run};
-use suite::{ONE_SIDED, plain_mean};
+use suite::{Case, Error, ONE_SIDED, Run, plain_mean};
 
 use crate::baseline::Baseline;
 use crate::bounds::Margin;
@@ -20,8 +18,8 @@ pub struct BaselineComparison {
     pub kind: ComparisonKind,
     /// `jump_flood:paper`.
     pub filter: String,
-    /// Name of the metric.
-    pub metric: String,
+    /// Metric of the score.
+    pub metric: Metric,
     /// Number of scenes that were compared.
     pub scenes: usize,
     /// Amount by which the score is worse than the baseline's, mean over scenes, in the metric's unit; negative is better.
@@ -73,7 +71,7 @@ impl BaselineComparison {
 pub fn compare_with_baseline(
     run: &Run,
     baseline: &Baseline,
-    margins: &BTreeMap<String, Margin>,
+    margins: &BTreeMap<Metric, Margin>,
     path: &Path,
 ) -> Result<Vec<BaselineComparison>, Error> {
     let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
@@ -91,17 +89,17 @@ pub fn compare_with_baseline(
     let names: BTreeSet<String> = cases.iter().map(|case| case.name()).collect();
     let mut comparisons = Vec::new();
     for filter in &names {
-        for (name, margin) in margins {
-            let metric = Metric::from_str(name).expect("margins were checked when they were read");
+        for (metric, margin) in margins {
             let own = cases.iter().filter(|case| case.name() == *filter);
-            let differences: Result<Vec<Option<f64>>, String> =
-                own.map(|case| difference(case, metric, baseline)).collect();
+            let differences: Result<Vec<Option<f64>>, String> = own
+                .map(|case| difference(case, *metric, baseline))
+                .collect();
             let differences: Vec<f64> = (differences.map_err(refuse)?)
                 .into_iter()
                 .flatten()
                 .collect();
             if !differences.is_empty() {
-                comparisons.push(compare_scores(filter, name, &differences, margin.width));
+                comparisons.push(compare_scores(filter, *metric, &differences, margin.width));
             }
         }
     }
@@ -115,7 +113,7 @@ pub fn compare_with_baseline(
 
 fn compare_scores(
     filter: &str,
-    metric: &str,
+    metric: Metric,
     differences: &[f64],
     margin: f64,
 ) -> BaselineComparison {
@@ -131,7 +129,7 @@ fn compare_scores(
     BaselineComparison {
         kind,
         filter: filter.to_owned(),
-        metric: metric.to_owned(),
+        metric,
         scenes: found.scenes,
         worse: found.mean,
         interval: found.interval,
@@ -170,7 +168,7 @@ fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option
         ));
     };
     let badness = |value: f64| metric.ideal().badness(value);
-    match (scores.get(&metric.name()), case.scores.get(metric)) {
+    match (scores.get(&metric), case.scores.get(metric)) {
         (Some(old), Measured::Score(new)) => Ok(Some(badness(new.value) - badness(*old))),
         (Some(old), Measured::NotApplicable { reason }) => Err(format!(
             "{metric} of {} on {} was {old} and does not apply any more: {reason}",

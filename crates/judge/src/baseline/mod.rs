@@ -7,7 +7,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use filters::AdapterDescription;
+use frame::Alignment;
 use frame::write_atomically;
+use metrics::Metric;
 use serde::{Deserialize, Serialize};
 
 use store::{check_strings, read_text};
@@ -32,9 +34,9 @@ pub struct Baseline {
     /// Reasons for accepting the scores: the last time all were accepted, and every time some were since.
     pub reasons: Vec<String>,
     /// Hash of the truth's inputs, per scene and alignment.
-    pub truths: BTreeMap<String, BTreeMap<String, String>>,
+    pub truths: BTreeMap<String, BTreeMap<Alignment, String>>,
     /// Score to six digits, per scene, filter (`jump_flood:paper`) and metric.
-    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<String, f64>>>,
+    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<Metric, f64>>>,
 }
 
 impl Baseline {

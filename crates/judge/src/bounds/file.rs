@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use metrics::{BoundMetric, Metric, SequenceMetric};
+use metrics::Metric;
 use serde::Deserialize;
 use store::{printable, printable_path, read_text};
 use suite::{Error, SIDES};
@@ -22,8 +22,8 @@ pub struct BoundsFile {
     pub default: Bounds,
     /// Bounds for one filter, by its name, or one preset of it, by `filter:preset`.
     pub filters: BTreeMap<String, FilterBounds>,
-    /// Margins by metric name.
-    pub margins: BTreeMap<String, Margin>,
+    /// Margins by their scores.
+    pub margins: BTreeMap<Metric, Margin>,
 }
 
 /// Bounds of a filter, or of one preset of it.
@@ -31,7 +31,7 @@ pub struct BoundsFile {
 pub struct FilterBounds {
     /// File and line.
     pub place: String,
-    /// Bounds by metric name.
+    /// Bounds by their scores.
     pub bounds: Bounds,
 }
 
@@ -110,12 +110,7 @@ impl Source<'_> {
                 let start = name.span().start;
                 let refuse = |reason: &str| self.refuse(Some(start), reason);
                 let metric =
-                    BoundMetric::from_str(name.get_ref()).map_err(|reason| refuse(&reason))?;
-                if let Some(reason) = metric.row().report_only {
-                    return Err(refuse(&format!(
-                        "{metric} is for reports and no bound: it {reason}"
-                    )));
-                }
+                    Metric::parse_bounded(name.get_ref()).map_err(|reason| refuse(&reason))?;
                 let Entry {
                     limit,
                     size,
@@ -126,16 +121,14 @@ impl Source<'_> {
                 } = entry;
                 if !limit.is_finite() {
                     return Err(refuse(&format!(
-                        "{}: limit = {limit}; allowed: a finite number",
-                        name.get_ref()
+                        "{metric}: limit = {limit}; allowed: a finite number"
                     )));
                 }
                 if let Some((width, height)) = size
                     && ![width, height].iter().all(|side| SIDES.contains(side))
                 {
                     return Err(refuse(&format!(
-                        "{}: size = [{width}, {height}]; allowed: columns and rows from {} to {}",
-                        name.get_ref(),
+                        "{metric}: size = [{width}, {height}]; allowed: columns and rows from {} to {}",
                         SIDES.start(),
                         SIDES.end()
                     )));
@@ -145,15 +138,13 @@ impl Source<'_> {
                 let why = why.unwrap_or_default();
                 if printable(&why) != why {
                     return Err(refuse(&format!(
-                        "{}: why = \"{}\"; allowed: one line of text without control characters",
-                        name.get_ref(),
+                        "{metric}: why = \"{}\"; allowed: one line of text without control characters",
                         printable(&why)
                     )));
                 }
                 if why.trim().is_empty() {
                     return Err(refuse(&format!(
-                        "{}: has no why; needed: one line on what was measured, why = \"..\"",
-                        name.get_ref()
+                        "{metric}: has no why; needed: one line on what was measured, why = \"..\""
                     )));
                 }
                 let bound = Bound {
@@ -164,34 +155,30 @@ impl Source<'_> {
                     level,
                     place: self.place(Some(start)),
                 };
-                Ok((name.into_inner(), bound))
+                Ok((metric, bound))
             })
             .collect()
     }
 
-    fn margins(&self, entries: Tables<f64>) -> Result<BTreeMap<String, Margin>, Error> {
+    fn margins(&self, entries: Tables<f64>) -> Result<BTreeMap<Metric, Margin>, Error> {
         (entries.into_iter())
             .map(|(name, width)| {
                 let start = name.span().start;
-                let text = name.get_ref();
-                let mut of_sequences = SequenceMetric::ALL.iter();
-                if of_sequences.any(|metric| metric.row().name == text) {
-                    let reason = format!(
-                        "margin of {text}: is a score of a sequence, and baselines hold scores of single frames; give it a \
-                         limit instead"
-                    );
-                    return Err(self.refuse(Some(start), &reason));
+                let refuse = |reason: &str| self.refuse(Some(start), reason);
+                let metric =
+                    Metric::from_str(name.get_ref()).map_err(|reason| refuse(&reason))?;
+                if !Metric::all().contains(&metric) {
+                    return Err(refuse(&format!(
+                        "margin of {metric}: baselines hold scores of single frames only; give it a limit instead"
+                    )));
                 }
-                Metric::from_str(text).map_err(|reason| self.refuse(Some(start), &reason))?;
                 if !(width.is_finite() && width >= 0.0) {
-                    let reason = format!(
-                        "margin of {} is {width}; allowed: 0 or more",
-                        name.get_ref()
-                    );
-                    return Err(self.refuse(Some(start), &reason));
+                    return Err(refuse(&format!(
+                        "margin of {metric} is {width}; allowed: 0 or more"
+                    )));
                 }
                 let place = self.place(Some(start));
-                Ok((name.into_inner(), Margin { width, place }))
+                Ok((metric, Margin { width, place }))
             })
             .collect()
     }

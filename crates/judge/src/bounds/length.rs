@@ -1,8 +1,7 @@
 //! Length of the sequence that a limit holds for.
 
-use metrics::BoundMetric;
-use suite::MOST_FRAMES;
-use suite::{Error, FilterChoice, Frames};
+use metrics::Metric;
+use suite::{Error, FilterChoice, Frames, MOST_FRAMES};
 
 use crate::bounds::{Bound, SceneBounds};
 
@@ -18,23 +17,18 @@ pub struct Length {
 impl Length {
     /// Checks the length that a bound names; none for a metric of single frames. The error says what is allowed.
     pub(super) fn check(
-        metric: BoundMetric,
+        metric: Metric,
         frames: Option<u32>,
         per_second: Option<f64>,
     ) -> Result<Option<Self>, String> {
-        let of_sequence = match metric {
-            BoundMetric::Sequence(own) => own,
-            BoundMetric::Frame(_) => {
-                return match (frames, per_second) {
-                    (None, None) => Ok(None),
-                    (Some(_), _) => Err(format!(
-                        "{metric}: is a score of a single frame, and frames is for scores of sequences; leave it out"
-                    )),
-                    (None, Some(_)) => Err(format!(
-                        "{metric}: is a score of a single frame, and fps is for scores of sequences; leave it out"
-                    )),
-                };
-            }
+        let Metric::Sequence(of_sequence) = metric else {
+            let given = (frames.map(|_| "frames")).or(per_second.map(|_| "fps"));
+            return match given {
+                None => Ok(None),
+                Some(given) => Err(format!(
+                    "{metric}: is a score of a single frame, and {given} is for scores of sequences; leave it out"
+                )),
+            };
         };
         let Some(frames) = frames else {
             return Err(format!(

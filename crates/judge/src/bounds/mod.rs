@@ -7,6 +7,7 @@ mod size;
 mod sized;
 mod subframes;
 
+use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use tracer::Location;
@@ -18,13 +19,13 @@ pub use known::{check_names, require_bounds};
 pub use length::{Length, check_lengths};
 pub use size::size_for_bounds;
 pub use sized::sized_bounds_file;
-pub use subframes::{bound_subframes, is_of_subframes};
+pub use subframes::bound_subframes;
 
 /// Name of the file of bounds, beside the scenes and beside one scene. [`sized_bounds_file`] names those for one picture size.
 pub const BOUNDS_FILE: &str = "bounds.toml";
 
-/// Bounds by metric name.
-pub type Bounds = BTreeMap<String, Bound>;
+/// Bounds by their scores.
+pub type Bounds = BTreeMap<Metric, Bound>;
 
 /// Limit on one score.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,5 @@
 //! Limits on equivalent sub-frames, for which ladders have to be rendered.
 
-use std::str::FromStr;
-
 use metrics::Metric;
 use suite::FilterChoice;
 
@@ -15,12 +13,7 @@ pub fn bound_subframes<'a>(
     scenes.any(|bounds| {
         filters.iter().any(|choice| {
             let of_filter = bounds.of(&choice.filter.name, &choice.preset);
-            of_filter.keys().any(|name| is_of_subframes(name))
+            (of_filter.keys()).any(|metric| matches!(metric, Metric::Equivalent(_)))
         })
     })
-}
-
-/// Tells whether a name is that of a metric of equivalent sub-frames.
-pub fn is_of_subframes(metric: &str) -> bool {
-    matches!(Metric::from_str(metric), Ok(Metric::Equivalent(_)))
 }

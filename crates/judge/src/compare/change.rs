@@ -15,8 +15,8 @@ pub struct Change {
     /// True for a reference picture, false for a filter.
     #[serde(rename = "bar")]
     pub is_reference: bool,
-    /// Name of the metric.
-    pub metric: String,
+    /// Score.
+    pub metric: Metric,
     /// Score in the first run, in the metric's unit.
     pub first: f64,
     /// Score in the second run.
@@ -116,7 +116,7 @@ impl Change {
             scene: pair.first.scene.clone(),
             filter: filter_label(pair.first),
             is_reference: pair.first.is_reference,
-            metric: metric.name(),
+            metric,
             first: first.value,
             second: second.value,
             worse,
@@ -137,8 +137,9 @@ impl Change {
 
     /// Estimates by how much the second is worse against a truth without noise.
     pub fn estimate(&self) -> f64 {
-        let metric: Metric = (self.metric.parse()).expect("changes are of metrics");
-        let [first, second] = self.estimates.map(|value| metric.ideal().badness(value));
+        let [first, second] = self
+            .estimates
+            .map(|value| self.metric.ideal().badness(value));
         second - first
     }
 
@@ -157,9 +158,9 @@ impl Change {
 }
 
 /// Turns a change for the worse into a change of the score: more of a score that ought to be high is better.
-pub fn score_change(metric: &str, worse: f64) -> f64 {
-    match metric.parse().map(Metric::ideal) {
-        Ok(Ideal::Highest) => -worse,
+pub fn score_change(metric: Metric, worse: f64) -> f64 {
+    match metric.ideal() {
+        Ideal::Highest => -worse,
         _ => worse,
     }
 }
@@ -196,12 +197,12 @@ pub(super) mod tests {
     use super::*;
 
     /// Makes a change from 0.5 of one filter.
-    pub fn change(scene: &str, metric: &str, worse: f64, kind: ChangeKind) -> Change {
+    pub fn change(scene: &str, metric: Metric, worse: f64, kind: ChangeKind) -> Change {
         Change {
             scene: scene.to_owned(),
             filter: "one:paper".to_owned(),
             is_reference: false,
-            metric: metric.to_owned(),
+            metric,
             first: 0.5,
             second: 0.5 + worse,
             worse,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use suite::Headline;
+use metrics::Metric;
 
 use crate::bounds::Margin;
 use crate::compare::RunComparison;
@@ -10,25 +10,24 @@ use crate::compare::change::ChangeKind;
 use crate::compare::mean::MeanKind;
 
 /// Margins of scores that no bound names, in their units: differences that nobody sees.
-const USUAL_MARGINS: [(Headline, f64); 2] = [(Headline::PSNR, 0.1), (Headline::SKILL, 0.02)];
+const USUAL_MARGINS: [(Metric, f64); 2] = [(Metric::PSNR, 0.1), (Metric::SKILL, 0.02)];
 
 impl RunComparison {
     /// Marks changes that are smaller than their margin: those of bounds.toml, or else the usual ones.
-    pub fn apply_margins(&mut self, margins: &BTreeMap<String, Margin>) {
-        let margin = |metric: &str| {
-            let mut usual = USUAL_MARGINS.iter();
-            let usual = usual.find(|(headline, _)| headline.name() == metric);
-            let own = margins.get(metric).map(|margin| margin.width);
+    pub fn apply_margins(&mut self, margins: &BTreeMap<Metric, Margin>) {
+        let margin = |metric: Metric| {
+            let usual = USUAL_MARGINS.iter().find(|(own, _)| *own == metric);
+            let own = margins.get(&metric).map(|margin| margin.width);
             own.or(usual.map(|(_, width)| *width)).unwrap_or(0.0)
         };
         for change in &mut self.changes {
-            if change.is_beyond_noise() && change.estimate().abs() < margin(&change.metric) {
+            if change.is_beyond_noise() && change.estimate().abs() < margin(change.metric) {
                 change.kind = ChangeKind::BelowMargin;
             }
         }
         for mean in &mut self.means {
             let is_decided = matches!(mean.kind, MeanKind::Better | MeanKind::Worse);
-            if is_decided && mean.worse.abs() < margin(&mean.metric) {
+            if is_decided && mean.worse.abs() < margin(mean.metric) {
                 mean.kind = MeanKind::BelowMargin;
             }
         }
@@ -44,13 +43,12 @@ mod tests {
 
     #[test]
     fn a_change_counts_from_its_margin_on() {
-        let psnr = Headline::PSNR.name();
         let changes = vec![
-            change("fan", &psnr, -4e-7, ChangeKind::Better),
-            change("fan", &psnr, -0.2, ChangeKind::Better),
-            change("fan", "flip_moving", 0.004, ChangeKind::Worse),
-            change("fan", "flip_moving", 0.006, ChangeKind::Worse),
-            change("fan", "flip_moving", 0.001, ChangeKind::WithinNoise),
+            change("fan", Metric::PSNR, -4e-7, ChangeKind::Better),
+            change("fan", Metric::PSNR, -0.2, ChangeKind::Better),
+            change("fan", Metric::FLIP, 0.004, ChangeKind::Worse),
+            change("fan", Metric::FLIP, 0.006, ChangeKind::Worse),
+            change("fan", Metric::FLIP, 0.001, ChangeKind::WithinNoise),
         ];
         let margin = Margin {
             width: 0.005,
@@ -66,7 +64,7 @@ mod tests {
             means: crate::compare::mean::average_changes(&changes),
             changes,
         };
-        compared.apply_margins(&BTreeMap::from([("flip_moving".to_owned(), margin)]));
+        compared.apply_margins(&BTreeMap::from([(Metric::FLIP, margin)]));
         let kinds: Vec<ChangeKind> = compared.changes.iter().map(|change| change.kind).collect();
         let expected = [
             ChangeKind::BelowMargin,

@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use metrics::Metric;
 use serde::Serialize;
 use suite::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
 use tracer::FrameRate;
@@ -13,8 +14,8 @@ use crate::compare::change::{Change, ChangeKind};
 pub struct MeanChange {
     /// `jump_flood:paper`, and behind that the frame rate of the scenes where that is none of their files: `jump_flood:paper 24fps`.
     pub filter: String,
-    /// Name of the metric.
-    pub metric: String,
+    /// Score.
+    pub metric: Metric,
     /// Number of scenes.
     pub scenes: usize,
     /// Numbers of scenes that are better, and worse, by more than noise.
@@ -65,7 +66,7 @@ impl MeanKind {
 
 /// Averages changes per filter, metric and frame rate, in the order of the changes; leaves out references.
 pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
-    let mut groups: Vec<((String, &str), Vec<&Change>)> = Vec::new();
+    let mut groups: Vec<((String, Metric), Vec<&Change>)> = Vec::new();
     for change in changes.iter().filter(|change| !change.is_reference) {
         let key = key(change);
         match groups.iter_mut().find(|(own, _)| *own == key) {
@@ -73,22 +74,22 @@ pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
             None => groups.push((key, vec![change])),
         }
     }
-    let average = |((filter, metric), group): ((String, &str), Vec<&Change>)| {
-        average(filter, metric.to_owned(), &group)
+    let average = |((filter, metric), group): ((String, Metric), Vec<&Change>)| {
+        average(filter, metric, &group)
     };
     groups.into_iter().map(average).collect()
 }
 
 /// Names filter and frame rate of a change, and its metric.
-fn key(change: &Change) -> (String, &str) {
+fn key(change: &Change) -> (String, Metric) {
     let filter = match FrameRate::of_name(&change.scene) {
         Some(rate) => format!("{} {}", change.filter, rate.word()),
         None => change.filter.clone(),
     };
-    (filter, &change.metric)
+    (filter, change.metric)
 }
 
-fn average(filter: String, metric: String, changes: &[&Change]) -> MeanChange {
+fn average(filter: String, metric: Metric, changes: &[&Change]) -> MeanChange {
     let count = changes.len();
     let mean = |value: fn(&Change) -> f64| {
         let weighted = changes.iter().map(|change| Weighted {
@@ -132,7 +133,7 @@ mod tests {
                 worse if worse > 0.0 => ChangeKind::Worse,
                 _ => ChangeKind::Better,
             };
-            change(&format!("scene_{index}"), "flip_moving", *worse, kind)
+            change(&format!("scene_{index}"), Metric::FLIP, *worse, kind)
         };
         worse.iter().enumerate().map(change).collect()
     }

@@ -2,15 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr};
+use frame::{FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr};
 use metrics::{
     ImageMetric, Interval, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores,
     SkillMetric, jackknife,
 };
 use store::RenderFile;
-use suite::{
-    Error, FEWEST_REPLICATES, Headline, SHARP, make_oracle, sharp_picture, truths_without_pairs,
-};
+use suite::{Error, FEWEST_REPLICATES, SHARP, make_oracle, sharp_picture, truths_without_pairs};
 use tracer::{Progress, TraceError, Watch};
 
 use crate::compare::change::{Change, Uncertainty};
@@ -61,7 +59,7 @@ pub fn measure_changes(
         }
         changes.extend(METRICS.iter().filter_map(|metric| {
             let uncertainty = measured.as_ref().and_then(|own| own.uncertainty(*metric));
-            let weight = Headline::Metric(*metric).weight(pair.first, &sides[0].run.cases)?;
+            let weight = pair.first.weight(*metric, &sides[0].run.cases)?;
             Change::new(pair, *metric, weight, uncertainty)
         }));
     }
@@ -92,7 +90,7 @@ impl TruthParts {
     }
 
     fn read_below(folder: &Path, pair: &Pair, count: u32) -> Result<Option<Self>, Error> {
-        let alignment: Alignment = pair.first.alignment.parse().map_err(Error::Usage)?;
+        let alignment = pair.first.alignment;
         let path = |file: RenderFile| folder.join(file.path());
         let truth = path(RenderFile::Truth(alignment));
         let frame = path(RenderFile::Frame);

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
+use frame::Alignment;
 use suite::{Case, Error, Run};
 
 use crate::compare::side::Side;
@@ -91,10 +92,10 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
 }
 
 /// Key that is unique among the cases of one run.
-type Key<'a> = (&'a str, String, &'a str, bool);
+type Key<'a> = (&'a str, String, Alignment, bool);
 
 fn key(case: &Case) -> Key<'_> {
-    (&case.scene, case.name(), &case.alignment, case.is_reference)
+    (&case.scene, case.name(), case.alignment, case.is_reference)
 }
 
 /// Key of a case within a run, whatever values `--set` gave to its parameters.
@@ -102,7 +103,7 @@ fn preset_key(case: &Case) -> Key<'_> {
     (
         &case.scene,
         case.preset_name(),
-        &case.alignment,
+        case.alignment,
         case.is_reference,
     )
 }

@@ -3,7 +3,9 @@
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-use suite::{Error, Headline, Random, SceneMean, TWO_SIDED, plain_mean};
+use frame::Alignment;
+use metrics::Metric;
+use suite::{Error, Random, SceneMean, TWO_SIDED, plain_mean};
 
 use crate::results::Results;
 
@@ -14,7 +16,7 @@ const RESAMPLES: usize = 2000;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeComparison {
     /// Shutter alignment of the filters.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Scenes that every mean is over.
     pub scenes: Vec<String>,
     /// Columns and rows of each file of results.
@@ -71,49 +73,44 @@ type Badness = Vec<Vec<f64>>;
 /// filters if the 95 % CI of their mean difference over scenes does not hold 0. That needs five scenes.
 ///
 /// Scenes and filters that one of them lacks are an error.
-pub fn compare_sizes(
-    results: &[Results],
-    headline: Headline,
-) -> Result<Vec<SizeComparison>, Error> {
+pub fn compare_sizes(results: &[Results], metric: Metric) -> Result<Vec<SizeComparison>, Error> {
     let mut results: Vec<&Results> = results.iter().collect();
     results.sort_by_key(|own| u64::from(own.size[0]) * u64::from(own.size[1]));
-    compare_with_last(&results, headline)
+    compare_with_last(&results, metric)
 }
 
 /// Compares results of the same filters and scenes as [`compare_sizes`] does, each with the last.
 pub fn compare_with_last(
     results: &[&Results],
-    headline: Headline,
+    metric: Metric,
 ) -> Result<Vec<SizeComparison>, Error> {
     let Some(last) = results.last() else {
         return Err(Error::Usage("no results to compare".to_owned()));
     };
-    let alignments: BTreeSet<&str> = (last.scores.iter())
-        .map(|own| own.alignment.as_str())
-        .collect();
+    let alignments: BTreeSet<Alignment> = last.scores.iter().map(|own| own.alignment).collect();
     (alignments.into_iter())
-        .map(|alignment| compare_group(results, alignment, headline))
+        .map(|alignment| compare_group(results, alignment, metric))
         .collect()
 }
 
 fn compare_group(
     results: &[&Results],
-    alignment: &str,
-    headline: Headline,
+    alignment: Alignment,
+    metric: Metric,
 ) -> Result<SizeComparison, Error> {
     let last = results.last().expect("there are results");
     let own = || (last.scores.iter()).filter(|own| own.alignment == alignment);
     let names: BTreeSet<&str> = own().map(|own| own.name.as_str()).collect();
     // A still scene orders no filters, and has no score where nothing moves.
     let scenes: BTreeSet<&str> = (own())
-        .filter(|own| own.score(headline).is_some())
+        .filter(|own| own.score(metric).is_some())
         .map(|own| own.scene.as_str())
         .collect();
     let read = |results: &&Results| -> Result<Badness, Error> {
         let filter = |name: &&str| {
             let scenes = scenes.iter();
             scenes
-                .map(|scene| find(results, scene, name, headline))
+                .map(|scene| find(results, scene, name, metric))
                 .collect()
         };
         names.iter().map(filter).collect()
@@ -132,7 +129,7 @@ fn compare_group(
         .collect();
     filters.sort_by_key(|filter| filter.ranks.last().copied());
     Ok(SizeComparison {
-        alignment: alignment.to_owned(),
+        alignment,
         scenes: scenes.into_iter().map(str::to_owned).collect(),
         sizes: results.iter().map(|own| own.size.into()).collect(),
         filters,
@@ -143,16 +140,16 @@ fn compare_group(
 }
 
 /// Finds how bad a filter is on a scene.
-fn find(results: &Results, scene: &str, name: &str, headline: Headline) -> Result<f64, Error> {
+fn find(results: &Results, scene: &str, name: &str, metric: Metric) -> Result<f64, Error> {
     let found = (results.scores.iter()).find(|own| own.scene == scene && own.name == name);
-    let value = found.and_then(|own| own.score(headline)).ok_or_else(|| {
+    let value = found.and_then(|own| own.score(metric)).ok_or_else(|| {
         Error::Usage(format!(
             "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
             results.file_name(),
-            headline.name()
+            metric.name()
         ))
     })?;
-    Ok(headline.ideal().badness(value))
+    Ok(metric.ideal().badness(value))
 }
 
 fn mean(values: &[f64]) -> f64 {

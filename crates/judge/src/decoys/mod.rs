@@ -3,7 +3,7 @@
 mod wrong;
 
 use frame::{Frame, Picture, Truth};
-use metrics::{Ideal, MeasureError, Metric, Reference, Scores};
+use metrics::{Ideal, MeasureError, Metric, ObjectMetric, Reference, Scores};
 use serde::{Deserialize, Serialize};
 
 pub use wrong::{FEW_SUBFRAMES, make_wrong_pictures};
@@ -24,21 +24,21 @@ const FARTHEST: f64 = 0.5;
 const FEWEST_SCORES: usize = 4;
 
 /// Scores that tell wrong blurs apart, by position, length, width and looks.
-const TELLING: [&str; 14] = [
-    "flip_moving",
-    "label_tv",
-    "bleed_lateral",
-    "bleed_leading",
-    "bleed_trailing",
-    "lateral_growth",
-    "row_gain",
-    "row_loss",
-    "misplacement",
-    "centroid",
-    "extent",
-    "hole",
-    "deficit",
-    "energy",
+const COMPARED: [Metric; 14] = [
+    Metric::FLIP,
+    Metric::LABEL,
+    Metric::Object(ObjectMetric::BleedLateral),
+    Metric::Object(ObjectMetric::BleedLeading),
+    Metric::Object(ObjectMetric::BleedTrailing),
+    Metric::GROWTH,
+    Metric::Object(ObjectMetric::RowGain),
+    Metric::LOSS,
+    Metric::Object(ObjectMetric::Misplacement),
+    Metric::Object(ObjectMetric::Centroid),
+    Metric::Object(ObjectMetric::Extent),
+    Metric::Object(ObjectMetric::Hole),
+    Metric::Object(ObjectMetric::Deficit),
+    Metric::Object(ObjectMetric::Energy),
 ];
 
 /// Scores of wrong blurs of one scene against one truth.
@@ -48,7 +48,7 @@ pub struct Decoys {
     scales: Vec<f64>,
 }
 
-/// Signed distances from perfect of the scores in [`TELLING`]; none if a score does not apply.
+/// Signed distances from perfect of the scores in [`COMPARED`]; none if a score does not apply.
 type Deviations = Vec<Option<f64>>;
 
 impl Decoys {
@@ -70,7 +70,7 @@ impl Decoys {
             sizes.map(f64::abs).fold(0.0, f64::max)
         };
         Ok(Self {
-            scales: (0..TELLING.len()).map(scale).collect(),
+            scales: (0..COMPARED.len()).map(scale).collect(),
             decoys,
         })
     }
@@ -106,9 +106,8 @@ impl Decoys {
 }
 
 fn deviations(scores: &Scores) -> Deviations {
-    TELLING
-        .map(|name| {
-            let metric: Metric = name.parse().expect("the telling scores are metrics");
+    COMPARED
+        .map(|metric| {
             let perfect = match metric.ideal() {
                 Ideal::Target(target) => target,
                 Ideal::Lowest | Ideal::Highest => 0.0,

@@ -1,7 +1,6 @@
 //! Pictures of wrong blurs.
 
 use frame::{Alignment, Frame, Picture, Plane, Raster, Truth};
-
 use suite::scatter_oracle;
 
 /// Number of sub-frames whose mean shows bands.

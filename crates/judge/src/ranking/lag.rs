@@ -1,6 +1,7 @@
 //! Lag: what it costs that the frame is not the middle of its shutter.
 
-use suite::Headline;
+use frame::Alignment;
+use metrics::Metric;
 use suite::{Case, IDENTITY};
 
 use crate::ranking::ranking::list_summarized;
@@ -13,7 +14,7 @@ pub fn mean_lag(cases: &[&Case]) -> Option<f64> {
             case.is_reference && case.filter == IDENTITY && case.scene == sharp.scene
         };
         let frame = cases.iter().find(is_frame)?;
-        Some(Headline::FLIP.estimate(frame)? - Headline::FLIP.estimate(sharp)?)
+        Some(frame.estimate(Metric::FLIP)? - sharp.estimate(Metric::FLIP)?)
     });
     let lags: Vec<f64> = lags.flatten().collect();
     (!lags.is_empty()).then(|| lags.iter().sum::<f64>() / lags.len() as f64)
@@ -22,13 +23,13 @@ pub fn mean_lag(cases: &[&Case]) -> Option<f64> {
 /// Says what the lag behind the frame costs under each shutter; none where no shutter has one.
 pub fn lag_text(cases: &[Case]) -> Option<String> {
     let cases = list_summarized(cases);
-    let mut alignments: Vec<&str> = cases.iter().map(|case| case.alignment.as_str()).collect();
+    let mut alignments: Vec<Alignment> = cases.iter().map(|case| case.alignment).collect();
     alignments.sort_unstable();
     alignments.dedup();
     let lags = alignments.into_iter().filter_map(|alignment| {
         let own = cases.iter().filter(|case| case.alignment == alignment);
         let lag = mean_lag(&own.copied().collect::<Vec<_>>())?;
-        let number = Headline::FLIP.number(lag);
+        let number = Metric::FLIP.number(lag);
         Some(format!("{number} under a {alignment} shutter"))
     });
     let lags: Vec<String> = lags.collect();

@@ -1,8 +1,8 @@
 //! Ranking of filters by one score, with ties.
 
-use suite::Headline;
-use suite::{Case, InputFormat};
-use suite::{TWO_SIDED, plain_mean};
+use frame::Alignment;
+use metrics::Metric;
+use suite::{Case, InputFormat, TWO_SIDED, plain_mean};
 use tracer::FrameRate;
 
 /// A filter preset in the ranking of its shutter.
@@ -13,7 +13,7 @@ pub struct RankedFilter {
     /// Name of the filter alone.
     pub filter: String,
     /// Shutter alignment that it is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Frame rate of the scenes; none for that of their files.
     pub rate: Option<FrameRate>,
     /// Best and worst rank among the filters of its shutter: the first is 1 plus the number of filters that are better, the second the
@@ -41,7 +41,7 @@ pub struct RankedScore {
     /// `jump_flood:paper`, followed by what is not as usual.
     pub name: String,
     /// Shutter alignment that it is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// The score; of FLIP the estimate against a truth without noise.
     pub value: f64,
     /// Difference that the truth's noise makes.
@@ -90,9 +90,9 @@ impl RankedScore {
             scene: case.scene.clone(),
             filter: case.filter.clone(),
             name: case.name(),
-            alignment: case.alignment.clone(),
-            value: Headline::FLIP.estimate(case)?,
-            floor: Headline::FLIP.floor(case)?,
+            alignment: case.alignment,
+            value: case.estimate(Metric::FLIP)?,
+            floor: case.floor(Metric::FLIP)?,
         })
     }
 }
@@ -131,7 +131,7 @@ fn new_entry(score: &RankedScore) -> Entry {
         ranked: RankedFilter {
             name: score.name.clone(),
             filter: score.filter.clone(),
-            alignment: score.alignment.clone(),
+            alignment: score.alignment,
             rate: FrameRate::of_name(&score.scene),
             ranks: [1, 1],
             mean: 0.0,
@@ -263,7 +263,7 @@ mod tests {
             scene: "fan".to_owned(),
             filter: name.to_owned(),
             name: format!("{name}:default"),
-            alignment: "centred".to_owned(),
+            alignment: Alignment::Centred,
             value,
             floor: 0.01,
         }

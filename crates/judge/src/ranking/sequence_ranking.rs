@@ -2,10 +2,9 @@
 
 use std::collections::HashMap;
 
+use frame::Alignment;
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use suite::Sequence;
-use suite::{Case, InputFormat, Run};
-use suite::{SceneMean, TWO_SIDED, plain_mean};
+use suite::{Case, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
 use tracer::FrameRate;
 
 use crate::ranking::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};
@@ -49,19 +48,15 @@ pub fn rank_sequences_on(run: &Run, scene: &str) -> Vec<Vec<RankedSequence>> {
 /// Lists the sequences of filters, each with the case of its first frame.
 fn list_filters(run: &Run) -> Vec<(&Sequence, &Case)> {
     let filters = run.cases.iter().filter(|case| !case.is_reference);
-    let cases: HashMap<(&str, &str, String), &Case> = filters
+    let cases: HashMap<(&str, Alignment, String), &Case> = filters
         .map(|case| {
-            let key = (case.scene.as_str(), case.alignment.as_str(), case.name());
+            let key = (case.scene.as_str(), case.alignment, case.name());
             (key, case)
         })
         .collect();
     let sequences = run.sequences.iter().filter(|own| !own.is_reference);
     let with_case = sequences.filter_map(|own| {
-        let key = (
-            own.scene.as_str(),
-            own.alignment.as_str(),
-            own.filter.clone(),
-        );
+        let key = (own.scene.as_str(), own.alignment, own.filter.clone());
         Some((own, *cases.get(&key)?))
     });
     with_case.collect()
@@ -95,7 +90,7 @@ fn loss_of((own, case): &(&Sequence, &Case)) -> Option<RankedScore> {
         scene: own.scene.clone(),
         filter: case.filter.clone(),
         name: own.filter.clone(),
-        alignment: own.alignment.clone(),
+        alignment: own.alignment,
         value: PERFECT_JOD - score.value,
         floor: PERFECT_JOD - score.floor,
     })

@@ -5,9 +5,11 @@ mod cost;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use frame::Alignment;
+use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use store::{read_text, to_lines};
-use suite::{Case, Error, Headline, InputFormat, Run, refuse_failures};
+use suite::{Case, Error, InputFormat, Run, refuse_failures};
 use tracer::{Family, Seal};
 
 pub use self::cost::ResultCost;
@@ -55,11 +57,11 @@ pub struct ResultScores {
     /// `jump_flood:paper`, followed by what is not as usual.
     pub name: String,
     /// Shutter alignment that it is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Noise floor of its FLIP.
     pub floor: f64,
-    /// Scores of [`Headline::OF_MEANS`] by name, of five digits; those that do not apply are missing.
-    pub scores: BTreeMap<String, f64>,
+    /// Scores of [`Metric::OF_MEANS`] by name, of five digits; those that do not apply are missing.
+    pub scores: BTreeMap<Metric, f64>,
 }
 
 impl Results {
@@ -220,8 +222,8 @@ impl Results {
         let mut ranked = self.ranking(None).into_iter().flatten();
         let best = ranked.find(|own| own.filter == filter)?;
         let error = |own: &&ResultScores| {
-            let has_skill = own.score(Headline::SKILL).is_some();
-            Some((has_skill, own.score(Headline::FLIP)?))
+            let has_skill = own.score(Metric::SKILL).is_some();
+            Some((has_skill, own.score(Metric::FLIP)?))
         };
         (self.scores.iter())
             .filter(|own| own.name == best.name && error(own).is_some())
@@ -240,22 +242,22 @@ impl Results {
 
 impl ResultScores {
     fn of(case: &Case) -> Self {
-        let scores = (Headline::OF_MEANS.into_iter())
-            .filter_map(|headline| Some((headline.name(), rounded(headline.estimate(case)?))));
+        let scores = (Metric::OF_MEANS.into_iter())
+            .filter_map(|metric| Some((metric, rounded(case.estimate(metric)?))));
         Self {
             scene: Seal::split_name(&case.scene).0.to_owned(),
             family: case.family,
             filter: case.filter.clone(),
             name: case.name(),
-            alignment: case.alignment.clone(),
-            floor: Headline::FLIP.floor(case).map_or(0.0, rounded),
+            alignment: case.alignment,
+            floor: case.floor(Metric::FLIP).map_or(0.0, rounded),
             scores: scores.collect(),
         }
     }
 
-    /// A score by its headline; none if it does not apply.
-    pub fn score(&self, headline: Headline) -> Option<f64> {
-        self.scores.get(&headline.name()).copied()
+    /// A score; none if it does not apply.
+    pub fn score(&self, metric: Metric) -> Option<f64> {
+        self.scores.get(&metric).copied()
     }
 
     fn flip(&self) -> Option<RankedScore> {
@@ -263,8 +265,8 @@ impl ResultScores {
             scene: self.scene.clone(),
             filter: self.filter.clone(),
             name: self.name.clone(),
-            alignment: self.alignment.clone(),
-            value: self.score(Headline::FLIP)?,
+            alignment: self.alignment,
+            value: self.score(Metric::FLIP)?,
             floor: self.floor,
         })
     }

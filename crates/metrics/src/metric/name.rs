@@ -1,17 +1,23 @@
-//! Names of all metrics, as bounds and tables use them.
+//! Names of all scores, as files, bounds and tables use them.
 
+use std::cmp::Ordering;
+use std::collections::HashMap;
 use std::fmt;
 use std::str::FromStr;
+use std::sync::LazyLock;
+
+use serde::{Deserialize, Serialize};
 
 use super::row::{Group, Row};
 use super::rows::{
     EquivalentMetric, FrozenMetric, ImageMetric, LabelMetric, ObjectMetric, ProbeMetric,
     SkillMetric,
 };
-use crate::{ErrorMap, Ideal, Region};
+use crate::{ErrorMap, Ideal, PERFECT_JOD, Region, SequenceMetric};
 
-/// Name of a score.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// Name of a score. No two scores share one; files hold it as a text, and are sorted by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
 pub enum Metric {
     /// An error of colour over a region: `flip_moving`, `psnr_full`.
     Image(ImageMetric, Region),
@@ -31,6 +37,12 @@ pub enum Metric {
     Skill(SkillMetric),
     /// Equivalent sub-frames: `n_eq`.
     Equivalent(EquivalentMetric),
+    /// A score of a sequence: `flicker`.
+    Sequence(SequenceMetric),
+    /// `bleed`: the largest of the bleeds beside, ahead of and behind a mover.
+    Bleed,
+    /// `flip_common`, FLIP* in tables: FLIP against the shutter that all cases of a run are compared with.
+    CommonFlip,
 }
 
 impl ObjectMetric {
@@ -54,10 +66,36 @@ impl SkillMetric {
 }
 
 impl Metric {
-    /// Equivalent sub-frames by squared error: the headline.
+    /// FLIP where anything moves.
+    pub const FLIP: Metric = Metric::Image(ImageMetric::Flip, Region::Moving);
+    /// Skill in FLIP.
+    pub const SKILL: Metric = Metric::Skill(SkillMetric::Flip);
+    /// PSNR where anything moves.
+    pub const PSNR: Metric = Metric::Image(ImageMetric::Psnr, Region::Moving);
+    /// Lateral growth.
+    pub const GROWTH: Metric = Metric::Object(ObjectMetric::LateralGrowth);
+    /// Row loss.
+    pub const LOSS: Metric = Metric::Object(ObjectMetric::RowLoss);
+    /// Mean total variation of labels.
+    pub const LABEL: Metric = Metric::Label(LabelMetric::Mean);
+    /// Equivalent sub-frames by squared error.
     pub const SUBFRAMES: Metric = Metric::Equivalent(EquivalentMetric::Mse);
 
-    /// Lists every metric, in the order of a report.
+    /// Scores that have a mean over scenes.
+    pub const OF_MEANS: [Metric; 10] = [
+        Metric::FLIP,
+        Metric::CommonFlip,
+        Metric::SKILL,
+        Metric::Skill(SkillMetric::Mse),
+        Metric::Skill(SkillMetric::LabelTotalVariation),
+        Metric::PSNR,
+        Metric::GROWTH,
+        Metric::LOSS,
+        Metric::Bleed,
+        Metric::LABEL,
+    ];
+
+    /// Lists every metric of a single frame and its own shutter, in the order of a report.
     pub fn all() -> Vec<Metric> {
         let images = Region::ALL
             .into_iter()
@@ -103,6 +141,29 @@ impl Metric {
             Metric::Probe(metric) => metric.row(),
             Metric::Skill(metric) => metric.row(),
             Metric::Equivalent(metric) => metric.row(),
+            Metric::Sequence(metric) => metric.row(),
+            Metric::Bleed => Row {
+                name: "bleed",
+                unit: "px",
+                ideal: Ideal::Lowest,
+                group: Group::RunJson,
+                map: ErrorMap::Bleed,
+                meaning: "mover spilled where it never was: the largest of beside, ahead (>) and behind (<)",
+                is_percentile: false,
+                report_only: Some(
+                    "is the largest of bleed_lateral, bleed_leading and bleed_trailing",
+                ),
+            },
+            Metric::CommonFlip => Row {
+                name: "flip_common",
+                unit: "",
+                ideal: Ideal::Lowest,
+                group: Group::RunJson,
+                map: ErrorMap::Flip,
+                meaning: "visible difference where anything moves, from the truth of one shutter for all",
+                is_percentile: false,
+                report_only: Some("depends on the other filters of the run"),
+            },
         }
     }
 
@@ -158,13 +219,40 @@ impl Metric {
             | Metric::OccluderContamination
             | Metric::Frozen(_)
             | Metric::Skill(_)
-            | Metric::Equivalent(_) => Region::Moving,
+            | Metric::Equivalent(_)
+            | Metric::Sequence(_)
+            | Metric::Bleed
+            | Metric::CommonFlip => Region::Moving,
         }
     }
 
-    /// Returns the reason why no bound may name this metric; `None` for metrics that may be bounded.
-    pub fn report_only(self) -> Option<&'static str> {
-        self.row().report_only
+    /// Tells whether scores of two shutter alignments compare.
+    pub fn spans_alignments(self) -> bool {
+        matches!(self, Metric::CommonFlip | Metric::Skill(_))
+    }
+
+    /// Reads the name of a score that bounds may limit.
+    pub fn parse_bounded(text: &str) -> Result<Metric, String> {
+        let metric = Metric::from_str(text)?;
+        match metric.row().report_only {
+            None => Ok(metric),
+            Some(reason) => Err(format!("{metric} is for reports and no bound: it {reason}")),
+        }
+    }
+
+    /// Writes a score or a mean of scores with as many digits as are useful: lengths with at most three.
+    pub fn number(self, value: f64) -> String {
+        let digits = match self {
+            Self::PSNR | Self::SUBFRAMES => 1,
+            Self::Skill(_) => 2,
+            Self::Bleed | Self::Object(_) if value.abs() >= 9.995 => 1,
+            Self::Bleed | Self::Object(_) => 2,
+            _ => 3,
+        };
+        // No "-0.00".
+        let scale = 10f64.powi(digits);
+        let rounded = (value * scale).round() / scale + 0.0;
+        format!("{rounded:.*}", digits as usize)
     }
 
     /// Computes the strictest bound that a truth with this noise floor can carry: three floors from perfect. For unbiased squared
@@ -174,6 +262,7 @@ impl Metric {
     pub fn strictest_bound(self, floor: f64) -> f64 {
         match (self, self.ideal()) {
             (Metric::Image(ImageMetric::Psnr, _), _) => floor - 10.0 * 3f64.log10(),
+            (Metric::Sequence(SequenceMetric::Jod), _) => PERFECT_JOD - 3.0 * (PERFECT_JOD - floor),
             (_, Ideal::Lowest) => 3.0 * floor,
             (_, Ideal::Highest) => floor / 3.0,
             // Distance from the target.
@@ -203,16 +292,84 @@ impl FromStr for Metric {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let all = Metric::all();
-        all.iter()
-            .copied()
-            .find(|metric| metric.name() == text)
-            .ok_or_else(|| {
-                let names: Vec<String> = all.iter().map(|metric| metric.name()).collect();
-                format!(
-                    "metric \"{text}\" is unknown; allowed: {}",
-                    names.join(", ")
-                )
-            })
+        static BY_NAME: LazyLock<HashMap<String, Metric>> = LazyLock::new(|| {
+            let more = SequenceMetric::ALL.into_iter().map(Metric::Sequence);
+            let more = more.chain([Metric::Bleed, Metric::CommonFlip]);
+            let all = Metric::all().into_iter().chain(more);
+            all.map(|metric| (metric.name(), metric)).collect()
+        });
+        BY_NAME.get(text).copied().ok_or_else(|| {
+            let names: Vec<String> = Metric::all().into_iter().map(Metric::name).collect();
+            format!(
+                "metric \"{text}\" is unknown; allowed: {}; of sequences: {}",
+                names.join(", "),
+                SequenceMetric::ALL
+                    .map(|metric| metric.row().name)
+                    .join(", ")
+            )
+        })
+    }
+}
+
+impl TryFrom<String> for Metric {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Metric> for String {
+    fn from(metric: Metric) -> String {
+        metric.name()
+    }
+}
+
+impl Ord for Metric {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.name().cmp(&other.name())
+    }
+}
+
+impl PartialOrd for Metric {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_stands_for_one_metric() {
+        let sequences = SequenceMetric::ALL.map(Metric::Sequence);
+        let named = Metric::all().into_iter().chain(sequences);
+        for metric in named.chain(Metric::OF_MEANS) {
+            assert_eq!(metric.name().parse(), Ok(metric));
+        }
+    }
+
+    #[test]
+    fn lengths_have_at_most_three_digits_and_nothing_is_minus_zero() {
+        for (metric, value, expected) in [
+            (Metric::GROWTH, 4.8, "4.80"),
+            (Metric::GROWTH, 9.999, "10.0"),
+            (Metric::Bleed, 44.44, "44.4"),
+            (Metric::SKILL, -0.001, "0.00"),
+            (Metric::SKILL, -0.734, "-0.73"),
+            (Metric::FLIP, 0.12345, "0.123"),
+            (Metric::PSNR, 27.04, "27.0"),
+        ] {
+            assert_eq!(metric.number(value), expected);
+        }
+    }
+
+    #[test]
+    fn a_truth_carries_no_limit_within_three_floors() {
+        let strictest = |metric, floor| Metric::Sequence(metric).strictest_bound(floor);
+        assert_eq!(strictest(SequenceMetric::Flicker, 0.5), 1.5);
+        // Half a JOD below the perfect 10.
+        assert_eq!(strictest(SequenceMetric::Jod, 9.5), 8.5);
     }
 }

@@ -14,14 +14,6 @@ impl SequenceMetric {
         self == Self::Jod
     }
 
-    /// Computes the strictest bound that a truth with this noise floor can carry: three floors from perfect.
-    pub fn strictest_bound(self, floor: f64) -> f64 {
-        match self {
-            Self::Jod => PERFECT_JOD - 3.0 * (PERFECT_JOD - floor),
-            _ => 3.0 * floor,
-        }
-    }
-
     /// Converts a score to the number that tables show: thousandths of display white, squared errors by their roots; JOD as it is.
     pub fn shown(self, value: f64) -> f64 {
         match self.row().unit {

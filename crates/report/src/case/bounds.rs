@@ -1,5 +1,6 @@
 //! Bounds of a case, with evidence for those that are not met.
 
+use judge::{CROP, Finding, Level, number};
 use maud::{Markup, html};
 
 use super::case_view::CaseView;
@@ -8,7 +9,6 @@ use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, Tally, finding_line, limit_text, way_out, worst_frame_text};
 use crate::numbers::counted;
 use crate::sequence::SEQUENCES_PAGE;
-use judge::{CROP, Finding, Level, number};
 
 /// Lists the required bounds of a run that are not met, each with a link to its case.
 pub fn broken_bounds(pages: &[CaseView]) -> Markup {
@@ -133,7 +133,7 @@ fn finding_section(page: &CaseView, finding: &Finding, evidence: &Evidence) -> M
 fn facts(finding: &Finding) -> Markup {
     html! {
         dl {
-            div { dt { "metric" } dd { (finding.metric) ": " (finding.bound_metric().meaning()) } }
+            div { dt { "metric" } dd { (finding.metric) ": " (finding.metric.meaning()) } }
             @if let Some(value) = finding.value {
                 div { dt { "measured" } dd { (finding.with_unit(value)) } }
             }

@@ -1,10 +1,12 @@
 //! Data of a case's section, read from the files of the run.
 
+use judge::{BLOCK, Finding, worst_block};
+use metrics::Metric;
+use suite::{Case, Error, Run};
+
 use super::evidence::{Evidence, find_evidence};
 use super::profile::{Profile, trace_profile, worst_pixel};
 use crate::pixels::scene_files::{Layers, SceneFiles};
-use judge::{BLOCK, Finding, worst_block};
-use suite::{Case, Error, Run};
 
 /// A case with all that a page shows of its files.
 pub struct CaseView<'a> {
@@ -50,8 +52,8 @@ impl<'a> CaseView<'a> {
         let place = match evidence.iter().flatten().next() {
             Some(first) => worst_pixel(&own.errors.map(&first.map)?, first.place, BLOCK),
             None => {
-                let metric = "flip_moving".parse().expect("a metric's name");
-                let (x, y) = worst_block(metric, &flip, &files.truths[&case.alignment].regions);
+                let (x, y) =
+                    worst_block(Metric::FLIP, &flip, &files.truths[&case.alignment].regions);
                 worst_pixel(&flip, [x, y], BLOCK)
             }
         };

@@ -1,12 +1,10 @@
 //! Evidence of a bound that is not met: the place to look at, and the map that was searched.
 
-use std::str::FromStr;
-
+use judge::{Finding, worst_block};
 use metrics::Metric;
+use suite::{Case, Error};
 
 use crate::pixels::scene_files::{CaseFiles, SceneFiles};
-use judge::{Finding, worst_block};
-use suite::{Case, Error};
 
 /// The worst place of one score.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,9 +28,10 @@ pub fn find_evidence(
     if !finding.outcome.is_notable() {
         return Ok(None);
     }
-    let Ok(metric) = Metric::from_str(&finding.metric) else {
+    let metric = finding.metric;
+    if let Metric::Sequence(_) = metric {
         return Ok(None);
-    };
+    }
     let map = match &finding.worst {
         Some(worst) => worst.map.clone(),
         None => metric.row().map.name().to_owned(),

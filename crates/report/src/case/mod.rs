@@ -9,7 +9,15 @@ mod profile_chart;
 mod scores;
 pub mod viewer;
 
+use bounds::bounds;
+use case_view::CaseView;
+use judge::Level;
 use maud::{Markup, html};
+use metrics::Metric;
+use profile::Profile;
+use profile_chart::profile_chart;
+use scores::score_rows;
+use suite::{Case, Drawn};
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, case_anchor};
@@ -17,13 +25,6 @@ use crate::finding_text::Tally;
 use crate::numbers::{counted, value_text};
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::{provenance_line, truth_text};
-use bounds::bounds;
-use case_view::CaseView;
-use judge::Level;
-use profile::Profile;
-use profile_chart::profile_chart;
-use scores::score_rows;
-use suite::{Case, Drawn, Headline};
 
 /// Tables of a case: what stands above its pictures, and below them.
 pub struct CaseTables {
@@ -82,7 +83,7 @@ pub fn case_section(view: &CaseView, tables: Option<&CaseTables>) -> Markup {
     html! {
         article.case id=(case_anchor(case)) data-title=(title) data-name=(filter.anchor())
             data-filter=(filter.title()) data-reference[filter.is_reference]
-            data-score=(format!("FLIP {}", Headline::FLIP.text(case))) {
+            data-score=(format!("FLIP {}", case.score_text(Metric::FLIP))) {
             (part(tables.map(|own| &own.head)))
             div.viewer_place data-truth=[case.drawn.as_ref().map(truth_words)] data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
                 data-names=(serde_json::json!(view.names)) data-line=(line(&view.profile)) data-worst=(format!("{x},{y}")) {}
@@ -109,9 +110,9 @@ fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
         [Level::Required, Level::Report].map(|level| Tally::of(&view.findings, level));
     html! {
         p.score {
-            @for (headline, name) in [(Headline::FLIP, "FLIP"), (Headline::SKILL, "skill"), (Headline::PSNR, "PSNR")] {
-                @if let Some(value) = headline.estimate(case) {
-                    span { (name) " " strong { (headline.number(value)) } (interval(case, headline)) }
+            @for (metric, name) in [(Metric::FLIP, "FLIP"), (Metric::SKILL, "skill"), (Metric::PSNR, "PSNR")] {
+                @if let Some(value) = case.estimate(metric) {
+                    span { (name) " " strong { (metric.number(value)) } (interval(case, metric)) }
                 }
             }
             @if let (false, Some(place)) = (case.is_reference, place) {
@@ -126,16 +127,16 @@ fn score_line(view: &CaseView, table: &CaseTable) -> Markup {
 }
 
 /// ` (95 % CI 0.052 to 0.061)`
-fn interval(case: &Case, headline: Headline) -> String {
-    headline.interval(case).map_or_else(String::new, |own| {
-        let [low, high] = [own.low, own.high].map(|end| headline.number(end));
+fn interval(case: &Case, metric: Metric) -> String {
+    case.interval(metric).map_or_else(String::new, |own| {
+        let [low, high] = [own.low, own.high].map(|end| metric.number(end));
         format!(" (95 % CI {low} to {high})")
     })
 }
 
 /// Counts the filters of the scene with the same shutter: those that are better by FLIP, and all.
 fn place_on_scene(table: &CaseTable, case: &Case) -> (Option<usize>, usize) {
-    let flip = |case: &Case| Headline::FLIP.estimate(case);
+    let flip = |case: &Case| case.estimate(Metric::FLIP);
     let rivals = (table.cases_on(&case.scene).map(|(_, own)| own))
         .filter(|own| !own.is_reference && own.alignment == case.alignment);
     let errors: Vec<f64> = rivals.filter_map(flip).collect();

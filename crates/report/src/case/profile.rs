@@ -1,9 +1,9 @@
 //! Profile of a case: brightness along the motion through one place.
 
 use frame::{Frame, Image, Raster, Vectors};
+use suite::Case;
 
 use crate::pixels::scene_files::{CaseFiles, SceneFiles, TruthFile};
-use suite::Case;
 
 /// Least motion, in pixels over the shutter, of a place that is not taken to stand.
 const LEAST_MOTION: f32 = 0.5;

@@ -1,12 +1,12 @@
 //! Table of a case's scores, each with its noise floor and its meaning.
 
+use judge::number;
 use maud::{Markup, html};
 use metrics::{Group, Measured, Metric};
+use suite::Case;
 
 use super::case_view::CaseView;
 use crate::finding_text::{Status, interval_text, limit_text};
-use judge::number;
-use suite::Case;
 
 /// Lists the scores of all groups.
 pub fn score_rows(page: &CaseView) -> Markup {
@@ -52,18 +52,17 @@ pub fn score_rows(page: &CaseView) -> Markup {
 
 fn row(page: &CaseView, metric: Metric) -> Markup {
     let case = page.case;
-    let name = metric.name();
-    let finding = (page.findings.iter()).find(|finding| finding.metric == name);
+    let finding = (page.findings.iter()).find(|finding| finding.metric == metric);
     let status = finding.and_then(|finding| Status::of(finding.outcome));
     let required = finding.and_then(Status::required_class);
     html! {
         tr {
-            th scope="row" { (name) }
+            th scope="row" { (metric) }
             @match case.scores.get(metric) {
                 Measured::NotApplicable { reason } => td.reason colspan="3" { "n/a: " (reason) },
                 Measured::Score(score) => {
                     td {
-                        @let interval = case.intervals.get(&name);
+                        @let interval = case.intervals.get(&metric);
                         (value(case, metric, interval.map_or(score.value, |own| own.center)))
                         @if let Some(interval) = interval { span.note { " " (interval_text(interval, score.value)) } }
                         @if let Some((object, _)) = case.scores.worst_object(metric) {

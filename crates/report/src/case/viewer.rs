@@ -1,12 +1,12 @@
 //! Viewer of pictures: one set of controls, which the script moves to the case that is open.
 
+use judge::BLOCK;
 use maud::{Markup, html};
+use suite::Run;
 
 use super::legend::draw_legends;
 use crate::document::script_data;
 use crate::pixels::layer::Layer;
-use judge::BLOCK;
-use suite::Run;
 
 /// Modes in which two pictures are compared: the script's word, the name, and the key.
 const MODES: [(&str, &str, &str); 5] = [

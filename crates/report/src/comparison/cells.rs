@@ -1,6 +1,7 @@
 //! Words and numbers of a change, alike on the page and in the terminal.
 
 use judge::{Change, ChangeKind, MeanChange, number, score_change};
+use metrics::Metric;
 
 use crate::numbers::signed;
 
@@ -22,10 +23,10 @@ impl From<&Change> for ChangeCells {
         Self {
             first,
             second,
-            change: change_text(&change.metric, change.estimate(), change.kind.label()),
+            change: change_text(change.metric, change.estimate(), change.kind.label()),
             interval: match change.interval {
                 _ if change.kind == ChangeKind::Same => String::new(),
-                Some(interval) => interval_text(&change.metric, interval),
+                Some(interval) => interval_text(change.metric, interval),
                 None => "by the noise floor".to_owned(),
             },
         }
@@ -38,17 +39,17 @@ impl From<&MeanChange> for ChangeCells {
         Self {
             first,
             second,
-            change: change_text(&mean.metric, mean.worse, mean.kind.label()),
-            interval: interval_text(&mean.metric, mean.interval),
+            change: change_text(mean.metric, mean.worse, mean.kind.label()),
+            interval: interval_text(mean.metric, mean.interval),
         }
     }
 }
 
-fn change_text(metric: &str, worse: f64, verdict: &str) -> String {
+fn change_text(metric: Metric, worse: f64, verdict: &str) -> String {
     format!("{} {verdict}", signed(score_change(metric, worse)))
 }
 
-fn interval_text(metric: &str, worse: [f64; 2]) -> String {
+fn interval_text(metric: Metric, worse: [f64; 2]) -> String {
     let [a, b] = worse.map(|end| score_change(metric, end));
     format!("{} to {}", signed(a.min(b)), signed(a.max(b)))
 }

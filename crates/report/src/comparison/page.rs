@@ -1,7 +1,12 @@
 //! Page of a comparison.
 
+use judge::{
+    Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison, Side, filter_label, pair_cases,
+    rank_changes,
+};
 use maud::{Markup, html};
 use metrics::Metric;
+use suite::Error;
 
 use super::cells::ChangeCells;
 use super::pictures::Pictures;
@@ -10,11 +15,6 @@ use crate::charts::strip::Strip;
 use crate::document::{Document, Siblings};
 use crate::table::Column::{Chart, Plain, Text};
 use crate::table::{grouped_table, scroll_table};
-use judge::{
-    Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison, Side, filter_label, pair_cases,
-    rank_changes,
-};
-use suite::Error;
 
 /// Number of cases that are shown in pictures, those that changed most.
 const SHOWN: usize = 12;
@@ -117,8 +117,8 @@ fn means(means: &[MeanChange]) -> Markup {
         .filter(|mean| mean.kind != MeanKind::Same)
         .collect();
     // The filters of one metric follow each other.
-    let place = |metric: &str| means.iter().position(|own| own.metric == metric);
-    changed.sort_by_key(|mean| place(&mean.metric));
+    let place = |metric: Metric| means.iter().position(|own| own.metric == metric);
+    changed.sort_by_key(|mean| place(mean.metric));
     let caption = "Filters that changed. 95 % CI: over scenes, by Student's t";
     let bodies = html! {
         @for own in changed.chunk_by(|a, b| a.metric == b.metric) { (metric_means(own)) }
@@ -137,7 +137,7 @@ fn means(means: &[MeanChange]) -> Markup {
 
 /// Writes the rows of one metric, all with one scale.
 fn metric_means(means: &[&MeanChange]) -> Markup {
-    let metric = means[0].metric.as_str();
+    let metric = means[0].metric;
     let ends = means
         .iter()
         .flat_map(|mean| mean.interval)
@@ -147,7 +147,7 @@ fn metric_means(means: &[&MeanChange]) -> Markup {
         tbody.group {
             tr {
                 th scope="rowgroup" colspan="7" {
-                    (metric) " " span.note { (metric.parse().map_or_else(|_| String::new(), Metric::meaning)) }
+                    (metric) " " span.note { (metric.meaning()) }
                 }
             }
         }

@@ -1,10 +1,10 @@
 //! Pictures of a case in two runs.
 
 use frame::{Plane, read_exr};
-
-use crate::pixels::png::{embed_file, embed_picture};
 use judge::{Pair, Side};
 use suite::Error;
+
+use crate::pixels::png::{embed_file, embed_picture};
 
 /// Pictures of one case, each as an address that holds the picture itself.
 pub struct Pictures {

@@ -2,13 +2,13 @@
 
 use std::collections::HashSet;
 
+use judge::Side;
 use maud::{Markup, html};
+use suite::{Case, Run};
 
 use crate::run_facts::facts;
 use crate::table::Column::{Plain, Text};
 use crate::table::scroll_table;
-use judge::Side;
-use suite::{Case, Run};
 
 /// Lists the settings of both runs, and the truths that they share.
 pub fn both_runs(first: &Side, second: &Side) -> Markup {
@@ -44,7 +44,7 @@ pub fn both_runs(first: &Side, second: &Side) -> Markup {
 /// Lists scene, alignment and hash of the truths that both have, each once.
 fn truths<'a>(first: &'a Run, second: &'a Run) -> Vec<[&'a str; 3]> {
     let list = |run: &'a Run| {
-        let truth = |own: &'a Case| [own.scene.as_str(), &own.alignment, &own.truth_hash];
+        let truth = |own: &'a Case| [own.scene.as_str(), own.alignment.name(), &own.truth_hash];
         run.cases.iter().map(truth)
     };
     let others: HashSet<[&str; 3]> = list(second).collect();

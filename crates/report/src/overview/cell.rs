@@ -1,13 +1,12 @@
 //! Cell of the overview: one score of one case, which leads to the case.
 
+use judge::{Finding, Level, Outcome};
 use maud::{Markup, html};
-use metrics::{Ideal, Measured};
+use metrics::{Ideal, Measured, Metric};
 
 use crate::case::case_view::CaseView;
 use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, interval_text, limit_text};
-use judge::{Finding, Level, Outcome};
-use suite::Headline;
 
 /// Least badness that a colour tells from another one, where scores have a logarithmic scale.
 const LEAST: f64 = 1e-3;
@@ -50,11 +49,11 @@ fn scale(ideal: Ideal, score: f64) -> f64 {
 }
 
 /// Writes the cell of a case.
-pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
+pub fn cell(metric: Metric, colors: &Colors, view: &CaseView) -> Markup {
     let case = view.case;
-    let measured = headline.measured(case);
-    let estimate = headline.estimate(case);
-    let judged = find_judged(headline, view);
+    let measured = case.measured(metric);
+    let estimate = case.estimate(metric);
+    let judged = find_judged(metric, view);
     let color = (estimate.filter(|_| !case.is_reference)).and_then(|score| colors.of(score));
     let fails = judged.is_some_and(|(finding, _)| finding.outcome == Outcome::Broken);
     html! {
@@ -64,8 +63,8 @@ pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
             title=[reason(&measured)] {
             a.case href=(format!("#{}", case_anchor(case))) {
                 @if let Some((_, status)) = judged { (status) }
-                (headline.text(case))
-                @if let (Some(interval), Some(value)) = (headline.interval(case), measured.value()) {
+                (case.score_text(metric))
+                @if let (Some(interval), Some(value)) = (case.interval(metric), measured.value()) {
                     span.unseen { ", " (interval_text(interval, value)) }
                 }
                 @if let Some((finding, status)) = judged {
@@ -77,10 +76,10 @@ pub fn cell(headline: Headline, colors: &Colors, view: &CaseView) -> Markup {
 }
 
 /// Finds the required bound on a case's score, and the score's status; none where it has no such bound, or does not apply.
-fn find_judged<'a>(headline: Headline, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
-    let name = headline.metric(&view.case.scores)?.name();
+fn find_judged<'a>(metric: Metric, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
+    let metric = view.case.scores.behind(metric);
     let mut findings = view.findings.iter();
-    let finding = findings.find(|own| own.level == Level::Required && own.metric == name)?;
+    let finding = findings.find(|own| own.level == Level::Required && own.metric == metric)?;
     Some((finding, Status::of(finding.outcome)?))
 }
 

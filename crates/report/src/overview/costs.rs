@@ -2,7 +2,8 @@
 
 use filters::Clock;
 use maud::{Markup, html};
-use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, Headline, REACHES, Spread};
+use metrics::Metric;
+use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
 
 use super::bench_file::cost_of;
 use super::pareto::{Point, pareto_section};
@@ -88,7 +89,7 @@ fn references(table: &CaseTable) -> Vec<(String, f64)> {
 /// Averages over the scenes that have an error.
 fn mean_error(table: &CaseTable, filter: &FilterId) -> Option<f64> {
     let cases = table.cases_of(filter);
-    mean(cases.filter_map(|(_, case)| Headline::CommonFlip.estimate(case)))
+    mean(cases.filter_map(|(_, case)| case.estimate(Metric::CommonFlip)))
 }
 
 fn passes(timed: &[(&FilterId, &CaseCost)]) -> Markup {

@@ -1,39 +1,23 @@
 //! Scores that have a table in the overview, with their explanations.
 
-use metrics::Ideal;
-use suite::Headline;
+use metrics::{Ideal, Metric};
 
 /// Scores with the titles of their tables, in the order of the page.
-pub const TABLE_SCORES: [(Headline, &str); 9] = [
-    (Headline::FLIP, "FLIP"),
-    (Headline::SKILL, "Skill"),
-    (Headline::CommonFlip, "FLIP*"),
-    (Headline::SUBFRAMES, "N_eq"),
-    (Headline::GROWTH, "Growth"),
-    (Headline::LOSS, "Loss"),
-    (Headline::Bleed, "Bleed"),
-    (Headline::LABEL, "Label TV"),
-    (Headline::PSNR, "PSNR"),
+pub const TABLE_SCORES: [(Metric, &str); 9] = [
+    (Metric::FLIP, "FLIP"),
+    (Metric::SKILL, "Skill"),
+    (Metric::CommonFlip, "FLIP*"),
+    (Metric::SUBFRAMES, "N_eq"),
+    (Metric::GROWTH, "Growth"),
+    (Metric::LOSS, "Loss"),
+    (Metric::Bleed, "Bleed"),
+    (Metric::LABEL, "Label TV"),
+    (Metric::PSNR, "PSNR"),
 ];
 
-/// Explains a score in one line.
-pub fn meaning(headline: Headline) -> String {
-    match headline {
-        Headline::Metric(metric) => metric.meaning(),
-        Headline::Bleed => {
-            "mover spilled where it never was: the largest of beside, ahead (>) and behind (<)"
-                .to_owned()
-        }
-        Headline::CommonFlip => {
-            "visible difference where anything moves, from the truth of one shutter for all"
-                .to_owned()
-        }
-    }
-}
-
 /// Names the values that are good.
-pub fn better(headline: Headline) -> String {
-    match headline.ideal() {
+pub fn better(metric: Metric) -> String {
+    match metric.ideal() {
         Ideal::Lowest => "low is good".to_owned(),
         Ideal::Highest => "high is good".to_owned(),
         Ideal::Target(target) => format!("{target} is good"),

@@ -8,7 +8,13 @@ mod pareto;
 mod score_table;
 mod winners;
 
+use costs::costs;
+use headlines::{TABLE_SCORES, better};
+use judge::{Level, lag_text};
 use maud::{Markup, html};
+use metrics::Metric;
+use score_table::score_table;
+use winners::{sequence_winners, winners};
 
 use crate::case::bounds::broken_bounds;
 use crate::case::case_view::CaseView;
@@ -17,12 +23,6 @@ use crate::finding_text::Tally;
 use crate::numbers::counted;
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
-use costs::costs;
-use headlines::{TABLE_SCORES, better, meaning};
-use judge::{Level, lag_text};
-use score_table::score_table;
-use suite::Headline;
-use winners::{sequence_winners, winners};
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
 pub fn overview(table: &CaseTable, views: &[CaseView], thumbnails: &[String]) -> Markup {
@@ -41,9 +41,9 @@ pub fn overview(table: &CaseTable, views: &[CaseView], thumbnails: &[String]) ->
             div.toolbar #tables {
                 fieldset.choice {
                     legend.unseen { "Score" }
-                    @for (index, (headline, title)) in TABLE_SCORES.iter().enumerate() {
+                    @for (index, (metric, title)) in TABLE_SCORES.iter().enumerate() {
                         label {
-                            input type="radio" name="metric" value=(headline.name()) checked[index == 0];
+                            input type="radio" name="metric" value=(metric.name()) checked[index == 0];
                             span { (title) }
                         }
                     }
@@ -114,19 +114,19 @@ fn panel(
     table: &CaseTable,
     views: &[CaseView],
     thumbnails: &[String],
-    (headline, title): (Headline, &str),
+    (metric, title): (Metric, &str),
 ) -> Markup {
     // One copy of the pictures is enough: the script moves them to the table that is seen.
-    let is_first = headline == TABLE_SCORES[0].0;
+    let is_first = metric == TABLE_SCORES[0].0;
     let content = html! {
         p.meaning {
-            strong { (title) } ": " (meaning(headline)) "; " (better(headline)) "."
-            @if let Some(lag) = lag_text(&table.run.cases).filter(|_| headline == Headline::SKILL) { " " (lag) }
+            strong { (title) } ": " (metric.meaning()) "; " (better(metric)) "."
+            @if let Some(lag) = lag_text(&table.run.cases).filter(|_| metric == Metric::SKILL) { " " (lag) }
         }
-        (score_table(table, views, if is_first { thumbnails } else { &[] }, (headline, title)))
+        (score_table(table, views, if is_first { thumbnails } else { &[] }, (metric, title)))
     };
     html! {
-        div.panel data-metric=(headline.name()) {
+        div.panel data-metric=(metric.name()) {
             // Where scripts run, the other tables are text until somebody looks at them, so that the page opens sooner.
             @if is_first { (content) } @else { noscript { (content) } }
         }

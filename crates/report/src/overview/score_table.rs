@@ -1,7 +1,10 @@
 //! Table of one score: filters, best mean first, against scenes.
 
+use judge::{Level, list_summarized};
 use maud::{Markup, html};
-use metrics::Ideal;
+use metrics::{Ideal, Metric};
+use suite::{Case, Overall};
+use tracer::FrameRate;
 
 use super::bench_file::cost_of;
 use super::cell::{Colors, cell};
@@ -11,9 +14,6 @@ use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
 use crate::filter_id::{FilterId, mean};
 use crate::finding_text::Tally;
-use judge::{Level, list_summarized};
-use suite::{Case, Headline, Overall};
-use tracer::FrameRate;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
 const WHISKERS: f64 = 1.5;
@@ -32,19 +32,19 @@ struct Row<'a> {
 }
 
 /// Groups the filters of a run by shutter, unless the score compares across shutters; the best mean comes first.
-fn rank_rows<'a>(table: &CaseTable<'a>, headline: Headline) -> Vec<Vec<Row<'a>>> {
+fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
     // Shutters come in the order of their filters, as in every ranking, and references behind the filters.
     let mut filters = table.filters.clone();
     filters.sort_by_key(|filter| filter.is_reference);
     let rate = summarized_rate(&table.run.cases);
     let means: Vec<&Overall> = (table.run.overall.iter())
-        .filter(|own| own.metric == headline.name() && Some(own.rate) == rate)
+        .filter(|own| own.metric == metric && Some(own.rate) == rate)
         .collect();
     let row = |filter: &FilterId| {
         let overall = means.iter().find(|own| filter.is_of(own)).copied();
         let of_rate = |case: &Case| rate.is_none_or(|rate| case.rate == rate);
         let scores = (table.cases_of(filter)).filter(|(_, case)| of_rate(case));
-        let only = mean(scores.filter_map(|(_, case)| headline.estimate(case)));
+        let only = mean(scores.filter_map(|(_, case)| case.estimate(metric)));
         Row {
             overall,
             mean: overall.map(|own| own.mean).or(only),
@@ -54,7 +54,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, headline: Headline) -> Vec<Vec<Row<'a>>>
     let mut groups: Vec<Vec<Row>> = Vec::new();
     for own in filters.iter().map(row) {
         let compares = |group: &&mut Vec<Row>| {
-            headline.spans_alignments() || group[0].filter.alignment == own.filter.alignment
+            metric.spans_alignments() || group[0].filter.alignment == own.filter.alignment
         };
         match groups.iter_mut().find(compares) {
             Some(group) => group.push(own),
@@ -63,7 +63,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, headline: Headline) -> Vec<Vec<Row<'a>>>
     }
     let badness = |row: &Row| {
         row.mean
-            .map_or(f64::INFINITY, |own| headline.ideal().badness(own))
+            .map_or(f64::INFINITY, |own| metric.ideal().badness(own))
     };
     for group in &mut groups {
         group.sort_by(|a, b| badness(a).total_cmp(&badness(b)));
@@ -76,14 +76,14 @@ pub fn score_table(
     table: &CaseTable,
     views: &[CaseView],
     thumbnails: &[String],
-    (headline, title): (Headline, &str),
+    (metric, title): (Metric, &str),
 ) -> Markup {
     let scenes = &table.scenes;
-    let ideal = headline.ideal();
-    let groups = rank_rows(table, headline);
+    let ideal = metric.ideal();
+    let groups = rank_rows(table, metric);
     let rows = || groups.iter().flatten();
     let own = views.iter().filter(|view| !view.case.is_reference);
-    let colors = Colors::over(ideal, own.filter_map(|view| headline.estimate(view.case)));
+    let colors = Colors::over(ideal, own.filter_map(|view| view.case.estimate(metric)));
     let has_means = rows().any(|row| row.overall.is_some());
     let strip = strip_over(rows().filter(|row| !row.filter.is_reference), ideal);
     let columns =
@@ -96,10 +96,10 @@ pub fn score_table(
     html! {
         div.scroll tabindex="0" role="region" aria-label=(format!("{title} of every case")) {
             table.sortable.many[scenes.len() > MANY] data-first=(order) {
-                caption { (caption(headline, has_means, scenes.len())) }
-                thead { (heading(table, thumbnails, has_means.then(|| ends(headline, &strip)))) }
+                caption { (caption(metric, has_means, scenes.len())) }
+                thead { (heading(table, thumbnails, has_means.then(|| ends(metric, &strip)))) }
                 @for group in &groups {
-                    @if !headline.spans_alignments() {
+                    @if !metric.spans_alignments() {
                         tbody.group {
                             tr { th scope="rowgroup" colspan=(columns) { (group[0].filter.alignment) " shutter" } }
                         }
@@ -107,11 +107,11 @@ pub fn score_table(
                     tbody {
                         @for row in group {
                             tr.reference[row.filter.is_reference] data-failing[is_failing(table, views, &row.filter)] {
-                                th scope="row" { (name(headline, &row.filter)) }
-                                @if has_means { (mean_cells(table, headline, &strip, row)) }
+                                th scope="row" { (name(metric, &row.filter)) }
+                                @if has_means { (mean_cells(table, metric, &strip, row)) }
                                 @for scene in scenes {
                                     @match table.case_on(&row.filter, scene) {
-                                        Some(index) => (cell(headline, &colors, &views[index])),
+                                        Some(index) => (cell(metric, &colors, &views[index])),
                                         None => td { "-" },
                                     }
                                 }
@@ -146,14 +146,14 @@ fn heading(table: &CaseTable, thumbnails: &[String], ends: Option<Markup>) -> Ma
     }
 }
 
-fn ends(headline: Headline, strip: &Strip) -> Markup {
+fn ends(metric: Metric, strip: &Strip) -> Markup {
     html! {
-        div.ends { span { (headline.number(strip.low)) } span.unseen { " to " } span { (headline.number(strip.high)) } }
+        div.ends { span { (metric.number(strip.low)) } span.unseen { " to " } span { (metric.number(strip.high)) } }
     }
 }
 
-fn caption(headline: Headline, has_means: bool, scenes: usize) -> &'static str {
-    match (has_means, headline.spans_alignments()) {
+fn caption(metric: Metric, has_means: bool, scenes: usize) -> &'static str {
+    match (has_means, metric.spans_alignments()) {
         (false, _) if scenes > 1 => "Counts of sub-frames have no mean",
         (false, _) => "A single scene has no mean",
         (true, true) => {
@@ -180,11 +180,11 @@ fn is_failing(table: &CaseTable, views: &[CaseView], filter: &FilterId) -> bool 
 }
 
 /// Links a filter to its section.
-fn name(headline: Headline, filter: &FilterId) -> Markup {
+fn name(metric: Metric, filter: &FilterId) -> Markup {
     html! {
         @if filter.is_reference { (filter.name) }
         @else { a href=(format!("#{}", filter.section_anchor())) { (breakable(&filter.name)) } }
-        @if headline.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
+        @if metric.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
     }
 }
 
@@ -195,22 +195,22 @@ fn breakable(name: &str) -> Markup {
     }
 }
 
-fn mean_cells(table: &CaseTable, headline: Headline, strip: &Strip, row: &Row) -> Markup {
+fn mean_cells(table: &CaseTable, metric: Metric, strip: &Strip, row: &Row) -> Markup {
     let Some(own) = row.overall else {
         return html! { td { "-" } td {} td {} };
     };
     let class = if own.is_reference { "open" } else { "" };
     // Only where less is better does a floor lie between perfect and the score.
-    let floor = match headline.ideal() {
+    let floor = match metric.ideal() {
         Ideal::Lowest => {
             let cases = table.cases_of(&row.filter);
-            mean(cases.filter_map(|(_, case)| headline.floor(case)))
+            mean(cases.filter_map(|(_, case)| case.floor(metric)))
         }
         Ideal::Highest | Ideal::Target(_) => None,
     };
-    let [low, high] = own.interval.map(|end| headline.number(end));
+    let [low, high] = own.interval.map(|end| metric.number(end));
     html! {
-        td.mean data-value=(own.mean) { (headline.number(own.mean)) }
+        td.mean data-value=(own.mean) { (metric.number(own.mean)) }
         td.note { (low) " to " (high) }
         td.chart {
             (strip.draw(&html! {

@@ -2,7 +2,8 @@
 
 use judge::{RANKED_BY, RankedFilter, rank_for_summary, rank_sequences};
 use maud::{Markup, html};
-use suite::{Headline, Run};
+use metrics::Metric;
+use suite::Run;
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{FilterId, case_anchor};
@@ -10,11 +11,11 @@ use crate::sequence::SEQUENCES_PAGE;
 
 /// Names the best filters of every shutter, the scene that the first is weakest on, and the last filter of the ranking.
 pub fn winners(table: &CaseTable) -> Markup {
-    let number = |value: f64| Headline::FLIP.number(value);
+    let number = |value: f64| Metric::FLIP.number(value);
     let id = |ranked: &RankedFilter| FilterId {
         name: ranked.name.clone(),
         is_reference: false,
-        alignment: ranked.alignment.clone(),
+        alignment: ranked.alignment,
     };
     let link = |ranked: &RankedFilter| {
         html! { a href=(format!("#{}", id(ranked).section_anchor())) { (ranked.name) } }

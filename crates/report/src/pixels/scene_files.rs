@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, ExrFile, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions};
 use metrics::{Side, object_sides};
+use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run};
 
 use super::layer::Layer;
 use super::planes::Planes;
 use super::png::{embed_picture, thumbnail};
-use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run};
 
 /// Pictures with the numbers of their planes.
 pub type Layers = Vec<(Layer, Vec<usize>)>;
@@ -18,12 +18,12 @@ pub type Layers = Vec<(Layer, Vec<usize>)>;
 pub struct SceneFiles {
     /// Without its guard band.
     pub frame: Frame,
-    /// Truths by the name of the alignment.
-    pub truths: BTreeMap<String, TruthFile>,
+    /// Truths by their alignment.
+    pub truths: BTreeMap<Alignment, TruthFile>,
     /// The planes of all its cases.
     pub planes: Planes,
-    /// Accumulation that is part of every profile, with its title, by the name of the alignment.
-    pub accumulations: BTreeMap<String, (String, Image)>,
+    /// Accumulation that is part of every profile, with its title, by their alignment.
+    pub accumulations: BTreeMap<Alignment, (String, Image)>,
     /// Plane of the object that each pixel's centre sees.
     pub objects: usize,
     /// The run's.
@@ -70,7 +70,7 @@ impl SceneFiles {
             let file = read_exr(&path)?;
             check_size(&path, (file.width, file.height), frame.size())?;
             let named = (format!("{} sub-frames", case.preset), file.color("")?);
-            accumulations.insert(case.alignment.clone(), named);
+            accumulations.insert(case.alignment, named);
         }
         let mut planes = Planes::default();
         let axes = [0, 1].map(|axis| frame.velocity.map(|motion| motion[axis]));
@@ -102,7 +102,7 @@ impl SceneFiles {
 
     /// Reads the truth that a case is scored against.
     fn read_truth(&mut self, case: &Case) -> Result<TruthFile, Error> {
-        let alignment: Alignment = case.alignment.parse().map_err(Error::Usage)?;
+        let alignment = case.alignment;
         let path = (self.folder.join(&case.scene)).join(format!("truth_{alignment}.exr"));
         let truth = Truth::read(&path)?;
         check_size(&path, truth.size(), self.frame.size())?;

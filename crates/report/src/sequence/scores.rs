@@ -1,8 +1,9 @@
 //! Tables of scores over time.
 
+use frame::Alignment;
 use judge::{Finding, RankedSequence, rank_sequences_on};
 use maud::{Markup, html};
-use metrics::{Measured, SequenceMetric};
+use metrics::{Measured, Metric, SequenceMetric};
 use suite::{Run, Sequence};
 
 use super::ranking::metric_table;
@@ -10,15 +11,15 @@ use crate::finding_text::{Status, limit_text};
 
 /// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
 pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
-    let mut groups: Vec<[&str; 2]> = Vec::new();
+    let mut groups: Vec<(&str, Alignment)> = Vec::new();
     for own in &run.sequences {
-        let group = [own.scene.as_str(), own.alignment.as_str()];
+        let group = (own.scene.as_str(), own.alignment);
         if !groups.contains(&group) {
             groups.push(group);
         }
     }
     html! {
-        @for [scene, alignment] in groups {
+        @for (scene, alignment) in groups {
             h3 { (scene) ", " (alignment) " shutter" }
             (metric_table(None, &html! {
                 @for (index, rank, own) in order_rows(run, scene, alignment) { (row(index, &rank, own, findings)) }
@@ -36,7 +37,7 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
 fn order_rows<'a>(
     run: &'a Run,
     scene: &str,
-    alignment: &str,
+    alignment: Alignment,
 ) -> Vec<(usize, String, &'a Sequence)> {
     let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene).concat();
     let place = |own: &Sequence| {
@@ -89,10 +90,9 @@ fn finding_about<'a>(
     metric: SequenceMetric,
     findings: &'a [Finding],
 ) -> Option<&'a Finding> {
-    let name = metric.row().name;
     findings.iter().find(|finding| {
-        let key = (finding.metric.as_str(), &finding.scene, &finding.filter);
-        !own.is_reference && key == (name, &own.scene, &own.filter)
+        let key = (finding.metric, &finding.scene, &finding.filter);
+        !own.is_reference && key == (Metric::Sequence(metric), &own.scene, &own.filter)
     })
 }
 

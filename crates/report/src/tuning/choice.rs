@@ -1,11 +1,11 @@
 //! Choice of a tuning.
 
 use maud::{Markup, html};
+use tune::{Advice, Preference, Tuning};
 
 use crate::numbers::percent;
 use crate::table::Column::{Plain, Text};
 use crate::table::scroll_table;
-use tune::{Advice, Preference, Tuning};
 
 /// Writes the outcome in a few sentences.
 pub fn summary(tuning: &Tuning) -> Markup {

@@ -1,9 +1,9 @@
 //! Convergence of the search.
 
 use maud::{Markup, html};
+use tune::{Trial, TrialOutcome};
 
 use crate::charts::plot::{Axis, Plot};
-use tune::{Trial, TrialOutcome};
 
 /// Largest loss that is drawn: failed trials, and those far off, are drawn here.
 const MOST_LOSS: f64 = 1.0;

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
-
 use store::read_text;
 use suite::Error;
 use tune::{JOURNAL_FORMAT, JournalHeader, Sensitivity, TUNE_FORMAT, Trial, Tuning};

@@ -1,12 +1,12 @@
 //! Cross-validation: the choice that was made without a family of scenes, on that family.
 
 use maud::{Markup, html};
+use tune::Fold;
 
 use crate::charts::strip::Strip;
 use crate::numbers::percent;
 use crate::table::Column::{Chart, Plain};
 use crate::table::scroll_table;
-use tune::Fold;
 
 /// Lists the families; nothing where there were no two.
 pub fn folds(folds: &[Fold]) -> Markup {

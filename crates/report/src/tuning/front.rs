@@ -1,13 +1,13 @@
 //! Pareto front of a tuning: trials that no other one beats.
 
 use maud::{Markup, html};
+use tune::{Advice, Trial, round_bleed};
 
 use super::folder::TuneFolder;
 use crate::charts::is_undominated;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
 use crate::table::{Column, scroll_table};
-use tune::{Advice, Trial, round_bleed};
 
 /// Measures that a chart shows against the error, with their titles.
 const AGAINST: [(&str, fn(&Trial) -> Option<f64>); 2] = [

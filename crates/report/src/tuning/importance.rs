@@ -1,11 +1,11 @@
 //! Importance of parameters.
 
 use maud::{Markup, html};
+use tune::{ParameterSensitivity, Sensitivity};
 
 use crate::charts::strip::Strip;
 use crate::table::Column::{Chart, Plain, Text};
 use crate::table::scroll_table;
-use tune::{ParameterSensitivity, Sensitivity};
 
 /// Lists the parameters, those that matter most first.
 pub fn importance(found: &Sensitivity) -> Markup {

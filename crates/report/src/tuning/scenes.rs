@@ -3,20 +3,16 @@
 use std::collections::BTreeMap;
 
 use maud::{Markup, html};
+use tune::{HeldOutResult, SceneScore, Tuning, log_ratio, pair_scores};
 
 use super::folds::change_bar;
 use crate::numbers::percent;
 use crate::table::Column::{Chart, Plain};
 use crate::table::scroll_table;
-use tune::{HeldOutResult, SceneScore, Tuning, log_ratio};
 
 /// Lists the scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {
-    let pairs: BTreeMap<String, [SceneScore; 2]> = (tuning.start.scenes.iter())
-        .filter_map(|(scene, start)| {
-            Some((scene.clone(), [*start, *tuning.chosen.scenes.get(scene)?]))
-        })
-        .collect();
+    let pairs = pair_scores(&tuning.start.scenes, &tuning.chosen.scenes);
     html! {
         section {
             h2 { "Choice against start on the scenes tuned on" }

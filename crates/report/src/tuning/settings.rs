@@ -16,10 +16,11 @@ pub fn settings(header: &JournalHeader) -> Markup {
         true => "clearly worse candidates are dropped",
         false => "none",
     };
+    let measured: Vec<&str> = header.objectives.iter().map(|it| it.name()).collect();
     let facts = [
         ("program", header.program.clone()),
         ("filter", format!("{}:{}", header.filter, header.start)),
-        ("measured", header.objectives.join(", ")),
+        ("measured", measured.join(", ")),
         ("cost at most", limit(header.cost_at_most)),
         ("lateral bleed at most", limit(header.bleed_at_most)),
         ("racing", racing.to_owned()),

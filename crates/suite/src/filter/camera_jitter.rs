@@ -4,8 +4,7 @@ use frame::{Frame, Vectors};
 use tracer::{PixelGrid, PointMotion, Scene, trace_frame_on, trace_motion_on};
 
 use super::traced_again::settings_of;
-use crate::named;
-use crate::{Error, Monitor};
+use crate::{Error, Monitor, named};
 
 /// Number of jitters before they repeat.
 const PHASES: u32 = 8;

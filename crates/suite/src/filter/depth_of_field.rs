@@ -6,8 +6,7 @@ use frame::Frame;
 use tracer::{Defocus, Scene, trace_defocus, trace_frame};
 
 use super::traced_again::settings_of;
-use crate::named;
-use crate::{Error, Monitor};
+use crate::{Error, Monitor, named};
 
 named! {
     /// A place of depth of field among an engine's passes, in scenes whose camera has a lens.

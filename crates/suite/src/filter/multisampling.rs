@@ -4,8 +4,7 @@ use frame::{ColorSampling, Frame, Raster};
 use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_on};
 
 use super::traced_again::settings_of;
-use crate::named;
-use crate::{Error, Monitor};
+use crate::{Error, Monitor, named};
 
 /// Places of the four samples from the pixel's centre, in pixels: the standard pattern of Direct3D and Vulkan.
 const SAMPLES: [[f64; 2]; 4] = [

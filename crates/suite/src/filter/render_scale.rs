@@ -5,8 +5,7 @@ use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_on};
 
 use super::resample::{Extent, read_bilinear, read_nearest};
 use super::traced_again::settings_of;
-use crate::named;
-use crate::{Error, Monitor};
+use crate::{Error, Monitor, named};
 
 named! {
     /// A scale at which a frame is rendered, and whether it is blurred before or after upscaling.

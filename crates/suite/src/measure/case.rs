@@ -7,9 +7,7 @@ use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
-use tracer::Defocus;
-
-use tracer::FrameRate;
+use tracer::{Defocus, FrameRate};
 
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
@@ -291,7 +289,7 @@ impl CaseContext<'_> {
             command: command.map(Command::words),
             convention: convention.map(Convention::resolved),
             nonlinearity: measured.nonlinearity,
-            alignment: truth.alignment.name().to_owned(),
+            alignment: truth.alignment,
             truth_hash: truth.provenance.content_hash.clone(),
             common,
             jitter: measured.jitter,

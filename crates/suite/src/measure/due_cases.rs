@@ -152,7 +152,7 @@ impl SceneContext<'_> {
             | Error::Measure(_) => Ok(Failure {
                 scene: self.scene.name().to_owned(),
                 filter: planned.name(),
-                alignment: planned.alignment.name().to_owned(),
+                alignment: planned.alignment,
                 reason: error.to_string(),
             }),
             _ => Err(error),

@@ -5,7 +5,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
-use frame::Alignment;
 
 use crate::measure::plan::RunPlan;
 use crate::measure::planned_case::PlannedCase;
@@ -45,7 +44,6 @@ impl EarlierCases {
         let Some(run) = read_earlier_run(&path)? else {
             return Ok(None);
         };
-        let common: Alignment = run.common_alignment.parse().map_err(Error::Usage)?;
         let planned = planned_names(plan);
         let is_left_out =
             |scene: &str, name: &str| !planned.contains(&(scene.to_owned(), name.to_owned()));
@@ -66,7 +64,7 @@ impl EarlierCases {
                 path.display()
             )));
         }
-        plan.common = Some(common);
+        plan.common = Some(run.common_alignment);
         let planned = planned_keys(plan);
         let kept = (run.cases.into_iter()).filter(|case| !planned.contains(&key(case)));
         let (cases, outdated): (Vec<Case>, Vec<Case>) =
@@ -186,11 +184,10 @@ fn planned_keys(plan: &RunPlan) -> HashSet<CaseKey> {
     let of_scene = |scene: RunScene| {
         let planned = PlannedCase::all(plan, &plan.filters, scene);
         let keys = planned.iter().map(|case| {
-            let alignment = case.alignment.name().to_owned();
             (
                 scene.name().to_owned(),
                 case.preset_name(),
-                alignment,
+                case.alignment,
                 case.is_reference(),
             )
         });
@@ -203,10 +200,7 @@ fn planned_keys(plan: &RunPlan) -> HashSet<CaseKey> {
 fn is_outdated(plan: &RunPlan, case: &Case) -> bool {
     let mut scenes = plan.all_scenes().into_iter();
     let scene = scenes.find(|scene| scene.name() == case.scene);
-    let (Some(scene), Ok(alignment)) = (scene, case.alignment.parse()) else {
-        return false;
-    };
-    scene.truth_hash(&plan.render, alignment) != case.truth_hash
+    scene.is_some_and(|scene| scene.truth_hash(&plan.render, case.alignment) != case.truth_hash)
 }
 
 /// Finds the first setting in which an earlier run and the plan differ, with both values.
@@ -227,8 +221,8 @@ fn find_difference(
         count => format!("{count} at {} per second", frames.per_second),
     });
     let frames = ("number of frames", earlier, now);
-    let now = (plan.common).map_or(run.common_alignment.clone(), |own| own.name().to_owned());
-    let common = ("the common shutter", run.common_alignment.clone(), now);
+    let [earlier, now] = [None, plan.common].map(|own| own.unwrap_or(run.common_alignment));
+    let common = ("the common shutter", earlier.to_string(), now.to_string());
     // A run of programs alone has no adapter, and can stand beside any.
     let both = run.adapter.is_some() && adapter.is_some();
     (std::iter::once(program).chain(settings))

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use frame::{
-    Display, ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb, rung_file,
-    write_exr, write_half_exr, write_png,
+    Alignment, Display, ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb,
+    rung_file, write_exr, write_half_exr, write_png,
 };
 use metrics::Measurement;
 use store::{LADDER, ladder_folder};
@@ -25,7 +25,7 @@ pub(crate) const CASE_FILES: [&str; 6] = [
 ];
 
 /// Names the picture of a truth and its file, in the folder of its scene.
-pub(crate) fn truth_files(alignment: &str) -> [String; 2] {
+pub(crate) fn truth_files(alignment: Alignment) -> [String; 2] {
     ["png", "exr"].map(|ending| format!("truth_{alignment}.{ending}"))
 }
 
@@ -43,7 +43,7 @@ pub fn write_truth(
     display: Display,
 ) -> Result<Vec<String>, FileError> {
     let alignment = truth.alignment;
-    let files = truth_files(alignment.name());
+    let files = truth_files(alignment);
     write_display_png(&folder.join(&files[0]), &truth.mean().color, display)?;
     let mut files = Vec::from(files);
     let ladder = ladder_folder(alignment);

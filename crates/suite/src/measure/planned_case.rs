@@ -58,7 +58,7 @@ impl<'a> PlannedCase<'a> {
         });
         let own = match scene {
             RunScene::Drawn(scene) if scene.has_picture => Some(Self {
-                alignment: scene.alignment(),
+                alignment: scene.alignment,
                 source: PictureSource::Engine(scene),
             }),
             _ => None,

@@ -51,9 +51,9 @@ pub(crate) fn blur_with_probes(
     let run = |runner: &mut Runner, count: usize| {
         let now = Input {
             frame_index,
-            ..input(frame, &colors[..count])
+            ..filter_input(frame, &colors[..count])
         };
-        let outputs = runner.run_after(&now, &input(before, &colors_before[..count]))?;
+        let outputs = runner.run_after(&now, &filter_input(before, &colors_before[..count]))?;
         Ok::<_, FilterError>(crop_all(outputs, frame.guard_band))
     };
     let (color, outputs) = match wide {
@@ -120,7 +120,7 @@ pub(crate) fn blur_noise_frames(
     frames: u32,
     picture: [u32; 2],
 ) -> Result<Option<Vec<Image>>, FilterError> {
-    let outputs = runner.run_noise(&input(frame, &[&frame.color]), 0..frames)?;
+    let outputs = runner.run_noise(&filter_input(frame, &[&frame.color]), 0..frames)?;
     Ok(outputs.map(|outputs| upscale_all(crop_all(outputs, frame.guard_band), picture)))
 }
 
@@ -144,7 +144,8 @@ fn crop_all(outputs: Vec<Image>, guard_band: u32) -> Vec<Image> {
     }
 }
 
-fn input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
+/// Makes the input of a filter from a frame, with colours in place of the frame's own.
+pub fn filter_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
     Input {
         color,
         velocity: &frame.velocity,

@@ -82,7 +82,7 @@ impl<'a> RunScene<'a> {
     pub fn alignments(self, planned: Vec<Alignment>) -> Vec<Alignment> {
         match self {
             Self::Traced(_) => planned,
-            Self::Drawn(scene) => vec![scene.alignment()],
+            Self::Drawn(scene) => vec![scene.alignment],
         }
     }
 

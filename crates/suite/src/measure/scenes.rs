@@ -56,7 +56,7 @@ pub fn measure_scenes_as_expected(
         command,
         adapter: gpu.map(|gpu| gpu.adapter.clone()),
         render: plan.render,
-        common_alignment: plan.common_alignment().name().to_owned(),
+        common_alignment: plan.common_alignment(),
         overall: overall(&cases),
         frames: plan.frames,
         sequences,

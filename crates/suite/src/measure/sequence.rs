@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Image, Raster, Truth, read_exr, read_png, write_animated_png, write_png};
-use metrics::{Instant, SequenceReference, SequenceScores};
+use metrics::{Instant, Metric, SequenceReference, SequenceScores};
 use tracer::Scene;
 
 use super::plan::RunPlan;
@@ -47,7 +47,7 @@ pub(super) fn measure_sequences(
         .map(|frame| PointsOfFrame::trace(&scene.at_frame(frame), &plan.render))
         .collect::<Result<_, _>>()?;
     for alignment in Alignment::ALL {
-        let is_due = |case: &&Case| case.alignment == alignment.name();
+        let is_due = |case: &&Case| case.alignment == alignment;
         let first: Vec<&Case> = frames.cases[0].iter().filter(is_due).collect();
         if first.is_empty() {
             continue;
@@ -203,10 +203,10 @@ fn measure_sequence(
         scene: first.scene.clone(),
         filter: first.name(),
         is_reference: first.is_reference,
-        alignment: first.alignment.clone(),
+        alignment: first.alignment,
         frames: frames.collect(),
         worst_frames: worst_frames
-            .map(|(metric, frame)| (metric.row().name.to_owned(), *frame as u32))
+            .map(|(metric, frame)| (Metric::Sequence(*metric), *frame as u32))
             .collect(),
         intervals: Intervals::new(),
         scores: measured.scores,

@@ -1,9 +1,6 @@
 //! Order of the cases of a run that is joined of parts.
 
 use std::path::Path;
-use std::str::FromStr;
-
-use frame::Alignment;
 
 use crate::merge::order::merge_order;
 use crate::merge::run_part::RunPart;
@@ -63,11 +60,7 @@ impl CaseOrder {
 
     /// References of one shutter after the other, then filters.
     pub(super) fn of_case(&self, case: &Case) -> impl Ord + use<> {
-        let shutter = if case.is_reference {
-            shutter_place(&case.alignment)
-        } else {
-            0
-        };
+        let shutter = case.is_reference.then_some(case.alignment);
         let name = self.of_name(case.is_reference, &case.name());
         (
             self.of_scene(&case.scene),
@@ -89,21 +82,11 @@ impl CaseOrder {
     /// Shutter after shutter, and of each the references first.
     pub(super) fn of_sequence(&self, sequence: &Sequence) -> impl Ord + use<> {
         let name = self.of_name(sequence.is_reference, &sequence.filter);
-        let shutter = shutter_place(&sequence.alignment);
         (
             self.of_scene(&sequence.scene),
-            shutter,
+            sequence.alignment,
             !sequence.is_reference,
             name,
         )
     }
-}
-
-/// Returns the place of a shutter alignment in the order of runs.
-fn shutter_place(alignment: &str) -> usize {
-    let own = Alignment::from_str(alignment).ok();
-    let place = Alignment::ALL
-        .into_iter()
-        .position(|other| Some(other) == own);
-    place.unwrap_or(Alignment::ALL.len())
 }

@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeSet, HashMap};
 
+use frame::Alignment;
+
 use crate::Error;
 use crate::merge::run_part::RunPart;
 use crate::run::case::Case;
@@ -9,13 +11,11 @@ use crate::run::failure::Failure;
 
 /// Refuses two cases of one scene and shutter that were measured against different truths, or with different exposures.
 pub(super) fn check_truths(cases: &[(Case, &RunPart)]) -> Result<(), Error> {
-    let mut truths: HashMap<(&str, &str), &(Case, &RunPart)> = HashMap::new();
+    let mut truths: HashMap<(&str, Alignment), &(Case, &RunPart)> = HashMap::new();
     let mut exposures: HashMap<&str, &(Case, &RunPart)> = HashMap::new();
     for found in cases {
         let (case, part) = found;
-        let (first, first_part) = truths
-            .entry((&case.scene, &case.alignment))
-            .or_insert(found);
+        let (first, first_part) = truths.entry((&case.scene, case.alignment)).or_insert(found);
         let (exposed, _) = exposures.entry(&case.scene).or_insert(found);
         if first.truth_hash != case.truth_hash || exposed.exposure != case.exposure {
             return Err(Error::Usage(format!(
@@ -37,7 +37,7 @@ pub(super) fn check_truths(cases: &[(Case, &RunPart)]) -> Result<(), Error> {
 pub(super) fn check_complete(
     cases: &[(Case, &RunPart)],
     failures: &[(Failure, &RunPart)],
-    common: &str,
+    common: Alignment,
 ) -> Result<(), Error> {
     // What an engine drew has one shutter, and leaves out filters of others.
     let rendered = || {
@@ -47,28 +47,29 @@ pub(super) fn check_complete(
             .filter(|case| case.drawn.is_none())
     };
     let scenes: BTreeSet<&str> = rendered().map(|case| case.scene.as_str()).collect();
-    let mut names: BTreeSet<(bool, String, &str)> = BTreeSet::new();
-    let mut found: BTreeSet<(&str, bool, String, &str)> = BTreeSet::new();
+    let mut names: BTreeSet<(bool, String, Alignment)> = BTreeSet::new();
+    let mut found: BTreeSet<(&str, bool, String, Alignment)> = BTreeSet::new();
     for case in rendered() {
-        names.insert((case.is_reference, case.name(), &case.alignment));
-        found.insert((&case.scene, case.is_reference, case.name(), &case.alignment));
+        names.insert((case.is_reference, case.name(), case.alignment));
+        found.insert((&case.scene, case.is_reference, case.name(), case.alignment));
     }
     for (failure, _) in failures {
         found.insert((
             &failure.scene,
             false,
             failure.filter.clone(),
-            &failure.alignment,
+            failure.alignment,
         ));
     }
-    let has_references = |alignment: &str| names.iter().any(|name| name.0 && name.2 == alignment);
+    let has_references =
+        |alignment: Alignment| names.iter().any(|name| name.0 && name.2 == alignment);
     let shutters = names.iter().filter(|name| !name.0).map(|name| name.2);
-    let shutters: BTreeSet<&str> = shutters
+    let shutters: BTreeSet<Alignment> = shutters
         .chain((!names.is_empty()).then_some(common))
         .collect();
     if let Some(missing) = shutters
         .into_iter()
-        .find(|alignment| !has_references(alignment))
+        .find(|alignment| !has_references(*alignment))
     {
         return Err(Error::Usage(format!(
             "no part holds the references of the {missing} shutter; add the part that `shuttertruth run --part references` writes \
@@ -77,7 +78,7 @@ pub(super) fn check_complete(
     }
     for scene in &scenes {
         for (is_reference, name, alignment) in &names {
-            if !found.contains(&(scene, *is_reference, name.clone(), alignment)) {
+            if !found.contains(&(scene, *is_reference, name.clone(), *alignment)) {
                 return Err(Error::Usage(format!(
                     "no part holds {scene} / {name} ({alignment} shutter), which other scenes have; add the part that measured it"
                 )));

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frame::FileError;
+use frame::{Alignment, FileError};
 use store::{Files, gather, list_renders};
 
 use super::run_part::RunPart;
@@ -44,12 +44,12 @@ fn check_pictures(part: &RunPart, files: &Files) -> Result<(), Error> {
 }
 
 /// Lists the cases of a run, and of all frames of its sequences, each as the folder of its scene, its own folder, and its shutter.
-fn list_cases(run: &Run) -> impl Iterator<Item = (&Path, &Path, &str)> {
+fn list_cases(run: &Run) -> impl Iterator<Item = (&Path, &Path, Alignment)> {
     let cases =
-        (run.cases.iter()).map(|case| (Path::new(&case.scene), &*case.folder, &*case.alignment));
+        (run.cases.iter()).map(|case| (Path::new(&case.scene), &*case.folder, case.alignment));
     let frames = run.sequences.iter().flat_map(|sequence| {
         let frames = sequence.frames.iter();
-        frames.map(|frame| (&*frame.scene, &*frame.folder, &*sequence.alignment))
+        frames.map(|frame| (&*frame.scene, &*frame.folder, sequence.alignment))
     });
     cases.chain(frames)
 }

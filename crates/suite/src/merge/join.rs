@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use frame::Alignment;
+
 use crate::Error;
 use crate::merge::case_order::CaseOrder;
 use crate::merge::checks::{check_complete, check_truths};
@@ -29,7 +31,7 @@ pub(super) fn join_runs(parts: &[RunPart]) -> Result<Run, Error> {
     check_truths(&cases)?;
     let mut failures = join(parts, |run| &run.failures, text_of)?;
     let mut sequences = join(parts, |run| &run.sequences, sequence_key)?;
-    check_complete(&cases, &failures, &first.run.common_alignment)?;
+    check_complete(&cases, &failures, first.run.common_alignment)?;
     let order = CaseOrder::new(parts);
     cases.sort_by_key(|(case, _)| order.of_case(case));
     failures.sort_by_key(|(failure, _)| order.of_failure(failure));
@@ -57,7 +59,7 @@ fn check_settings(first: &RunPart, other: &RunPart) -> Result<(), Error> {
         );
         let mut settings = vec![
             ("program", run.program.clone()),
-            ("common shutter", run.common_alignment.clone()),
+            ("common shutter", run.common_alignment.to_string()),
             ("number of frames", frames),
         ];
         settings.extend(list_settings(&run.render));
@@ -167,11 +169,11 @@ fn text_of(one: &impl serde::Serialize) -> String {
     serde_json::to_string(one).expect("a run is plain data")
 }
 
-fn sequence_key(sequence: &Sequence) -> (String, String, String, bool) {
+fn sequence_key(sequence: &Sequence) -> (String, String, Alignment, bool) {
     (
         sequence.scene.clone(),
         sequence.filter.clone(),
-        sequence.alignment.clone(),
+        sequence.alignment,
         sequence.is_reference,
     )
 }

@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::str::FromStr;
 
 use frame::{Alignment, ExrFile, read_exr_header, truth_hash};
 use store::{PackedFile, RenderFile, RenderPath};
@@ -44,7 +43,7 @@ pub(super) fn list_contents(
 fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
     let mut truths: BTreeMap<&str, BTreeMap<Alignment, Option<String>>> = BTreeMap::new();
     for case in run.cases.iter().filter(|case| case.drawn.is_none()) {
-        let alignment = Alignment::from_str(&case.alignment).map_err(Error::Usage)?;
+        let alignment = case.alignment;
         let own = truths.entry(&case.scene).or_default();
         let hash = Some(case.truth_hash.clone());
         match own.insert(alignment, hash.clone()) {
@@ -57,13 +56,13 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
             _ => {}
         }
     }
-    let common = Alignment::from_str(&run.common_alignment).map_err(Error::Usage)?;
     let mut scenes = Vec::new();
     for name in chosen {
         let Some(own) = truths.get(name.as_str()) else {
             continue;
         };
-        let alignments: BTreeSet<Alignment> = own.keys().copied().chain([common]).collect();
+        let alignments: BTreeSet<Alignment> =
+            own.keys().copied().chain([run.common_alignment]).collect();
         let ladders: BTreeSet<Alignment> = (alignments.iter().copied())
             .filter(|alignment| has_accumulation(run, name, *alignment))
             .collect();
@@ -98,7 +97,7 @@ fn has_accumulation(run: &Run, scene: &str, alignment: Alignment) -> bool {
             && case.filter == ACCUMULATE
             && !case.is_sharp()
             && case.scene == scene
-            && case.alignment == alignment.name()
+            && case.alignment == alignment
     })
 }
 

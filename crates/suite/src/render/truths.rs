@@ -9,7 +9,6 @@ use tracer::{RenderSettings, Scene};
 
 use super::memory::check_memory;
 use super::replicates::ReplicateFiles;
-
 use super::shared::SharedReplicates;
 use crate::{Error, Monitor};
 

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use filters::{Convention, Value};
-use metrics::{ImageScores, Interval, Jitter, Scores};
+use frame::Alignment;
+use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
 use serde::{Deserialize, Serialize};
 use tracer::{Family, FrameRate};
 
@@ -13,8 +14,8 @@ use crate::engine_scene::engine_name;
 use crate::filter::choice::overrides_text;
 use crate::render::ladders::SHARP;
 
-/// Confidence intervals of scores, by the names of their metrics.
-pub type Intervals = BTreeMap<String, Interval>;
+/// Confidence intervals of scores.
+pub type Intervals = BTreeMap<Metric, Interval>;
 
 /// One filter preset, or one reference picture, on one scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -63,7 +64,7 @@ pub struct Case {
     /// relative to what the blur changes; none for reference pictures.
     pub nonlinearity: Option<f64>,
     /// The shutter alignment that the filter declares and is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Hash of the truth's inputs: equal hashes mean equal truths.
     pub truth_hash: String,
     /// The measured scores, each with its noise floor.

@@ -1,5 +1,6 @@
 //! Cases without scores, because their filter made no picture that can be measured.
 
+use frame::Alignment;
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
@@ -12,7 +13,7 @@ pub struct Failure {
     /// `filter:preset`, and behind that the form of its input where that is not the default.
     pub filter: String,
     /// The shutter alignment that the filter declares.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// The error, and its place.
     pub reason: String,
 }

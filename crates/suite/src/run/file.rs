@@ -2,9 +2,7 @@
 
 use std::collections::HashSet;
 use std::path::{Component, Path};
-use std::str::FromStr;
 
-use frame::Alignment;
 use store::{MOST_REPLICATES, MOST_RUN_BYTES, check_strings, read_text_within, to_lines};
 
 use super::case::Case;
@@ -92,7 +90,7 @@ fn check_settings(run: &Run) -> Result<(), String> {
     if render.samples_per_pixel == 0 {
         return Err("has 0 samples per pixel; allowed: 1 or more".to_owned());
     }
-    Alignment::from_str(&run.common_alignment).map(drop)
+    Ok(())
 }
 
 fn check_case(case: &Case) -> Result<(), String> {
@@ -103,8 +101,7 @@ fn check_case(case: &Case) -> Result<(), String> {
             case.folder.display()
         ));
     }
-    let alignment = Alignment::from_str(&case.alignment)?;
-    (alignment.shutter(case.exposure).map(drop)).map_err(|error| error.to_string())
+    (case.alignment.shutter(case.exposure).map(drop)).map_err(|error| error.to_string())
 }
 
 fn check_sequence(sequence: &Sequence) -> Result<(), String> {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{ExrFile, Frame, Truth, read_exr, write_exr};
+use frame::{Alignment, ExrFile, Frame, Truth, read_exr, write_exr};
 use metrics::ErrorMap;
 use tracer::{Progress, TraceError, Watch};
 
@@ -51,7 +51,7 @@ pub fn write_layers(
 /// Files that all cases of one scene and alignment share.
 struct Inputs {
     scene: String,
-    alignment: String,
+    alignment: Alignment,
     frame: Frame,
     truth: Truth,
 }
@@ -61,7 +61,7 @@ impl Inputs {
         let files = folder.join(&case.scene);
         Ok(Self {
             scene: case.scene.clone(),
-            alignment: case.alignment.clone(),
+            alignment: case.alignment,
             frame: Frame::read(&files.join("frame.exr"))?.cropped(),
             truth: Truth::read(&files.join(format!("truth_{}.exr", case.alignment)))?,
         })

@@ -2,6 +2,7 @@
 
 pub mod case;
 pub mod case_key;
+mod case_scores;
 pub mod error_maps;
 pub mod failure;
 pub mod file;
@@ -11,6 +12,7 @@ mod scaling;
 pub mod sequence;
 
 use filters::AdapterDescription;
+use frame::Alignment;
 use serde::{Deserialize, Serialize};
 use tracer::RenderSettings;
 
@@ -38,7 +40,7 @@ pub struct Run {
     pub render: RenderSettings,
     /// The shutter alignment that every case is compared with beside its own, so that filters of several alignments have one
     /// score in common: centred where a filter declares that, or else trailing, or else leading.
-    pub common_alignment: String,
+    pub common_alignment: Alignment,
     /// Frames of each scene; left out where there is one.
     #[serde(default, skip_serializing_if = "Frames::is_one")]
     pub frames: Frames,

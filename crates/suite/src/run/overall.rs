@@ -1,5 +1,7 @@
 //! Means over the scenes, as a run records them.
 
+use frame::Alignment;
+use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use tracer::FrameRate;
 
@@ -12,12 +14,12 @@ pub struct Overall {
     #[serde(rename = "bar")]
     pub is_reference: bool,
     /// The shutter alignment that it is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Frame rate of the scenes; none for that of their files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<FrameRate>,
-    /// Name of the metric, `bleed` or `flip_common`.
-    pub metric: String,
+    /// One of [`Metric::OF_MEANS`].
+    pub metric: Metric,
     /// Number of scenes, each variant of one counted.
     pub scenes: usize,
     /// Mean over the scenes, in the metric's unit; of a skill the ratio of means.
@@ -29,7 +31,7 @@ pub struct Overall {
 impl Overall {
     /// Tells whether both are of one filter preset or reference picture, at one frame rate.
     pub fn is_of_same(&self, other: &Self) -> bool {
-        let key = |own: &Self| (own.is_reference, own.filter.clone(), own.alignment.clone());
+        let key = |own: &Self| (own.is_reference, own.filter.clone(), own.alignment);
         key(self) == key(other) && self.rate == other.rate
     }
 }

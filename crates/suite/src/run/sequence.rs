@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use metrics::SequenceScores;
+use frame::Alignment;
+use metrics::{Metric, SequenceScores};
 use serde::{Deserialize, Serialize};
 use tracer::FrameRate;
 
@@ -23,15 +24,15 @@ pub struct Sequence {
     #[serde(rename = "bar")]
     pub is_reference: bool,
     /// The shutter alignment that the filter declares and is scored against.
-    pub alignment: String,
+    pub alignment: Alignment,
     /// Scores over time.
     pub scores: SequenceScores,
     /// 95 % confidence intervals of the scores; empty where none were asked for.
     #[serde(default, skip_serializing_if = "Intervals::is_empty")]
     pub intervals: Intervals,
-    /// Frame that is worst in a score, from 0, by the names of the metrics that frames have a share in.
+    /// Frame that is worst in a score, from 0, by the metrics that frames have a share in.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub worst_frames: BTreeMap<String, u32>,
+    pub worst_frames: BTreeMap<Metric, u32>,
     /// Frames, from the first on.
     pub frames: Vec<SequenceFrame>,
 }

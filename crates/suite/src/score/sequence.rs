@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::{Frame, Image, Truth};
-use metrics::{Instant, SequenceReference, SequenceScores};
+use metrics::{Instant, Metric, SequenceReference, SequenceScores};
 use tracer::{RenderSettings, Scene, truth_hash};
 
 use crate::Error;
@@ -24,8 +24,8 @@ pub struct SequenceTruth {
 pub struct ScoredSequence {
     /// Scores over all frames.
     pub scores: SequenceScores,
-    /// Frame that is worst in a score, from 0, by the names of the metrics that frames have a share in.
-    pub worst_frames: BTreeMap<String, u32>,
+    /// Frame that is worst in a score, from 0, by the metrics that frames have a share in.
+    pub worst_frames: BTreeMap<Metric, u32>,
     /// Squared error over what moves, per frame; none where nothing does.
     pub errors: Vec<Option<f64>>,
     /// Squared error of the change along the motion since the frame before, per frame; none for the first.
@@ -64,7 +64,7 @@ pub fn score_sequence(
     Ok(ScoredSequence {
         scores: measured.scores,
         worst_frames: worst_frames
-            .map(|(metric, frame)| (metric.row().name.to_owned(), frame as u32))
+            .map(|(metric, frame)| (Metric::Sequence(metric), frame as u32))
             .collect(),
         errors: measured.errors,
         flickers: measured.flickers,

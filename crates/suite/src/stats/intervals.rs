@@ -53,7 +53,7 @@ pub fn intervals(
         .filter_map(|metric| {
             let without = without.iter().map(|scores| scores.get(metric));
             let found = interval(&whole.get(metric), without, metric.row().is_percentile)?;
-            Some((metric.name(), found))
+            Some((metric, found))
         })
         .collect()
 }
@@ -65,7 +65,7 @@ pub(crate) fn sequence_intervals(whole: &SequenceScores, without: &[SequenceScor
             let row = metric.row();
             let without = without.iter().map(|scores| scores.get(metric).clone());
             let found = interval(whole.get(metric), without, row.is_percentile)?;
-            Some((row.name.to_owned(), found))
+            Some((Metric::Sequence(metric), found))
         })
         .collect()
 }

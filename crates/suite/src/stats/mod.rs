@@ -1,6 +1,5 @@
 //! Statistics of scores: intervals of one score, and means over the scenes of a run.
 
-pub mod headline;
 pub mod intervals;
 pub mod overall;
 pub mod scene_mean;

@@ -1,6 +1,7 @@
 //! Means of filters over the scenes of a run.
 
-use super::headline::Headline;
+use metrics::Metric;
+
 use super::scene_mean::{TWO_SIDED, Weighted, scene_mean};
 use crate::run::case::Case;
 use crate::run::overall::Overall;
@@ -17,7 +18,7 @@ pub fn overall(cases: &[Case]) -> Vec<Overall> {
         let own: Vec<&Case> = (cases.iter())
             .filter(|case| are_of_one(subject, case))
             .collect();
-        let means = Headline::OF_MEANS.map(|headline| mean(&own, headline, cases));
+        let means = Metric::OF_MEANS.map(|metric| mean(&own, metric, cases));
         means.into_iter().flatten().collect::<Vec<_>>()
     };
     subjects.into_iter().flat_map(of_subject).collect()
@@ -25,13 +26,12 @@ pub fn overall(cases: &[Case]) -> Vec<Overall> {
 
 /// Sorts the means of one score, the best first, in one group per frame rate and shutter alignment, reference pictures among the
 /// filters. A score that compares across alignments has one group for all of a rate.
-pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall>> {
-    let name = headline.name();
+pub fn rank_filters(overall: &[Overall], metric: Metric) -> Vec<Vec<&Overall>> {
     let mut groups: Vec<Vec<&Overall>> = Vec::new();
-    for mean in overall.iter().filter(|mean| mean.metric == name) {
+    for mean in overall.iter().filter(|mean| mean.metric == metric) {
         let is_of = |group: &Vec<&Overall>| {
             group[0].rate == mean.rate
-                && (headline.spans_alignments() || group[0].alignment == mean.alignment)
+                && (metric.spans_alignments() || group[0].alignment == mean.alignment)
         };
         let group = groups.iter_mut().find(|group| is_of(group));
         match group {
@@ -39,7 +39,7 @@ pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall
             None => groups.push(vec![mean]),
         }
     }
-    let badness = |mean: &Overall| headline.ideal().badness(mean.mean);
+    let badness = |mean: &Overall| metric.ideal().badness(mean.mean);
     for group in &mut groups {
         group.sort_by(|a, b| badness(a).total_cmp(&badness(b)));
     }
@@ -48,16 +48,16 @@ pub fn rank_filters(overall: &[Overall], headline: Headline) -> Vec<Vec<&Overall
 
 /// Tells whether both are of the same filter preset or reference picture, at the same frame rate.
 fn are_of_one(a: &Case, b: &Case) -> bool {
-    let key = |case: &Case| (case.is_reference, case.name(), case.alignment.clone());
+    let key = |case: &Case| (case.is_reference, case.name(), case.alignment);
     key(a) == key(b) && a.rate == b.rate
 }
 
-fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
+fn mean(own: &[&Case], metric: Metric, all: &[Case]) -> Option<Overall> {
     let scores: Vec<Weighted> = (own.iter())
         .filter_map(|case| {
             Some(Weighted {
-                value: headline.estimate(case)?,
-                weight: headline.weight(case, all)?,
+                value: case.estimate(metric)?,
+                weight: case.weight(metric, all)?,
             })
         })
         .collect();
@@ -66,9 +66,9 @@ fn mean(own: &[&Case], headline: Headline, all: &[Case]) -> Option<Overall> {
         Overall {
             filter: own[0].name(),
             is_reference: own[0].is_reference,
-            alignment: own[0].alignment.clone(),
+            alignment: own[0].alignment,
             rate: own[0].rate,
-            metric: headline.name(),
+            metric,
             scenes: scores.len(),
             mean: found.mean,
             interval: found.interval,

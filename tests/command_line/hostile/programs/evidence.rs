@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::process::Command;
 
-use metrics::Measured;
+use metrics::{Measured, Metric};
 use serde::{Deserialize, Serialize};
 use suite::Case;
 
@@ -33,7 +33,7 @@ fn forge(bench: &Bench) {
     let text = fs::read(bench.path(RECORD)).unwrap();
     let mut record: Record = serde_json::from_slice(&text).unwrap();
     record.made.scores.moving.flip = Measured::score(0.001, 0.001);
-    let interval = (record.made.intervals.get_mut("flip_moving")).expect("it is bounded");
+    let interval = (record.made.intervals.get_mut(&Metric::FLIP)).expect("it is bounded");
     (interval.low, interval.high) = (0.0, 0.002);
     let sealed = serde_json::to_vec(&(&record.inputs, &record.files, &record.made)).unwrap();
     record.seal = blake3::hash(&sealed).to_hex().to_string();

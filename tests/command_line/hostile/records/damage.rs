@@ -151,7 +151,7 @@ fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
         ),
         (
             with("/cases/0/alignment", json!("sideways")),
-            "shutter alignment \"sideways\" is unknown",
+            "unknown variant `sideways`, expected one of `trailing`, `centred`, `leading`",
         ),
         (
             with("/cases/0/exposure", json!(-1)),
