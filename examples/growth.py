@@ -4,7 +4,7 @@
     python3 examples/growth.py out/small --scenes 100 --filters 94 --out out/growth
 
 The small run has one scene and one filter. Every copy of the scene has its references and `--filters` copies of the filter, each a
-part of its own, as `shuttertruth plan` makes them for a filter with one preset. Scores differ between copies by up to 20 %. Pictures of
+part of its own, as `shuttertruth truths plan` makes them for a filter with one preset. Scores differ between copies by up to 20 %. Pictures of
 copies are second names of the same files (hard links). Prints the time, the processor's time and the peak memory of each command.
 """
 
@@ -40,7 +40,7 @@ def main():
     count = len(scenes) * (len(run["cases"]) - 1 + len(filters))
     print(f"{count} cases in {len(parts)} parts, {len(scenes)} scenes")
 
-    measure("merge", [arguments.program, "merge", *parts, "--out", merged], [0])
+    measure("merge", [arguments.program, "truths", "merge", *parts, "--out", merged], [0])
     size = (merged / "run.json").stat().st_size
     print(f"run.json: {size / 1e6:.1f} MB, {size / count / 1e3:.1f} kB a case")
     # Scores that were changed by up to 20 % break some limits.

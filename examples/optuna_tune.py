@@ -1,4 +1,4 @@
-"""Optuna drives `shuttertruth serve`: two objectives, a bad candidate ended early. Give the words of serve as arguments.
+"""Optuna drives `shuttertruth tune serve`: two objectives, a bad candidate ended early. Give the words of serve as arguments.
 
 With `--journal FILE` any number of these processes share one study, and one that is killed costs the trial that it was at."""
 import argparse
@@ -16,7 +16,7 @@ parser.add_argument("--journal", help="file of a study that several processes sh
 parser.add_argument("--trials", type=int, default=20, help="trials of all processes together")
 options, words = parser.parse_known_args()
 
-server = subprocess.Popen(["shuttertruth", "serve", *words], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+server = subprocess.Popen(["shuttertruth", "tune", "serve", *words], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 scenes = json.loads(server.stdout.readline())["scenes"]
 
 
@@ -34,7 +34,7 @@ def objective(trial):
             raise optuna.TrialPruned()
         if "done" in line:
             return line["done"]["error"], line["done"]["bleed"]
-    raise RuntimeError("shuttertruth serve ended")
+    raise RuntimeError("shuttertruth tune serve ended")
 
 
 # Processes with one seed would try the same candidates.

@@ -1,7 +1,7 @@
 """Draws an exported scene in Blender and compares it with the frame that the tracer rendered.
 
-    shuttertruth export railing --gltf out/gltf
-    shuttertruth render --scenes railing --size 160x90 --out out/render
+    shuttertruth engine export railing --gltf out/gltf
+    shuttertruth truths render --scenes railing --size 160x90 --out out/render
     blender -b --python examples/export/blender.py -- out/gltf/railing out/blender.exr 160 90
     python3 examples/export/compare.py out/blender.exr out/render/railing/frame.exr
 

@@ -140,7 +140,7 @@ def text(value):
 
 def render(arguments, scenes=SCENES):
     shuttertruth(arguments, [
-        "render", "--quiet", "--scenes", ",".join(scenes), "--scenes-dir", arguments.scenes_dir, "--size", arguments.size,
+        "truths", "render", "--quiet", "--scenes", ",".join(scenes), "--scenes-dir", arguments.scenes_dir, "--size", arguments.size,
         "--samples-per-pixel", "8", "--replicates", "2", "--out", str(arguments.out)])
     return [Frame(arguments.out / scene / "frame.exr") for scene in scenes]
 
@@ -151,7 +151,7 @@ def blur(arguments, name, scene):
 
 def blur_with(arguments, name, scene, values):
     out = arguments.out / scene / f"{Path(name).name.replace(':', '_')}.exr"
-    words = ["blur", "--as-written", "--filter", name, "--frame", str(arguments.out / scene / "frame.exr"), "--out", str(out)]
+    words = ["engine", "blur", "--as-written", "--filter", name, "--frame", str(arguments.out / scene / "frame.exr"), "--out", str(out)]
     for value in values:
         words += ["--set", value]
     shuttertruth(arguments, words)

@@ -4,7 +4,7 @@ import fs from "node:fs";
 import path from "node:path";
 import { parseArgs } from "node:util";
 
-const HELP = `SCENE  folder of an exported scene: shuttertruth export NAME --gltf out/gltf
+const HELP = `SCENE  folder of an exported scene: shuttertruth engine export NAME --gltf out/gltf
   --size WxH       picture size in pixels [default: 320x180]
   --subframes N    pictures over the open shutter [default: 32]
   --exposure E     exposure in frames [default: the scene's]
@@ -32,7 +32,7 @@ export function readOptions(command, more = {}, help = "") {
   if (positionals.length !== 1) fail(usage);
   const scene = positionals[0];
   for (const file of ["manifest.json", "scene.gltf", "sky.exr"]) {
-    if (!fs.existsSync(path.join(scene, file))) fail(`${scene}: lacks ${file}; write one with: shuttertruth export NAME --gltf DIR`);
+    if (!fs.existsSync(path.join(scene, file))) fail(`${scene}: lacks ${file}; write one with: shuttertruth engine export NAME --gltf DIR`);
   }
   const manifest = JSON.parse(fs.readFileSync(path.join(scene, "manifest.json"), "utf8"));
   const size = /^([1-9]\d{0,3})x([1-9]\d{0,3})$/.exec(values.size ?? "320x180");

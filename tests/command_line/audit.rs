@@ -9,7 +9,7 @@ use crate::ingest::capture::{CONVENTION, Capture, DESCRIPTION};
 fn a_right_capture_passes_and_is_listed_object_by_object() {
     let bench = Bench::new();
     Capture::new(&bench);
-    let output = bench.shuttertruth(&split("audit capture"));
+    let output = bench.shuttertruth(&split("engine audit capture"));
     let told = stdout(&output);
     assert_eq!(output.status.code(), Some(0), "{told}{}", stderr(&output));
     assert!(
@@ -37,7 +37,7 @@ fn a_wrong_convention_fails_with_the_one_that_would_fit() {
         "engine.toml",
         &CONVENTION.replace("\"ndc\"\nvelocity_y", "\"uv\"\nvelocity_y"),
     );
-    let output = bench.shuttertruth(&split("audit capture -o out/told"));
+    let output = bench.shuttertruth(&split("engine audit capture -o out/told"));
     let told = stdout(&output);
     assert_eq!(output.status.code(), Some(1), "{told}{}", stderr(&output));
     let words: Vec<&str> = told.split_whitespace().collect();
@@ -61,7 +61,7 @@ fn a_wrong_convention_fails_with_the_one_that_would_fit() {
         (picture.width, picture.height),
         (3 * 48 * 5 + 2 * 5, 48 * 5)
     );
-    let json = stdout(&bench.shuttertruth(&split("audit capture -o out/told --json")));
+    let json = stdout(&bench.shuttertruth(&split("engine audit capture -o out/told --json")));
     let audit: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(audit["findings"][0]["object"], "plate");
     let scale = audit["findings"][0]["cause"]["scale"].as_f64().unwrap();
@@ -73,7 +73,7 @@ fn an_audit_needs_the_scene_and_its_instant() {
     let bench = Bench::new();
     let capture = Capture::new(&bench);
     let refuse = |words: &[&str]| {
-        let output = bench.shuttertruth(&split("audit capture"));
+        let output = bench.shuttertruth(&split("engine audit capture"));
         assert_refused(&output, 2, words);
     };
     capture.write(
@@ -94,7 +94,7 @@ fn an_audit_needs_the_scene_and_its_instant() {
 
 /// Audits a capture, and returns the exit code and the words of the output.
 fn audit(bench: &Bench) -> (Option<i32>, String) {
-    let output = bench.shuttertruth(&split("audit capture"));
+    let output = bench.shuttertruth(&split("engine audit capture"));
     let told = stdout(&output);
     let words: Vec<&str> = told.split_whitespace().collect();
     (output.status.code(), words.join(" "))

@@ -40,7 +40,7 @@ fn run(bench: &Bench, more: &[&str]) -> Output {
 }
 
 fn accept(bench: &Bench, more: &[&str]) -> Output {
-    let mut command = bench.command(&[&["accept", "--out", "out"], more].concat());
+    let mut command = bench.command(&[&["limits", "accept", "--out", "out"], more].concat());
     command.env_remove("CI").output().unwrap()
 }
 
@@ -113,7 +113,14 @@ fn accept_names_its_run_and_newer_runs_of_other_sizes() {
         stderr(&beside),
         "note: out/48x24 is newer, and is not accepted; to accept it instead: --out out/48x24\n"
     );
-    let words = ["accept", "--out", "out/48x24", "--reason", "the other size"];
+    let words = [
+        "limits",
+        "accept",
+        "--out",
+        "out/48x24",
+        "--reason",
+        "the other size",
+    ];
     let other = bench.outside_ci(&words);
     let written = "written: base.json, from out/48x24/run.json (1 case at 48x24)\n";
     assert_eq!(
@@ -150,7 +157,7 @@ fn accept_refuses_bad_requests_and_incomparable_runs() {
     let bench = set_up();
     let before = fs::read(bench.path("base.json")).unwrap();
     let in_ci = |more: &[&str]| {
-        let words = [&["accept", "--out", "out", "--reason", "r"], more].concat();
+        let words = [&["limits", "accept", "--out", "out", "--reason", "r"], more].concat();
         bench.command(&words).env("CI", "true").output().unwrap()
     };
     assert_refused(&in_ci(&[]), 2, &["CI is set", "--force"]);
@@ -202,7 +209,7 @@ fn a_case_with_another_truth_is_not_compared() {
         2,
         &[
             "base.json: its truth of plate (trailing) is another",
-            "shuttertruth accept",
+            "shuttertruth limits accept",
         ],
     );
     let output = bench.check(&[&["--filters", "identity", "--no-cache"], &BASELINE[..]].concat());
@@ -211,7 +218,7 @@ fn a_case_with_another_truth_is_not_compared() {
         2,
         &[
             "has no scores of identity:default on plate",
-            "shuttertruth accept",
+            "shuttertruth limits accept",
         ],
     );
     fs::remove_file(bench.path("scenes/bounds.toml")).unwrap();

@@ -18,13 +18,21 @@ fn write_blur(bench: &Bench, name: &str, lines: &str, more: &str) {
 }
 
 fn render(bench: &Bench) {
-    let words = ["render", "--quiet", "--out", "r", "--samples-per-pixel"];
+    let words = [
+        "truths",
+        "render",
+        "--quiet",
+        "--out",
+        "r",
+        "--samples-per-pixel",
+    ];
     bench.execute(&[&words[..], &["16"]].concat());
 }
 
-fn blur(filter: &str) -> [&str; 8] {
+fn blur(filter: &str) -> [&str; 9] {
     let frame = "r/plate/frame.exr";
     [
+        "engine",
         "blur",
         "--allow-commands",
         "--filter",
@@ -93,7 +101,7 @@ fn the_program_of_the_guide_runs() {
     fs::write(bench.path("my_engine/filter.toml"), manifest).unwrap();
     fs::create_dir_all(bench.path("bin")).unwrap();
     let program = env!("CARGO_BIN_EXE_shuttertruth");
-    let line = "blur --filter velocity_gather --frame $1 --out $2 --exposure $4";
+    let line = "engine blur --filter velocity_gather --frame $1 --out $2 --exposure $4";
     write_script(
         &bench.path("bin/my_blur"),
         &format!("[ $3 = --shutter ] && {program} {line}"),

@@ -9,7 +9,7 @@ use crate::bench::{Bench, SCENE, assert_done, assert_refused, quick_command, spl
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
     found.unwrap_or_else(|| {
-        let names: Vec<String> = cases.iter().map(Case::name).collect();
+        let names: Vec<String> = cases.iter().map(|case| case.name()).collect();
         panic!("no {name} among {names:?}")
     })
 }
@@ -147,7 +147,7 @@ fn variance_is_measured_for_filters_with_noise() {
 fn defects_of_velocity_cost_what_they_take_away() {
     let bench = Bench::new();
     let output = bench.run(&split(
-        "--filters identity,velocity_gather:fine --velocity-defect zero,double,lag,no_object,jittered",
+        "--filters identity,velocity_gather:fine --input defect=zero,double,lag,no_object,jittered",
     ));
     assert_done(&output);
     let cases = bench.read_filter_cases();
@@ -175,21 +175,17 @@ fn defects_of_velocity_cost_what_they_take_away() {
     assert!(row.ends_with(&due), "{told}");
     // The ranking is of the right buffer alone.
     assert!(!told.contains("velocity_gather:fine defect"), "{told}");
-    let camera_only = split("--filters identity --velocity camera_only --velocity-defect lag");
+    let camera_only = split("--filters identity --velocity camera_only --input defect=lag");
     let refused = bench.run(&camera_only);
-    assert_refused(
-        &refused,
-        2,
-        &["--velocity-defect lag", "--velocity camera_only"],
-    );
+    assert_refused(&refused, 2, &["defect=lag", "the camera alone"]);
 }
 
 #[test]
 fn coarser_buffers_raise_the_error() {
     let bench = Bench::new();
     let output = bench.run(&split(
-        "--filters identity,velocity_gather:fine --velocity-format float16,linear8,kino10,tile_clamped \
-         --depth-format float16",
+        "--filters identity,velocity_gather:fine --input velocity=float16,linear8,kino10,tile_clamped \
+         --input depth=float16",
     ));
     assert_done(&output);
     let cases = bench.read_filter_cases();
@@ -222,7 +218,12 @@ fn coarser_buffers_raise_the_error() {
 #[test]
 fn a_clamped_border_is_cropped_before_scoring() {
     let bench = Bench::new();
-    let words = ["--filters", "velocity_gather:fine", "--border", "clamp"];
+    let words = [
+        "--filters",
+        "velocity_gather:fine",
+        "--input",
+        "border=clamp",
+    ];
     assert_done(&bench.run(&words));
     let cases = bench.read_filter_cases();
     let clamped = find_case(&cases, "velocity_gather:fine border=clamp");
@@ -230,7 +231,7 @@ fn a_clamped_border_is_cropped_before_scoring() {
     let whole = find_case(&cases, "velocity_gather:fine");
     assert_eq!(clamped.scores.full, whole.scores.full);
     assert_eq!(clamped.scores.objects, whole.scores.objects);
-    let output = bench.run(&["--border", "mirror"]);
+    let output = bench.run(&["--input", "border=mirror"]);
     assert_refused(&output, 2, &["mirror", "leave, clamp"]);
 }
 

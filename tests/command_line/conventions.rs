@@ -27,7 +27,7 @@ const FORMS: [&str; 12] = [
 
 fn render(bench: &Bench) -> Frame {
     bench.execute(&split(
-        "render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing",
+        "truths render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing",
     ));
     Frame::read(&bench.path("r/plate/frame.exr")).unwrap()
 }
@@ -57,7 +57,7 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
     let frame = render(&bench);
     let blur = |words: &str| {
         bench.execute(&split(&format!(
-            "blur --filter kino --out blurred.exr {words}"
+            "engine blur --filter kino --out blurred.exr {words}"
         )));
         read_exr(&bench.path("blurred.exr"))
             .unwrap()
@@ -85,7 +85,7 @@ fn a_picture_of_exposed_colours_has_the_scores_of_its_radiance() {
     let bench = Bench::new();
     render(&bench);
     bench.execute(&split(
-        "blur --filter velocity_gather --frame r/plate/frame.exr --out plain.exr",
+        "engine blur --filter velocity_gather --frame r/plate/frame.exr --out plain.exr",
     ));
     let mut file = read_exr(&bench.path("plain.exr")).unwrap();
     // A power of two changes no digit.
@@ -130,7 +130,7 @@ fn a_wrong_convention_is_refused_with_its_line() {
     let bench = Bench::new();
     render(&bench);
     let words = split(
-        "blur --filter identity --frame r/plate/frame.exr --out b.exr --convention engine.toml",
+        "engine blur --filter identity --frame r/plate/frame.exr --out b.exr --convention engine.toml",
     );
     assert_refused(
         &bench.shuttertruth(&words),

@@ -54,11 +54,11 @@ fn other_commands_work_in_an_empty_folder() {
     let listed = execute(path, "list scenes");
     assert_done(&listed);
     assert!(stdout(&listed).contains("railing: "), "{}", stdout(&listed));
-    assert_done(&execute(path, "export fan"));
+    assert_done(&execute(path, "engine export fan"));
     assert!(path.join("out/gltf/fan/scene.gltf").is_file());
     assert_done(&execute(
         path,
-        "render --quiet --scenes fan@all --size 32x18 --samples-per-pixel 16",
+        "truths render --quiet --scenes fan@all --size 32x18 --samples-per-pixel 16",
     ));
     // The limits come along as well.
     let refused = execute(

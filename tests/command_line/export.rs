@@ -7,7 +7,7 @@ use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
 #[test]
 fn a_scene_becomes_a_folder_that_says_when_its_frame_is() {
     let bench = Bench::new();
-    let output = bench.shuttertruth(&split("export plate --gltf gltf"));
+    let output = bench.shuttertruth(&split("engine export plate --gltf gltf"));
     assert_done(&output);
     let text = stdout(&output);
     assert!(text.contains("the frame is at 0.083333 s"), "{text}");
@@ -23,15 +23,15 @@ fn a_scene_becomes_a_folder_that_says_when_its_frame_is() {
 #[test]
 fn an_unlit_export_is_the_scene_that_run_takes_as_unlit() {
     let bench = Bench::new();
-    let flagged = bench.shuttertruth(&split("export plate --unlit --gltf flagged"));
+    let flagged = bench.shuttertruth(&split("engine export plate --unlit --gltf flagged"));
     assert_done(&flagged);
-    assert_done(&bench.shuttertruth(&split("export plate@unlit --gltf named")));
+    assert_done(&bench.shuttertruth(&split("engine export plate@unlit --gltf named")));
     let read = |folder: &str| fs::read(bench.path(folder).join("plate@unlit/scene.gltf")).unwrap();
     assert_eq!(read("flagged"), read("named"));
-    let render = "render --scenes plate@unlit --size 32x18 --samples-per-pixel 16 --out r";
+    let render = "truths render --scenes plate@unlit --size 32x18 --samples-per-pixel 16 --out r";
     assert_done(&bench.shuttertruth(&split(render)));
     assert!(bench.path("r/plate@unlit/truth_trailing.exr").is_file());
-    let variant = bench.shuttertruth(&split("export plate@fast --unlit"));
+    let variant = bench.shuttertruth(&split("engine export plate@fast --unlit"));
     assert_refused(&variant, 2, &["--unlit: plate@fast is a variant"]);
 }
 
@@ -39,13 +39,13 @@ fn an_unlit_export_is_the_scene_that_run_takes_as_unlit() {
 fn scenes_that_are_not_there_and_folders_that_are_files_are_refused() {
     let bench = Bench::new();
     assert_refused(
-        &bench.shuttertruth(&split("export plait --gltf gltf")),
+        &bench.shuttertruth(&split("engine export plait --gltf gltf")),
         2,
         &["plait", "plate"],
     );
     fs::write(bench.path("taken"), "").unwrap();
     assert_refused(
-        &bench.shuttertruth(&split("export plate --gltf taken")),
+        &bench.shuttertruth(&split("engine export plate --gltf taken")),
         2,
         &["taken"],
     );

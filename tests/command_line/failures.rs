@@ -43,8 +43,8 @@ fn a_run_names_the_failed_case_and_goes_on() {
         panic!("one case fails: {:?}", run.failures);
     };
     assert_eq!(
-        (&failure.scene[..], &failure.filter[..]),
-        ("dim", "torn:default")
+        (failure.scene.to_string(), &failure.filter[..]),
+        ("dim".to_owned(), "torn:default")
     );
     assert!(
         failure.reason.contains("pass work: writes ["),
@@ -57,7 +57,7 @@ fn a_run_names_the_failed_case_and_goes_on() {
         failure.reason
     );
     let measured: Vec<_> = (bench.read_filter_cases().iter())
-        .map(|case| (case.scene.clone(), case.name()))
+        .map(|case| (case.scene.to_string(), case.name()))
         .collect();
     let expected = [
         ("dim", "identity:default"),
@@ -85,7 +85,7 @@ fn a_run_names_the_failed_case_and_goes_on() {
     assert_eq!(again.status.code(), Some(1));
     assert_eq!(bench.read_run().failures, run.failures);
     // A run with failures cannot become a baseline.
-    let accept = split("accept --out out --baseline base.json --reason none");
+    let accept = split("limits accept --out out --baseline base.json --reason none");
     let refused = bench.outside_ci(&accept);
     assert_refused(&refused, 1, &["1 case failed", "torn:default on dim"]);
     assert!(!bench.path("base.json").exists());

@@ -51,7 +51,7 @@ fn scores(bench: &Bench, images: &str, more: &[&str]) -> SequenceScores {
 #[test]
 fn blur_and_score_repeat_the_sequence_of_a_run() {
     let bench = run_filter();
-    let words = ["blur", "--filter", "./late", "--out", "mine"];
+    let words = ["engine", "blur", "--filter", "./late", "--out", "mine"];
     bench.execute(&[&words[..], &FRAME, &THREE].concat());
     let pictures = ["mine/0000.exr", "mine/0001.exr", "mine/0002.exr"];
     for (picture, folder) in pictures.iter().zip(["plate", "plate/0001", "plate/0002"]) {
@@ -110,7 +110,7 @@ fn sequences_that_do_not_fit_are_refused() {
     let bench = run_filter();
     bench.execute(
         &[
-            &["blur", "--filter", "./late", "--out", "mine"][..],
+            &["engine", "blur", "--filter", "./late", "--out", "mine"][..],
             &FRAME,
             &THREE,
         ]
@@ -147,7 +147,7 @@ fn sequences_that_do_not_fit_are_refused() {
     let parts = ["0001/truth_trailing.exr: is the truth of a later frame, plate/0001"];
     assert_refused(&bench.shuttertruth(&words), 2, &parts);
 
-    let blur = ["blur", "--filter", "./late", "--out", "mine.exr"];
+    let blur = ["engine", "blur", "--filter", "./late", "--out", "mine.exr"];
     let output = bench.shuttertruth(&[&blur[..], &FRAME, &THREE].concat());
     assert_refused(
         &output,

@@ -47,13 +47,19 @@ fn set_up() -> Bench {
 }
 
 fn import(bench: &Bench, more: &[&str]) -> Output {
-    let words = ["import", "my models/the house.obj", "--out", "scenes/house"];
+    let words = [
+        "engine",
+        "import",
+        "my models/the house.obj",
+        "--out",
+        "scenes/house",
+    ];
     bench.shuttertruth(&[&words, more].concat())
 }
 
 /// Renders the imported scene's frame at half the size that its speeds are meant for.
 fn render_frame(bench: &Bench) -> Frame {
-    bench.execute(&split("render --scenes house --size 320x180 --samples-per-pixel 8 --replicates 2 --quiet --out out"));
+    bench.execute(&split("truths render --scenes house --size 320x180 --samples-per-pixel 8 --replicates 2 --quiet --out out"));
     Frame::read(&bench.path("out/house/frame.exr")).unwrap()
 }
 
@@ -231,6 +237,7 @@ fn bad_models_are_refused_with_the_way_out() {
     );
     let to = |out: &str| {
         let words = [
+            "engine",
             "import",
             "my models/the house.obj",
             "--slide",
@@ -247,6 +254,7 @@ fn bad_models_are_refused_with_the_way_out() {
         &["my house", "letters, digits, _ and -"],
     );
     let missing = [
+        "engine",
         "import",
         "no.obj",
         "--slide",

@@ -8,7 +8,7 @@ use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stdout};
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
     found.unwrap_or_else(|| {
-        let names: Vec<String> = cases.iter().map(Case::name).collect();
+        let names: Vec<String> = cases.iter().map(|case| case.name()).collect();
         panic!("no {name} among {names:?}")
     })
 }
@@ -29,7 +29,7 @@ fn plate_middle(bench: &Bench, sequence: &Sequence, frame: usize) -> f64 {
 #[test]
 fn the_jitter_of_a_sequence_goes_on_from_frame_to_frame() {
     let bench = Bench::new();
-    let words = "--filters identity --frames 3 --camera-jitter left_in";
+    let words = "--filters identity --frames 3 --input jitter=left_in";
     assert_done(&bench.run(&split(words)));
     let run = bench.read_run();
     let find = |name: &str| {
@@ -57,7 +57,7 @@ fn smaller_buffers_change_filters_that_read_them() {
     let bench = Bench::new();
     let output = bench.run(&split(
         "--filters identity,velocity_gather:fine \
-         --buffer-size full,full_dilated,half,half_dilated,quarter,quarter_dilated",
+         --input buffers=full,full_dilated,half,half_dilated,quarter,quarter_dilated",
     ));
     assert_done(&output);
     let cases = bench.read_filter_cases();
@@ -80,7 +80,7 @@ fn smaller_buffers_change_filters_that_read_them() {
     let [quarter, dilated] = ["quarter", "quarter_dilated"]
         .map(|size| flip(&cases, &format!("velocity_gather:fine buffers={size}")));
     assert_ne!(quarter, dilated);
-    let refused = bench.run(&["--buffer-size", "eighth"]);
+    let refused = bench.run(&["--input", "buffers=eighth"]);
     assert_refused(&refused, 2, &["eighth", "quarter_dilated"]);
 }
 
@@ -88,9 +88,9 @@ fn smaller_buffers_change_filters_that_read_them() {
 fn samples_jitter_and_scale_change_what_filters_get() {
     let bench = Bench::new();
     assert_done(&bench.run(&split(
-        "--filters identity,velocity_gather:fine --msaa first,nearest,farthest \
-         --camera-jitter removed,left_in,resolved \
-         --render-scale 50_blur_first,50_upscale_first,67_blur_first,67_upscale_first",
+        "--filters identity,velocity_gather:fine --input msaa=first,nearest,farthest \
+         --input jitter=removed,left_in,resolved \
+         --input scale=50_blur_first,50_upscale_first,67_blur_first,67_upscale_first",
     )));
     let cases = bench.read_filter_cases();
     assert_eq!(cases.len(), 2 * 11);
@@ -148,14 +148,14 @@ fn samples_jitter_and_scale_change_what_filters_get() {
 #[test]
 fn depth_of_field_runs_before_a_filter_or_after_it() {
     let bench = Bench::new();
-    let words = "--filters identity,velocity_gather:fine --depth-of-field before,after";
+    let words = "--filters identity,velocity_gather:fine --input depth_of_field=before,after";
     // A scene without a lens is refused before anything is rendered.
     let refused = bench.run(&split(words));
     assert_refused(
         &refused,
         2,
         &[
-            "--depth-of-field after",
+            "depth_of_field=after",
             "plate has no lens",
             "aperture and focus",
         ],

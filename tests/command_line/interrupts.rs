@@ -36,7 +36,7 @@ fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
     assert_done(&bench.run(&["--filters", "identity"]));
     let frame = bench.path("out/plate/frame.exr").display().to_string();
     let blur = [
-        "blur", "--filter", "./slow", "--frame", &frame, "--out", "b.exr",
+        "engine", "blur", "--filter", "./slow", "--frame", &frame, "--out", "b.exr",
     ];
     let quick = quick_command("run", "16");
     let run = [&quick[..], &["--filter", "slow"]].concat();

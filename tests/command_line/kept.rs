@@ -13,6 +13,7 @@ use crate::bench::{Bench, OBJ, assert_done, assert_refused, files_below, split, 
 /// Returns the words of a `render` of the plate into `out`.
 fn render<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let words = [
+        "truths",
         "render",
         "--quiet",
         "--samples-per-pixel",
@@ -64,7 +65,7 @@ fn merged_parts_of_several_processes_equal_the_bytes_of_one() {
     for mut child in children {
         assert!(child.wait().unwrap().success());
     }
-    let merged = bench.shuttertruth(&["merge", "c", "a", "b", "--out", "joined"]);
+    let merged = bench.shuttertruth(&["truths", "merge", "c", "a", "b", "--out", "joined"]);
     assert_done(&merged);
     assert_eq!(
         stdout(&merged),
@@ -83,7 +84,7 @@ fn several_processes_can_render_into_one_folder() {
     for mut child in children {
         assert!(child.wait().unwrap().success());
     }
-    bench.execute(&["merge", "shared", "--out", "shared"]);
+    bench.execute(&["truths", "merge", "shared", "--out", "shared"]);
     assert_same(&bench, "whole", "shared");
 }
 
@@ -91,7 +92,8 @@ fn several_processes_can_render_into_one_folder() {
 fn a_killed_render_resumes_to_the_same_bytes() {
     let bench = Bench::new();
     let many = ["--samples-per-pixel", "32768", "--threads", "1"];
-    let words = |out: &'static str| [&["render", "--quiet", "--out", out][..], &many].concat();
+    let words =
+        |out: &'static str| [&["truths", "render", "--quiet", "--out", out][..], &many].concat();
     bench.execute(&words("whole"));
     let replicate = |index: u32| {
         bench.path(&format!(
@@ -144,11 +146,11 @@ fn files_of_older_versions_are_rendered_again_and_never_merged() {
         write_exr(&path, &file).unwrap();
     }
     assert_refused(
-        &bench.shuttertruth(&["merge", "old", "--out", "joined"]),
+        &bench.shuttertruth(&["truths", "merge", "old", "--out", "joined"]),
         2,
         &[
             "replicate_000.exr: holds no support",
-            "make it anew with `shuttertruth render`",
+            "make it anew with `shuttertruth truths render`",
         ],
     );
     bench.execute(&render("old", &[]));
@@ -188,7 +190,7 @@ fn a_flipped_bit_in_a_replicate_never_reaches_a_truth() {
     bench.execute(&render("out", &["--replicates", "0..7"]));
     bench.execute(&render("rest", &["--replicates", "7..8"]));
     flip_a_bit(&bench.path("out/plate/truth_trailing/replicate_002.exr"));
-    let merged = bench.shuttertruth(&["merge", "out", "rest", "--out", "joined"]);
+    let merged = bench.shuttertruth(&["truths", "merge", "out", "rest", "--out", "joined"]);
     assert_refused(&merged, 2, &["out/plate/truth_trailing/replicate_002.exr"]);
     assert!(!bench.path("joined").exists());
     bench.execute(&render("out", &[]));
@@ -252,7 +254,8 @@ fn incomplete_parts_are_refused() {
         ),
         (&["nowhere"], &["nowhere", "cannot read"]),
     ] {
-        let refused = bench.shuttertruth(&[&["merge", "--out", "joined"][..], parts].concat());
+        let refused =
+            bench.shuttertruth(&[&["truths", "merge", "--out", "joined"][..], parts].concat());
         assert_refused(&refused, 2, complaint);
         assert!(
             !bench.path("joined").exists(),
@@ -261,7 +264,7 @@ fn incomplete_parts_are_refused() {
     }
     // Replicates of two truths, whose files never share a name.
     bench.execute(&render("rest", &["--replicates", "3..4", "--seed", "2"]));
-    let refused = bench.shuttertruth(&["merge", "start", "rest", "--out", "joined"]);
+    let refused = bench.shuttertruth(&["truths", "merge", "start", "rest", "--out", "joined"]);
     assert_refused(
         &refused,
         2,

@@ -221,7 +221,7 @@ fn the_number_of_threads_changes_no_byte() {
 #[test]
 fn any_filter_can_blur_a_rendered_frame() {
     let bench = Bench::new();
-    bench.execute(&split("render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing,centred"));
+    bench.execute(&split("truths render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing,centred"));
     assert_eq!(
         frame::Truth::read(&bench.path("r/plate/truth_centred.exr"))
             .unwrap()
@@ -235,6 +235,7 @@ fn any_filter_can_blur_a_rendered_frame() {
         ("jump_flood:corrected", true),
     ] {
         let words = [
+            "engine",
             "blur",
             "--filter",
             filter,
@@ -258,7 +259,7 @@ fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
     let bench = Bench::new();
     let mut file = frame::ExrFile::new(16, 16);
     file.push_color("", &frame::Raster::filled(16, 16, [0.5; 3]));
-    let words = split("blur --filter identity --frame engine.exr --out blurred.exr");
+    let words = split("engine blur --filter identity --frame engine.exr --out blurred.exr");
     let refused = |file: &frame::ExrFile, parts: &[&str]| {
         frame::write_exr(&bench.path("engine.exr"), file).unwrap();
         assert_refused(&bench.shuttertruth(&words), 2, parts);
@@ -385,7 +386,7 @@ fn a_closed_output_pipe_is_not_an_error() {
 #[test]
 fn adapters_are_listed_and_chosen_by_name() {
     let bench = Bench::new();
-    let output = bench.shuttertruth(&["--list-adapters"]);
+    let output = bench.shuttertruth(&["list", "adapters"]);
     assert_done(&output);
     assert!(stdout(&output).starts_with("0: "), "{}", stdout(&output));
     let output = bench.run(&["--filters", "identity", "--adapter", "no such card"]);

@@ -76,7 +76,7 @@ fn a_run_scales_a_preset_to_its_width_and_reports_it() {
 #[test]
 fn a_small_frame_scales_a_preset_to_its_own_width() {
     let bench = set_up();
-    let words = split("--filter mine --render-scale 50_blur_first,50_upscale_first");
+    let words = split("--filter mine --input scale=50_blur_first,50_upscale_first");
     assert_done(&bench.run(&words));
     let cases = bench.read_run().cases;
     let radius = |name: &str| {
@@ -97,7 +97,7 @@ fn a_guard_band_is_not_part_of_the_width() {
     let case = measure_case(&bench, &["--guard-band", "32"]);
     assert_eq!(case.parameters["radius"], Value::Integer(4));
 
-    let words = split("blur --filter ./mine --frame out/plate/frame.exr --out");
+    let words = split("engine blur --filter ./mine --frame out/plate/frame.exr --out");
     let blur = |out: &str, more: &[&str]| {
         bench.execute(&[&words[..], &[out], more].concat());
         let file = frame::read_exr(&bench.path(out)).unwrap();
@@ -137,7 +137,7 @@ fn every_command_that_runs_filters_scales_presets_unless_told_not_to() {
     let evaluate = |params: &str, more: &[&str]| {
         fs::write(bench.path("params.json"), params).unwrap();
         let words = split(
-            "evaluate --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --out tuned \
+            "tune evaluate --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --out tuned \
              --params params.json",
         );
         json(&[&words[..], more].concat())["scenes"]["plate"]["flip"].clone()
@@ -162,7 +162,7 @@ fn a_tuned_preset_records_the_width_of_its_tuning() {
         bench.copy_scene(name, |text| text.replace("-1.6", way));
     }
     let words = split(
-        "tune --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --scenes a,b,c,d,e --budget 12 \
+        "tune search --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --scenes a,b,c,d,e --budget 12 \
          --out tuned",
     );
     let preset = |more: &[&str]| {

@@ -68,16 +68,16 @@ fn bad_arguments_are_refused_with_the_allowed_values() {
             &["backwards", "instantaneous, previous_frame, camera_only"],
         ),
         (&["--size", "10"], &["WIDTHxHEIGHT"]),
-        (&["--size", "-1"], &["--size -1", "WIDTHxHEIGHT"]),
+        (&["--size=-1"], &["'-1' for '--size <WxH>'", "WIDTHxHEIGHT"]),
         (
-            &["--samples-per-pixel", "-8"],
-            &["--samples-per-pixel -8", "allowed: a whole number"],
+            &["--samples-per-pixel=-8"],
+            &["'-8' for '--samples-per-pixel <N>'", "invalid digit"],
         ),
         (
             &["--seed", "1e9"],
-            &["--seed 1e9", "allowed: a whole number"],
+            &["'1e9' for '--seed <S>'", "invalid digit"],
         ),
-        (&["--exposure", "half"], &["allowed: a number above 0"]),
+        (&["--exposure", "half"], &["invalid float literal"]),
         (
             &["--guard-band", "1000000000"],
             &["2000000320", "allowed: 1 to 16384"],
@@ -206,7 +206,7 @@ fn ctrl_c_leaves_no_partial_file() {
     // Far more samples than the program can render before the interrupt.
     let mut child = bench
         .command(&split(
-            "render --quiet --out out --size 1024x512 --samples-per-pixel 65536",
+            "truths render --quiet --out out --size 1024x512 --samples-per-pixel 65536",
         ))
         .spawn()
         .unwrap();
@@ -239,7 +239,7 @@ fn names_that_no_folder_can_have_are_refused_before_anything_is_rendered() {
         &["run", "--filter", &filter, "--scenes", "plate"][..],
         &["run", "--filter", "identity", "--scenes", &long],
         &["check", "--filter", "identity", "--scenes", &long],
-        &["render", "--scenes", &long],
+        &["truths", "render", "--scenes", &long],
     ] {
         bench.write_bound(1.0);
         bench.copy_bound(&long);

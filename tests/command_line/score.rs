@@ -176,7 +176,14 @@ fn a_png_is_converted_back_to_radiance() {
 fn a_guard_band_is_cropped_from_the_picture() {
     let bench = Bench::new();
     let expected = run(&bench, &["--guard-band", "8"]);
-    let words = ["blur", "--filter", "velocity_gather:fine", "--out", "b.exr"];
+    let words = [
+        "engine",
+        "blur",
+        "--filter",
+        "velocity_gather:fine",
+        "--out",
+        "b.exr",
+    ];
     bench.execute(&[&words[..], &FRAME].concat());
     let found = scores(&bench, "b.exr", &[]);
     assert_eq!(found.moving, expected.moving);
@@ -193,7 +200,7 @@ fn mismatched_files_are_refused() {
     let bench = Bench::new();
     let words = ["--quiet", "--samples-per-pixel", "16", "--out"];
     let render = |more: &[&str]| {
-        bench.execute(&[&["render"][..], &words, more].concat());
+        bench.execute(&[&["truths", "render"][..], &words, more].concat());
     };
     render(&["out", "--alignments", "trailing,centred"]);
     render(&["short", "--exposure", "0.25"]);
@@ -201,7 +208,14 @@ fn mismatched_files_are_refused() {
     fs::rename(bench.path("scenes/plate"), bench.path("scenes/other")).unwrap();
     render(&["out"]);
     let blur = |more: &[&str]| {
-        let words = ["blur", "--filter", "velocity_gather", "--out", "b.exr"];
+        let words = [
+            "engine",
+            "blur",
+            "--filter",
+            "velocity_gather",
+            "--out",
+            "b.exr",
+        ];
         bench.execute(&[&words[..], &FRAME, more].concat());
     };
     let refused = |words: [&str; 6], parts: &[&str]| {
@@ -302,7 +316,7 @@ fn a_truth_of_an_older_version_is_refused_with_the_way_out() {
         2,
         &[
             "old.exr: holds no support",
-            "make it anew with `shuttertruth render`",
+            "make it anew with `shuttertruth truths render`",
         ],
     );
 }

@@ -239,6 +239,7 @@ fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
     let words = |part: &'static str, out: &'static str| {
         let more = ["--replicates", part, "--frames", "2", "--out", out];
         [
+            "truths",
             "render",
             "--quiet",
             "--size",
@@ -252,7 +253,7 @@ fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
     for (part, out) in [("0..3", "one"), ("3..8", "two")] {
         bench.execute(&words(part, out).collect::<Vec<_>>());
     }
-    bench.execute(&["merge", "--quiet", "one", "two", "--out", "out"]);
+    bench.execute(&["truths", "merge", "--quiet", "one", "two", "--out", "out"]);
     let truth = bench.path("out/plate/0001/truth_trailing.exr");
     let before = fs::metadata(&truth).unwrap().modified().unwrap();
     assert_done(&bench.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use crate::bench::{Bench, assert_refused, split, stderr, stdout};
 use crate::python::python_with;
 
-pub const SERVE: &str = "serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
+pub const SERVE: &str = "tune serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
 
 /// Sends the lines one by one and reads all answers.
 fn converse(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
@@ -123,7 +123,7 @@ fn parameters_of_a_file_are_checked() {
     let bench = Bench::new();
     let evaluate = |text: &str| {
         fs::write(bench.path("p.json"), text).unwrap();
-        let words = split("evaluate --quiet --filter jump_flood --params p.json");
+        let words = split("tune evaluate --quiet --filter jump_flood --params p.json");
         bench.shuttertruth(&[&words[..], &["--out", "out"]].concat())
     };
     for (text, parts) in [
@@ -143,7 +143,7 @@ fn parameters_of_a_file_are_checked() {
         assert_refused(&evaluate(text), 2, &parts);
     }
     fs::remove_file(bench.path("p.json")).unwrap();
-    let words = split("evaluate --filter jump_flood --params p.json --out out");
+    let words = split("tune evaluate --filter jump_flood --params p.json --out out");
     assert_refused(&bench.shuttertruth(&words), 2, &["p.json: cannot be read"]);
     assert!(!bench.path("out").exists());
 }

@@ -78,7 +78,7 @@ fn assert_ended_well(output: &Output) {
 fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     let [shared, alone] = [(); 2].map(|()| Bench::two_scenes());
     let words = split(WORDS);
-    let plan = shared.execute(&[&["plan"], &words[..], &["--json"]].concat());
+    let plan = shared.execute(&[&["truths", "plan"], &words[..], &["--json"]].concat());
     fs::write(shared.path("plan.jsonl"), plan).unwrap();
     let folder = shared.path("").canonicalize().unwrap();
 

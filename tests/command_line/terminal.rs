@@ -165,7 +165,7 @@ fn json_output_has_no_other_text() {
         (vec!["list"], "scenes"),
         (
             [
-                &["tune"],
+                &["tune", "search"],
                 &candidate[..],
                 &["--vary", "samples", "--budget", "2"],
             ]
@@ -174,7 +174,7 @@ fn json_output_has_no_other_text() {
         ),
         (
             [
-                &["sensitivity"],
+                &["tune", "sensitivity"],
                 &candidate[..],
                 &["--vary", "samples", "--rows", "2"],
             ]
@@ -182,7 +182,7 @@ fn json_output_has_no_other_text() {
             "parameters",
         ),
         (
-            [&["compare-presets", "paper", "corrected"], &candidate[..]].concat(),
+            [&["tune", "compare", "paper", "corrected"], &candidate[..]].concat(),
             "flip",
         ),
     ] {

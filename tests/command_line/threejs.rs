@@ -76,9 +76,10 @@ impl Drawn {
     fn new(scene: &str) -> Self {
         let bench = Bench::new();
         let folder = scenes().display().to_string();
-        let words = split("export --gltf gltf --scenes-dir");
+        let words = split("engine export --gltf gltf --scenes-dir");
         bench.execute(&[&words, &[&folder, scene][..]].concat());
-        let words = split("render --quiet --samples-per-pixel 8 --velocity previous_frame --out r");
+        let words =
+            split("truths render --quiet --samples-per-pixel 8 --velocity previous_frame --out r");
         let scene_words = ["--scenes-dir", &folder, "--scenes", scene, "--size", SIZE];
         bench.execute(&[&words, &scene_words[..]].concat());
         let frame = Frame::read(&bench.path("r").join(scene).join("frame.exr")).unwrap();
@@ -137,7 +138,7 @@ impl Drawn {
     /// Audits the capture; returns the exit code and what is printed.
     fn audit(&self) -> (Option<i32>, String) {
         let folder = scenes().display().to_string();
-        let words = split("audit capture --out audit --scenes-dir");
+        let words = split("engine audit capture --out audit --scenes-dir");
         let output = self
             .bench
             .shuttertruth(&[&words, &[folder.as_str()][..]].concat());
@@ -227,7 +228,7 @@ fn audit_names_what_is_planted_in_three_js_s_velocity() {
     let drawn = Drawn::new("flat_field");
     let (code, said) = drawn.audit();
     assert_eq!(code, Some(0), "{said}");
-    let told = (drawn.bench).execute(&["ingest", "capture", "--out", "engine"]);
+    let told = (drawn.bench).execute(&["engine", "ingest", "capture", "--out", "engine"]);
     assert_contains(&told, &["makes the picture brighter, 1.0625 times"]);
     for (planted, cause) in [
         ("velocity.mul(2)", "velocity is twice too long"),

@@ -22,7 +22,8 @@ fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> 
     let check = || {
         let bounds = judge::read_bounds(folder.path(), &scene, None)?;
         judge::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
-        let scenes = std::iter::once(("fan", &bounds));
+        let fan = tracer::SceneId::new("fan", None);
+        let scenes = std::iter::once((&fan, &bounds));
         judge::require_bounds(folder.path(), scenes, &filters, Frames::default())?;
         Ok(bounds)
     };
@@ -83,7 +84,7 @@ fn limits_hold_only_at_their_own_size() {
     let refused = size(&[&small], Some((320, 180))).unwrap_err();
     for part in [
         "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and the pictures are to have 320x180",
-        "`shuttertruth calibrate`",
+        "`shuttertruth limits calibrate`",
     ] {
         assert!(refused.contains(part), "{refused}");
     }

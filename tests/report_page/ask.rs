@@ -56,7 +56,7 @@ fn kept(browser: &mut Browser) -> Value {
 fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     let bench = Bench::new();
     assert_done(&bench.run(&[&FILTERS[..], &["--frames", "3", "--fps", "5"]].concat()));
-    let written = bench.execute(&["ask", "out", "--out", "a page", "--json"]);
+    let written = bench.execute(&["people", "ask", "out", "--out", "a page", "--json"]);
     let written: Value = serde_json::from_str(&written).unwrap();
     let study: Study = serde_json::from_value(written["study"].clone()).unwrap();
     let page = bench.path("a page/index.html");
@@ -141,7 +141,7 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     let file: Value = serde_json::from_slice(&fs::read(bench.path(&name)).unwrap()).unwrap();
     assert_eq!(file["display"]["viewport"], json!([1280, 800]));
     assert_eq!(file["answers"][0]["zoom"], zoom);
-    let printed = bench.execute(&["preferences", &name, "--run", "out", "--json"]);
+    let printed = bench.execute(&["people", "preferences", &name, "--run", "out", "--json"]);
     let printed: Value = serde_json::from_str(&printed).unwrap();
     let question = &printed["questions"][0];
     assert_eq!(question["sessions"][0]["failed_checks"], 0);
@@ -178,6 +178,7 @@ fn the_page_draws_the_sessions_that_the_program_expects() {
     let filters = "jump_flood:paper,velocity_gather:fine,velocity_gather:coarse,identity,bevy:high,kino,three:corrected";
     assert_done(&bench.run(&["--filters", filters]));
     let words = [
+        "people",
         "ask",
         "out",
         "--question",

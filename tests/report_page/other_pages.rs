@@ -47,7 +47,7 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
 #[test]
 fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
     let bench = Bench::two_scenes();
-    let words = "tune --quiet --filter jump_flood --from paper --vary samples=2..16,jitter --objective flip,bleed --scenes plate,slow \
+    let words = "tune search --quiet --filter jump_flood --from paper --vary samples=2..16,jitter --objective flip,bleed --scenes plate,slow \
                  --size 64x32 --samples-per-pixel 16 --budget 8 --out tuned";
     assert_done(&bench.shuttertruth(&words.split_whitespace().collect::<Vec<_>>()));
     assert_done(&bench.shuttertruth(&["report", "tuned", "--html", "page.html"]));

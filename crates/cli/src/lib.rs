@@ -1,33 +1,43 @@
 //! The program `shuttertruth`: its arguments, its commands, and what they print.
 
+/// Returns from a function with an error about the use of the program.
+macro_rules! refuse {
+    ($($text:tt)*) => {
+        return Err(suite::Error::Usage(format!($($text)*)))
+    };
+}
+
 mod arguments;
 mod commands;
+#[cfg(test)]
+mod commands_page;
 mod environment;
+#[cfg(test)]
+mod guides;
 mod output;
+mod program;
 mod selection;
 mod tables;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
-use suite::Error;
 
-use clap::FromArgMatches;
-use clap::error::ErrorKind;
-use filters::FilterError;
-
-use commands::Ending;
+use commands::ending::Ending;
 use environment::set_environment;
+use filters::FilterError;
 use output::interrupts::{INTERRUPTED_TEXT, catch_interrupts, interrupted_code};
 use output::print::{print_error, print_failure};
 use output::verbosity::set_output;
-
-pub use output::annotations::{annotations, summary};
-pub use output::junit::junit;
+use program::{Cli, execute, find_new_place};
+use store::printable;
+use suite::Error;
 
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
+pub use tables::annotations::{annotations, summary};
 pub use tables::cases::{run_table, score_table};
 pub use tables::check::check_text;
 pub use tables::comparison::compare_table;
+pub use tables::junit::junit;
 pub use tables::preferences::preferences_table;
 pub use tables::ranking::ranking_text;
 pub use tables::results_filter_page::{picture_name, results_filter_pages};
@@ -39,9 +49,10 @@ pub fn run_program() -> ExitCode {
     let is_verbose = |argument: OsString| argument == "-v" || argument == "--verbose";
     set_environment(std::env::args_os().any(is_verbose));
     catch_interrupts();
-    let arguments = parse_arguments().unwrap_or_else(|error| refuse_arguments(&error));
+    let arguments =
+        Cli::parse_words(std::env::args_os()).unwrap_or_else(|error| refuse_arguments(&error));
     set_output(arguments.output);
-    match commands::execute(arguments) {
+    match execute(&arguments.command) {
         Ok(Ending::Done) => ExitCode::SUCCESS,
         Ok(Ending::Failed(error)) => ExitCode::from(exit_code(&error)),
         Err(error) => {
@@ -52,13 +63,6 @@ pub fn run_program() -> ExitCode {
             ExitCode::from(exit_code(&error))
         }
     }
-}
-
-/// Parses the command line.
-fn parse_arguments() -> Result<arguments::Cli, clap::Error> {
-    let mut program = arguments::command_line();
-    let matches = program.try_get_matches_from_mut(std::env::args_os())?;
-    arguments::Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))
 }
 
 /// Chooses the exit code: 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than asked for
@@ -75,16 +79,14 @@ fn exit_code(error: &Error) -> u8 {
 
 /// Prints the error in the command line, or the help that it asks for.
 fn refuse_arguments(error: &clap::Error) -> ! {
-    let is_help = matches!(
-        error.kind(),
-        ErrorKind::DisplayHelp
-            | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
-            | ErrorKind::DisplayVersion
-    );
-    if is_help {
-        error.exit()
+    if let Some(place) = find_new_place(error) {
+        print_failure(&Error::Usage(place));
+        std::process::exit(error.exit_code())
     }
-    let words: Vec<OsString> = std::env::args_os().skip(1).collect();
-    print_failure(&Error::Usage(arguments::refusal_text(error, &words)));
-    std::process::exit(error.exit_code())
+    // Words may be names of files with control codes, which the message is to show as escapes.
+    let words = std::env::args_os().map(|word| printable(&word.to_string_lossy()).into_owned());
+    match Cli::parse_words(words) {
+        Err(error) => error.exit(),
+        Ok(_) => error.exit(),
+    }
 }

@@ -1,6 +1,6 @@
 //! Errors of loading and running filters.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Error of a filter. Every message names the place, what was found, what is allowed, and the way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -28,25 +28,15 @@ pub enum FilterError {
         reason: String,
     },
     /// A fault in a filter folder.
-    #[error("{}{}: {reason}", path.display(), line.map(|line| format!(":{line}")).unwrap_or_default())]
+    #[error("{}{}{}: {reason}", path.display(), after_colon(*line), after_colon(*column))]
     Folder {
         /// The file at fault, or the folder.
         path: PathBuf,
         /// Line in that file, from 1.
         line: Option<usize>,
-        /// Fault, and what is allowed.
-        reason: String,
-    },
-    /// Kernels that do not compile.
-    #[error("{}:{line}:{column}: {reason}", path.display())]
-    Kernels {
-        /// The WGSL file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: usize,
-        /// Column, from 1.
-        column: usize,
-        /// Message of naga, with the line itself and a mark below.
+        /// Column, from 1, where naga names one.
+        column: Option<usize>,
+        /// Fault, and what is allowed; of naga, with the line itself and a mark below.
         reason: String,
     },
     /// No built-in filter has that name.
@@ -137,4 +127,24 @@ pub enum FilterError {
         /// Message of wgpu.
         reason: String,
     },
+}
+
+impl FilterError {
+    /// Makes an error of a file in a filter folder, and of a line in it if it has one.
+    pub(crate) fn in_file(
+        path: &Path,
+        line: impl Into<Option<usize>>,
+        reason: impl Into<String>,
+    ) -> Self {
+        Self::Folder {
+            path: path.to_owned(),
+            line: line.into(),
+            column: None,
+            reason: reason.into(),
+        }
+    }
+}
+
+fn after_colon(number: Option<usize>) -> String {
+    number.map_or(String::new(), |number| format!(":{number}"))
 }

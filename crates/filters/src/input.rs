@@ -30,76 +30,46 @@ pub struct Input<'a> {
 }
 
 impl Input<'_> {
-    /// Refuses rasters of another size than `width` x `height`, and values that no frame holds.
+    /// Refuses rasters of another size than `size`, and values that no frame holds.
     pub(crate) fn check(
         &self,
         filter: &str,
-        [width, height]: [u32; 2],
+        size: [u32; 2],
         reads: CameraUse,
     ) -> Result<(), FilterError> {
-        let refuse = |reason: String| {
-            Err(FilterError::Input {
+        self.check_values(size)
+            .and(self.check_camera(reads))
+            .map_err(|reason| FilterError::Input {
                 filter: filter.to_owned(),
                 reason,
             })
-        };
+    }
+
+    fn check_values(&self, size: [u32; 2]) -> Result<(), String> {
         if !(self.exposure.is_finite() && self.exposure > 0.0) {
-            return refuse(format!(
+            return Err(format!(
                 "exposure is {} frames; allowed: above 0 and finite",
                 self.exposure
             ));
         }
-        let mut rasters = vec![
-            ("velocity", size(self.velocity)),
-            ("depth", size(self.depth)),
-        ];
-        rasters.extend(self.color.iter().map(|color| ("color", size(color))));
-        for (name, found) in rasters {
-            if found != [width, height] {
-                return refuse(format!(
-                    "{name} has {}x{} pixels; this blur was made for {width}x{height}",
-                    found[0], found[1]
-                ));
-            }
-        }
-        let finite = |values: &[f32]| values.iter().all(|value| value.is_finite());
-        let broken = [
-            (
-                "velocity",
-                "finite",
-                self.velocity.pixels.iter().position(|v| !finite(v)),
-            ),
-            (
-                "depth",
-                "finite and above 0",
-                self.depth
-                    .pixels
-                    .iter()
-                    .position(|z| !z.is_finite() || *z <= 0.0),
-            ),
-            (
-                "color",
-                "finite",
-                self.color
-                    .iter()
-                    .find_map(|color| color.pixels.iter().position(|c| !finite(c))),
-            ),
-        ];
-        for (name, allowed, index) in broken {
-            if let Some(index) = index {
-                let (x, y) = (index as u32 % width, index as u32 / width);
-                return refuse(format!("{name} at ({x}, {y}) is not {allowed}"));
-            }
-        }
+        check_raster("velocity", self.velocity, size, "finite", |v| is_finite(v))?;
+        check_raster("depth", self.depth, size, "finite and above 0", |z| {
+            z.is_finite() && *z > 0.0
+        })?;
+        (self.color.iter())
+            .try_for_each(|color| check_raster("color", color, size, "finite", |c| is_finite(c)))
+    }
+
+    fn check_camera(&self, reads: CameraUse) -> Result<(), String> {
         if reads.reprojection && self.reprojection.is_none() {
-            return refuse(
+            return Err(
                 "the frame does not say how the camera moved, which this filter reads; give it an attribute \
                  \"reprojection\" of twelve numbers, or choose another filter"
                     .to_owned(),
             );
         }
         if reads.matrices && self.camera.is_none() {
-            return refuse(
+            return Err(
                 "the frame does not say where its camera was, and this filter takes the camera's matrices; take a frame of \
                  `render`, give it the attributes \"camera\" and \"camera_before\", or choose another filter"
                     .to_owned(),
@@ -118,6 +88,35 @@ pub(crate) struct CameraUse {
     pub matrices: bool,
 }
 
-fn size<T>(raster: &Raster<T>) -> [u32; 2] {
-    [raster.width, raster.height]
+/// Returns true if no value is infinite or NaN.
+pub(crate) fn is_finite(values: &[f32]) -> bool {
+    values.iter().all(|value| value.is_finite())
+}
+
+fn check_raster<T>(
+    name: &str,
+    raster: &Raster<T>,
+    [width, height]: [u32; 2],
+    allowed: &str,
+    is_allowed: impl Fn(&T) -> bool,
+) -> Result<(), String> {
+    if [raster.width, raster.height] != [width, height] {
+        return Err(format!(
+            "{name} has {}x{} pixels; this blur was made for {width}x{height}",
+            raster.width, raster.height
+        ));
+    }
+    match find_pixel(raster, |pixel| !is_allowed(pixel)) {
+        None => Ok(()),
+        Some([x, y]) => Err(format!("{name} at ({x}, {y}) is not {allowed}")),
+    }
+}
+
+/// Finds the first pixel that `is_wanted`.
+pub(crate) fn find_pixel<T>(
+    raster: &Raster<T>,
+    is_wanted: impl Fn(&T) -> bool,
+) -> Option<[u32; 2]> {
+    let index = raster.pixels.iter().position(is_wanted)? as u32;
+    Some([index % raster.width, index / raster.width])
 }

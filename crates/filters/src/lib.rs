@@ -16,6 +16,7 @@
 
 mod command;
 mod error;
+mod expression;
 mod filter;
 mod gpu;
 mod input;
@@ -25,19 +26,18 @@ mod printable;
 mod shader;
 mod translate;
 
-pub use command::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
+pub use command::CommandBlur;
 pub use error::FilterError;
+pub(crate) use expression::Expression;
 pub use filter::{
-    Binding, BindingPlace, Code, Command, Convention, DepthKind, Expression, Filter, Growth,
-    History, Holds, Kind, Length, Parameter, Pass, PassShader, Preset, ReachBy, Repeat, Rounding,
-    SamplerFilter, Sampling, Scale, Settings, Source, Stage, Texture, TuningRecord, Unit, Value,
-    VelocitySign, VelocityTime, VelocityUnit, VertexShader, VerticalDirection, Wrap,
+    Code, Command, Convention, DepthKind, Filter, History, Holds, Kind, Parameter, Preset, ReachBy,
+    Scale, Settings, Source, Texture, TuningRecord, Unit, Value, VelocitySign, VelocityTime,
+    VelocityUnit, VerticalDirection,
 };
+pub(crate) use filter::{Length, Pass, Repeat, Rounding, Stage};
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,
-    MAX_TEXTURE_BYTES, PassTime, UploadedInput, list_adapters, try_out,
+    PassTime, UploadedInput, list_adapters, try_out,
 };
 pub use input::Input;
-pub use load::{MAX_KERNEL_BYTES, MAX_MANIFEST_BYTES};
-pub use manifest::{MAX_CHOICES, MAX_DISPATCHES, MAX_ENTRIES, MAX_MIPS};
-pub use shader::{Format, MAX_INLINED, MAX_INVOCATION_BYTES, MAX_NESTING};
+pub use shader::Format;

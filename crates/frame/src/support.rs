@@ -52,7 +52,7 @@ impl Support {
         if !(file.channels.iter()).any(|channel| channel.name.starts_with(&prefix)) {
             return Err(file.foreign(
                 "holds no support (channels support.*), which older versions of shuttertruth did not write; make it anew \
-                 with `shuttertruth render`"
+                 with `shuttertruth truths render`"
                     .to_owned(),
             ));
         }
@@ -61,7 +61,7 @@ impl Support {
             let plane: Plane = file.plane(&name)?;
             match (plane.pixels.iter()).find(|value| **value != 0.0 && **value != 1.0) {
                 Some(value) => Err(file.foreign(format!(
-                    "channel \"{name}\" holds {value}; allowed: 0 and 1; make the file anew with `shuttertruth render`"
+                    "channel \"{name}\" holds {value}; allowed: 0 and 1; make the file anew with `shuttertruth truths render`"
                 ))),
                 None => Ok(plane.map(|value| *value == 1.0)),
             }

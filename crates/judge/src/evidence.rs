@@ -41,7 +41,7 @@ fn add_evidence_of_truth(
     folder: &Path,
 ) -> Result<(), Error> {
     let (first, _) = &cases[0];
-    let own = folder.join(&first.scene);
+    let own = folder.join(first.scene.folder());
     let frame = Frame::read(&own.join("frame.exr"))?.cropped();
     let truth = Truth::read(&own.join(format!("truth_{}.exr", first.alignment)))?;
     let rung = own

@@ -3,10 +3,10 @@
 use filters::{Filter, Source};
 use maud::{Markup, html};
 use metrics::Metric;
-use suite::Case;
+use suite::{Case, FilterId};
 
 use crate::case_table::CaseTable;
-use crate::filter_id::{FilterId, case_anchor};
+use crate::filter_id::{case_anchor, section_anchor};
 use crate::numbers::value_text;
 use crate::overview::bench_file::cost_of;
 use crate::overview::costs::cost_text;
@@ -37,7 +37,7 @@ pub fn filter_section(table: &CaseTable, filter: &FilterId, thumbnails: &[String
             .all(|parameter| first.parameters.contains_key(&parameter.name))
     });
     html! {
-        article.filter id=(filter.section_anchor()) data-title=(filter.name) {
+        article.filter id=(section_anchor(filter)) data-title=(filter.name) {
             noscript {
                 div.case_head {
                     h2 tabindex="-1" { (filter.name) }
@@ -88,7 +88,7 @@ fn weakest(table: &CaseTable, cases: &[&Case], thumbnails: &[String]) -> Markup 
     columns.push(Column::Text("what the scene exposes"));
     let rows = html! {
         @for case in sorted {
-            @let place = table.scenes.iter().position(|scene| *scene == case.scene);
+            @let place = table.scenes.iter().position(|scene| **scene == case.scene);
             tr {
                 th scope="row" {
                     a.scene href=(format!("#{}", case_anchor(case))) {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use frame::{Raster, read_png, write_atomically, write_png};
 use metrics::Metric;
 use suite::{Case, Error, IDENTITY, Run};
+use tracer::SceneId;
 
 use crate::run_facts::command;
 
@@ -33,7 +34,7 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
     let mut truths = Vec::new();
     let mut page = introduction(run);
     for [best, worst] in entries {
-        let instant = read_png(&folder.join(&best.scene).join("frame.png"))?;
+        let instant = read_png(&folder.join(best.scene.folder()).join("frame.png"))?;
         let truth = read_truth(folder, best)?;
         let strip = [
             instant,
@@ -109,7 +110,7 @@ fn section(best: &Case, worst: &Case) -> String {
     text
 }
 
-fn strip_name(scene: &str) -> String {
+fn strip_name(scene: &SceneId) -> String {
     format!("{scene}.png")
 }
 
@@ -126,7 +127,7 @@ pub fn write_case_strip(case: &Case, folder: &Path, out: &Path) -> Result<(), Er
 /// Reads the truth that a case is scored against.
 fn read_truth(folder: &Path, case: &Case) -> Result<Picture, Error> {
     let name = format!("truth_{}.png", case.alignment);
-    Ok(read_png(&folder.join(&case.scene).join(name))?)
+    Ok(read_png(&folder.join(case.scene.folder()).join(name))?)
 }
 
 /// Reads the output of a case.

@@ -26,6 +26,7 @@ use frame::write_atomically;
 use judge::Finding;
 use maud::{Markup, PreEscaped};
 use suite::{Case, Error, Run};
+use tracer::SceneId;
 
 use case::case_view::CaseView;
 use case::{CaseTables, case_section};
@@ -132,7 +133,7 @@ impl<'a> Parts<'a> {
         &mut self,
         scene: usize,
         table: &CaseTable<'a>,
-        findings: &HashMap<(String, String), Vec<Finding>>,
+        findings: &HashMap<(SceneId, String), Vec<Finding>>,
         folder: &Path,
     ) -> Result<(), Error> {
         let own = || table.cases_on(table.scenes[scene]);

@@ -6,6 +6,7 @@ use filters::AdapterDescription;
 use frame::Alignment;
 use maud::{Markup, html};
 use suite::{Case, Run};
+use tracer::SceneId;
 
 use crate::case_table::CaseTable;
 use crate::table::Column::{Plain, Text};
@@ -118,7 +119,7 @@ pub fn truth_text(case: &Case) -> String {
 
 /// Writes a row per scene and shutter.
 fn truths(table: &CaseTable) -> Markup {
-    let mut shown: HashSet<(&str, Alignment)> = HashSet::new();
+    let mut shown: HashSet<(&SceneId, Alignment)> = HashSet::new();
     let cases = table.scenes.iter().flat_map(|scene| table.cases_on(scene));
     html! {
         @for (_, case) in cases.filter(|(_, own)| shown.insert((&own.scene, own.alignment))) {

@@ -160,7 +160,7 @@ fn list_items(run: &Run) -> Vec<Item> {
     if !run.frames.is_one() {
         let own = run.sequences.iter().filter(|own| !own.is_reference);
         let item = |own: &Sequence| Item {
-            scene: own.scene.clone(),
+            scene: own.scene.to_string(),
             filter: own.filter.clone(),
             alignment: own.alignment,
             frames: own.frames.clone(),
@@ -169,11 +169,11 @@ fn list_items(run: &Run) -> Vec<Item> {
     }
     let own = run.cases.iter().filter(|case| !case.is_reference);
     own.map(|case| Item {
-        scene: case.scene.clone(),
+        scene: case.scene.to_string(),
         filter: case.name(),
         alignment: case.alignment,
         frames: vec![SequenceFrame {
-            scene: PathBuf::from(&case.scene),
+            scene: case.scene.folder(),
             folder: case.folder.clone(),
             truth_hash: case.truth_hash.clone(),
             error: None,

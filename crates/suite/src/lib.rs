@@ -6,6 +6,7 @@ mod colors;
 mod engine_scene;
 mod error;
 mod filter;
+mod identity;
 mod measure;
 mod merge;
 mod monitor;
@@ -27,29 +28,28 @@ pub use engine_scene::{
     BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
 };
 pub use error::Error;
-pub use filter::border::Border;
 pub use filter::buffer_size::BufferSize;
 pub use filter::camera_jitter::CameraJitter;
 pub use filter::choice::FilterChoice;
 pub use filter::depth_format::DepthFormat;
 pub use filter::depth_of_field::DepthOfField;
-pub use filter::input_format::{InputFormat, InputForms};
+pub use filter::input_format::{InputForm, InputFormat, InputKind};
 pub use filter::multisampling::Multisampling;
 pub use filter::render_scale::RenderScale;
 pub use filter::runner::{Runner, open_adapter, open_gpu};
 pub use filter::shutter_rule::ShutterRule;
-pub use filter::velocity_defect::VelocityDefect;
 pub use filter::velocity_format::VelocityFormat;
+pub use identity::{CaseId, FilterId};
 pub use measure::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use measure::estimate::{
-    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run, estimate_run_roughly,
+    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
 };
 pub use measure::job_costs::{JobCost, SceneJobs, estimate_jobs, estimate_report};
 pub use measure::part::Part;
 pub use measure::plan::RunPlan;
 pub use measure::probes::{filter_input, pack_planes, unpack_planes};
 pub use measure::references::{TruthReferences, scene_viewing};
-pub use measure::scenes::{measure_scenes, measure_scenes_as_expected};
+pub use measure::scenes::measure_scenes;
 pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use merge::{MergedRun, holds_run, merge_runs};
 pub use monitor::{Monitor, Step};

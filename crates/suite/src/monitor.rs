@@ -8,8 +8,6 @@ use tracer::{Progress, Watch};
 pub trait Step: Sync {
     /// Notes how far the step is; called from any thread.
     fn advance(&self, progress: Progress);
-    /// Takes the expected seconds of the steps within this one, in their order. From now on progress counts these steps.
-    fn expect(&self, _seconds: &[f64]) {}
 }
 
 /// A caller's way to show and to interrupt long work.
@@ -41,13 +39,7 @@ impl Monitor {
 
     /// Does a step of long work, shows its progress by a label, and tells it to stop where the caller interrupts.
     pub fn watch<T>(&self, label: &str, work: impl FnOnce(Watch) -> T) -> T {
-        self.watch_steps(label, &[], work)
-    }
-
-    /// Does long work of several steps, of which the expected seconds are known, as [`watch`](Self::watch) does.
-    pub fn watch_steps<T>(&self, label: &str, seconds: &[f64], work: impl FnOnce(Watch) -> T) -> T {
         let step = (self.begin)(label);
-        step.expect(seconds);
         work(&|progress| {
             step.advance(progress);
             match (self.interrupted)() {

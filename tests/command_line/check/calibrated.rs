@@ -9,7 +9,7 @@ use crate::bench::{assert_done, split, stdout};
 fn calibrated_limits_pass_the_filter_and_fail_a_worse_one() {
     let bench = make_bounded(0.9, "required");
     let words = split(
-        "calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
+        "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
          velocity_gather:fine --metrics flip_moving,misplacement,bleed_leading,extent,psnr_moving",
     );
     let output = bench.shuttertruth(&words);
@@ -29,7 +29,7 @@ fn calibrated_limits_pass_the_filter_and_fail_a_worse_one() {
 fn limits_are_for_bounded_metrics_and_those_that_notice_changes_of_a_kernel_unless_named() {
     let bench = make_bounded(0.9, "required");
     let words = split(
-        "calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters velocity_gather:fine",
+        "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters velocity_gather:fine",
     );
     assert_done(&bench.shuttertruth(&words));
     let proposed = fs::read_to_string(bench.path("calibrated/plate.bounds.toml")).unwrap();
@@ -43,7 +43,7 @@ fn limits_are_for_bounded_metrics_and_those_that_notice_changes_of_a_kernel_unle
         "label_tv_p95",
         "static_contamination",
     ];
-    let help = stdout(&bench.shuttertruth(&["calibrate", "--help"]));
+    let help = stdout(&bench.shuttertruth(&["limits", "calibrate", "--help"]));
     for name in noticing {
         assert!(help.contains(name), "{name}: {help}");
     }

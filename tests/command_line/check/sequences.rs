@@ -124,7 +124,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     let other = bench.check(&[&IDENTITY[..], &["--frames", "2"]].concat());
     let parts = [
         "bounds.toml:4: the limit on flicker holds for sequences of 3 frames, and they are to have 2 frames",
-        "shuttertruth calibrate",
+        "shuttertruth limits calibrate",
     ];
     assert_refused(&other, 2, &parts);
 }
@@ -133,7 +133,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
 fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
     let bench = Bench::new();
     let words = split(
-        "calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
+        "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
          velocity_gather:fine --frames 2 --jitter-frames 0",
     );
     let refused = bench.shuttertruth(&[&words[..12], &["--metrics", "flicker"]].concat());

@@ -47,6 +47,7 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
     bench.write_filter("centre_blur", block("toml"), block("wgsl"));
     let head = block("toml").split_once("[[pass]]").unwrap().0;
     bench.execute(&[
+        "truths",
         "render",
         "--quiet",
         "--out",
@@ -61,6 +62,7 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
     let blur = |filter: &str, preset: &str, path: &Path| {
         let filter = format!("./{filter}:{preset}");
         let words = [
+            "engine",
             "blur",
             "--filter",
             &filter,

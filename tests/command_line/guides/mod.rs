@@ -19,11 +19,11 @@ use crate::links::find_pages;
 /// Commands that are not run, and why.
 const NOT_RUN: [(&str, &str); 46] = [
     (
-        "shuttertruth render --scenes railing --size 1920x1080 --alignments trailing,centred --noise 0.01 --samples-per-pixel 64 --replicates 2 --out out",
+        "shuttertruth truths render --scenes railing --size 1920x1080 --alignments trailing,centred --noise 0.01 --samples-per-pixel 64 --replicates 2 --out out",
         "takes minutes; a test renders both truths of a plate to a noise",
     ),
     (
-        "shuttertruth run --scenes railing@unlit,fan@unlit,crossing@unlit,pan_sky@unlit --filter bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --samples-per-pixel 64 --out out/rates --frame-rate 24,60,144 --shutter-time 1/120,1/48 --shutter-rule in_frames,in_time,in_time_capped,share_falls",
+        "shuttertruth run --scenes railing@unlit,fan@unlit,crossing@unlit,pan_sky@unlit --filter bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --samples-per-pixel 64 --out out/rates --frame-rate 24,60,144 --shutter-time 1/120,1/48 --input rule=in_frames,in_time,in_time_capped,share_falls",
         "renders truths of nine rates and shutters; a test does so on a plate",
     ),
     (
@@ -31,11 +31,11 @@ const NOT_RUN: [(&str, &str); 46] = [
         "renders four frames with enough samples for limits; a test does so on a plate",
     ),
     (
-        "shuttertruth calibrate --scenes fan --filter mcguire:paper --size 160x90 --frames 4 --runs 2 --out out/calibrated_sequence",
+        "shuttertruth limits calibrate --scenes fan --filter mcguire:paper --size 160x90 --frames 4 --runs 2 --out out/calibrated_sequence",
         "renders eight frames with enough samples for limits; a test does so on a plate",
     ),
     (
-        "shuttertruth run --scenes shallow_focus,shallow_focus@on_ball,shallow_focus@resting --filter identity,bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --depth-of-field after --out out/depth_of_field",
+        "shuttertruth run --scenes shallow_focus,shallow_focus@on_ball,shallow_focus@resting --filter identity,bevy:default,bevy:msaa,kino:default,jimenez:slides_2014,mcguire:tuned,jump_flood:corrected --velocity previous_frame --jitter-frames 0 --size 160x90 --input depth_of_field=after --out out/depth_of_field",
         "takes minutes; a test of the catalogue renders these scenes",
     ),
     (
@@ -113,11 +113,11 @@ const NOT_RUN: [(&str, &str); 46] = [
         "needs a capture, for which three.js is installed",
     ),
     (
-        "shuttertruth audit out/capture/railing",
+        "shuttertruth engine audit out/capture/railing",
         "needs a capture, for which three.js is installed",
     ),
     (
-        "shuttertruth ingest out/capture/railing",
+        "shuttertruth engine ingest out/capture/railing",
         "needs a capture, for which three.js is installed",
     ),
     (
@@ -169,7 +169,7 @@ const NOT_RUN: [(&str, &str); 46] = [
         "compiles the program again",
     ),
     (
-        "shuttertruth audit out/capture/frame_edge",
+        "shuttertruth engine audit out/capture/frame_edge",
         "needs a capture, for which three.js is installed",
     ),
     ("pip install numpy OpenEXR", "installs packages"),
@@ -179,7 +179,7 @@ const NOT_RUN: [(&str, &str); 46] = [
         "steps of a workflow, which GitHub runs",
     ),
     (
-        "shuttertruth preferences answers_*.json --run out/people",
+        "shuttertruth people preferences answers_*.json --run out/people",
         "needs answers of people, and nobody has answered yet",
     ),
     (
@@ -196,22 +196,22 @@ const NOT_RUN: [(&str, &str); 46] = [
 const PREPARED: [(&str, &str, &str); 11] = [
     (
         "README.md",
-        "shuttertruth import",
+        "shuttertruth engine import",
         "cp scenes/fan/fan.mtl . && cp scenes/fan/fan.obj my_model.obj",
     ),
     ("README.md", "shuttertruth compare", "cp -r out before"),
     (
         "README.md",
-        "shuttertruth audit",
-        "shuttertruth render --scenes fan --size 96x54 --samples-per-pixel 16 --velocity previous_frame --out drawn && \
+        "shuttertruth engine audit",
+        "shuttertruth truths render --scenes fan --size 96x54 --samples-per-pixel 16 --velocity previous_frame --out drawn && \
          mkdir my_capture && cd my_capture && echo '[convention]' > engine.toml && for name in color velocity depth; do cp \
          ../drawn/fan/frame.exr $name.exr; done && printf 'engine = \"my engine\"\nscene = \"fan\"\n' > capture.toml",
     ),
     (
         "docs/engine-frames.md",
-        "shuttertruth ingest",
+        "shuttertruth engine ingest",
         // An engine that draws a still picture: a frame file has all channels that a capture needs.
-        "shuttertruth render --scenes fan --size 96x54 --samples-per-pixel 16 && mkdir -p captures/fan/subframes && \
+        "shuttertruth truths render --scenes fan --size 96x54 --samples-per-pixel 16 && mkdir -p captures/fan/subframes && \
          cd captures/fan && echo '[convention]' > engine.toml && for name in color velocity depth blurred subframes/0000 \
          subframes/0001 subframes/0002 subframes/0003; do cp ../../out/fan/frame.exr $name.exr; done && printf \
          'engine = \"my engine 1.0\"\\nscene = \"fan\"\\nexposure = 0.5\\nalignment = \"trailing\"\\n' > capture.toml",
@@ -233,8 +233,8 @@ const PREPARED: [(&str, &str, &str); 11] = [
     ),
     (
         "docs/truths.md",
-        "shuttertruth merge",
-        "shuttertruth render --scenes fan --replicates 1..2 --size 96x54 --samples-per-pixel 16 --out part1",
+        "shuttertruth truths merge",
+        "shuttertruth truths render --scenes fan --replicates 1..2 --size 96x54 --samples-per-pixel 16 --out part1",
     ),
     (
         "crates/suite/README.md",
@@ -248,7 +248,7 @@ const PREPARED: [(&str, &str, &str); 11] = [
     ),
     (
         "scenes/README.md",
-        "shuttertruth import",
+        "shuttertruth engine import",
         "cp scenes/fan/fan.mtl . && cp scenes/fan/fan.obj my_model.obj",
     ),
 ];

@@ -17,21 +17,27 @@ const QUICK: [(&str, &str, &[&str]); 5] = [
     (
         "--size",
         "96x54",
-        &["run", "render", "bench", "tune", "compare-presets"],
+        &[
+            "run",
+            "truths render",
+            "bench",
+            "tune search",
+            "tune compare",
+        ],
     ),
     (
         "--samples-per-pixel",
         "16",
-        &["run", "render", "tune", "compare-presets"],
+        &["run", "truths render", "tune search", "tune compare"],
     ),
-    ("--budget", "6", &["tune"]),
+    ("--budget", "6", &["tune search"]),
     ("--rows", "2", &[]),
     ("--noise", "0.05", &[]),
 ];
 
 /// Options that are added to a command where the page leaves them out, and means all scenes or filters.
 const NARROWED: [(&str, &str, &[&str]); 2] = [
-    ("--scenes", "fan", &["run", "check", "tune"]),
+    ("--scenes", "fan", &["run", "check", "tune search"]),
     ("--filter", "mcguire:paper", &["bench"]),
 ];
 
@@ -48,10 +54,14 @@ pub fn shorten(command: &str) -> String {
     };
     let mut words: Vec<String> = words.split(' ').map(str::to_owned).collect();
     let command = words[0].clone();
-    let named = |commands: &[&str]| commands.contains(&command.as_str());
+    let grouped = words.iter().take(2).cloned().collect::<Vec<_>>().join(" ");
+    let named = |commands: &[&str]| {
+        let names = [command.as_str(), grouped.as_str()];
+        commands.iter().any(|name| names.contains(name))
+    };
     for (option, value, commands) in QUICK {
         match words.iter().position(|word| word == option) {
-            Some(at) if !named(&["check", "calibrate"]) => words[at + 1] = value.to_owned(),
+            Some(at) if !named(&["check", "limits calibrate"]) => words[at + 1] = value.to_owned(),
             None if named(commands) => words.extend([option, value].map(str::to_owned)),
             _ => {}
         }
@@ -79,8 +89,8 @@ fn a_long_command_becomes_quick() {
             "shuttertruth run --table --size 96x54 --samples-per-pixel 16 --scenes fan",
         ),
         (
-            "shuttertruth calibrate --size 160x90",
-            "shuttertruth calibrate --size 160x90",
+            "shuttertruth limits calibrate --size 160x90",
+            "shuttertruth limits calibrate --size 160x90",
         ),
         (
             "shuttertruth check out/run.json",

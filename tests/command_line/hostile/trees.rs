@@ -16,7 +16,9 @@ fn render(bench: &Bench, more_faces: &str) -> Output {
 
 /// Renders the scene, and fails if that takes long.
 fn render_soon(bench: &Bench, more: &[&str]) -> Output {
-    let words = ["render", "--quiet", "--out", "out", "--size", "16x16"];
+    let words = [
+        "truths", "render", "--quiet", "--out", "out", "--size", "16x16",
+    ];
     let samples = ["--scenes", "plate", "--samples-per-pixel", "16"];
     let began = Instant::now();
     let output = bench.shuttertruth(&[&words[..], &samples, more].concat());
@@ -160,7 +162,9 @@ fn samples_and_threads_beyond_the_limits_are_refused() {
     let bench = Bench::new();
     let refused = |words: &[&str], part: &str| {
         let words = [
-            &["render", "--quiet", "--out", "out", "--scenes", "plate"],
+            &[
+                "truths", "render", "--quiet", "--out", "out", "--scenes", "plate",
+            ],
             words,
         ]
         .concat();
@@ -186,7 +190,8 @@ fn a_render_that_exceeds_memory_is_refused_before_it_begins() {
     let bench = Bench::new();
     let limited = |size: &str| {
         let program = env!("CARGO_BIN_EXE_shuttertruth");
-        let words = "render --quiet --out out --scenes plate --samples-per-pixel 16 --threads 1";
+        let words =
+            "truths render --quiet --out out --scenes plate --samples-per-pixel 16 --threads 1";
         let script = format!("ulimit -v 1258291 && exec {program} {words} --size {size}");
         let mut shell = std::process::Command::new("sh");
         shell.current_dir(bench.path("")).args(["-c", &script]);
@@ -194,7 +199,7 @@ fn a_render_that_exceeds_memory_is_refused_before_it_begins() {
     };
     let began = Instant::now();
     let parts = [
-        "scene plate: needs about 14.",
+        "scene plate: needs about 16.",
         "GiB for 4096x4096",
         "are free",
         "smaller size",

@@ -18,7 +18,7 @@ const NAME: &str = "mine@Test_Engine_1.2";
 const OUT: &str = "out/engine/mine";
 
 fn ingest(bench: &Bench) -> String {
-    bench.execute(&split("ingest capture --quiet -o out/engine/mine"))
+    bench.execute(&split("engine ingest capture --quiet -o out/engine/mine"))
 }
 
 /// Relative error of a half float, and of a few roundings of single ones.
@@ -72,7 +72,7 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
         assert!(told.contains(words), "{words}\n{told}");
     }
     bench.execute(&split(
-        "render --quiet --scenes plate --size 96x54 --samples-per-pixel 256",
+        "truths render --quiet --scenes plate --size 96x54 --samples-per-pixel 256",
     ));
     let read = |path: &str| Truth::read(&bench.path(path)).unwrap();
     let engines = read("out/engine/mine/truth_trailing.exr");
@@ -102,7 +102,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
     Capture::new(&bench).with_subframes(32);
     ingest(&bench);
     let words = "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 64 --filter identity,jump_flood:paper \
-                 --velocity-format float32";
+                 --input velocity=float32";
     let printed = bench.execute(&split(words));
     assert!(printed.contains("Test_Engine_1.2"), "{printed}");
     let run = bench.read_run();
@@ -133,7 +133,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
         (drawn.engine.as_str(), drawn.subframes),
         ("Test Engine 1.2", 32)
     );
-    assert_eq!(drawn.scene.as_deref(), Some("plate"));
+    assert_eq!(drawn.scene, Some("plate".parse().unwrap()));
     assert!(case("plate", "identity").drawn.is_none());
     // What an engine's pictures do not tell is absent, and not zero.
     for metric in [

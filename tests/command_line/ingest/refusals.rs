@@ -10,7 +10,7 @@ use super::ingest;
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr};
 
 fn try_ingest(bench: &Bench) -> Output {
-    bench.shuttertruth(&split("ingest capture -o out/engine/mine"))
+    bench.shuttertruth(&split("engine ingest capture -o out/engine/mine"))
 }
 
 /// Changes the files of a capture, looks at the refusal, and puts the files back.
@@ -126,13 +126,13 @@ fn folders_that_are_no_captures_are_refused() {
         fs::write(capture.path("color.png"), "").unwrap();
     });
     assert_done(&try_ingest(&bench));
-    let words = split("ingest capture -o capture");
+    let words = split("engine ingest capture -o capture");
     assert_refused(
         &bench.shuttertruth(&words),
         2,
         &["--out capture", "is the capture itself"],
     );
-    let words = split("ingest capture -o out/a@b");
+    let words = split("engine ingest capture -o out/a@b");
     assert_refused(
         &bench.shuttertruth(&words),
         2,

@@ -44,18 +44,18 @@ fn what_an_engine_drew_is_not_rendered_otherwise() {
             ["no filter is left", "trailing shutter"],
         ),
         (
-            "run --scenes out/engine/mine --velocity-defect half,lag",
+            "run --scenes out/engine/mine --input defect=half,lag",
             [
-                "--velocity-defect lag: needs the scene's own motion",
+                "defect=lag: needs the scene's own motion",
                 "zero, double, half, flip_y, jittered",
             ],
         ),
         (
-            "render --scenes out/engine/mine",
+            "truths render --scenes out/engine/mine",
             ["holds what an engine drew", "`run` and `check`"],
         ),
         (
-            "calibrate --scenes out/engine/mine",
+            "limits calibrate --scenes out/engine/mine",
             ["does not change from run to run", "bounds.toml"],
         ),
     ] {
@@ -83,7 +83,7 @@ fn files_of_two_captures_are_not_mixed() {
         // Another name of the scene is no other capture, another exposure is one.
         let changed = DESCRIPTION.replace("0.5", "0.25");
         fs::write(bench.path("capture/capture.toml"), changed).unwrap();
-        bench.execute(&split("ingest capture --quiet -o out/engine/other"));
+        bench.execute(&split("engine ingest capture --quiet -o out/engine/other"));
         fs::copy(bench.path("out/engine/other").join(name), &own).unwrap();
         let words = split("run --quiet --scenes out/engine/mine --filter identity");
         let refusal = bench.shuttertruth(&words);
@@ -110,9 +110,9 @@ fn frames_of_a_run_are_not_overwritten() {
     let bench = Bench::new();
     Capture::new(&bench);
     bench.execute(&split(
-        "render --quiet --scenes plate --size 64x32 --samples-per-pixel 16",
+        "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16",
     ));
-    let refusal = bench.shuttertruth(&split("ingest capture -o out/plate"));
+    let refusal = bench.shuttertruth(&split("engine ingest capture -o out/plate"));
     assert_refused(
         &refusal,
         2,
@@ -122,6 +122,6 @@ fn frames_of_a_run_are_not_overwritten() {
             "new folder",
         ],
     );
-    let refusal = bench.shuttertruth(&split("ingest capture -o scenes/plate"));
+    let refusal = bench.shuttertruth(&split("engine ingest capture -o scenes/plate"));
     assert_refused(&refusal, 2, &["holds a scene"]);
 }

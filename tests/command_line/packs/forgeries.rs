@@ -26,8 +26,8 @@ fn a_truth_of_an_engine_is_no_success() {
         "only that engine can draw",
         "--scenes",
     ];
-    assert_refused(&bench.shuttertruth(&["verify"]), 2, &parts);
-    bench.execute(&["verify", "--scenes", "plate"]);
+    assert_refused(&bench.shuttertruth(&["truths", "verify"]), 2, &parts);
+    bench.execute(&["truths", "verify", "--scenes", "plate"]);
 }
 
 /// A scene of this program is traced, whatever its files say.
@@ -38,7 +38,7 @@ fn a_file_that_says_that_an_engine_drew_it_is_traced() {
         let path = bench.path("out/plate").join(file);
         let honest = fs::read(&path).unwrap();
         mark_drawn(&path);
-        bench.execute(&["pack", "--out", "forged.tar.zst"]);
+        bench.execute(&["truths", "pack", "--out", "forged.tar.zst"]);
         let parts = [file, "attribute engine holds \"another\""];
         refuse(&bench, &parts);
         fs::write(&path, honest).unwrap();
@@ -62,7 +62,7 @@ fn a_kept_file_that_says_that_an_engine_drew_it_is_rendered_again() {
         let drawn = frame::read_attribute(&bench.path("fresh/plate").join(&file), "engine");
         assert_eq!(drawn, None, "{file}");
     }
-    bench.execute(&["verify", "fresh"]);
+    bench.execute(&["truths", "verify", "fresh"]);
 }
 
 /// Changes one attribute after another in all kept files, with right checksums, and the checksum itself.
@@ -143,7 +143,7 @@ fn no_pack_turns_a_failed_check_into_a_success() {
         replicate.write(&path).unwrap();
     }
     renew_truth(&bench, "out");
-    let pack = || drop(bench.execute(&["pack", "--out", "forged.tar.zst"]));
+    let pack = || drop(bench.execute(&["truths", "pack", "--out", "forged.tar.zst"]));
     let refuse_check = |parts: &[&str]| {
         let output = check("forged.tar.zst");
         assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
@@ -173,7 +173,7 @@ fn no_pack_turns_a_failed_check_into_a_success() {
 fn replicates_beyond_those_of_the_truth_are_traced_too() {
     let bench = packed();
     bench.execute(&split(
-        "render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --replicates 16 --out more",
+        "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --replicates 16 --out more",
     ));
     for index in REPLICATES..2 * REPLICATES {
         let file = format!("plate/truth_trailing/replicate_{index:03}.exr");
@@ -183,12 +183,12 @@ fn replicates_beyond_those_of_the_truth_are_traced_too() {
         )
         .unwrap();
     }
-    bench.execute(&["verify"]);
+    bench.execute(&["truths", "verify"]);
     let path = bench.path("out/plate/truth_trailing/replicate_012.exr");
     let mut replicate = Replicate::read(&path).unwrap();
     replicate.picture.color.pixels.fill([9.0; 3]);
     replicate.write(&path).unwrap();
-    let verify = ["verify", "--tiles", "100"];
+    let verify = ["truths", "verify", "--tiles", "100"];
     let parts = ["replicate_012.exr", "channel"];
     assert_refused(&bench.shuttertruth(&verify), 1, &parts);
     replicate.provenance.engine = Some("another".to_owned());
@@ -202,13 +202,17 @@ fn replicates_beyond_those_of_the_truth_are_traced_too() {
 fn replicates_without_a_truth_are_traced_too() {
     let bench = Bench::new();
     bench.execute(&split(
-        "render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --replicates 3..5 --out part",
+        "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --replicates 3..5 --out part",
     ));
-    let printed = bench.execute(&["verify", "part"]);
+    let printed = bench.execute(&["truths", "verify", "part"]);
     assert!(printed.starts_with("part: 1 tile of "), "{printed}");
     mark_drawn(&bench.path("part/plate/truth_trailing/replicate_004.exr"));
     let parts = ["replicate_004.exr", "attribute engine"];
-    assert_refused(&bench.shuttertruth(&["verify", "part"]), 1, &parts);
+    assert_refused(
+        &bench.shuttertruth(&["truths", "verify", "part"]),
+        1,
+        &parts,
+    );
 }
 
 /// Manifest of a filter of one pass.
@@ -224,7 +228,7 @@ entry = "work"
 /// Refuses `forged.tar.zst` in `verify`, and in a run, which leaves nothing of it.
 #[track_caller]
 fn refuse(bench: &Bench, parts: &[&str]) {
-    let verified = bench.shuttertruth(&["verify", "forged.tar.zst"]);
+    let verified = bench.shuttertruth(&["truths", "verify", "forged.tar.zst"]);
     assert_refused(&verified, 1, parts);
     let words = "run --filter identity --truths forged.tar.zst --out fresh";
     let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());

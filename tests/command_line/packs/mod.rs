@@ -30,7 +30,7 @@ fn run(bench: &Bench, filters: &str, more: &[&str]) {
 fn packed() -> Bench {
     let bench = Bench::new();
     run(&bench, "identity", &[]);
-    bench.execute(&["pack"]);
+    bench.execute(&["truths", "pack"]);
     bench
 }
 

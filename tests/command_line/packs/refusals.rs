@@ -11,7 +11,7 @@ use crate::bench::{Bench, assert_refused, make_fifo, quick_command, split};
 
 #[track_caller]
 fn refuse_to_pack(bench: &Bench, words: &[&str], parts: &[&str]) {
-    let all = [&["pack"], words, &["--out", "none.tar.zst"]].concat();
+    let all = [&["truths", "pack"], words, &["--out", "none.tar.zst"]].concat();
     assert_refused(&bench.shuttertruth(&all), 2, parts);
     assert!(!bench.path("none.tar.zst").exists());
 }
@@ -45,8 +45,7 @@ fn what_is_no_finished_run_is_not_packed() {
         fs::write(&path, &bytes).unwrap();
     }
     // Another truth in the folder than the run was measured with.
-    let render =
-        "render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --seed 2 --out out";
+    let render = "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --seed 2 --out out";
     bench.execute(&split(render));
     let parts = ["plate/truth_trailing.exr", "the run was measured with"];
     refuse_to_pack(&bench, &[], &parts);
@@ -78,7 +77,7 @@ impl Parts {
     #[track_caller]
     fn refused(&self, parts: &[&str]) {
         let parts = [&["forged.tar.zst"], parts].concat();
-        let verify = ["verify", "forged.tar.zst"];
+        let verify = ["truths", "verify", "forged.tar.zst"];
         assert_refused(&self.bench.shuttertruth(&verify), 2, &parts);
         let words = "run --filter identity --truths forged.tar.zst --out fresh";
         let output = (self.bench).shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
@@ -255,7 +254,7 @@ fn an_archive_that_was_cut_off_or_goes_on_is_refused() {
 fn a_file_whose_header_has_another_hash_than_the_manifest_is_refused() {
     let parts = Parts::new();
     run(&parts.bench, "identity", &["--seed", "2", "--out", "other"]);
-    let pack = ["pack", "other", "--out", "other.tar.zst"];
+    let pack = ["truths", "pack", "other", "--out", "other.tar.zst"];
     parts.bench.execute(&pack);
     let other = entries(&parts.bench.path("other.tar.zst"));
     let other: Manifest = serde_json::from_slice(&other[0].bytes).unwrap();

@@ -64,7 +64,7 @@ fn a_check_from_a_pack_renders_nothing_and_has_the_same_scores() {
     };
     check(&[]);
     mark(&bench, "out");
-    bench.execute(&["pack", "out", "--out", "kept/truths.tar.zst"]);
+    bench.execute(&["truths", "pack", "out", "--out", "kept/truths.tar.zst"]);
     fs::create_dir(bench.path("elsewhere")).unwrap();
     fs::rename(bench.path("kept"), bench.path("elsewhere/kept")).unwrap();
     let pack = "elsewhere/kept/truths.tar.zst";
@@ -99,7 +99,7 @@ fn one_run_gives_one_archive_with_the_manifest_first() {
         fs::create_dir_all(to.parent().unwrap()).unwrap();
         fs::write(to, fs::read(&file).unwrap()).unwrap();
     }
-    let printed = bench.execute(&["pack", "copy", "--out", "again.tar.zst"]);
+    let printed = bench.execute(&["truths", "pack", "copy", "--out", "again.tar.zst"]);
     assert_contains(&printed, &["written: again.tar.zst", "1 truth in 17 files"]);
     assert!(fs::read(bench.path("again.tar.zst")).unwrap() == first);
 
@@ -128,7 +128,7 @@ fn one_run_gives_one_archive_with_the_manifest_first() {
 fn a_pack_of_chosen_scenes_leaves_the_others_to_be_rendered() {
     let bench = Bench::two_scenes();
     run(&bench, "identity", &[]);
-    bench.execute(&["pack", "--scenes", "sl*"]);
+    bench.execute(&["truths", "pack", "--scenes", "sl*"]);
     let words = "run --filter identity --truths truths.tar.zst --out fresh";
     let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
     assert_done(&output);
@@ -162,7 +162,7 @@ fn later_frames_of_sequences_are_packed_too() {
     let sequence = "--filter identity --frames 2";
     run(&bench, "identity", &["--frames", "2"]);
     mark(&bench, "out");
-    bench.execute(&["pack"]);
+    bench.execute(&["truths", "pack"]);
     let words = [&["run"], &split(sequence)[..], &split(QUICK)].concat();
     let more = ["--truths", "truths.tar.zst", "--out", "fresh"];
     let output = bench.shuttertruth(&[&words[..], &more].concat());
@@ -170,7 +170,7 @@ fn later_frames_of_sequences_are_packed_too() {
     assert_contains(&stderr(&output), &["; nothing is rendered"]);
     assert!(rendered(&bench, "fresh") == rendered(&bench, "out"));
     assert_eq!(scores(&bench, "fresh"), scores(&bench, "out"));
-    let printed = bench.execute(&["verify", "truths.tar.zst"]);
+    let printed = bench.execute(&["truths", "verify", "truths.tar.zst"]);
     assert_contains(
         &printed,
         &["6 tiles of 16x16", "2 truths equal to the mean"],
@@ -180,7 +180,11 @@ fn later_frames_of_sequences_are_packed_too() {
 #[test]
 fn plans_and_calibrations_take_packs() {
     let bench = packed();
-    let words = [&["plan", "--filter", "identity"], &split(QUICK)[..]].concat();
+    let words = [
+        &["truths", "plan", "--filter", "identity"],
+        &split(QUICK)[..],
+    ]
+    .concat();
     let plan = bench.execute(&[&words[..], &["--truths", "truths.tar.zst", "--json"]].concat());
     assert!(!plan.contains("truths/plate"), "they are in the pack");
     for line in plan.lines() {
@@ -189,8 +193,7 @@ fn plans_and_calibrations_take_packs() {
         let inputs = job["inputs"].to_string();
         assert_eq!(inputs.contains("truths.tar.zst"), measures, "{line}");
     }
-    let words =
-        "calibrate --filter identity --size 64x32 --samples-per-pixel 16 --runs 2 --out seeds";
+    let words = "limits calibrate --filter identity --size 64x32 --samples-per-pixel 16 --runs 2 --out seeds";
     let more = ["--truths", "truths.tar.zst"];
     let output = bench.shuttertruth(&[&split(words)[..], &more].concat());
     assert_done(&output);
@@ -215,11 +218,11 @@ fn a_pack_removes_what_a_killed_one_left_and_nothing_else() {
     ] {
         fs::write(bench.path(name), "").unwrap();
     }
-    bench.execute(&["pack"]);
+    bench.execute(&["truths", "pack"]);
     assert!(!there(".shuttertruth-killed.tmp"));
     assert!(there(".shuttertruth-notes") && there("kept.tmp"));
     fs::create_dir(bench.path("below")).unwrap();
     fs::write(bench.path("below/.shuttertruth-killed.tmp"), "").unwrap();
-    bench.execute(&["pack", "--out", "below/truths.tar.zst"]);
+    bench.execute(&["truths", "pack", "--out", "below/truths.tar.zst"]);
     assert!(!there("below/.shuttertruth-killed.tmp"));
 }

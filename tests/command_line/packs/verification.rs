@@ -11,7 +11,7 @@ use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 
 /// Verifies and returns what is printed as JSON.
 fn verify(bench: &Bench, words: &[&str]) -> Value {
-    let printed = bench.execute(&[&["verify", "--json"], words].concat());
+    let printed = bench.execute(&[&["truths", "verify", "--json"], words].concat());
     serde_json::from_str(&printed).unwrap()
 }
 
@@ -38,7 +38,7 @@ fn honest_truths_are_equal_on_any_number_of_threads() {
     // Both shutters, a guard band, and an exposure that no scene has.
     let more = "--exposure 0.3 --guard-band 3 --velocity previous_frame";
     run(&bench, "identity,kino:default", &split(more));
-    bench.execute(&["pack"]);
+    bench.execute(&["truths", "pack"]);
     let mut all = Vec::new();
     for (truths, threads) in [("out", "1"), ("out", "3"), ("truths.tar.zst", "2")] {
         let words = ["--seed", "7", "--tiles", "5", "--threads", threads, truths];
@@ -51,13 +51,13 @@ fn honest_truths_are_equal_on_any_number_of_threads() {
     }
     assert_eq!(all[0], all[1]);
     assert_eq!(all[0], all[2]);
-    let printed = bench.execute(&["verify"]);
+    let printed = bench.execute(&["truths", "verify"]);
     assert!(
         printed.starts_with("out: 5 tiles of 16x16 pixels traced again and equal; 2 truths"),
         "{printed}"
     );
     // A choice that nobody named is another one each time.
-    assert_ne!(printed, bench.execute(&["verify"]));
+    assert_ne!(printed, bench.execute(&["truths", "verify"]));
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn a_bit_in_a_replicate_is_found_where_a_tile_covers_it() {
     let before = fs::read(bench.path(&file)).unwrap();
     forge(&bench, "out", &file, (y * 64 + x) as usize);
     // Pack and manifest are made anew: all hashes are right.
-    bench.execute(&["pack", "--out", "forged.tar.zst"]);
+    bench.execute(&["truths", "pack", "--out", "forged.tar.zst"]);
     let below = Path::new(&file).strip_prefix("out").unwrap();
     let place = format!(
         "forged.tar.zst/{}: pixel ({x}, {y}) of its channel R",
@@ -82,9 +82,16 @@ fn a_bit_in_a_replicate_is_found_where_a_tile_covers_it() {
         "render plate again",
         "seed 7",
     ];
-    let output = bench.shuttertruth(&["verify", "forged.tar.zst", "--seed", "7"]);
+    let output = bench.shuttertruth(&["truths", "verify", "forged.tar.zst", "--seed", "7"]);
     assert_refused(&output, 1, &parts);
-    let output = bench.shuttertruth(&["verify", "forged.tar.zst", "--seed", "7", "--json"]);
+    let output = bench.shuttertruth(&[
+        "truths",
+        "verify",
+        "forged.tar.zst",
+        "--seed",
+        "7",
+        "--json",
+    ]);
     assert_eq!(output.status.code(), Some(1));
     let verified: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(verified["differences"].as_array().unwrap().len(), 1);
@@ -100,7 +107,7 @@ fn a_bit_in_a_replicate_is_found_where_a_tile_covers_it() {
     let folder = bench.path("out/plate/ladder_trailing");
     fs::rename(&folder, bench.path("ladder")).unwrap();
     verify(&bench, &["--seed", "7"]);
-    let many = ["verify", "--seed", "7", "--tiles", "200"];
+    let many = ["truths", "verify", "--seed", "7", "--tiles", "200"];
     let parts = [other.as_str(), "pixel (20, 12) of its channel R"];
     assert_refused(&bench.shuttertruth(&many), 1, &parts);
 }
@@ -117,7 +124,7 @@ fn a_truth_that_is_not_the_mean_of_its_replicates_is_found_wherever_it_differs()
         "out/plate/truth_trailing.exr: is not the mean of its replicates: pixel (9, 5)",
         "use none of these files",
     ];
-    let output = bench.shuttertruth(&["verify", "--seed", "1"]);
+    let output = bench.shuttertruth(&["truths", "verify", "--seed", "1"]);
     assert_refused(&output, 1, &parts);
 }
 
@@ -132,7 +139,7 @@ fn a_frame_and_a_rung_are_verified_too() {
     let pixel = (y * 64 + x) as usize;
     let refused = |channel: &str| {
         let place = format!("{file}: pixel ({x}, {y}) of its channel {channel}");
-        let output = bench.shuttertruth(&["verify", "--seed", "3"]);
+        let output = bench.shuttertruth(&["truths", "verify", "--seed", "3"]);
         assert_refused(&output, 1, &[&place]);
     };
     let mut frame = whole.clone();
@@ -153,7 +160,7 @@ fn a_frame_and_a_rung_are_verified_too() {
     rung.rungs[0].halves[1].color.pixels[(y * 64 + x) as usize][2] += 1.0;
     rung.write(&path).unwrap();
     let place = format!("{file}: pixel ({x}, {y}) of its channel n");
-    let output = bench.shuttertruth(&["verify", "--seed", "3"]);
+    let output = bench.shuttertruth(&["truths", "verify", "--seed", "3"]);
     assert_refused(&output, 1, &[&place]);
 }
 
@@ -172,7 +179,7 @@ fn a_run_takes_nothing_from_a_pack_of_forged_truths() {
         replicate.write(&path).unwrap();
     }
     renew_truth(&bench, "out");
-    bench.execute(&["pack", "--out", "forged.tar.zst"]);
+    bench.execute(&["truths", "pack", "--out", "forged.tar.zst"]);
     let words = "run --filter identity --truths forged.tar.zst --out fresh";
     let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
     let parts = [
@@ -196,10 +203,10 @@ fn truths_of_another_scene_are_no_truths_of_this_one() {
         "out/plate/truth_trailing.exr: was made of another scene",
         "render it again",
     ];
-    assert_refused(&bench.shuttertruth(&["verify"]), 1, &parts);
+    assert_refused(&bench.shuttertruth(&["truths", "verify"]), 1, &parts);
     fs::remove_dir_all(bench.path("scenes/plate")).unwrap();
     assert_refused(
-        &bench.shuttertruth(&["verify"]),
+        &bench.shuttertruth(&["truths", "verify"]),
         2,
         &["scenes: holds no scene"],
     );
@@ -208,7 +215,7 @@ fn truths_of_another_scene_are_no_truths_of_this_one() {
 #[test]
 fn what_holds_no_truth_is_refused() {
     let bench = packed();
-    let verify = |words: &[&str]| bench.shuttertruth(&[&["verify"], words].concat());
+    let verify = |words: &[&str]| bench.shuttertruth(&[&["truths", "verify"], words].concat());
     assert_refused(
         &verify(&["nowhere"]),
         2,
@@ -224,7 +231,7 @@ fn what_holds_no_truth_is_refused() {
     );
     // A truth without ladder or frame, as `render` leaves it, is verified as far as it goes.
     bench.execute(&split(
-        "render --quiet --scenes plate --samples-per-pixel 16 --out r",
+        "truths render --quiet --scenes plate --samples-per-pixel 16 --out r",
     ));
     let output = verify(&["r"]);
     assert_done(&output);

@@ -20,7 +20,7 @@ const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
 fn make_study(bench: &Bench, more: &[&str]) -> Study {
     bench.add_slow_scene();
     assert_done(&bench.run(&[&["--filters", FILTERS][..], more].concat()));
-    let written = bench.execute(&["ask", "out", "--out", "page", "--json"]);
+    let written = bench.execute(&["people", "ask", "out", "--out", "page", "--json"]);
     let written: Value = serde_json::from_str(&written).unwrap();
     assert_eq!(written["page"], "page/index.html");
     serde_json::from_value(written["study"].clone()).unwrap()
@@ -99,7 +99,7 @@ fn write_answers(bench: &Bench, files: &[AnswerFile]) -> Vec<String> {
 
 fn preferences<'a>(answers: &'a [String], more: &[&'a str]) -> Vec<&'a str> {
     let answers = answers.iter().map(String::as_str);
-    ["preferences"]
+    ["people", "preferences"]
         .into_iter()
         .chain(answers)
         .chain(more.iter().copied())
@@ -123,6 +123,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
         assert_eq!(picture(copy), picture(original), "{copy}");
     }
     let text = bench.execute(&[
+        "people",
         "ask",
         "out",
         "--out",
@@ -143,7 +144,8 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
         ],
     );
     finish_half_a_page(&bench);
-    let ask = |more: &[&'static str]| [&["ask", "out", "--out", "new"][..], more].concat();
+    let ask =
+        |more: &[&'static str]| [&["people", "ask", "out", "--out", "new"][..], more].concat();
     for (words, parts) in [
         (
             ask(&["--filters", "identity"]),
@@ -163,13 +165,13 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
         (ask(&["--pairs", "2"]), &["allows 2 pairs", "3 or more"]),
         (
             ask(&["--question", "best"]),
-            &["--question best is not known"],
+            &["'best' for '--question <QUESTION>'", "better"],
         ),
         (
-            vec!["ask", "out", "--out", "page"],
+            vec!["people", "ask", "out", "--out", "page"],
             &["page: holds 2 files or folders", "a new folder"],
         ),
-        (vec!["ask", "none"], &["no such file"]),
+        (vec!["people", "ask", "none"], &["no such file"]),
     ] {
         assert_refused(&bench.shuttertruth(&words), 2, parts);
         assert!(!bench.path("new").exists(), "{words:?}");
@@ -286,7 +288,7 @@ fn finish_half_a_page(bench: &Bench) {
     fs::create_dir_all(half.join("pictures")).unwrap();
     fs::write(half.join("pictures/99_0.png"), "of another study").unwrap();
     fs::write(half.join(".shuttertruth-killed.tmp"), "").unwrap();
-    let ask = ["ask", "out", "--out", "half"];
+    let ask = ["people", "ask", "out", "--out", "half"];
     let parts = ["half: holds 1 files or folders", "a new folder"];
     assert_refused(&bench.shuttertruth(&ask), 2, &parts);
     fs::write(half.join(".shuttertruth.unfinished"), "").unwrap();

@@ -88,7 +88,7 @@ fn answers_that_no_page_of_this_run_asked_for_are_refused() {
     let refuse_text = |text: &str, parts: &[&str]| {
         fs::write(bench.path("answers_0.json"), text).unwrap();
         assert_refused(
-            &bench.shuttertruth(&["preferences", "answers_0.json"]),
+            &bench.shuttertruth(&["people", "preferences", "answers_0.json"]),
             2,
             parts,
         );

@@ -6,7 +6,7 @@ use tune::{Sensitivity, Tuning};
 
 use crate::bench::{Bench, assert_refused, split};
 
-const TUNE: &str = "tune --quiet --filter jump_flood --from paper --vary samples=2..16,jitter,foreground_extent --objective flip,bleed \
+const TUNE: &str = "tune search --quiet --filter jump_flood --from paper --vary samples=2..16,jitter,foreground_extent --objective flip,bleed \
                     --scenes plate,slow --size 64x32 --samples-per-pixel 16 --out tuned";
 
 fn set_up() -> Bench {
@@ -107,7 +107,7 @@ fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
 fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
     let bench = set_up();
     let words: Vec<&str> = TUNE.split_whitespace().skip(1).collect();
-    bench.execute(&[&["sensitivity", "--rows", "4"], &words[..]].concat());
+    bench.execute(&[&["tune", "sensitivity", "--rows", "4"], &words[..]].concat());
     let page = make_page(&bench);
     let found: Sensitivity =
         serde_json::from_slice(&fs::read(bench.path("tuned/sensitivity.json")).unwrap()).unwrap();
@@ -133,7 +133,7 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
         &[
             "tuned/sensitivity.json",
             "no Sobol indices",
-            "`shuttertruth tune`",
+            "`shuttertruth tune search`",
         ],
     );
 }

@@ -15,7 +15,7 @@ const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames
 
 /// Plans a command; returns one job per line.
 fn plan(bench: &Bench, words: &[&str]) -> Vec<Value> {
-    let text = bench.execute(&[&["plan"], words, &["--json"]].concat());
+    let text = bench.execute(&[&["truths", "plan"], words, &["--json"]].concat());
     let lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
     lines.collect()
 }

@@ -7,7 +7,7 @@ use crate::bench::{Bench, assert_refused, split};
 
 #[track_caller]
 fn refused(bench: &Bench, parts: &[&str], found: &[&str]) {
-    let output = bench.shuttertruth(&[&["merge"], parts, &["--out", "whole"]].concat());
+    let output = bench.shuttertruth(&[&["truths", "merge"], parts, &["--out", "whole"]].concat());
     assert_refused(&output, 2, found);
     assert!(
         !bench.path("whole").exists(),
@@ -152,7 +152,7 @@ fn truths_are_not_looked_for_in_vain() {
     };
     let found = [
         "--truths nowhere: there is no such folder",
-        "render --ladders",
+        "truths render --ladders",
     ];
     assert_refused(&run(&["--truths", "nowhere"]), 2, &found);
     let output = run(&["--truths", "scenes", "--no-cache"]);
@@ -192,7 +192,7 @@ fn nothing_behind_a_link_is_taken() {
         std::os::unix::fs::symlink(bench.path(target), path).unwrap();
     };
     link("slow/slow/ladder_trailing", "plate");
-    bench.execute(&["merge", "plate", "slow", "--out", "without"]);
+    bench.execute(&["truths", "merge", "plate", "slow", "--out", "without"]);
     assert!(!bench.path("without/slow/ladder_trailing").exists());
     link("slow/slow/frame.png", "secret");
     let found = ["no part holds slow/frame.png, or it is a link"];
@@ -220,5 +220,5 @@ fn parts_without_all_of_their_pictures_are_refused() {
         assert!(!bench.path("whole").exists());
         fs::write(&path, whole).unwrap();
     }
-    bench.execute(&["merge", "plate", "slow", "--out", "whole"]);
+    bench.execute(&["truths", "merge", "plate", "slow", "--out", "whole"]);
 }

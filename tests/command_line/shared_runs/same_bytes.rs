@@ -69,7 +69,7 @@ fn jobs_of_a_calibration_leave_nothing_to_measure() {
     let before = measured(&shared);
     let printed = execute(&shared, last);
     assert_eq!(measured(&shared), before, "a case was measured again");
-    let words = [&["calibrate"], &words[..]].concat();
+    let words = [&["limits", "calibrate"], &words[..]].concat();
     assert_eq!(printed, alone.execute(&words));
 }
 
@@ -102,7 +102,7 @@ fn a_plan_is_a_table_or_one_line_per_job() {
     // Three presets take longer than one, and eight references longer still.
     assert!(seconds("filters/plate/velocity_gather") > seconds("filters/plate/identity"));
     assert!(seconds("references/plate") > seconds("filters/plate/identity"));
-    let table = bench.execute(&[&["plan"], &words[..]].concat());
+    let table = bench.execute(&[&["truths", "plan"], &words[..]].concat());
     for name in names {
         assert!(table.contains(name), "{name} is missing from:\n{table}");
     }
@@ -112,7 +112,7 @@ fn a_plan_is_a_table_or_one_line_per_job() {
 #[test]
 fn parts_made_by_hand_are_joined_without_a_plan() {
     let bench = two_parts();
-    let output = bench.shuttertruth(&["merge", "plate", "slow", "--out", "both"]);
+    let output = bench.shuttertruth(&["truths", "merge", "plate", "slow", "--out", "both"]);
     assert_done(&output);
     assert_eq!(stdout(&output), "both/run.json (16 cases of 2 parts)\n");
     let words = [&["run"], &split(QUICK)[..], &["--filter", "identity"]].concat();
@@ -126,7 +126,9 @@ fn parts_made_by_hand_are_joined_without_a_plan() {
     assert_eq!(read("both"), read("out"));
     bench.execute(&["report", "both"]);
     // A part twice is no other run.
-    let words = ["merge", "plate", "slow", "plate", "--out", "twice"];
+    let words = [
+        "truths", "merge", "plate", "slow", "plate", "--out", "twice",
+    ];
     bench.execute(&words);
     assert_eq!(read("twice"), read("both"));
 }
@@ -134,8 +136,7 @@ fn parts_made_by_hand_are_joined_without_a_plan() {
 #[test]
 fn truths_of_another_folder_are_taken_if_their_inputs_are_the_same() {
     let bench = Bench::new();
-    let render =
-        "render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --ladders --out kept";
+    let render = "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --ladders --out kept";
     bench.execute(&split(render));
     let with = |out: &str, more: &[&str]| {
         let words = ["run", "--filter", "identity", "--out", out];
@@ -206,7 +207,7 @@ fn a_plan_of_a_user_s_own_files_names_them() {
 #[test]
 fn jobs_of_frame_rates_make_the_files_of_one_process() {
     let words = format!(
-        "{QUICK} --filter identity --frame-rate 24,144 --shutter-time 1/48 --shutter-rule in_frames --scenes plate"
+        "{QUICK} --filter identity --frame-rate 24,144 --shutter-time 1/48 --input rule=in_frames --scenes plate"
     );
     assert_jobs_equal_one_process(&split(&words));
 }

@@ -74,7 +74,7 @@ fn a_tuning_beats_its_start_and_records_the_way() {
 
     // The choice in the file equals the choice in tune.json.
     let params = bench.path("out/params.json");
-    let words = split("evaluate --quiet --filter jump_flood --from paper --params");
+    let words = split("tune evaluate --quiet --filter jump_flood --from paper --params");
     let scene = split("--scenes a --size 64x32 --samples-per-pixel 16 --out out");
     let params = [params.to_str().unwrap(), "--objective", "flip,bleed"];
     let output = bench.shuttertruth(&[&words[..], &params, &scene].concat());
@@ -116,7 +116,7 @@ fn a_trial_scores_like_a_run() {
     assert_done(&bench.run(&["--filters", "jump_flood:paper", "--scenes", "a,b,c,d,e,f,g"]));
     let trial = &parse_trials(&read_journal(&bench, "out"))[0];
     for case in bench.read_filter_cases() {
-        let score = trial.scenes[&case.scene];
+        let score = trial.scenes[&case.scene.to_string()];
         assert_eq!(
             Some(score.flip),
             case.scores.moving.flip.value(),
@@ -145,7 +145,7 @@ fn with_preset(bench: &Bench, preset: &str) -> Filter {
 #[test]
 fn two_presets_are_compared_scene_by_scene() {
     let bench = set_up();
-    let words = split("compare-presets paper corrected --quiet --filter jump_flood");
+    let words = split("tune compare paper corrected --quiet --filter jump_flood");
     let more = split("--scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --out out");
     let output = bench.shuttertruth(&[&words[..], &more].concat());
     assert_done(&output);
@@ -160,22 +160,22 @@ fn two_presets_are_compared_scene_by_scene() {
         text.contains("over 7 scenes: corrected is better"),
         "{text}"
     );
-    let same = split("compare-presets paper paper --quiet --filter jump_flood");
+    let same = split("tune compare paper paper --quiet --filter jump_flood");
     let output = bench.shuttertruth(&[&same[..], &more].concat());
     let text = unwrap_lines(stdout(&output));
     assert!(
         text.contains("+0.0 %, 90 % CI +0.0 % to +0.0 %, over 7 scenes: undecided"),
         "{text}"
     );
-    let old = split("tune --quiet --filter jump_flood --compare paper,tuned");
+    let old = split("tune search --quiet --filter jump_flood --compare paper,tuned");
     let output = bench.shuttertruth(&[&old[..], &more].concat());
-    assert_refused(&output, 2, &["--compare", "shuttertruth compare-presets"]);
+    assert_refused(&output, 2, &["--compare", "shuttertruth tune compare"]);
 }
 
 #[test]
 fn a_study_finds_the_parameters_that_matter() {
     let bench = set_up();
-    let words = split("sensitivity --quiet --filter jump_flood --from corrected --rows 4");
+    let words = split("tune sensitivity --quiet --filter jump_flood --from corrected --rows 4");
     let more = split("--vary samples,behind_extent --scenes a,b --size 64x32");
     let few = ["--samples-per-pixel", "16", "--out", "out"];
     let output = bench.shuttertruth(&[&words[..], &more, &few].concat());
@@ -205,7 +205,7 @@ fn a_study_finds_the_parameters_that_matter() {
 #[test]
 fn cost_is_relative_to_the_start() {
     let bench = set_up();
-    let words = split("tune --quiet --filter jump_flood --vary samples --scenes a");
+    let words = split("tune search --quiet --filter jump_flood --vary samples --scenes a");
     let more = split("--size 64x32 --samples-per-pixel 16 --budget 6 --out out");
     bench.execute(&[&words[..], &more].concat());
     let trials = parse_trials(&read_journal(&bench, "out"));

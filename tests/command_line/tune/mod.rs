@@ -42,7 +42,7 @@ fn set_up() -> Bench {
 }
 
 /// Tuning of five parameters on six scenes, by scores that do not depend on a clock.
-const TUNE: &str = "tune --quiet --filter jump_flood --from paper \
+const TUNE: &str = "tune search --quiet --filter jump_flood --from paper \
     --vary samples=2..16,probes,match_threshold,jitter,foreground_extent --objective flip,bleed \
     --scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --budget";
 

@@ -45,7 +45,7 @@ fn bad_tunings_are_refused_and_leave_no_files() {
         ("--out", "out"),
     ];
     for (more, parts) in rows {
-        let mut words = vec!["tune", "--quiet", "--objective", "flip"];
+        let mut words = vec!["tune", "search", "--quiet", "--objective", "flip"];
         if more[0] == "--objective" {
             words.truncate(2);
         }
@@ -63,7 +63,7 @@ fn bad_tunings_are_refused_and_leave_no_files() {
             "{more:?} left something behind"
         );
     }
-    let still = split("tune --quiet --filter jump_flood --scenes g --size 64x32 --out out");
+    let still = split("tune search --quiet --filter jump_flood --scenes g --size 64x32 --out out");
     let few = ["--samples-per-pixel", "16"];
     let output = bench.shuttertruth(&[&still[..], &few].concat());
     assert_refused(
@@ -76,7 +76,8 @@ fn bad_tunings_are_refused_and_leave_no_files() {
 #[test]
 fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
     let bench = set_up();
-    let words = split("tune --quiet --filter jump_flood --from paper --vary samples=2..16,jitter");
+    let words =
+        split("tune search --quiet --filter jump_flood --from paper --vary samples=2..16,jitter");
     let few = split("--objective flip --scenes a,b --size 64x32 --samples-per-pixel 16 --out out");
     fs::create_dir(bench.path("out")).unwrap();
     fs::write(bench.path("out/preset.toml"), "of an earlier tuning").unwrap();
@@ -115,6 +116,8 @@ fn a_failing_candidate_is_reported_and_the_tuning_goes_on() {
     let tune = |filter| {
         let words = [
             "tune",
+            "search",
+            "search",
             "--quiet",
             "--allow-commands",
             "--filter",

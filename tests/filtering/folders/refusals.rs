@@ -33,7 +33,7 @@ fn a_wrong_folder_is_refused_with_place_and_reason() {
         ("filter.toml", "name = \"fine\"", "name = \"fine\"\ntuned = { by = \"a\", from = \"slow\", seed = 1, trials = 9, size = [8, 8], samples_per_pixel = 8, scenes = [] }", &["filter.toml:", "preset \"fine\"", "tuned from \"slow\", which is no preset before it"]),
         ("filter.toml", "name = \"fine\"", "name = \"fine\"\ntuned = { by = \"a\", from = \"fast\" }", &["filter.toml:", "missing field", "seed"]),
         ("filter.toml", "rg32float", "rg8unorm", &["rg8unorm", "rg32float"]),
-        ("filter.toml", "rg32float", "rgba32float", &["centre_blur.wgsl:11:", "tile_motion_out", "Rg32Float", "Rgba32Float"]),
+        ("filter.toml", "rg32float", "rgba32float", &["centre_blur.wgsl:11:", "tile_motion_out", "rg32float", "rgba32float"]),
         ("filter.toml", "divided_by = \"tile_size\"", "divided_by = \"spacing\"", &["tile_motion", "spacing", "integer parameter"]),
         ("filter.toml", "divided_by = \"tile_size\"", "divided_by = \"tile\"", &["tile_motion", "\"tile\" is no parameter"]),
         ("filter.toml", "[[texture]]", "[[texture]]\nname = \"tile_motion\"\nformat = \"r32float\"\n[[texture]]", &["tile_motion", "declared twice"]),
@@ -68,7 +68,7 @@ fn a_wrong_folder_is_refused_with_place_and_reason() {
         ("kernels", "let tile = vec2<i32>(id.xy);", "let tile = vec2<i32>(id.xy)", &["centre_blur.wgsl:", "expected `;`"]),
         ("kernels", "let tile = vec2<i32>(id.xy);", "let tile = id.xy;", &["centre_blur.wgsl:"]),
         ("kernels", "fn gather(", "fn bilinear() {}\n@compute @workgroup_size(8, 8)\nfn gather(", &["centre_blur.wgsl", "bilinear"]),
-        ("kernels", "rgba32float, write", "rgba8unorm, write", &["\"output\" has another format than the image", "rgba32float or rgba16float"]),
+        ("kernels", "rgba32float, write", "rgba8unorm, write", &["writes \"output\" as rgba8unorm", "rgba32float or rgba16float"]),
         ("kernels", "rgba32float, write", "rgba8snorm, write", &["\"output\" cannot be bound", "rgba32float"]),
     ];
     for (file, from, to, fragments) in wrong {

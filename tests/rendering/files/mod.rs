@@ -83,7 +83,7 @@ fn a_truth_without_a_support_is_refused_with_the_way_out() {
     let message = refused(&old);
     assert!(
         message.contains("truth.exr: holds no support")
-            && message.contains("`shuttertruth render`"),
+            && message.contains("`shuttertruth truths render`"),
         "{message}"
     );
     let mut part = whole.clone();
@@ -290,7 +290,7 @@ fn a_foreign_exr_is_refused_with_its_missing_channels() {
         "{message}"
     );
     assert!(
-        message.contains("shuttertruth render"),
+        message.contains("shuttertruth truths render"),
         "no way out: {message}"
     );
     let message = read_exr(&path).unwrap().plane("Z").unwrap_err().to_string();

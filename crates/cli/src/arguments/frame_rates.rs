@@ -5,7 +5,7 @@ use suite::Error;
 use tracer::FrameRate;
 use tracer::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
 
-use crate::selection::split_variant;
+use crate::selection::split_scene;
 
 /// Frame rates and shutter times to try on every scene.
 #[derive(Clone, Debug, Args)]
@@ -54,11 +54,10 @@ impl FrameRateArgs {
         let mut all = Vec::new();
         for name in names {
             let own = name.trim_end_matches(['/', '\\']);
-            let variant = split_variant(own).1;
-            if variant.is_some_and(|variant| FrameRate::split_variant(variant).1.is_some()) {
-                return Err(Error::Usage(format!(
+            if split_scene(own).1.rate.is_some() {
+                refuse!(
                     "--frame-rate: {name} has a frame rate of its own; allowed: scenes and variants without one"
-                )));
+                );
             }
             let at_rates = rates.iter().map(|rate| format!("{own}@{}", rate.word()));
             let at_rates: Vec<String> = at_rates.collect();
@@ -72,10 +71,10 @@ impl FrameRateArgs {
 fn refuse_twins(option: &str, all: &[f64], text: impl Fn(&f64) -> String) -> Result<(), Error> {
     for (index, value) in all.iter().enumerate() {
         if all[..index].contains(value) {
-            return Err(Error::Usage(format!(
+            refuse!(
                 "{option}: {} is named twice; allowed: each once",
                 text(value)
-            )));
+            );
         }
     }
     Ok(())

@@ -1,64 +1,113 @@
 //! Arguments on the forms in which filters get their frames.
 
 use clap::Args;
-use suite::{
-    Border, BufferSize, CameraJitter, DepthFormat, DepthOfField, InputForms, Multisampling,
-    RenderScale, ShutterRule, VelocityDefect, VelocityFormat,
-};
+use suite::{InputForm, InputFormat, InputKind};
 
-use super::parse::parse_named;
+use crate::selection::suggest_names;
 
 /// Forms to try on every filter beside the full one.
 #[derive(Clone, Debug, Args)]
 pub struct InputFormArgs {
-    /// Formats of the velocity buffer to try on every filter beside 32-bit floats, separated by commas.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(VelocityFormat::ALL, VelocityFormat::name, VelocityFormat::help), value_delimiter = ',', value_name = "FORMATS")]
-    pub velocity_format: Vec<VelocityFormat>,
-    /// Defects of the velocity buffer to try on every filter beside the right one, separated by commas. They show what each costs.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(VelocityDefect::ALL, VelocityDefect::name, VelocityDefect::help), value_delimiter = ',', value_name = "DEFECTS")]
-    pub velocity_defect: Vec<VelocityDefect>,
-    /// Formats of the depth buffer to try beside 32-bit floats, separated by commas.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(DepthFormat::ALL, DepthFormat::name, DepthFormat::help), value_delimiter = ',', value_name = "FORMATS")]
-    pub depth_format: Vec<DepthFormat>,
-    /// Content beyond the border to try beside each filter's own, separated by commas; see also --guard-band.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(Border::ALL, Border::name, Border::help), value_delimiter = ',', value_name = "POLICIES")]
-    pub border: Vec<Border>,
-    /// Sizes of the velocity and depth buffers to try beside the full one, separated by commas. Colour stays full.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(BufferSize::ALL, BufferSize::name, BufferSize::help), value_delimiter = ',', value_name = "SIZES")]
-    pub buffer_size: Vec<BufferSize>,
-    /// Frames of 4 samples per pixel to try, separated by commas: which sample velocity and depth come from. Colour is the mean of all.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(Multisampling::ALL, Multisampling::name, Multisampling::help), value_delimiter = ',', value_name = "SAMPLES")]
-    pub msaa: Vec<Multisampling>,
-    /// Frames of a jittered camera to try, as temporal anti-aliasing has it, separated by commas.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(CameraJitter::ALL, CameraJitter::name, CameraJitter::help), value_delimiter = ',', value_name = "FORMS")]
-    pub camera_jitter: Vec<CameraJitter>,
-    /// Frames that are rendered at 50, 67 or 77 % of the picture's width and height to try, separated by commas; blurred before or
-    /// after they are upscaled.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(RenderScale::ALL, RenderScale::name, RenderScale::help), value_delimiter = ',', value_name = "SCALES")]
-    pub render_scale: Vec<RenderScale>,
-    /// Rules by which every filter sets its exposure at another frame rate to try beside the truth's exposure, separated by commas. They
-    /// show what a filter costs that does not follow the shutter.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(ShutterRule::ALL, ShutterRule::name, ShutterRule::help), value_delimiter = ',', value_name = "RULES")]
-    pub shutter_rule: Vec<ShutterRule>,
-    /// Places of depth of field to try, in scenes whose camera has a lens, separated by commas: before motion blur, or after.
-    #[arg(help_heading = "Inputs of filters", long, value_parser = parse_named(DepthOfField::ALL, DepthOfField::name, DepthOfField::help), value_delimiter = ',', value_name = "PLACES")]
-    pub depth_of_field: Vec<DepthOfField>,
+    /// Form of the input to try on every filter, beside the full one and apart from others: velocity=float16; repeatable, and
+    /// velocity=float16,linear8 are two. shuttertruth list inputs prints the kinds and their forms.
+    #[arg(help_heading = "Filters", long, value_name = "KIND=FORM", value_parser = parse_input)]
+    pub input: Vec<InputForms>,
 }
 
+/// The forms of one option.
+#[derive(Clone, Debug)]
+pub struct InputForms(Vec<InputFormat>);
+
 impl InputFormArgs {
-    /// Lists the forms part by part.
-    pub fn input_forms(&self) -> InputForms {
-        InputForms {
-            velocity: self.velocity_format.clone(),
-            depth: self.depth_format.clone(),
-            border: self.border.clone(),
-            defect: self.velocity_defect.clone(),
-            buffers: self.buffer_size.clone(),
-            msaa: self.msaa.clone(),
-            jitter: self.camera_jitter.clone(),
-            scale: self.render_scale.clone(),
-            rule: self.shutter_rule.clone(),
-            depth_of_field: self.depth_of_field.clone(),
+    /// Lists the full form, and then each of the others alone, so that a change of scores has one cause.
+    pub fn one_by_one(&self) -> Vec<InputFormat> {
+        let mut formats = vec![InputFormat::default()];
+        for format in self.input.iter().flat_map(|forms| &forms.0) {
+            if !formats.contains(format) {
+                formats.push(*format);
+            }
+        }
+        formats
+    }
+}
+
+/// Parses `velocity=float16,linear8` or `velocity=float16,depth=float16`.
+fn parse_input(text: &str) -> Result<InputForms, String> {
+    let kinds = InputFormat::kinds();
+    let mut kind = None;
+    let mut formats = Vec::new();
+    for part in text.split(',') {
+        let form = match part.split_once('=') {
+            None => part,
+            Some((name, form)) => {
+                kind = Some(find_kind(&kinds, name)?);
+                form
+            }
+        };
+        let kind = kind.ok_or("allowed: KIND=FORM, such as velocity=float16")?;
+        formats.push(find_form(&kinds[kind], form)?.format);
+    }
+    Ok(InputForms(formats))
+}
+
+fn find_kind(kinds: &[InputKind], name: &str) -> Result<usize, String> {
+    (kinds.iter().position(|kind| kind.name == name)).ok_or_else(|| {
+        let known: Vec<String> = kinds.iter().map(|kind| kind.name.to_owned()).collect();
+        format!(
+            "no kind of input \"{name}\"; {}",
+            suggest_names(name, &known)
+        )
+    })
+}
+
+fn find_form<'a>(kind: &'a InputKind, name: &str) -> Result<&'a InputForm, String> {
+    (kind.forms.iter().find(|form| form.name == name)).ok_or_else(|| {
+        let known: Vec<String> = kind.forms.iter().map(|form| form.name.to_owned()).collect();
+        format!(
+            "no form \"{name}\" of {}; {}",
+            kind.name,
+            suggest_names(name, &known)
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_form_is_tried_alone_and_once() {
+        let words = [
+            "velocity=float32,linear8,border=clamp",
+            "depth=float16",
+            "border=leave,clamp",
+        ];
+        let input = words
+            .iter()
+            .map(|text| parse_input(text).unwrap())
+            .collect();
+        let formats = InputFormArgs { input }.one_by_one();
+        let changes: Vec<_> = formats.iter().filter_map(InputFormat::change).collect();
+        assert_eq!(formats[0], InputFormat::default());
+        assert_eq!(
+            changes,
+            ["velocity=linear8", "border=clamp", "depth=float16"]
+        );
+    }
+
+    #[test]
+    fn what_is_no_form_gets_a_suggestion() {
+        for (text, expected) in [
+            ("float16", "allowed: KIND=FORM"),
+            ("velocty=float16", "did you mean velocity?"),
+            ("depth=flaot16", "did you mean float16?"),
+            (
+                "depth=float16,",
+                "no form \"\" of depth; allowed: float32, float16",
+            ),
+        ] {
+            let error = parse_input(text).unwrap_err();
+            assert!(error.contains(expected), "{error}");
         }
     }
 }

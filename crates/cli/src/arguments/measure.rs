@@ -1,11 +1,11 @@
-//! Arguments of commands that measure scenes: `run`, `check` and `calibrate`.
+//! Arguments of commands that measure scenes: `run`, `check` and `limits calibrate`.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::input_forms::InputFormArgs;
-use super::parse::{parse_jitter_frames, parse_size, parse_whole};
+use super::parse::{parse_size, within};
 use super::programs::ProgramArgs;
 use super::scenes::SceneArgs;
 
@@ -43,14 +43,13 @@ pub struct MeasureArgs {
         help_heading = "Scenes and files",
         long,
         value_name = "N",
-        default_value_t = 8,
-        value_parser = parse_whole::<u32>
+        default_value_t = 8
     )]
     pub replicates: u32,
     #[command(flatten)]
     pub forms: InputFormArgs,
     /// Frames to run a noisy filter on, to tell its noise from its other errors; 0 for none.
-    #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = parse_jitter_frames)]
+    #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = within::<u32>(0..=1024))]
     pub jitter_frames: u32,
     /// Pack, or folder with frames, truths and ladders that lie as in --out. Those of the same inputs are taken from there, and not
     /// rendered.

@@ -1,9 +1,8 @@
 //! Parsers of single values on the command line.
 
-use std::ops::Range;
-use std::str::FromStr;
+use std::ops::{Range, RangeBounds};
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
 use store::MOST_REPLICATES;
 use suite::{MOST_FRAMES, SIDES};
 use tune::Objective;
@@ -33,16 +32,25 @@ pub fn parse_named<T: Copy + Send + Sync + 'static>(
     })
 }
 
-/// Parses a whole number.
-pub fn parse_whole<T: FromStr>(text: &str) -> Result<T, String> {
-    text.parse()
-        .map_err(|_| "allowed: a whole number, 0 or more, and not too large".to_owned())
+/// Parses a whole number in a range.
+pub fn within<T: TryFrom<u64> + Clone + Send + Sync + 'static>(
+    range: impl RangeBounds<u64>,
+) -> RangedU64ValueParser<T> {
+    RangedU64ValueParser::new().range(range)
 }
 
-/// Parses an exposure; whoever uses it checks its range.
-pub fn parse_exposure(text: &str) -> Result<f64, String> {
-    text.parse()
-        .map_err(|_| "allowed: a number above 0, such as 0.5".to_owned())
+/// Parses a number of frames of a sequence.
+pub fn frame_count() -> RangedU64ValueParser<u32> {
+    within(1..=u64::from(MOST_FRAMES))
+}
+
+/// Parses a number above 0 and up to another one.
+pub fn above_zero(most: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number <= most => Ok(number),
+        _ if most == f64::MAX => Err("allowed: a number above 0".to_owned()),
+        _ => Err(format!("allowed: a number above 0 and up to {most}")),
+    }
 }
 
 /// Parses `640x360`.
@@ -82,74 +90,10 @@ pub fn parse_replicates(text: &str) -> Result<Replicates, String> {
     })
 }
 
-/// Parses a number of rounds, enough for quartiles.
-pub fn parse_rounds(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(rounds @ 20..=10_000) => Ok(rounds),
-        _ => Err("allowed: 20 to 10000; fewer say nothing about the spread".to_owned()),
-    }
-}
-
-/// Parses a number of tiles.
-pub fn parse_tiles(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(count @ 1..=10_000) => Ok(count),
-        _ => Err("allowed: 1 to 10000".to_owned()),
-    }
-}
-
-/// Parses a number of runs, enough for a spread.
-pub fn parse_runs(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(runs @ 2..=100) => Ok(runs),
-        _ => Err("allowed: 2 to 100; one run says nothing about the spread".to_owned()),
-    }
-}
-
-/// Parses a number of frames, which are kept in memory together.
-pub fn parse_jitter_frames(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(frames @ 0..=1024) => Ok(frames),
-        _ => Err("allowed: 0 to 1024".to_owned()),
-    }
-}
-
-/// Parses a number of frames of a sequence.
-pub fn parse_frames(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(count @ 1..=MOST_FRAMES) => Ok(count),
-        _ => Err(format!("allowed: 1 to {MOST_FRAMES}")),
-    }
-}
-
-/// Parses a number of frames per second.
-pub fn parse_per_second(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(rate) if rate > 0.0 && rate <= 1000.0 => Ok(rate),
-        _ => Err("allowed: a number above 0 and up to 1000, such as 60".to_owned()),
-    }
-}
-
-/// Parses a number of candidates, walks or rows.
-pub fn parse_effort(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(count @ 0..=1_000_000) => Ok(count),
-        _ => Err("allowed: 0 to 1000000".to_owned()),
-    }
-}
-
 /// Parses a pattern as shells have it.
 pub fn parse_glob(text: &str) -> Result<glob::Pattern, String> {
     glob::Pattern::new(text)
         .map_err(|error| format!("{error}; allowed: a pattern such as 'fan/*' or '*/jump_flood:*'"))
-}
-
-/// Parses a radiance above 0.
-pub fn parse_noise(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(target) if target > 0.0 && target.is_finite() => Ok(target),
-        _ => Err("allowed: a radiance above 0, such as 0.002".to_owned()),
-    }
 }
 
 /// Parses `1.2x`.
@@ -192,14 +136,6 @@ pub fn parse_objective(text: &str) -> Result<Objective, String> {
         .ok_or_else(|| "allowed: flip, bleed, cost".to_owned())
 }
 
-/// Parses minutes above 0.
-pub fn parse_minutes(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(minutes) if minutes > 0.0 && minutes <= 1e6 => Ok(minutes),
-        _ => Err("allowed: a number of minutes above 0".to_owned()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -238,18 +174,10 @@ mod tests {
     }
 
     #[test]
-    fn rounds_suffice_for_quartiles() {
-        assert_eq!(parse_rounds("20"), Ok(20));
-        for wrong in ["19", "0", "-1", "many", "1000000", "20.5"] {
-            assert!(parse_rounds(wrong).is_err(), "{wrong} must be refused");
-        }
-    }
-
-    #[test]
-    fn a_noise_target_is_above_zero() {
-        assert_eq!(parse_noise("0.002"), Ok(0.002));
-        for wrong in ["0", "-1", "nan", "inf", "low"] {
-            assert!(parse_noise(wrong).is_err(), "{wrong} must be refused");
+    fn a_number_is_above_zero_and_bounded() {
+        assert_eq!(above_zero(1.0)("0.002"), Ok(0.002));
+        for wrong in ["0", "-1", "nan", "inf", "low", "1.1"] {
+            assert!(above_zero(1.0)(wrong).is_err(), "{wrong} must be refused");
         }
     }
 

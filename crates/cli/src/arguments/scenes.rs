@@ -5,12 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
 use suite::Error;
-use tracer::{FrameRate, Location, RenderSettings};
+use tracer::{Location, RenderSettings, SceneId};
 
 use super::frame_rates::FrameRateArgs;
-use super::parse::{parse_exposure, parse_whole};
 use super::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::selection::split_variant;
+use crate::selection::split_scene;
 
 /// On or off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -35,7 +34,7 @@ pub struct SceneArgs {
     )]
     pub scenes: Vec<String>,
     /// Take the sealed variant SCENE@sealS of every scene. It has other speeds, directions, places, times and colours.
-    #[arg(long, value_name = "S", value_parser = parse_whole::<u64>)]
+    #[arg(long, value_name = "S")]
     pub seal: Option<u64>,
     #[command(flatten)]
     pub rates: FrameRateArgs,
@@ -45,10 +44,10 @@ pub struct SceneArgs {
     pub scenes_dir: Location,
     /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of
     /// the picture get more, quiet ones fewer.
-    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel, value_parser = parse_whole::<u32>)]
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel)]
     pub samples_per_pixel: u32,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
-    #[arg(long, value_name = "E", value_parser = parse_exposure)]
+    #[arg(long, value_name = "E")]
     pub exposure: Option<f64>,
     /// Content of the velocity buffer: instantaneous, previous_frame, or camera_only (rebuilt from depth and the last frame's
     /// camera).
@@ -61,13 +60,13 @@ pub struct SceneArgs {
     #[arg(long, value_enum, value_name = "SWITCH", default_value_t = Switch::On)]
     pub sky_velocity: Switch,
     /// Pixels of the frame beyond the picture on every side. Filters see them; their output there is cropped.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole::<u32>)]
+    #[arg(long, value_name = "N", default_value_t = 0)]
     pub guard_band: u32,
     /// Threads that render [default: one per core].
-    #[arg(long, value_name = "N", value_parser = parse_whole::<usize>)]
+    #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
     /// Seed of all random numbers.
-    #[arg(long, value_name = "S", default_value_t = RenderSettings::default().seed, value_parser = parse_whole::<u64>)]
+    #[arg(long, value_name = "S", default_value_t = RenderSettings::default().seed)]
     pub seed: u64,
     /// Folder for all files. Truths and cases that lie there are used again if their inputs have not changed.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
@@ -79,9 +78,9 @@ impl SceneArgs {
     pub fn names(&self) -> Result<Vec<String>, Error> {
         let names = self.rates.add_to(self.variant_names()?)?;
         match names.iter().find(|name| has_shutter_time(name)) {
-            Some(name) if self.exposure.is_some() => Err(Error::Usage(format!(
+            Some(name) if self.exposure.is_some() => refuse!(
                 "--exposure: {name} has its shutter time in its name; allowed: one of the two; leave --exposure or the shutter time out"
-            ))),
+            ),
             _ => Ok(names),
         }
     }
@@ -91,14 +90,14 @@ impl SceneArgs {
             return Ok(self.scenes.clone());
         };
         if self.scenes.is_empty() {
-            return Ok(vec![format!("*@seal{seed}")]);
+            return Ok(vec![sealed("*", seed)]);
         }
         (self.scenes.iter())
-            .map(|name| match split_variant(name).1 {
-                None => Ok(format!("{}@seal{seed}", name.trim_end_matches(['/', '\\']))),
-                Some(_) => Err(Error::Usage(format!(
+            .map(|name| match split_scene(name).1.choice().as_str() {
+                "" => Ok(sealed(name, seed)),
+                _ => refuse!(
                     "--seal: {name} is a variant; allowed: scenes in their default variant, which sealed ones are made of"
-                ))),
+                ),
             })
             .collect()
     }
@@ -113,9 +112,17 @@ impl SceneArgs {
     }
 }
 
+/// Names the sealed variant of a scene.
+fn sealed(scene: &str, seed: u64) -> String {
+    let id = SceneId {
+        seal: Some(seed),
+        ..SceneId::default()
+    };
+    scene.trim_end_matches(['/', '\\']).to_owned() + &id.choice()
+}
+
 /// Tells whether a scene's name gives the time that its shutter is open.
 fn has_shutter_time(name: &str) -> bool {
-    let (_, variant) = split_variant(name);
-    let rate = variant.and_then(|variant| FrameRate::split_variant(variant).1);
+    let rate = split_scene(name).1.rate;
     rate.is_some_and(|rate| rate.shutters_per_second.is_some())
 }

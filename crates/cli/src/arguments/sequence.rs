@@ -3,17 +3,17 @@
 use clap::Args;
 use suite::Frames;
 
-use super::parse::{parse_frames, parse_per_second};
+use super::parse::{above_zero, frame_count};
 
 /// Number and rate of the frames of every scene.
 #[derive(Clone, Debug, Args)]
 pub struct SequenceArgs {
     /// Consecutive frames to render and blur of every scene. Later frames lie in numbered folders below the scene's own.
-    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = parse_frames)]
+    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count())]
     pub frames: u32,
     /// Frames per second at which a sequence is shown. It changes no picture, and no score but JOD: times are in frames. Scenes at a
     /// --frame-rate are shown at that.
-    #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = parse_per_second)]
+    #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = above_zero(1000.0))]
     pub fps: f64,
 }
 

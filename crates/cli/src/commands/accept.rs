@@ -1,27 +1,47 @@
-//! The command `accept`.
+//! The command `limits accept`.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use judge::{Acceptance, Baseline, accept_scores};
 use store::printable_path;
 use suite::{Error, Run, find_newer_sizes, refuse_failures};
 
-use crate::arguments::AcceptArgs;
+use crate::arguments::parse::parse_glob;
 use crate::output::count::count_text;
 use crate::output::print::{print, print_note};
+
+/// `shuttertruth limits accept`
+#[derive(Debug, Args)]
+pub struct AcceptArgs {
+    /// Folder of the finished run: --out of `run` or `check`.
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// Reason why these scores are right, in one line.
+    #[arg(long, value_name = "TEXT")]
+    pub reason: String,
+    /// Cases to accept, by scene/filter:preset, such as 'fan/*' or '*/jump_flood:*' [default: all].
+    #[arg(long, value_name = "GLOB", value_parser = parse_glob)]
+    pub only: Option<glob::Pattern>,
+    /// File to write, or to change with --only.
+    #[arg(long, value_name = "FILE", default_value = "base.json")]
+    pub baseline: PathBuf,
+    /// Accept even in CI (CI=true), or on another class of adapter than the baseline's.
+    #[arg(long)]
+    pub force: bool,
+}
 
 /// Writes the scores of a finished run into the baseline.
 pub fn execute(args: &AcceptArgs) -> Result<(), Error> {
     let in_ci = std::env::var("CI").is_ok_and(|value| value == "true" || value == "1");
     if in_ci && !args.force {
-        return Err(Error::Usage(
+        refuse!(
             "CI is set: a check would accept itself; accept on a machine of your own and commit the baseline, or add --force"
-                .to_owned(),
-        ));
+        );
     }
     let reason = args.reason.trim();
     if reason.is_empty() || reason.contains('\n') {
-        return Err(Error::Usage(
-            "--reason: needs one line on why these scores are right".to_owned(),
-        ));
+        refuse!("--reason: needs one line on why these scores are right");
     }
     let path = args.out.join("run.json");
     let run = Run::read(&path)?;

@@ -1,16 +1,42 @@
-//! The command `audit`.
+//! The command `engine audit`.
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use engine::{Capture, CaptureAudit, audit_capture, write_audit_picture};
 use store::{Sharing, claim, printable_path};
 use suite::Error;
+use tracer::{Location, SceneId};
 
 use super::capture::{load_drawn_scene, name_folder};
 use super::ending::Ending;
-use crate::arguments::AuditArgs;
+use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
 use crate::output::print::{print, print_note};
 use crate::tables::audit::audit_table;
+
+/// `shuttertruth engine audit`
+#[derive(Debug, Args)]
+pub struct AuditArgs {
+    /// Folder of a capture, as for `engine ingest`: capture.toml, color.exr, velocity.exr, depth.exr; object.exr makes the audit sharper.
+    #[arg(value_name = "DIR")]
+    pub capture: PathBuf,
+    /// TOML file with a table [convention] that says which velocity and depth the engine has [default: engine.toml in DIR].
+    #[arg(long, value_name = "FILE")]
+    pub convention: Option<PathBuf>,
+    /// Scene that the engine drew, with @VARIANT [default: the one that capture.toml names].
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
+    /// Folder for audit.json, and for a picture of the worst place of each object that is wrong [default: out/audit/<name of DIR>].
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print the audit as JSON.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Compares what an engine drew with the scene; fails if anything is wrong, and decides nothing if the engine shows something else.
 pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
@@ -18,13 +44,14 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     for note in &capture.notes {
         print_note(note);
     }
-    let Some(name) = args.scene.as_ref().or(capture.description.scene.as_ref()) else {
-        return Err(Error::Usage(format!(
+    let described = capture.description.scene.as_ref().map(SceneId::to_string);
+    let Some(name) = args.scene.clone().or(described) else {
+        refuse!(
             "{}: names no scene; an audit needs the scene that the engine drew: add scene = \"railing\", or give --scene",
             args.capture.join("capture.toml").display()
-        )));
+        );
     };
-    let scene = load_drawn_scene(&args.scenes_dir, name)?;
+    let scene = load_drawn_scene(&args.scenes_dir, &name)?;
     let (audit, expected) = audit_capture(&capture, &scene)?;
     let out = name_folder(&args.capture, args.out.as_ref(), "out/audit")?;
     let _claim = claim(&out, [], Sharing::Alone)?;

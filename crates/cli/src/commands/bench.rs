@@ -2,16 +2,56 @@
 
 use std::path::PathBuf;
 
+use clap::Args;
 use filters::Gpu;
 use store::printable_path;
 use suite::{Bench, BenchPlan, Error, bench, open_adapter};
 
 use super::expected::print_expected_time;
-use crate::arguments::BenchArgs;
+use crate::arguments::adapter::AdapterArgs;
+use crate::arguments::parse::{parse_size, within};
 use crate::output::print::print;
 use crate::output::progress::make_monitor;
 use crate::selection::{Programs, select_filters};
 use crate::tables::bench::bench_table;
+
+/// `shuttertruth bench`
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset; repeatable, or separated by commas
+    /// [default: all built-in ones]. jump_flood:paper, which times are relative to, is timed as well.
+    #[arg(
+        long = "filter",
+        visible_alias = "filters",
+        value_delimiter = ',',
+        value_name = "FILTERS"
+    )]
+    pub filters: Vec<String>,
+    /// Picture size in pixels [default: 1920x1080, or 320x180 on a software adapter].
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
+    /// Times that each filter is timed, in turns with the others; 20 or more.
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = within::<u32>(20..=10_000))]
+    pub rounds: u32,
+    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the
+    /// picture's].
+    #[arg(long)]
+    pub as_written: bool,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+    /// Folder for bench.json.
+    #[arg(
+        help_heading = "Output",
+        short,
+        long,
+        value_name = "DIR",
+        default_value = "out"
+    )]
+    pub out: PathBuf,
+    /// Print bench.json to standard output instead of the tables.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Time to run a filter on a pixel by llvmpipe on two cores, in seconds: the built-in filters' mean at 320x180.
 const SECONDS_PER_PIXEL: f64 = 1.4e-6;
@@ -21,10 +61,10 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     // Programs are refused below, for another reason.
     let filters = select_filters(&args.filters, None, &[], Programs::Allowed)?;
     if let Some(choice) = filters.iter().find(|it| it.filter.command.is_some()) {
-        return Err(Error::Usage(format!(
+        refuse!(
             "filter {} is a program, which has no passes to time; leave it out of --filter",
             choice.filter.name
-        )));
+        );
     }
     let gpu = open_adapter(args.adapter.adapter.as_deref(), make_monitor())?;
     let (width, height) = args.size.unwrap_or(match gpu.adapter.kind.as_str() {

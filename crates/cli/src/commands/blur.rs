@@ -1,7 +1,8 @@
-//! The command `blur`.
+//! The command `engine blur`.
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use filters::{Convention, FilterError, Input};
 use frame::{
     Camera, ExrFile, Image, Plane, Reprojection, Vectors, read_exr, read_frame_rate, write_exr,
@@ -11,10 +12,54 @@ use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu}
 
 use super::convention::read_convention;
 use super::render_settings::check_exposure;
-use crate::arguments::BlurArgs;
+use crate::arguments::adapter::AdapterArgs;
+use crate::arguments::parse::frame_count;
+use crate::arguments::programs::ProgramArgs;
 use crate::output::print::print;
 use crate::output::progress::make_silent_monitor;
 use crate::selection::select_filters;
+
+/// `shuttertruth engine blur`
+#[derive(Debug, Args)]
+pub struct BlurArgs {
+    /// Filter: a name or a folder, with an optional :preset.
+    #[arg(long, value_name = "FILTER")]
+    pub filter: String,
+    /// Preset [default: the filter's first].
+    #[arg(long, value_name = "NAME")]
+    pub preset: Option<String>,
+    /// Override a parameter; repeatable.
+    #[arg(long, value_name = "FILTER.PARAMETER=VALUE")]
+    pub set: Vec<String>,
+    /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the
+    /// picture's].
+    #[arg(long)]
+    pub as_written: bool,
+    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y. With --frames that of the first frame, as `run` and `truths render`
+    /// lay them out, or a folder of 0000.exr, 0001.exr and so on.
+    #[arg(long, value_name = "FILE|DIR")]
+    pub frame: PathBuf,
+    /// TOML file with a table [convention] that says which velocity, depth and colour the frame has, and the picture gets
+    /// [default: pixels per frame, metres, scene-linear].
+    #[arg(long, value_name = "FILE")]
+    pub convention: Option<PathBuf>,
+    /// Exposure in frames [default: the file's attribute "exposure"].
+    #[arg(long, value_name = "E")]
+    pub exposure: Option<f64>,
+    /// Frame number, which seeds the filter's noise; of a sequence that of the first frame.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub frame_index: u32,
+    /// Blur N consecutive frames, each with the next frame number, and with the frame before for filters with history.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = frame_count())]
+    pub frames: u32,
+    /// OpenEXR file to write; with --frames a folder for 0000.exr, 0001.exr and so on [default: out/blurred.exr, or out/blurred].
+    #[arg(short, long, value_name = "FILE|DIR")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub programs: ProgramArgs,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+}
 
 /// Runs one filter on one frame file, or on those of a sequence, and writes its colours.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
@@ -92,19 +137,19 @@ fn list_frames(args: &BlurArgs) -> Result<Vec<FrameFiles>, Error> {
         }]);
     }
     if out.extension().is_some_and(|ending| ending == "exr") {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--out: {} is the name of one picture, and {} are written; name a folder for them",
             out.display(),
             args.frames
-        )));
+        );
     }
     if args.frame_index.checked_add(args.frames - 1).is_none() {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--frame-index {}: each of the {} frames has the next one; allowed: up to {}",
             args.frame_index,
             args.frames,
             u32::MAX - (args.frames - 1)
-        )));
+        );
     }
     let is_folder = args.frame.is_dir();
     let frames = (0..args.frames).map(|frame| FrameFiles {
@@ -156,10 +201,10 @@ impl Buffers {
             Some(exposure) => exposure,
             None if file.attributes.contains_key("exposure") => file.get("exposure")?,
             None => {
-                return Err(Error::Usage(format!(
+                refuse!(
                     "{}: has no attribute \"exposure\"; give one with --exposure (0.5 = 180 degrees)",
                     path.display()
-                )));
+                );
             }
         };
         check_exposure(exposure)?;
@@ -188,7 +233,7 @@ impl Buffers {
     ) -> Result<(), Error> {
         match self.size() == size {
             true => Ok(()),
-            false => Err(Error::Usage(format!(
+            false => refuse!(
                 "{}: has {}x{} pixels, {} has {}x{}; the frames of a sequence have one size",
                 own.file.display(),
                 self.size().0,
@@ -196,7 +241,7 @@ impl Buffers {
                 first.file.display(),
                 size.0,
                 size.1
-            ))),
+            ),
         }
     }
 

@@ -1,5 +1,6 @@
-//! The command `calibrate`.
+//! The command `limits calibrate`.
 
+use clap::Args;
 use judge::{BOUNDS_FILE, bound_subframes, calibrate, check_names};
 use metrics::Metric;
 use store::printable_path;
@@ -10,19 +11,44 @@ use super::expected::print_expected_time;
 use super::kept_truths::take_packed_truths;
 use super::run_files::write_run;
 use super::run_plan::{check_replicates_for_intervals, claim_out, make_plan};
-use crate::arguments::CalibrateArgs;
+use crate::arguments::measure::MeasureArgs;
+use crate::arguments::parse::within;
+use crate::arguments::sequence::SequenceArgs;
 use crate::output::print::print;
+
+/// `shuttertruth limits calibrate`
+#[derive(Debug, Args)]
+pub struct CalibrateArgs {
+    #[command(flatten)]
+    pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub sequence: SequenceArgs,
+    /// Number of runs, each with a truth of its own seed: --seed, --seed + 1, and so on.
+    #[arg(help_heading = "Calibration", long, value_name = "K", default_value_t = 3, value_parser = within::<u32>(2..=100))]
+    pub runs: u32,
+    /// Adapters, by their numbers in `list adapters` or parts of their names, separated by commas [default: the fastest].
+    #[arg(
+        help_heading = "Calibration",
+        long,
+        value_delimiter = ',',
+        value_name = "ADAPTERS"
+    )]
+    pub adapters: Vec<String>,
+    /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination; with --frames all of sequences too].
+    #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::parse_bounded)]
+    pub metrics: Vec<Metric>,
+}
 
 /// Runs once per seed and adapter, and prints the limits that follow as one bounds.toml per scene.
 pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let out = &args.measure.scenes.out;
     let (mut plan, bounds) = make_plan(&args.measure, out.clone())?;
     if let Some(scene) = plan.engine_scenes.first() {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--scenes: {} was drawn by an engine, and does not change from run to run; write its bounds by hand into {}",
-            scene.name,
+            scene.id,
             scene.folder.join(BOUNDS_FILE).display()
-        )));
+        );
     }
     refuse_single_frames(args)?;
     plan.frames = args.sequence.frames();
@@ -47,7 +73,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let runs = monitor.watch("runs in all", |watch| run_all(args, &mut plan, watch))?;
     let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
     for scene in calibration.scores.keys() {
-        let path = out.join(scene).with_extension("bounds.toml");
+        let path = out.join(format!("{scene}.bounds.toml"));
         let text = calibration.toml(scene);
         frame::write_atomically(&path, text.as_bytes())?;
         print(&format!("# {}\n\n{text}", printable_path(&path)))?;
@@ -67,10 +93,10 @@ fn print_expected_runs(args: &CalibrateArgs, plan: &RunPlan) {
 fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
     let is_of_sequence = |metric: &&Metric| matches!(metric, Metric::Sequence(_));
     match args.metrics.iter().find(is_of_sequence) {
-        Some(metric) if args.sequence.frames().is_one() => Err(Error::Usage(format!(
+        Some(metric) if args.sequence.frames().is_one() => refuse!(
             "--metrics: {metric} is a score of a sequence, and single frames would be measured; say of how many frames with \
              --frames"
-        ))),
+        ),
         _ => Ok(()),
     }
 }
@@ -80,9 +106,9 @@ fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
     let last = u64::MAX - u64::from(runs);
     match first <= last {
         true => Ok(()),
-        false => Err(Error::Usage(format!(
+        false => refuse!(
             "--seed {first}: each of the {runs} runs has the next one; allowed: up to {last}"
-        ))),
+        ),
     }
 }
 

@@ -1,4 +1,4 @@
-//! A candidate of `tune`, `evaluate` and `serve`: its filter, and the rendered scenes that it is scored on.
+//! A candidate of `tune search`, `tune evaluate` and `tune serve`: its filter, and the rendered scenes that it is scored on.
 
 use filters::Gpu;
 use judge::SceneBounds;
@@ -10,7 +10,8 @@ use tune::{RenderedScene, render_scenes};
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
 use super::run_plan::load_scenes;
-use crate::arguments::{CandidateArgs, SceneArgs};
+use crate::arguments::candidate::CandidateArgs;
+use crate::arguments::scenes::SceneArgs;
 use crate::output::count::count_text;
 use crate::output::progress::make_monitor;
 use crate::selection::select_filters;
@@ -62,13 +63,13 @@ pub fn print_expected_scoring(
     candidates: usize,
     limit: f64,
 ) {
-    let renders: Vec<_> = (scenes.iter()).map(|(scene, _)| (scene, *render)).collect();
-    let scores = candidates * scenes.len();
-    let scoring = scores as f64 * estimate_case_seconds(render);
+    let count = scenes.len() as f64;
+    let rendering = count * estimate_render_seconds(render, 1);
+    let scoring = candidates as f64 * count * estimate_case_seconds(render);
     let candidates = count_text(candidates, "candidate", "candidates");
     let scenes = count_text(scenes.len(), "scene", "scenes");
     print_expected_time(
-        estimate_render_seconds(&renders, 1) + scoring.min(limit),
+        rendering + scoring.min(limit),
         &format!("{candidates} on {scenes}"),
     );
 }

@@ -1,4 +1,4 @@
-//! Folder and scene of a capture, for `ingest` and `audit`.
+//! Folder and scene of a capture, for `engine ingest` and `engine audit`.
 
 use std::path::{Path, PathBuf};
 
@@ -22,8 +22,6 @@ pub fn load_drawn_scene(scenes: &Location, name: &str) -> Result<Scene, Error> {
     let mut choices = select_scenes(scenes, &[name.to_owned()])?;
     match choices.len() {
         1 => Ok(choices.remove(0).scene),
-        count => Err(Error::Usage(format!(
-            "scene {name}: matches {count} scenes; a capture shows one"
-        ))),
+        count => refuse!("scene {name}: matches {count} scenes; a capture shows one"),
     }
 }

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use frame::FileError;
 use judge::{
     BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
@@ -18,16 +19,75 @@ use super::margins::{Margins, read_margins};
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
 use super::run_files::write_judged_run;
-use super::run_plan::{
-    check_replicates_for_intervals, make_plan, read_case_bounds, scene_folder_below,
-};
-use crate::arguments::CheckArgs;
-use crate::output::annotations::{annotations, summary};
-use crate::output::junit::junit;
+use super::run_plan::{check_replicates_for_intervals, make_plan, read_case_bounds};
+use crate::arguments::adapter::AdapterArgs;
+use crate::arguments::measure::MeasureArgs;
+use crate::arguments::sequence::SequenceArgs;
 use crate::output::print::{print, print_json, print_note};
 use crate::output::verbosity::is_verbose;
 use crate::tables::adapter::adapter_text;
+use crate::tables::annotations::{annotations, summary};
 use crate::tables::check::{check_text, verdict_text};
+use crate::tables::junit::junit;
+
+/// Arguments that only a check that measures may have.
+const MEASURING: [&str; 22] = [
+    "scenes",
+    "frame_rate",
+    "shutter_time",
+    "samples_per_pixel",
+    "exposure",
+    "velocity",
+    "frame_sampling",
+    "sky_velocity",
+    "guard_band",
+    "seed",
+    "out",
+    "filters",
+    "preset",
+    "set",
+    "as_written",
+    "size",
+    "replicates",
+    "input",
+    "jitter_frames",
+    "frames",
+    "fps",
+    "adapter",
+];
+
+/// `shuttertruth check`
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter [default: measure now].
+    #[arg(value_name = "RUN", conflicts_with_all = MEASURING)]
+    pub run: Option<PathBuf>,
+    /// For every broken bound of RUN, find the worst place and the known failure that the picture is most like. A check that
+    /// measures always does.
+    #[arg(help_heading = "Judging", long, requires = "run")]
+    pub evidence: bool,
+    #[command(flatten)]
+    pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub sequence: SequenceArgs,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+    /// Also compare with the scores that `limits accept` wrote there, by the margins in bounds.toml.
+    #[arg(help_heading = "Judging", long, value_name = "FILE")]
+    pub baseline: Option<PathBuf>,
+    /// HTML page to write [default: report.html in --out; for a finished RUN none].
+    #[arg(help_heading = "Output", long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Write the result as JUnit XML.
+    #[arg(help_heading = "Output", long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
+    /// Write GitHub's step summary ($GITHUB_STEP_SUMMARY) and print at most ten annotations.
+    #[arg(help_heading = "Output", long, conflicts_with = "json")]
+    pub github: bool,
+    /// Print the result as JSON instead of text.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Judges a run, made now or finished before, and reports in every form that is asked for. Refuses wrong arguments, bounds and
 /// baselines before anything is rendered.
@@ -123,8 +183,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     check_names(root, bounds.values(), &plan.filters)?;
     // With a baseline, nothing else need be bounded.
     if !compared {
-        let scenes = bounds.iter().map(|(name, bounds)| (name.as_str(), bounds));
-        require_bounds(root, scenes, &plan.filters, plan.frames)?;
+        require_bounds(root, bounds.iter(), &plan.filters, plan.frames)?;
     }
     if let Some(truths) = &plan.truths {
         refuse_tracked(
@@ -175,12 +234,12 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
     let bounds = read_run_bounds(&run, root)?;
     let mut findings = judge(&run, &bounds);
     if findings.is_empty() && !compared {
-        return Err(Error::Usage(format!(
+        refuse!(
             "{}: no score of it has a bound, and no check is no success; bounds are looked for in {} and beside each scene \
              below it: name another folder with --scenes-dir",
             path.display(),
             root.join(BOUNDS_FILE)
-        )));
+        );
     }
     if args.evidence {
         add_evidence(&run, &mut findings, &folder)?;
@@ -215,7 +274,7 @@ fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
                     root
                 ));
             }
-            let folder = scene_folder_below(root, &case.scene);
+            let folder = root.join(&case.scene.name);
             Error::Usage(format!(
                 "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",
                 folder
@@ -229,9 +288,9 @@ fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
 fn find_summary_file() -> Result<PathBuf, Error> {
     match std::env::var_os("GITHUB_STEP_SUMMARY") {
         Some(path) if !path.is_empty() => Ok(path.into()),
-        _ => Err(Error::Usage(
-            "--github: GITHUB_STEP_SUMMARY is not set; it is in a step of GitHub Actions, or set it to a file".to_owned(),
-        )),
+        _ => refuse!(
+            "--github: GITHUB_STEP_SUMMARY is not set; it is in a step of GitHub Actions, or set it to a file"
+        ),
     }
 }
 

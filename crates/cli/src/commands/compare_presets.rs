@@ -1,5 +1,6 @@
-//! The command `compare-presets`.
+//! The command `tune compare`.
 
+use clap::Args;
 use store::Sharing;
 use suite::Error;
 use tune::{Evaluator, Objective, compare_candidates};
@@ -9,9 +10,25 @@ use super::candidate::{
     print_expected_scoring, select_candidate,
 };
 use super::result::CommandResult;
-use crate::arguments::ComparePresetsArgs;
+use crate::arguments::candidate::CandidateArgs;
 use crate::output::progress::make_monitor;
 use crate::tables::tuning::paired_table;
+
+/// `shuttertruth tune compare`
+#[derive(Debug, Args)]
+pub struct ComparePresetsArgs {
+    /// The first preset.
+    #[arg(value_name = "PRESET")]
+    pub first: String,
+    /// The second preset.
+    #[arg(value_name = "PRESET")]
+    pub second: String,
+    #[command(flatten)]
+    pub candidate: CandidateArgs,
+    /// Print compare.json instead of the table.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Scores two presets on every scene, writes `compare.json`, prints the table.
 pub fn execute(args: &ComparePresetsArgs) -> Result<(), Error> {

@@ -1,8 +1,9 @@
-//! The command `evaluate`.
+//! The command `tune evaluate`.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
 use store::{MOST_JSON_BYTES, Sharing};
@@ -12,9 +13,19 @@ use tune::{Evaluator, Objective, evaluate_candidate};
 use super::candidate::{
     claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,
 };
-use crate::arguments::EvaluateArgs;
+use crate::arguments::candidate::CandidateArgs;
 use crate::output::print::print_json;
 use crate::output::progress::make_monitor;
+
+/// `shuttertruth tune evaluate`
+#[derive(Debug, Args)]
+pub struct EvaluateArgs {
+    #[command(flatten)]
+    pub candidate: CandidateArgs,
+    /// JSON file with the parameters that differ from the preset: {"samples": 12}
+    #[arg(help_heading = "Filters", long, value_name = "FILE")]
+    pub params: PathBuf,
+}
 
 /// Scores one set of parameters on every scene and prints JSON.
 pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {

@@ -1,12 +1,35 @@
-//! The command `export`.
+//! The command `engine export`.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use engine::{Manifest, export_gltf};
 use store::printable_path;
 use suite::{Error, PROGRAM};
+use tracer::Location;
 
-use crate::arguments::ExportArgs;
+use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
 use crate::output::print::print;
 use crate::selection::select_scenes;
+
+/// `shuttertruth engine export`
+#[derive(Debug, Args)]
+pub struct ExportArgs {
+    /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all.
+    #[arg(required = true, value_name = "SCENE")]
+    pub scenes: Vec<String>,
+    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
+    /// Folder for glTF 2.0: each scene gets one of its own there.
+    #[arg(long, value_name = "DIR", default_value = "out/gltf")]
+    pub gltf: PathBuf,
+    /// Write flat emissive colours and no lights: the scene as SCENE@unlit, which `run` and `truths render` take as well. There an engine's
+    /// picture can be compared with the truth directly.
+    #[arg(long)]
+    pub unlit: bool,
+}
 
 /// Writes each scene as glTF and prints where, and at which time of the animation the frame is.
 pub fn execute(args: &ExportArgs) -> Result<(), Error> {
@@ -19,7 +42,7 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
     let choices = select_scenes(&args.scenes_dir, &names)?;
     let mut text = String::new();
     for choice in &choices {
-        let folder = args.gltf.join(&choice.scene.name);
+        let folder = args.gltf.join(&choice.scene.id.folder());
         let manifest = export_gltf(&choice.scene, &choice.folder, PROGRAM, &folder)?;
         text += &describe(&manifest, &printable_path(&folder));
     }
@@ -30,9 +53,9 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
 fn unlit_name(name: &str) -> Result<String, Error> {
     match name.contains('@') {
         false => Ok(format!("{name}@unlit")),
-        true => Err(Error::Usage(format!(
+        true => refuse!(
             "--unlit: {name} is a variant; allowed: scenes in their default variant, which `unlit` is a variant of"
-        ))),
+        ),
     }
 }
 

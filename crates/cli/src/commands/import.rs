@@ -1,14 +1,44 @@
-//! The command `import`.
+//! The command `engine import`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use engine::{ImportPlan, Imported, Motions, import};
+use clap::Args;
+use engine::{ImportPlan, Imported, Motions, Up, import};
 use store::printable_path;
 use suite::Error;
 
 use super::render_settings::check_exposure;
-use crate::arguments::ImportArgs;
+use crate::arguments::parse::{parse_degrees_per_frame, parse_named, parse_pixels_per_frame};
 use crate::output::print::print;
+
+/// `shuttertruth engine import`
+#[derive(Debug, Args)]
+pub struct ImportArgs {
+    /// OBJ file. It is copied, with the MTL and PNG files that it names.
+    #[arg(value_name = "MODEL.OBJ")]
+    pub model: PathBuf,
+    /// New folder for the scene, which gives the scene its name [default: out/<name of the OBJ file>].
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Turn the model around its vertical axis.
+    #[arg(long, value_name = "SPEED", value_parser = parse_degrees_per_frame, allow_hyphen_values = true)]
+    pub spin: Option<f64>,
+    /// Slide the model to the right, in pixels at 640x360.
+    #[arg(long, value_name = "SPEED", value_parser = parse_pixels_per_frame, allow_hyphen_values = true)]
+    pub slide: Option<f64>,
+    /// Move the camera around the model.
+    #[arg(long, value_name = "SPEED", value_parser = parse_degrees_per_frame, allow_hyphen_values = true)]
+    pub orbit: Option<f64>,
+    /// Axis of the model that points up.
+    #[arg(long, value_parser = parse_named(Up::ALL, Up::name, Up::help), value_name = "AXIS", default_value = "y")]
+    pub up: Up,
+    /// Import the shape alone, in grey, without materials.
+    #[arg(long)]
+    pub plain: bool,
+    /// Exposure in frames; 0.5 is a shutter of 180 degrees.
+    #[arg(long, value_name = "E", default_value_t = 0.5)]
+    pub exposure: f64,
+}
 
 /// Makes the scene folder and prints what it holds.
 pub fn execute(args: &ImportArgs) -> Result<(), Error> {

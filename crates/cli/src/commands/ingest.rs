@@ -1,8 +1,9 @@
-//! The command `ingest`.
+//! The command `engine ingest`.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use engine::{Capture, Ingested, ingest};
 use frame::{Display, Region};
 use store::printable_path;
@@ -10,9 +11,29 @@ use suite::{EngineScene, Error};
 use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
-use crate::arguments::IngestArgs;
+use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
 use crate::output::print::{print, print_note};
 use crate::output::progress::make_monitor;
+
+/// `shuttertruth engine ingest`
+#[derive(Debug, Args)]
+pub struct IngestArgs {
+    /// Folder of a capture: capture.toml, color.exr, velocity.exr, depth.exr; optionally subframes/0000.exr and on, and
+    /// blurred.exr.
+    #[arg(value_name = "DIR")]
+    pub capture: PathBuf,
+    /// TOML file with a table [convention] that says which velocity, depth and colour the engine has [default: engine.toml in
+    /// DIR].
+    #[arg(long, value_name = "FILE")]
+    pub convention: Option<PathBuf>,
+    /// Folder to write, which gives the scene its name [default: out/engine/<name of DIR>].
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Folder that holds the scenes, for the display exposure of the one that capture.toml names; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
+}
 
 /// Motion between two sub-frames beyond which more are advised, in pixels.
 const LONG_STEP: f64 = 0.5;
@@ -42,18 +63,18 @@ fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
     let out = name_folder(&args.capture, args.out.as_ref(), "out/engine")?;
     let capture = args.capture.canonicalize().ok();
     match out.canonicalize().is_ok_and(|out| Some(out) == capture) {
-        true => Err(Error::Usage(format!(
+        true => refuse!(
             "--out {}: is the capture itself, whose files would be overwritten; name another folder",
             out.display()
-        ))),
+        ),
         false => Ok(out),
     }
 }
 
 /// Loads the scene that the capture names; none where it names none, or there is no such scene.
 fn find_scene(capture: &Capture, scenes: &Location) -> Option<Scene> {
-    let name = capture.description.scene.as_deref()?;
-    let found = load_drawn_scene(scenes, name).ok();
+    let name = capture.description.scene.as_ref()?.to_string();
+    let found = load_drawn_scene(scenes, &name).ok();
     if found.is_none() {
         print_note(&format!(
             "{} has no scene {name}, whose display exposure the pictures would have; name the folder of scenes with \
@@ -79,7 +100,7 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let folder = printable_path(out);
     let mut text = format!(
         "{}: {width}x{height}, drawn by {}\n",
-        scene.name, scene.engine
+        scene.id, scene.engine
     );
     if let Some(truth) = &ingested.truth {
         text += &describe_truth(scene);
@@ -105,7 +126,7 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
             let _ = writeln!(
                 text,
                 "FOUND: the moving region has {restless:.1} % of the pixels too many if nothing moves there, and its scores are diluted; \
-                 draw all sub-frames with one seed, without grain and temporal effects; if things do move there, `audit` says whether \
+                 draw all sub-frames with one seed, without grain and temporal effects; if things do move there, `engine audit` says whether \
                  velocity is right"
             );
         }
@@ -141,7 +162,7 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let dot = if out.is_relative() { "./" } else { "" };
     match scene.check_truth() {
         Ok(()) => {
-            let ours = traced.map_or(String::new(), |scene| format!("{},", scene.name));
+            let ours = traced.map_or(String::new(), |scene| format!("{},", scene.id));
             let _ = writeln!(text, "next: shuttertruth run --scenes {ours}{dot}{folder}");
         }
         Err(_) => {

@@ -18,15 +18,15 @@ pub fn check_truths(truths: &Path) -> Result<(), Error> {
     match truths.is_file() {
         true => Ok(Pack::open(truths).map(drop)?),
         false if truths.is_dir() => Ok(()),
-        false => Err(Error::Usage(format!(
-            "--truths {}: {}; allowed: a folder into which `shuttertruth render --ladders` or `run` \
+        false => refuse!(
+            "--truths {}: {}; allowed: a folder into which `shuttertruth truths render --ladders` or `run` \
              wrote, or a pack",
             truths.display(),
             match truths.exists() {
                 true => "is neither a folder nor a regular file",
                 false => "there is no such folder or file",
             }
-        ))),
+        ),
     }
 }
 

@@ -1,14 +1,45 @@
-//! The command `list`, and the option `--list-adapters`.
+//! The command `list`.
 
+use clap::Args;
 use filters::{AdapterDescription, Filter, list_adapters};
-use suite::Error;
-use tracer::{SceneListing, list_scenes};
+use suite::{Error, InputFormat};
+use tracer::{Location, SceneListing, list_scenes};
 
 use super::try_filters::try_filters;
-use crate::arguments::ListArgs;
+use crate::arguments::adapter::AdapterArgs;
+use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
 use crate::output::print::{print, print_json, print_note};
 use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
-use crate::tables::listing::{details_text, filter_json, filters_text, scene_json, scenes_text};
+use crate::tables::listing::{
+    details_text, filter_json, filters_text, input_json, inputs_text, scene_json, scenes_text,
+};
+
+/// `shuttertruth list`
+#[derive(Debug, Args)]
+pub struct ListArgs {
+    /// Things to list: scenes, filters, inputs, adapters, or names or patterns of scenes and filters, which are shown in detail
+    /// [default: scenes and filters].
+    #[arg(value_name = "WHAT")]
+    pub what: Vec<String>,
+    /// Filters to list in detail: names, folders or patterns; repeatable, or separated by commas. A filter of your own is tried
+    /// out with every preset and at both ends of every range.
+    #[arg(
+        long = "filter",
+        visible_alias = "filters",
+        value_delimiter = ',',
+        value_name = "FILTERS"
+    )]
+    pub filters: Vec<String>,
+    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+    /// Print JSON.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Scenes and filters to list.
 #[derive(Default)]
@@ -21,6 +52,13 @@ struct Listing {
 pub fn execute(args: &ListArgs) -> Result<(), Error> {
     if args.what == ["adapters"] {
         return print_adapters();
+    }
+    if args.what == ["inputs"] {
+        let kinds = InputFormat::kinds();
+        return match args.json {
+            true => print_json(&kinds.iter().map(input_json).collect::<Vec<_>>()),
+            false => print(&inputs_text(&kinds)),
+        };
     }
     let is_brief = args.filters.is_empty()
         && args
@@ -106,9 +144,9 @@ fn find_named(what: &str, scenes: &[SceneListing], listing: &mut Listing) -> Res
     };
     if names.is_empty() || !names.iter().all(|name| known.contains(name)) {
         let suggestion = suggest_names(what, &known);
-        return Err(Error::Usage(format!(
+        refuse!(
             "list: no scene and no filter \"{what}\"; {suggestion} A filter of your own is listed by --filter FOLDER"
-        )));
+        );
     }
     let named = scenes.iter().filter(|scene| names.contains(&scene.name));
     listing.scenes.extend(named.cloned());
@@ -125,7 +163,7 @@ fn builtin_filters() -> Result<Vec<Filter>, Error> {
 }
 
 /// Prints one adapter a line, numbered as `--adapter` takes them.
-pub fn print_adapters() -> Result<(), Error> {
+fn print_adapters() -> Result<(), Error> {
     let line = |(number, adapter): (usize, &AdapterDescription)| {
         format!(
             "{number}: {} ({}, {}, {})\n",

@@ -2,10 +2,7 @@
 
 use filters::Gpu;
 use store::Claim;
-use suite::{
-    EarlierCases, Error, Run, RunPlan, estimate_run, estimate_run_roughly, folder_for_size,
-    measure_scenes_as_expected,
-};
+use suite::{EarlierCases, Error, Run, RunPlan, estimate_run, folder_for_size, measure_scenes};
 
 use super::expected::print_expected;
 use super::kept_truths::take_packed_truths;
@@ -31,13 +28,10 @@ pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Err
     let claim = claim_out(plan)?;
     take_packed_truths(plan)?;
     let earlier = find_earlier(plan, gpu)?;
-    let estimate = match is_quiet() {
-        true => estimate_run_roughly(plan, gpu),
-        false => estimate_run(plan, gpu),
-    };
-    print_expected(&estimate, &plan.out);
-    let command = std::env::args().collect();
-    let finished = measure_scenes_as_expected(plan, gpu, command, &estimate)?;
+    if !is_quiet() {
+        print_expected(&estimate_run(plan, gpu), &plan.out);
+    }
+    let finished = measure_scenes(plan, gpu, std::env::args().collect())?;
     let whole = match earlier {
         None => finished.clone(),
         Some(earlier) => {

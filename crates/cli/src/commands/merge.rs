@@ -1,14 +1,30 @@
-//! The command `merge`.
+//! The command `truths merge`.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use judge::JUDGEMENT_FILE;
 use store::printable_path;
 use suite::{Error, holds_run, merge, merge_runs, refuse_failures};
 
 use super::run_files::write_run;
-use crate::arguments::MergeArgs;
 use crate::output::count::count_text;
 use crate::output::print::print;
 use crate::tables::failures::failures_text;
+
+/// `shuttertruth truths merge`
+#[derive(Debug, Args)]
+pub struct MergeArgs {
+    /// Folders that `render --replicates A..B` wrote; or those of finished runs, each with other scenes or filters.
+    #[arg(required = true, value_name = "FOLDER")]
+    pub parts: Vec<PathBuf>,
+    /// Folder for the whole, as one machine would have written it.
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// Words of the command line that run.json records; `truths plan` gives those of the whole run [default: those of this command].
+    #[arg(last = true, value_name = "COMMAND")]
+    pub command: Vec<String>,
+}
 
 /// Joins runs where every part is one, and replicates otherwise; prints the run, or the truths, that they made.
 pub fn execute(args: &MergeArgs) -> Result<(), Error> {

@@ -1,24 +1,52 @@
-//! The command `pack`.
+//! The command `truths pack`.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use store::printable_path;
 use suite::{Error, Run, find_newer_sizes, write_pack};
 
-use crate::arguments::PackArgs;
 use crate::output::count::count_text;
 use crate::output::print::{print, print_json, print_note};
 use crate::output::progress::make_monitor;
 use crate::selection::choose_names;
 
+/// `shuttertruth truths pack`
+#[derive(Debug, Args)]
+pub struct PackArgs {
+    /// Folder of a finished run: --out of `run` or `check`.
+    #[arg(value_name = "RUN", default_value = "out")]
+    pub run: PathBuf,
+    /// Scenes of the run: names with their @variant, or patterns such as 'rail*'; repeatable, or separated by commas [default: all].
+    #[arg(
+        long,
+        visible_alias = "scene",
+        value_delimiter = ',',
+        value_name = "SCENES"
+    )]
+    pub scenes: Vec<String>,
+    /// Archive to write.
+    #[arg(short, long, value_name = "FILE", default_value = "truths.tar.zst")]
+    pub out: PathBuf,
+    /// Print the manifest of the pack as JSON.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
+
 /// Packs the kept frames, truths and ladders of a finished run into one archive.
 pub fn execute(args: &PackArgs) -> Result<(), Error> {
     let run = Run::read(&args.run.join("run.json"))?;
-    let mut known: Vec<String> = run.cases.iter().map(|case| case.scene.clone()).collect();
+    let mut known: Vec<String> = run
+        .cases
+        .iter()
+        .map(|case| case.scene.to_string())
+        .collect();
     known.sort();
     known.dedup();
     let scenes = choose_names("--scenes", &args.scenes, &known)?;
     for folder in find_newer_sizes(&args.run) {
         print_note(&format!(
-            "{0} is newer, and is not packed; a pack holds one run: shuttertruth pack {0}",
+            "{0} is newer, and is not packed; a pack holds one run: shuttertruth truths pack {0}",
             folder.display()
         ));
     }

@@ -41,10 +41,10 @@ impl WrittenFile {
 pub fn refuse_folder(option: &str, path: Option<&PathBuf>) -> Result<(), Error> {
     match path.filter(|path| path.is_dir()) {
         None => Ok(()),
-        Some(path) => Err(Error::Usage(format!(
+        Some(path) => refuse!(
             "{option}: {} is a folder; name the file to write",
             path.display()
-        ))),
+        ),
     }
 }
 

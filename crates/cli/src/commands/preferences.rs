@@ -1,13 +1,29 @@
-//! The command `preferences`.
+//! The command `people preferences`.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use glob::Pattern;
 use judge::Side;
 use study::{Study, StudyChoice, find_preferences, make_study, read_sessions, refuse_other_run};
 use suite::{Error, Run};
 
-use crate::arguments::PreferencesArgs;
 use crate::output::print::{print, print_json};
 use crate::tables::preferences::preferences_table;
+
+/// `shuttertruth people preferences`
+#[derive(Debug, Args)]
+pub struct PreferencesArgs {
+    /// Files of answers that the page of `people ask` saved, one per session.
+    #[arg(value_name = "ANSWERS", required = true)]
+    pub answers: Vec<PathBuf>,
+    /// run.json of the run that the page was made of, or its folder, with the pictures: compares its scores with the answers.
+    #[arg(long, value_name = "RUN")]
+    pub run: Option<PathBuf>,
+    /// Print all numbers as JSON instead of the tables.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Reads the answers of people and prints a scale of filters, beside the scores of the run.
 pub fn execute(args: &PreferencesArgs) -> Result<(), Error> {

@@ -1,6 +1,7 @@
-//! The command `render`.
+//! The command `truths render`.
 
-use frame::Truth;
+use clap::Args;
+use frame::{Alignment, Truth};
 use store::{LADDER, MOST_REPLICATES, Sharing, claim, printable_path, scene_folder};
 use suite::{
     Error, LadderFiles, deciding_floor, estimate_render_seconds, render_frame, render_part,
@@ -10,19 +11,62 @@ use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
-use crate::arguments::{RenderArgs, Replicates};
+use crate::arguments::parse::{Replicates, above_zero, frame_count, parse_replicates, parse_size};
+use crate::arguments::scenes::SceneArgs;
 use crate::output::count::count_text;
 use crate::output::print::{print, print_scene_notes};
 use crate::output::progress::make_monitor;
 use crate::selection::{SceneChoice, select_scenes};
 
+/// `shuttertruth truths render`
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    pub scenes: SceneArgs,
+    /// Picture size in pixels [default: each scene's own].
+    #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
+    /// Consecutive frames to render of every scene. Later frames lie in numbered folders below the scene's own.
+    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count())]
+    pub frames: u32,
+    /// Shutter alignments of the truths, separated by commas.
+    #[arg(
+        help_heading = "Truths",
+        long,
+        value_delimiter = ',',
+        default_value = "trailing",
+        value_name = "ALIGNMENTS"
+    )]
+    pub alignments: Vec<Alignment>,
+    /// Independent renders per truth: an even number, or a part A..B (A to B-1) that `truths merge` joins with others. Each has an
+    /// eighth of --samples-per-pixel. The part with replicate 0 renders the frame too.
+    #[arg(help_heading = "Truths", long, value_name = "N|A..B", default_value = "8", value_parser = parse_replicates)]
+    pub replicates: Replicates,
+    /// Render more replicates until the noise of each truth (root mean square radiance, where anything moves) is at most
+    /// this. Exit code 4 if --most-replicates do not suffice.
+    #[arg(help_heading = "Truths", long, value_name = "TARGET", value_parser = above_zero(f64::MAX))]
+    pub noise: Option<f64>,
+    /// Render the ladder of sub-frames of each truth too, which `run` measures with.
+    #[arg(help_heading = "Truths", long)]
+    pub ladders: bool,
+    /// Upper limit on replicates for --noise.
+    #[arg(
+        help_heading = "Truths",
+        long,
+        value_name = "N",
+        default_value_t = 64,
+        requires = "noise"
+    )]
+    pub most_replicates: u32,
+}
+
 /// Renders each scene's frame and truths, or a part of them, and prints their folders and noise.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     if args.most_replicates > MOST_REPLICATES {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--most-replicates {}; allowed: up to {MOST_REPLICATES}",
             args.most_replicates
-        )));
+        );
     }
     let mut noisy = Vec::new();
     let choices = select_scenes(&args.scenes.scenes_dir, &args.scenes.names()?)?;
@@ -37,10 +81,9 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
         match &args.replicates {
             Replicates::All(count) => noisy.extend(render_whole(args, &scene, *count)?),
             Replicates::Part(_) if args.ladders => {
-                return Err(Error::Usage(
+                refuse!(
                     "--ladders needs whole truths: give --replicates a number, not a part A..B"
-                        .to_owned(),
-                ));
+                );
             }
             Replicates::Part(indices) if args.noise.is_none() => {
                 let settings = scene_settings(args, &scene, RenderSettings::default().replicates)?;
@@ -57,10 +100,9 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
                 print(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
             }
             Replicates::Part(_) => {
-                return Err(Error::Usage(
+                refuse!(
                     "--noise needs whole truths: give --replicates a number to start from, not a part A..B"
-                        .to_owned(),
-                ));
+                );
             }
         }
     }
@@ -90,11 +132,12 @@ fn print_expected_renders(args: &RenderArgs, choices: &[SceneChoice]) -> Result<
         Replicates::All(count) => *count,
         Replicates::Part(indices) => (indices.len() as u32).next_multiple_of(2),
     };
-    let renders = (choices.iter())
-        .map(|choice| Ok((&choice.scene, scene_settings(args, &choice.scene, count)?)))
-        .collect::<Result<Vec<_>, Error>>()?;
-    let seconds = estimate_render_seconds(&renders, args.alignments.len());
-    let seconds = f64::from(args.frames) * seconds;
+    let mut seconds = 0.0;
+    for choice in choices {
+        let settings = scene_settings(args, &choice.scene, count)?;
+        seconds += estimate_render_seconds(&settings, args.alignments.len());
+    }
+    seconds *= f64::from(args.frames);
     let scenes = count_text(choices.len(), "scene", "scenes");
     print_expected_time(seconds, &scenes);
     Ok(())

@@ -4,7 +4,7 @@ use store::MOST_REPLICATES;
 use suite::Error;
 use tracer::{MOST_SAMPLES, RenderSettings};
 
-use crate::arguments::SceneArgs;
+use crate::arguments::scenes::SceneArgs;
 
 /// Makes the settings of a render, for pictures of one size.
 pub fn make_render_settings(
@@ -39,18 +39,18 @@ fn check_samples(samples_per_pixel: u32) -> Result<(), Error> {
         return Ok(());
     }
     let nearest = each.clamp(1, most).next_power_of_two() * replicates;
-    Err(Error::Usage(format!(
+    refuse!(
         "--samples-per-pixel {samples_per_pixel}; allowed: {replicates} times a power of two, up to {MOST_SAMPLES}, such as {nearest}"
-    )))
+    )
 }
 
 /// Refuses numbers that make no two equal halves, or more replicates than a truth may have.
 fn check_replicates(replicates: u32) -> Result<(), Error> {
     match (2..=MOST_REPLICATES).contains(&replicates) && replicates.is_multiple_of(2) {
         true => Ok(()),
-        false => Err(Error::Usage(format!(
+        false => refuse!(
             "--replicates {replicates}: allowed are even numbers from 2 to {MOST_REPLICATES}, such as 8"
-        ))),
+        ),
     }
 }
 

@@ -2,15 +2,35 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use judge::Judgement;
 use report::{TuneFolder, tuning_page, write_gallery};
 use store::printable_path;
 use suite::{Error, Run, write_layers};
 
 use super::pages::{WrittenFile, page_lines, write_page, write_run_page};
-use crate::arguments::ReportArgs;
 use crate::output::print::{print, print_json};
 use crate::output::progress::make_monitor;
+
+/// `shuttertruth report`
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// run.json of a finished `run` or `check`, or its folder; or the folder of a `tune search`.
+    #[arg(value_name = "RUN", default_value = "out")]
+    pub run: PathBuf,
+    /// HTML page to write [default: report.html beside run.json, unless --exr or --gallery is given].
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity, coverage and more.
+    #[arg(long, value_name = "DIR")]
+    pub exr: Option<PathBuf>,
+    /// Folder for a gallery: a page of Markdown, a contact sheet of the truths, each scene with its best and its worst filter.
+    #[arg(long, value_name = "DIR")]
+    pub gallery: Option<PathBuf>,
+    /// Print the list of written files as JSON.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Reads a finished run, or a tuning, and writes its page, and its layers where they are asked for.
 pub fn execute(args: &ReportArgs) -> Result<(), Error> {
@@ -42,7 +62,7 @@ enum Subject {
     Tuning(PathBuf),
 }
 
-/// Finds out what lies at a path, by the names that `run` and `tune` give to their files.
+/// Finds out what lies at a path, by the names that `run` and `tune search` give to their files.
 fn find_subject(path: &Path) -> Subject {
     let run = path.join("run.json");
     let file = path.file_name().unwrap_or_default();
@@ -93,10 +113,10 @@ fn write_tuning_report(args: &ReportArgs, folder: &Path) -> Result<Vec<WrittenFi
         ("--gallery", args.gallery.is_some()),
     ];
     if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
-        return Err(Error::Usage(format!(
+        refuse!(
             "{option}: {} is a tuning, which keeps no pictures; give the folder of a run",
             folder.display()
-        )));
+        );
     }
     let page = tuning_page(&TuneFolder::read(folder)?)?;
     let html = args

@@ -1,8 +1,9 @@
 //! The command `run`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use clap::Args;
 use judge::{Level, judge};
 use store::{printable, printable_path};
 use suite::{Error, Part, Run, open_gpu, refuse_failures};
@@ -11,7 +12,10 @@ use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
 use super::run_files::{write_judged_run, write_run};
 use super::run_plan::{apply_options, make_plan, read_case_bounds};
-use crate::arguments::RunArgs;
+use crate::arguments::adapter::AdapterArgs;
+use crate::arguments::measure::MeasureArgs;
+use crate::arguments::parse::parse_named;
+use crate::arguments::run_options::RunOptions;
 use crate::output::print::print;
 use crate::output::progress::clock_text;
 use crate::tables::adapter::adapter_text;
@@ -20,6 +24,29 @@ use crate::tables::columns::legend_text;
 use crate::tables::failures::failures_text;
 use crate::tables::ranking::ranking_text;
 use crate::tables::sequence::sequences_text;
+
+/// `shuttertruth run`
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    #[command(flatten)]
+    pub measure: MeasureArgs,
+    #[command(flatten)]
+    pub adapter: AdapterArgs,
+    #[command(flatten)]
+    pub options: RunOptions,
+    /// Measure a part of a run that `truths merge` joins with others. Writes run.json and pictures, but no report.
+    #[arg(help_heading = "Filters", long, value_name = "PART", value_parser = parse_named(Part::PARTS, Part::name, Part::help), conflicts_with_all = ["html", "table"])]
+    pub part: Option<Part>,
+    /// HTML page to write [default: report.html in --out].
+    #[arg(help_heading = "Output", long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Print every case and all means, instead of the ranking.
+    #[arg(help_heading = "Output", long, conflicts_with = "json")]
+    pub table: bool,
+    /// Print run.json to standard output instead of the ranking.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Runs every case, writes `run.json` and the page, prints the ranking or the table.
 pub fn execute(args: &RunArgs) -> Result<(), Error> {

@@ -8,14 +8,14 @@ use judge::{
     read_bounds_file,
 };
 use store::{Claim, Sharing, claim};
-use suite::{
-    Case, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, Frames, RunPlan, engine_name,
-};
-use tracer::{FrameRate, Location, RenderSettings, Scene, Seal};
+use suite::{Case, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, RunPlan, engine_name};
+use tracer::{Location, RenderSettings, Scene, SceneId};
 
 use super::kept_truths::check_truths;
 use super::render_settings::make_render_settings;
-use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
+use crate::arguments::measure::MeasureArgs;
+use crate::arguments::run_options::RunOptions;
+use crate::arguments::scenes::SceneArgs;
 use crate::output::count::count_text;
 use crate::output::print::{print_note, print_scene_notes};
 use crate::output::progress::make_monitor;
@@ -33,10 +33,10 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         false => Vec::new(),
     };
     let mut bounds: RunBounds = (scenes.iter())
-        .map(|(scene, bounds)| (scene.name.clone(), bounds.clone()))
+        .map(|(scene, bounds)| (scene.id.clone(), bounds.clone()))
         .collect();
     for scene in &engine_scenes {
-        bounds.insert(scene.name.clone(), read_engine_bounds(&scene.folder)?);
+        bounds.insert(scene.id.clone(), read_engine_bounds(&scene.folder)?);
     }
     let filters = load_filters(args)?;
     let filters = leave_out_filters(filters, &engine_scenes, scenes.is_empty())?;
@@ -47,18 +47,14 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         scenes: scenes.into_iter().map(|(scene, _)| scene).collect(),
         engine_scenes,
         filters,
-        inputs: args.forms.input_forms().one_by_one(),
+        inputs: args.forms.one_by_one(),
         jitter_frames: args.jitter_frames,
-        frames: Frames::default(),
         render: make_render_settings(&args.scenes, size, args.replicates)?,
         out,
-        intervals: false,
-        ladders: true,
         no_cache: args.no_cache,
-        common: None,
-        part: suite::Part::default(),
         truths: args.truths.clone(),
         monitor: make_monitor(),
+        ..RunPlan::default()
     };
     if let Some(truths) = &plan.truths {
         check_truths(truths)?;
@@ -106,7 +102,7 @@ fn leave_out_filters(
         for (count, reason) in left_out.into_iter().zip(reasons) {
             if count > 0 {
                 let presets = count_text(count, "preset", "presets");
-                print_note(&format!("{}: leaves out {presets} {reason}", scene.name));
+                print_note(&format!("{}: leaves out {presets} {reason}", scene.id));
             }
         }
     }
@@ -118,11 +114,12 @@ fn leave_out_filters(
         .collect();
     match filters.is_empty() {
         false => Ok(filters),
-        true => Err(Error::Usage(format!(
+        true => refuse!(
             "--filter: no filter is left that {} can be measured with; allowed: filters with a {} shutter that need no \
              camera motion",
-            engine_scenes[0].name, engine_scenes[0].alignment
-        ))),
+            engine_scenes[0].id,
+            engine_scenes[0].alignment
+        ),
     }
 }
 
@@ -143,11 +140,11 @@ fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Er
     ];
     match given.iter().find(|(_, given)| *given) {
         None => Ok(()),
-        Some((option, _)) => Err(Error::Usage(format!(
+        Some((option, _)) => refuse!(
             "{option}: {} is as {} drew it, and is not rendered; leave the option out, or leave out the scene",
-            scene.name,
+            scene.id,
             engine_name(&scene.engine)
-        ))),
+        ),
     }
 }
 
@@ -167,11 +164,11 @@ fn refuse_sequence_limits(file: &BoundsFile) -> Result<(), Error> {
     let mut all = std::iter::once(&file.default).chain(tables).flatten();
     match all.find(|(_, bound)| bound.length.is_some()) {
         None => Ok(()),
-        Some((metric, bound)) => Err(Error::Usage(format!(
+        Some((metric, bound)) => refuse!(
             "{}: {metric} is a score of a sequence, and an engine drew one frame here, so that nothing would judge its limit; \
              remove it",
             bound.place
-        ))),
+        ),
     }
 }
 
@@ -182,7 +179,7 @@ pub fn read_case_bounds(
     case: &Case,
     size: (u32, u32),
 ) -> Result<Option<SceneBounds>, Error> {
-    let folder = scene_folder_below(root, &case.scene);
+    let folder = root.join(&case.scene.name);
     let drawn = (folder.on_disk()).filter(|folder| EngineScene::is_in(folder));
     match (case.drawn.is_some(), drawn) {
         (true, Some(folder)) => Ok(Some(read_engine_bounds(folder)?.at(size))),
@@ -209,15 +206,10 @@ pub fn load_scenes(
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
     (choices.into_iter())
         .map(|choice| {
-            let bounds = read_scene_bounds(root, &choice.folder, &choice.scene.name, size)?;
+            let bounds = read_scene_bounds(root, &choice.folder, &choice.scene.id, size)?;
             Ok((choice.scene, bounds))
         })
         .collect()
-}
-
-/// Names the folder of a scene, which may be a variant, below the folder of scenes.
-pub fn scene_folder_below(root: &Location, scene: &str) -> Location {
-    root.join(scene.split_once('@').map_or(scene, |(name, _)| name))
 }
 
 /// Reads the bounds of a scene, which may be a variant. A sealed one, and one at another frame rate, have those beside the scenes alone:
@@ -225,10 +217,10 @@ pub fn scene_folder_below(root: &Location, scene: &str) -> Location {
 fn read_scene_bounds(
     root: &Location,
     folder: &Location,
-    name: &str,
+    id: &SceneId,
     size: Option<(u32, u32)>,
 ) -> Result<SceneBounds, Error> {
-    match Seal::split_name(name).1.is_some() || FrameRate::of_name(name).is_some() {
+    match id.seal.is_some() || id.rate.is_some() {
         true => read_bounds_beside_scenes(root, size),
         false => read_bounds(root, folder, size),
     }
@@ -250,8 +242,8 @@ fn load_filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
 pub fn check_replicates_for_intervals(replicates: u32) -> Result<(), Error> {
     match replicates {
         FEWEST_REPLICATES.. => Ok(()),
-        few => Err(Error::Usage(format!(
+        few => refuse!(
             "--replicates {few}: {FEWEST_REPLICATES} or more are needed to tell how sure a score is"
-        ))),
+        ),
     }
 }

@@ -10,7 +10,7 @@ use suite::{
 use tracer::Scene;
 
 use super::convention::read_convention;
-use crate::arguments::ScoreArgs;
+use super::score::ScoreArgs;
 use crate::output::print::{print, print_json};
 use crate::selection::select_scenes;
 use crate::tables::sequence::score_sequence_table;
@@ -34,9 +34,14 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     }
     notes.sort();
     notes.dedup();
-    let scored = score_sequence(&pictures, &scene, &truths, per_second(args, &scene.name))?;
+    let frames = Frames {
+        count: args.frames,
+        per_second: args.fps,
+    };
+    let per_second = frames.shown(&scene.id);
+    let scored = score_sequence(&pictures, &scene, &truths, per_second)?;
     if args.json {
-        print_json(&scores_json(args, &truths, &scored, &notes))
+        print_json(&scores_json(args, per_second, &truths, &scored, &notes))
     } else {
         print(&scores_text(args, &truths[0].truth, &scored, &notes))
     }
@@ -49,12 +54,12 @@ fn read_truth(args: &ScoreArgs, frame: u32) -> Result<SequenceTruth, Error> {
     let own = file_at_frame(&args.frame, frame);
     let frame = Frame::read(&own)?;
     if frame.provenance.scene != truth.provenance.scene {
-        return Err(Error::Usage(format!(
+        refuse!(
             "{}: was rendered from the scene {}, the truth from {}; render both from one",
             own.display(),
             frame.provenance.scene,
             truth.provenance.scene
-        )));
+        );
     }
     Ok(SequenceTruth { frame, truth, path })
 }
@@ -65,7 +70,7 @@ fn load_scene(args: &ScoreArgs, first: &SequenceTruth) -> Result<Scene, Error> {
     let name = printable(&provenance.scene).into_owned();
     let refuse = |reason: &str| {
         let path = printable_path(&first.path);
-        Err(Error::Usage(format!("{path}: {reason}")))
+        refuse!("{path}: {reason}")
     };
     if provenance.engine.is_some() {
         return refuse("an engine drew it, which makes one frame; leave --frames out");
@@ -118,17 +123,9 @@ fn scores_text(
     text
 }
 
-/// Returns the rate at which the sequence is shown.
-fn per_second(args: &ScoreArgs, scene: &str) -> f64 {
-    let frames = Frames {
-        count: args.frames,
-        per_second: args.fps,
-    };
-    frames.shown(scene)
-}
-
 fn scores_json(
     args: &ScoreArgs,
+    per_second: f64,
     truths: &[SequenceTruth],
     scored: &ScoredSequence,
     notes: &[String],
@@ -149,7 +146,7 @@ fn scores_json(
         "scene": first.provenance.scene,
         "exposure": first.shutter.exposure(),
         "alignment": first.alignment.name(),
-        "per_second": per_second(args, &first.provenance.scene),
+        "per_second": per_second,
         "notes": notes,
         "scores": scored.scores,
         "worst_frames": scored.worst_frames,

@@ -1,5 +1,6 @@
-//! The command `sensitivity`.
+//! The command `tune sensitivity`.
 
+use clap::Args;
 use store::Sharing;
 use suite::Error;
 use tune::{Evaluator, Space, analyze_sensitivity, count_candidates};
@@ -9,19 +10,45 @@ use super::candidate::{
     print_expected_scoring, select_candidate,
 };
 use super::result::CommandResult;
-use crate::arguments::SensitivityArgs;
+use crate::arguments::candidate::CandidateArgs;
+use crate::arguments::parse::within;
 use crate::output::progress::make_monitor;
 use crate::tables::sensitivity::sensitivity_table;
+
+/// `shuttertruth tune sensitivity`
+#[derive(Debug, Args)]
+pub struct SensitivityArgs {
+    #[command(flatten)]
+    pub candidate: CandidateArgs,
+    /// Parameters to study, separated by commas, each with an optional narrower range: samples=4..16 [default: all that
+    /// filter.toml allows].
+    #[arg(
+        help_heading = "Study",
+        long,
+        value_delimiter = ',',
+        value_name = "PARAMETERS"
+    )]
+    pub vary: Vec<String>,
+    /// Rows of the Sobol design; 64 to 256 will do.
+    #[arg(help_heading = "Study", long, value_name = "N", default_value_t = 64, value_parser = within::<usize>(0..=1_000_000))]
+    pub rows: usize,
+    /// Seed of the design; --seed is for renders.
+    #[arg(help_heading = "Study", long, value_name = "S", default_value_t = 1)]
+    pub search_seed: u64,
+    /// Print sensitivity.json instead of the table.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Studies the parameters of a filter, writes `sensitivity.json`, prints the table.
 pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = select_candidate(candidate)?;
     if args.rows < 2 {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--rows {}; allowed: 2 or more; a single row has no variance",
             args.rows
-        )));
+        );
     }
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let scenes = load_candidate_scenes(candidate)?;

@@ -13,9 +13,7 @@ pub fn work_on_threads<T: Send>(
     if let Some(threads) = threads
         && !(1..=MOST_THREADS).contains(&threads)
     {
-        return Err(Error::Usage(format!(
-            "--threads {threads}; allowed: 1 to {MOST_THREADS}"
-        )));
+        refuse!("--threads {threads}; allowed: 1 to {MOST_THREADS}");
     }
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads.unwrap_or(0))

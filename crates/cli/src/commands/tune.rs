@@ -1,9 +1,10 @@
-//! The command `tune`.
+//! The command `tune search`.
 
 use std::io::ErrorKind;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use clap::Args;
 use frame::FileError;
 use store::{Sharing, claim};
 use suite::{Error, FilterChoice};
@@ -17,19 +18,74 @@ use super::candidate::{
 use super::render_settings::make_render_settings;
 use super::result::CommandResult;
 use super::run_plan::load_scenes;
-use crate::arguments::TuneArgs;
+use crate::arguments::candidate::CandidateArgs;
+use crate::arguments::parse::{above_zero, parse_ratio, parse_size, within};
 use crate::output::print::print_error;
 use crate::output::progress::make_monitor;
 use crate::output::verbosity::is_quiet;
 use crate::tables::tuning::{advice_text, tuning_table};
 
+/// `shuttertruth tune search`
+#[derive(Debug, Args)]
+pub struct TuneArgs {
+    #[command(flatten)]
+    pub candidate: CandidateArgs,
+    /// Parameters to change, separated by commas, each with an optional narrower range: samples=4..16 [default: all that
+    /// filter.toml allows].
+    #[arg(
+        help_heading = "Search",
+        long,
+        value_delimiter = ',',
+        value_name = "PARAMETERS"
+    )]
+    pub vary: Vec<String>,
+    /// Candidates to try, including those of an interrupted run.
+    #[arg(help_heading = "Search", long, value_name = "N", default_value_t = 400, value_parser = within::<usize>(0..=1_000_000))]
+    pub budget: usize,
+    /// Minutes after which no candidate begins.
+    #[arg(help_heading = "Search", long, value_name = "M", value_parser = above_zero(1e6))]
+    pub minutes: Option<f64>,
+    /// Upper limit on GPU time, relative to the start's.
+    #[arg(help_heading = "Search", long, value_name = "RATIO", value_parser = parse_ratio)]
+    pub cost_at_most: Option<f64>,
+    /// Upper limit on lateral bleed of the worst scene, relative to the start's; 0.01 px is always allowed.
+    #[arg(help_heading = "Search", long, value_name = "RATIO", value_parser = parse_ratio)]
+    pub bleed_at_most: Option<f64>,
+    /// Run every candidate on every scene, even a bad one.
+    #[arg(help_heading = "Search", long)]
+    pub no_race: bool,
+    /// Seed of the search; --seed is for renders.
+    #[arg(help_heading = "Search", long, value_name = "S", default_value_t = 1)]
+    pub search_seed: u64,
+    /// Held-out scenes, evaluated once at the end; every evaluation is recorded.
+    #[arg(
+        help_heading = "Held-out scenes",
+        long,
+        value_delimiter = ',',
+        value_name = "SCENES"
+    )]
+    pub held_out: Vec<String>,
+    /// Picture size of the held-out scenes.
+    #[arg(help_heading = "Held-out scenes", long, value_name = "WxH", default_value = "320x180", value_parser = parse_size)]
+    pub held_out_size: (u32, u32),
+    /// Mean samples per pixel of the held-out scenes' truths.
+    #[arg(
+        help_heading = "Held-out scenes",
+        long,
+        value_name = "N",
+        default_value_t = 256
+    )]
+    pub held_out_samples_per_pixel: u32,
+    /// Print tune.json instead of the table.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
+
 /// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values, prints the table.
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     let choice = select_candidate(&args.candidate)?;
     if args.budget == 0 {
-        return Err(Error::Usage(
-            "--budget 0; allowed: 1 or more; the first trial is the start itself".to_owned(),
-        ));
+        refuse!("--budget 0; allowed: 1 or more; the first trial is the start itself");
     }
     let options = make_options(args, choice)?;
     options.check()?;
@@ -68,7 +124,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     let mut open = load_candidate_scenes(candidate)?;
     if scene_args.scenes.is_empty() {
         // Every scene means every one that is not held out.
-        open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.name != scene.name));
+        open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.id != scene.id));
     }
     let mut held_out_args = scene_args.clone();
     held_out_args.samples_per_pixel = args.held_out_samples_per_pixel;

@@ -1,27 +1,64 @@
-//! The command `verify`.
+//! The command `truths verify`.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use frame::{FileError, Tile};
 use serde::Serialize;
 use store::{Pack, printable_path};
 use suite::{Error, KeptScene, TILE_SIDE, Verification, Verified, list_kept_scenes, verify_scene};
+use tracer::Location;
 
 use super::ending::Ending;
 use super::kept_truths::choose_seed;
-use crate::arguments::VerifyArgs;
+use crate::arguments::parse::within;
+use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
 use crate::output::count::count_text;
 use crate::output::print::{print, print_json};
 use crate::output::progress::make_monitor;
 use crate::selection::{choose_names, select_scenes};
+
+/// `shuttertruth truths verify`
+#[derive(Debug, Args)]
+pub struct VerifyArgs {
+    /// Pack, or folder into which `run`, `check` or `truths render` wrote.
+    #[arg(value_name = "FILE|DIR", default_value = "out")]
+    pub truths: PathBuf,
+    /// Scenes to verify: names with their @variant, or patterns such as 'rail*'; repeatable, or separated by commas [default: all].
+    #[arg(
+        long,
+        visible_alias = "scene",
+        value_delimiter = ',',
+        value_name = "SCENES"
+    )]
+    pub scenes: Vec<String>,
+    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
+    /// Seed of the choice of replicates, rungs and tiles [default: another one each time, which is printed].
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Tiles of 16x16 pixels to trace again of each frame, each truth and each ladder.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = within::<u32>(1..=10_000))]
+    pub tiles: u32,
+    /// Threads that render [default: one per core].
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// Print what was verified as JSON.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
 
 /// Traces random tiles of kept frames, truths and ladders again; fails if a file holds anything else.
 pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
     let unpacked = unpack(&args.truths)?;
     let folder = (unpacked.as_ref()).map_or(args.truths.as_path(), tempfile::TempDir::path);
     let kept = list_kept_scenes(folder, &args.truths)?;
-    let known: BTreeSet<String> = kept.iter().map(|kept| kept.scene.clone()).collect();
+    let known: BTreeSet<String> = (kept.iter())
+        .map(|kept| kept.scene.at_frame(0).to_string())
+        .collect();
     let known: Vec<String> = known.into_iter().collect();
     let chosen = choose_names("--scenes", &args.scenes, &known)?;
     let verification = Verification {
@@ -51,11 +88,11 @@ pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
 /// Checks a pack and unpacks it into a temporary folder; none for what is no file.
 fn unpack(truths: &Path) -> Result<Option<tempfile::TempDir>, Error> {
     if !truths.exists() {
-        return Err(Error::Usage(format!(
-            "{}: there is no such file or folder; allowed: a pack, or a folder into which `shuttertruth run`, `check` or `render` \
+        refuse!(
+            "{}: there is no such file or folder; allowed: a pack, or a folder into which `shuttertruth run`, `check` or `truths render` \
              wrote",
             truths.display()
-        )));
+        );
     }
     if truths.is_dir() {
         return Ok(None);
@@ -76,7 +113,6 @@ fn verify_named(
     verification: &Verification,
 ) -> Result<Verified, Error> {
     let mut verified = Verified::default();
-    let own: Vec<&KeptScene> = kept.iter().filter(|kept| kept.scene == name).collect();
     let choices = select_scenes(&args.scenes_dir, &[name.to_owned()]).map_err(|error| {
         Error::Usage(format!(
             "{}: cannot be traced again: {error}; truths of an engine only that engine can draw again: name the scenes to verify with \
@@ -84,8 +120,8 @@ fn verify_named(
             args.truths.join(name).display()
         ))
     })?;
-    for kept in own {
-        let scene = choices[0].scene.at_frame(kept.frame);
+    for kept in (kept.iter()).filter(|kept| kept.scene.at_frame(0) == name) {
+        let scene = choices[0].scene.at_frame(kept.scene.frame);
         let found = verify_scene(&scene, kept, verification, make_monitor())?;
         verified.add(found);
     }

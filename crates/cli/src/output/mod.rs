@@ -1,10 +1,8 @@
 //! Text for terminals, logs and services that read checks.
 
-pub mod annotations;
 pub mod colors;
 pub mod count;
 pub mod interrupts;
-pub mod junit;
 pub mod print;
 pub mod progress;
 pub mod verbosity;

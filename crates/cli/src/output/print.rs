@@ -15,9 +15,9 @@ pub fn print(text: &str) -> Result<(), Error> {
     let mut out = anstream::stdout();
     let text = printable_table(text);
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::Usage(format!(
-            "standard output: cannot write: {error}"
-        ))),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            refuse!("standard output: cannot write: {error}")
+        }
         _ => Ok(()),
     }
 }

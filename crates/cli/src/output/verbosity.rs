@@ -3,8 +3,40 @@
 use std::sync::OnceLock;
 
 use anstream::ColorChoice;
+use clap::{Args, ValueEnum};
 
-use crate::arguments::{Color, OutputArgs};
+/// Amount and colours of output; every command has these arguments.
+#[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub struct OutputArgs {
+    /// Show no progress
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+    /// Show missed targets, and messages of the graphics driver
+    #[arg(short, long, global = true)]
+    pub verbose: bool,
+    /// Colours: auto (unless NO_COLOR is set), always or never
+    #[arg(
+        long,
+        global = true,
+        value_name = "WHEN",
+        default_value = "auto",
+        hide_default_value = true,
+        hide_possible_values = true
+    )]
+    pub color: Color,
+}
+
+/// Choice of colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    /// On a terminal.
+    Auto,
+    /// Everywhere.
+    Always,
+    /// Nowhere.
+    Never,
+}
 
 static OUTPUT: OnceLock<OutputArgs> = OnceLock::new();
 

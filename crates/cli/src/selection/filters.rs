@@ -77,10 +77,10 @@ pub fn load_filters(name: &str) -> Result<Vec<Filter>, Error> {
     if Path::new(name).is_dir() {
         return Ok(vec![Filter::load(&Path::new(".").join(name))?]);
     }
-    Err(Error::Usage(format!(
+    refuse!(
         "--filter: no built-in filter is called \"{name}\"; {} A filter of your own is named by its folder, such as ./{name}",
         suggest_names(name, &known)
-    )))
+    )
 }
 
 /// Lists the presets of a filter by a name or a pattern; all where there is none.
@@ -93,11 +93,11 @@ fn find_presets(filter: &Filter, text: Option<&str>) -> Result<Vec<String>, Erro
         Some(text) if is_pattern(text) => {
             let matched = match_names("--filter", text, &known)?;
             match matched.is_empty() {
-                true => Err(Error::Usage(format!(
+                true => refuse!(
                     "--filter: no preset of {} matches '{text}'; allowed: {}",
                     filter.name,
                     known.join(", ")
-                ))),
+                ),
                 false => Ok(matched),
             }
         }
@@ -108,12 +108,12 @@ fn find_presets(filter: &Filter, text: Option<&str>) -> Result<Vec<String>, Erro
 fn refuse_programs(choices: &[FilterChoice]) -> Result<(), Error> {
     match choices.iter().find_map(|it| it.filter.command.as_ref()) {
         None => Ok(()),
-        Some(command) => Err(Error::Usage(format!(
+        Some(command) => refuse!(
             "{}:{}: the filter is a program and would run `{}`; read what that does, and allow it with --allow-commands",
             command.manifest.display(),
             command.line,
             command.words().join(" ")
-        ))),
+        ),
     }
 }
 
@@ -122,10 +122,10 @@ fn refuse_duplicates(choices: &[FilterChoice]) -> Result<(), Error> {
     for (index, choice) in choices.iter().enumerate() {
         let name = choice.name();
         if choices[..index].iter().any(|other| other.name() == name) {
-            return Err(Error::Usage(format!(
+            refuse!(
                 "--filter: {name} is named twice; allowed: each filter and preset once; give a folder of your own \
                  another name in its filter.toml"
-            )));
+            );
         }
     }
     Ok(())
@@ -138,9 +138,7 @@ fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error>
             .map(|(filter, parameter)| (filter, parameter, value))
     });
     let Some((name, parameter, value)) = parts else {
-        return Err(Error::Usage(format!(
-            "--set {text}; allowed: filter.parameter=value, such as jump_flood.samples=16"
-        )));
+        refuse!("--set {text}; allowed: filter.parameter=value, such as jump_flood.samples=16");
     };
     let mut found = false;
     for choice in choices
@@ -158,8 +156,8 @@ fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error>
         .map(|choice| choice.filter.name.as_str())
         .collect();
     names.dedup();
-    Err(Error::Usage(format!(
+    refuse!(
         "--set {text}: no filter \"{name}\" takes part; allowed: {}",
         names.join(", ")
-    )))
+    )
 }

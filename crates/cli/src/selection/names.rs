@@ -39,10 +39,10 @@ pub fn choose_names(
             false => (known.iter().filter(|name| *name == text).cloned()).collect(),
         };
         if matched.is_empty() {
-            return Err(Error::Usage(format!(
+            refuse!(
                 "{option}: no \"{text}\" there; {}",
                 suggest_names(text, known)
-            )));
+            );
         }
         chosen.extend(matched);
     }
@@ -54,9 +54,9 @@ pub fn choose_names(
 pub fn refuse_empty_names(option: &str, names: &[String]) -> Result<(), Error> {
     match names.iter().any(String::is_empty) {
         false => Ok(()),
-        true => Err(Error::Usage(format!(
+        true => refuse!(
             "{option}: one of its names is empty; leave out a comma too many, or leave the option out to take all"
-        ))),
+        ),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use suite::{EngineScene, Error};
-use tracer::{FrameRate, Location, Scene, list_scene, list_scenes, load_scene};
+use tracer::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 
 use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};
 use super::path::is_path;
@@ -30,17 +30,17 @@ pub fn select_scenes(
     let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
         true => Vec::new(),
         false if !root.is_dir() => {
-            return Err(Error::Usage(format!(
+            refuse!(
                 "{}: there is no such folder of scenes; name one with --scenes-dir, or a scene by its path with --scenes",
                 root
-            )));
+            );
         }
         false => list_scenes(root)?,
     };
     if names.is_empty() {
         return listings
             .iter()
-            .map(|listing| load_choice(&listing.folder, None))
+            .map(|listing| load_choice(&listing.folder, &SceneId::default()))
             .collect();
     }
     let known: Vec<String> = listings
@@ -49,11 +49,11 @@ pub fn select_scenes(
         .collect();
     let mut scenes: Vec<SceneChoice> = Vec::new();
     for text in names {
-        let (name, variant) = split_variant(text);
+        let (name, id) = split_scene(text);
         for folder in find_folders(root, name, &known)? {
-            match variant {
-                Some(all) if is_of_all(all) => scenes.extend(load_all_variants(&folder, all)?),
-                _ => scenes.push(load_choice(&folder, variant)?),
+            match id.variant.as_deref() {
+                Some(ALL) => scenes.extend(load_all_variants(&folder, &id)?),
+                _ => scenes.push(load_choice(&folder, &id)?),
             }
         }
     }
@@ -75,9 +75,9 @@ pub fn select_engine_scenes(
         .map(|name| EngineScene::read(Path::new(name)))
         .collect::<Result<_, _>>()?;
     for (index, scene) in scenes.iter().enumerate() {
-        if let Some(other) = scenes[..index].iter().find(|it| it.name == scene.name) {
+        if let Some(other) = scenes[..index].iter().find(|it| it.id == scene.id) {
             let folders = [&other.folder, &scene.folder].map(Location::from);
-            return refuse_twins(&scene.name, folders.each_ref());
+            return refuse_twins(&scene.id, folders.each_ref());
         }
     }
     Ok((scenes, others.into_iter().cloned().collect()))
@@ -101,11 +101,11 @@ fn find_folders(root: &Location, name: &str, known: &[String]) -> Result<Vec<Loc
     if Path::new(name).is_dir() {
         return Ok(vec![Path::new(name).into()]);
     }
-    Err(Error::Usage(format!(
+    refuse!(
         "--scenes: no scene \"{name}\" in {root}; {}{} A scene elsewhere is named by its path, such as ./{name}",
         suggest_names(name, known),
         suggest_built_in(root, name)
-    )))
+    )
 }
 
 /// Says how to get a scene of the program's own, where another folder of scenes hides it.
@@ -117,79 +117,87 @@ fn suggest_built_in(root: &Location, name: &str) -> &'static str {
     }
 }
 
-/// Splits a text into a scene and its variant. Folders above the scene's own may have an @ in their names.
-pub fn split_variant(text: &str) -> (&str, Option<&str>) {
+/// Splits a text into the name or path of a scene, and its identity. Folders above the scene's own may have an @ in their names.
+pub fn split_scene(text: &str) -> (&str, SceneId) {
     let name = text.trim_end_matches(['/', '\\']);
     let own = name.rfind(['/', '\\']).map_or(0, |separator| separator + 1);
     match name[own..].split_once('@') {
-        Some((folder, variant)) => (&name[..own + folder.len()], Some(variant)),
-        None => (text, None),
+        Some((folder, choice)) => (
+            &name[..own + folder.len()],
+            SceneId::new(folder, Some(choice)),
+        ),
+        None => (text, SceneId::new(&name[own..], None)),
     }
 }
 
 /// Word for all variants of a scene.
 const ALL: &str = "all";
 
-/// Tells whether a variant is `all`, or `all` at a frame rate.
-fn is_of_all(variant: &str) -> bool {
-    FrameRate::split_variant(variant).0 == Some(ALL)
-}
-
-/// Loads every variant of the scene in a folder, at the frame rate behind `all` in the text if there is one.
-fn load_all_variants(folder: &Location, all: &str) -> Result<Vec<SceneChoice>, Error> {
+/// Loads every variant of the scene in a folder, at the frame rate of `all` if it has one.
+fn load_all_variants(folder: &Location, all: &SceneId) -> Result<Vec<SceneChoice>, Error> {
     let variants = list_scene(folder)?.variants;
     if variants.is_empty() {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--scenes: {} has no variants for @all; name the scene without it",
             folder
-        )));
+        );
     }
-    (variants.iter())
-        .map(|variant| load_choice(folder, Some(&all.replacen(ALL, variant, 1))))
+    (variants.into_iter())
+        .map(|variant| {
+            let variant = Some(variant);
+            load_choice(
+                folder,
+                &SceneId {
+                    variant,
+                    ..all.clone()
+                },
+            )
+        })
         .collect()
 }
 
 /// Refuses two scenes of one name: both would be written to one folder and counted as two.
 fn refuse_duplicates(scenes: &[SceneChoice]) -> Result<(), Error> {
     for (index, scene) in scenes.iter().enumerate() {
-        let name = &scene.scene.name;
+        let name = &scene.scene.id;
         let mut before = scenes[..index].iter();
-        if let Some(other) = before.find(|other| other.scene.name == *name) {
+        if let Some(other) = before.find(|other| other.scene.id == *name) {
             return refuse_twins(name, [&other.folder, &scene.folder]);
         }
     }
     Ok(())
 }
 
-fn refuse_twins<T>(name: &str, [one, other]: [&Location; 2]) -> Result<T, Error> {
-    Err(Error::Usage(format!(
+fn refuse_twins<T>(name: &SceneId, [one, other]: [&Location; 2]) -> Result<T, Error> {
+    refuse!(
         "--scenes: {name} is named twice, as {} and {}; allowed: each name once; rename one of the folders, or \
          run them into two --out folders",
-        one, other
-    )))
+        one,
+        other
+    )
 }
 
-fn load_choice(folder: &Location, variant: Option<&str>) -> Result<SceneChoice, Error> {
+fn load_choice(folder: &Location, id: &SceneId) -> Result<SceneChoice, Error> {
     let own = folder
         .path
         .file_name()
         .unwrap_or_default()
         .to_string_lossy();
     if own.contains('@') {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant; rename it",
             folder
-        )));
+        );
     }
     if folder.on_disk().is_some_and(EngineScene::is_in) {
-        return Err(Error::Usage(format!(
+        refuse!(
             "--scenes: {} holds what an engine drew, and nothing to render; `run` and `check` measure it",
             folder
-        )));
+        );
     }
     Ok(SceneChoice {
         folder: folder.clone(),
-        scene: load_scene(folder, variant)?,
+        scene: load_scene(folder, id.choice().strip_prefix('@'))?,
     })
 }
 
@@ -206,7 +214,8 @@ mod tests {
             ("./me@home/fan@fast", "./me@home/fan", Some("fast")),
             ("me@home/fan@fast/", "me@home/fan", Some("fast")),
         ] {
-            assert_eq!(split_variant(text), (name, variant), "{text}");
+            let (found, id) = split_scene(text);
+            assert_eq!((found, id.variant.as_deref()), (name, variant), "{text}");
         }
     }
 }

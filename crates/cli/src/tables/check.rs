@@ -16,16 +16,16 @@ use crate::tables::failures::failures_text;
 /// fail nothing, are listed where `targets` asks for them. `out` is the folder of the run's pictures.
 pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
     let mut text = failures_text(&check.failures);
-    let mut case = (String::new(), String::new());
+    let mut case = None;
     for finding in &check.findings {
         let is_listed = targets || finding.decision() != Decision::Pass;
         if !finding.outcome.is_notable() || !is_listed {
             continue;
         }
-        let own = (finding.scene.clone(), finding.filter.clone());
-        if case != own {
-            let _ = writeln!(text, "{}", heading(&format!("{} / {}", own.0, own.1)));
-            case = own;
+        let own = format!("{} / {}", finding.scene, finding.filter);
+        if case.as_ref() != Some(&own) {
+            let _ = writeln!(text, "{}", heading(&own));
+            case = Some(own);
         }
         for (indent, line) in finding_lines(finding, out) {
             push_wrapped(&mut text, indent, &line);

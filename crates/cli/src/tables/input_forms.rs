@@ -2,7 +2,7 @@
 
 use judge::list_summarized;
 use metrics::Metric;
-use suite::{Case, InputFormat, ShutterRule};
+use suite::{Case, InputFormat};
 
 use super::columns::{legend_text, list_once, number_table};
 
@@ -14,7 +14,8 @@ const FILTERS_ABREAST: usize = 3;
 /// rates.
 pub fn input_forms_text(cases: &[Case]) -> String {
     let cases = list_summarized(cases);
-    let rates = |case: &&&Case| case.rate.is_some() || case.input.rule == ShutterRule::default();
+    let rates =
+        |case: &&&Case| case.rate.is_some() || case.input.rule == InputFormat::default().rule;
     let changes: Vec<String> = cases
         .iter()
         .filter(rates)

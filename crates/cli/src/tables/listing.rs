@@ -2,6 +2,7 @@
 
 use filters::{Command, Filter, Parameter, Preset, Unit};
 use store::printable;
+use suite::InputKind;
 use tracer::SceneListing;
 
 use crate::output::colors::heading;
@@ -36,6 +37,33 @@ pub fn filters_text(filters: &[Filter]) -> String {
         push_wrapped(&mut text, 2, &line);
     }
     text
+}
+
+/// Lists kinds of input with their forms; the first form of each is the full one.
+pub fn inputs_text(kinds: &[InputKind]) -> String {
+    let mut text = String::new();
+    for kind in kinds {
+        push_wrapped(
+            &mut text,
+            0,
+            &format!("{}: {}", heading(kind.name), kind.help),
+        );
+        for form in &kind.forms {
+            push_wrapped(&mut text, 2, &format!("{}: {}", form.name, form.help));
+        }
+    }
+    text
+}
+
+/// Describes a kind of input as JSON.
+pub fn input_json(kind: &InputKind) -> serde_json::Value {
+    let forms = kind.forms.iter();
+    let forms = forms.map(|form| serde_json::json!({"name": form.name, "help": form.help}));
+    serde_json::json!({
+        "name": kind.name,
+        "help": kind.help,
+        "forms": forms.collect::<Vec<_>>(),
+    })
 }
 
 /// Describes scenes and filters in detail.

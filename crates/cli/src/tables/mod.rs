@@ -1,6 +1,7 @@
 //! Tables of results, in 80 columns.
 
 pub mod adapter;
+pub mod annotations;
 pub mod audit;
 pub mod bench;
 pub mod cases;
@@ -11,6 +12,7 @@ pub mod failures;
 pub mod frame_rates;
 pub mod input_forms;
 pub mod jobs;
+pub mod junit;
 pub mod layout;
 pub mod listing;
 pub mod missing;

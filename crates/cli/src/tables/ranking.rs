@@ -66,9 +66,9 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     let first = groups[0][0].rate;
     let cases = list_summarized(cases).into_iter();
     let cases = cases.filter(|case| case.rate == first);
-    let scenes = list_once(cases.map(|case| case.scene.as_str()));
+    let scenes = list_once(cases.map(|case| &case.scene));
     let (title, columns) = match scenes.as_slice() {
-        [scene] => ((*scene).to_owned(), 2),
+        [scene] => (scene.to_string(), 2),
         scenes => (format!("mean over {} scenes", scenes.len()), 4),
     };
     let titles = [title.as_str(), "FLIP", "95 % CI", "worst scene"];
@@ -112,7 +112,7 @@ const LAG: &str = "lag behind the frame";
 /// the frame.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
-    let names: Vec<String> = references().map(Case::name).collect();
+    let names: Vec<String> = references().map(|case| case.name()).collect();
     let names = list_once(names.iter().map(String::as_str));
     if names.is_empty() {
         return String::new();

@@ -4,6 +4,7 @@ use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences, rank_sequences
 use metrics::{SequenceMetric, SequenceScores};
 use store::printable;
 use suite::{Run, Sequence};
+use tracer::SceneId;
 
 use super::columns::{bracket_name, legend_text, list_once, number_table, row_style};
 use super::layout::{Align, Table};
@@ -31,7 +32,7 @@ const KEY: &str = "roots of squared errors, in thousandths of display white. Fli
 /// Makes the text about a run's sequences; empty where there is none. One scene has the table of its scores, several have a ranking of
 /// means over the scenes, and behind it with `all` the tables of the scenes.
 pub fn sequences_text(run: &Run, all: bool) -> String {
-    let scenes = list_once(run.sequences.iter().map(|own| own.scene.as_str()));
+    let scenes = list_once(run.sequences.iter().map(|own| &own.scene));
     match scenes.len() {
         0 => String::new(),
         1 => sequence_table(run, &scenes),
@@ -95,7 +96,7 @@ fn ranking_cells(own: &RankedSequence, scenes: usize) -> Vec<String> {
         found.map_or("n/a".to_owned(), |mean| wanted.shown_text(mean.mean))
     };
     let (scene, worst) = &ranked.worst;
-    let mut worst = format!("{} {}", printable(scene), number(*worst));
+    let mut worst = format!("{} {}", scene, number(*worst));
     if ranked.scenes < scenes {
         worst += &format!(" ({} of {scenes} scenes)", ranked.scenes);
     }
@@ -110,17 +111,17 @@ fn ranking_cells(own: &RankedSequence, scenes: usize) -> Vec<String> {
 }
 
 /// Makes the tables of scenes: per shutter the references, then the filters by their ranks, then those without a rank.
-fn sequence_table(run: &Run, scenes: &[&str]) -> String {
+fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
     let title = format!("{} frames", run.sequences[0].frames.len());
     let titles: Vec<&str> = std::iter::once(title.as_str())
         .chain(COLUMNS.iter().map(|(title, _)| *title))
         .collect();
     let mut table = number_table(&titles);
     for scene in scenes {
-        let of_scene = || run.sequences.iter().filter(|own| own.scene == *scene);
+        let of_scene = || run.sequences.iter().filter(|own| own.scene == **scene);
         let groups = rank_sequences_on(run, scene);
         for alignment in list_once(of_scene().map(|own| own.alignment)) {
-            let heading = format!("{}, {alignment} shutter", printable(scene));
+            let heading = format!("{scene}, {alignment} shutter");
             table.push_text(&colors::heading(&heading));
             let of_shutter: Vec<&Sequence> = of_scene()
                 .filter(|own| own.alignment == alignment)

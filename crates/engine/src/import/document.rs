@@ -27,7 +27,7 @@ pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
     let exposes = format!("Imported from {file}: {}.", motions.sentence());
     let [width, height] = SIZE;
     format!(
-        "# Made by `shuttertruth import`; yours to change.\n\
+        "# Made by `shuttertruth engine import`; yours to change.\n\
          exposes = {exposes}\nfamily = \"{family}\"\nexposure = {exposure}\nsize = [{width}, {height}]\n\n\
          [camera]\nvertical_fov = {VERTICAL_FOV}\n{path}\n\n\
          [background]\n\

@@ -10,14 +10,13 @@ use frame::{ExrFile, FileError, Image, read_exr, write_exr};
 use super::environment::collect_environment;
 use super::process::{End, Limits, run_process};
 use crate::filter::fill_placeholders;
-use crate::input::CameraUse;
-use crate::input::FRAMES_PER_SECOND;
+use crate::input::{CameraUse, FRAMES_PER_SECOND, find_pixel, is_finite};
 use crate::{Command, Filter, FilterError, Input, Settings};
 
 /// Upper limit on the bytes per pixel that a program may write: 64 channels of 32 bits.
 pub const BYTES_PER_PIXEL: u64 = 256;
 
-/// Upper limit on the bytes that it may write beside those of the pixels.
+/// Upper limit on the bytes that it may write besides those of the pixels.
 pub const BESIDE_PIXELS: u64 = 1 << 20;
 
 /// A filter that is a program, ready to run on images of one size.
@@ -195,16 +194,12 @@ impl CommandBlur {
                 color.width, color.height
             ));
         }
-        let broken = |pixel: &[f32; 3]| pixel.iter().any(|value| !value.is_finite());
-        match color.pixels.iter().position(broken) {
+        match find_pixel(&color, |pixel| !is_finite(pixel)) {
             None => Ok(color),
-            Some(index) => {
-                let (x, y) = (index as u32 % width, index as u32 / width);
-                Err(format!(
-                    "wrote {:?} at pixel ({x}, {y}); every value must be finite",
-                    color.pixels[index]
-                ))
-            }
+            Some([x, y]) => Err(format!(
+                "wrote {:?} at pixel ({x}, {y}); every value must be finite",
+                color.at(x, y)
+            )),
         }
     }
 
@@ -257,7 +252,7 @@ fn kind_of(found: &std::fs::Metadata) -> &'static str {
     "a pipe or a device"
 }
 
-/// Returns the rate that a program is told.
+/// Returns the rate that a program gets.
 fn frames_per_second(input: &Input) -> f64 {
     input.frames_per_second.unwrap_or(FRAMES_PER_SECOND)
 }

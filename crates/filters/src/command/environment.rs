@@ -3,7 +3,6 @@
 use std::ffi::OsString;
 
 /// Variables that every program gets. None of them is a secret.
-#[cfg(not(windows))]
 const PASSED: [&str; 7] = [
     "PATH",
     "HOME",
@@ -14,23 +13,17 @@ const PASSED: [&str; 7] = [
     "VK_DRIVER_FILES",
     "VK_ICD_FILENAMES",
 ];
-#[cfg(windows)]
-const PASSED: [&str; 14] = [
-    "PATH",
+
+/// Variables that programs get on Windows as well.
+const PASSED_ON_WINDOWS: [&str; 8] = [
     "PATHEXT",
-    "HOME",
     "USERPROFILE",
     "TEMP",
     "TMP",
-    "LANG",
-    "TZ",
     "ComSpec",
     "SystemDrive",
     "SystemRoot",
     "windir",
-    // Places of Vulkan drivers.
-    "VK_DRIVER_FILES",
-    "VK_ICD_FILENAMES",
 ];
 
 /// Languages and formats: `LC_ALL` and its like.
@@ -44,7 +37,9 @@ pub(crate) fn collect_environment(named: &[String]) -> Vec<(OsString, OsString)>
 }
 
 fn is_passed(name: &str, named: &[String]) -> bool {
-    let mut known = PASSED.into_iter().chain(named.iter().map(String::as_str));
+    let on_windows = PASSED_ON_WINDOWS.into_iter().filter(|_| cfg!(windows));
+    let known = PASSED.into_iter().chain(on_windows);
+    let mut known = known.chain(named.iter().map(String::as_str));
     let is_locale = name.starts_with(LOCALE);
     is_locale || known.any(|known| is_same(known, name))
 }

@@ -8,5 +8,5 @@ mod output_tail;
 mod process;
 mod process_group;
 
-pub use blur::{BESIDE_PIXELS, BYTES_PER_PIXEL, CommandBlur};
+pub use blur::CommandBlur;
 pub(crate) use environment::collect_environment;

@@ -111,6 +111,22 @@ pub enum DepthKind {
     Ndc,
 }
 
+const COLOR_FORMATS: [Format; 5] = [
+    Format::Rgba32Float,
+    Format::Rgba16Float,
+    Format::Rg11b10Ufloat,
+    Format::Rgb10a2Unorm,
+    Format::Rgba8Unorm,
+];
+const VELOCITY_FORMATS: [Format; 4] = [
+    Format::Rg32Float,
+    Format::Rg16Float,
+    Format::Rgba32Float,
+    Format::Rgba16Float,
+];
+const DEPTH_FORMATS: [Format; 2] = [Format::R32Float, Format::R16Float];
+const OUTPUT_FORMATS: [Format; 2] = [Format::Rgba32Float, Format::Rgba16Float];
+
 impl Convention {
     /// Refuses numbers that make no sense, and keys that miss others.
     pub(crate) fn check(&self) -> Result<(), String> {
@@ -152,37 +168,10 @@ impl Convention {
             _ => {}
         }
         let formats: [(_, _, &[Format]); 4] = [
-            (
-                "color_format",
-                self.color_format,
-                &[
-                    Format::Rgba32Float,
-                    Format::Rgba16Float,
-                    Format::Rg11b10Ufloat,
-                    Format::Rgb10a2Unorm,
-                    Format::Rgba8Unorm,
-                ],
-            ),
-            (
-                "velocity_format",
-                self.velocity_format,
-                &[
-                    Format::Rg32Float,
-                    Format::Rg16Float,
-                    Format::Rgba32Float,
-                    Format::Rgba16Float,
-                ],
-            ),
-            (
-                "depth_format",
-                self.depth_format,
-                &[Format::R32Float, Format::R16Float],
-            ),
-            (
-                "output_format",
-                self.output_format,
-                &[Format::Rgba32Float, Format::Rgba16Float],
-            ),
+            ("color_format", self.color_format, &COLOR_FORMATS),
+            ("velocity_format", self.velocity_format, &VELOCITY_FORMATS),
+            ("depth_format", self.depth_format, &DEPTH_FORMATS),
+            ("output_format", self.output_format, &OUTPUT_FORMATS),
         ];
         for (name, format, allowed) in formats {
             if let Some(format) = format.filter(|format| !allowed.contains(format)) {
@@ -222,19 +211,20 @@ impl Convention {
     pub fn resolved(self) -> Self {
         Self {
             velocity_scale: self.velocity_scale.or(Some(1.0)),
-            velocity_format: Some(self.input_format("velocity")),
-            depth_format: Some(self.input_format("depth")),
+            velocity_format: Some(self.format_of("velocity")),
+            depth_format: Some(self.format_of("depth")),
             color_scale: self.color_scale.or(Some(1.0)),
-            color_format: Some(self.input_format("color")),
+            color_format: Some(self.format_of("color")),
             ..self
         }
     }
 
-    /// Returns the format of a texture that every filter has, but for `output`.
-    pub(crate) fn input_format(&self, name: &str) -> Format {
-        match name {
+    /// Returns the format of a texture that every filter has; that of `output` is for fragment shaders.
+    pub(crate) fn format_of(&self, name: &str) -> Format {
+        match name.strip_suffix("_before").unwrap_or(name) {
             "color" => self.color_format.unwrap_or(Format::Rgba32Float),
             "velocity" => self.velocity_format.unwrap_or(Format::Rg32Float),
+            "output" => self.output_format.unwrap_or(Format::Rgba32Float),
             _ => self.depth_format.unwrap_or(Format::R32Float),
         }
     }
@@ -246,54 +236,22 @@ mod tests {
 
     #[test]
     fn conventions_that_say_too_little_are_refused() {
-        let default = Convention::default();
-        for (convention, says) in [
+        for (text, says) in [
+            ("velocity_per = 'second'", "frames_per_second"),
+            ("depth = 'reversed'", "needs near"),
+            ("depth = 'ndc'\nnear = 2\nfar = 1", "far = 1 is not beyond"),
+            ("near = 1", "are for depth"),
+            ("color_scale = -1", "color_scale = -1"),
+            ("velocity_scale = 0", "velocity_scale = 0"),
             (
-                Convention {
-                    velocity_per: VelocityTime::Second,
-                    ..default
-                },
-                "frames_per_second",
-            ),
-            (
-                Convention {
-                    depth: DepthKind::Reversed,
-                    ..default
-                },
-                "needs near",
-            ),
-            (
-                Convention {
-                    near: Some(1.0),
-                    ..default
-                },
-                "are for depth",
-            ),
-            (
-                Convention {
-                    color_scale: Some(-1.0),
-                    ..default
-                },
-                "color_scale = -1",
-            ),
-            (
-                Convention {
-                    velocity_scale: Some(0.0),
-                    ..default
-                },
-                "velocity_scale = 0",
-            ),
-            (
-                Convention {
-                    color_format: Some(Format::Rg32Float),
-                    ..default
-                },
+                "color_format = 'rg32float'",
                 "color_format = \"rg32float\"; allowed: rgba32float",
             ),
         ] {
+            let convention: Convention = toml::from_str(text).unwrap();
             let refusal = convention.check().unwrap_err();
             assert!(refusal.contains(says), "{refusal}");
         }
-        assert_eq!(default.check(), Ok(()));
+        assert_eq!(Convention::default().check(), Ok(()));
     }
 }

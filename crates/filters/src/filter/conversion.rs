@@ -122,69 +122,25 @@ mod tests {
     fn each_form_of_velocity_has_the_number_that_it_should_have() {
         // (form, velocity of that surface with a shutter of half a frame)
         let cases = [
-            (Convention::default(), [20.0, 5.0]),
+            ("", [20.0, 5.0]),
+            ("velocity = 'uv'", [0.25, 0.125]),
+            ("velocity = 'ndc'", [0.5, 0.25]),
+            ("velocity_y = 'up'", [20.0, -5.0]),
+            ("velocity_sign = 'previous_minus_current'", [-20.0, -5.0]),
+            ("velocity_per = 'shutter'", [10.0, 2.5]),
             (
-                Convention {
-                    velocity: VelocityUnit::Uv,
-                    ..Convention::default()
-                },
-                [0.25, 0.125],
-            ),
-            (
-                Convention {
-                    velocity: VelocityUnit::Ndc,
-                    ..Convention::default()
-                },
-                [0.5, 0.25],
-            ),
-            (
-                Convention {
-                    velocity_y: VerticalDirection::Up,
-                    ..Convention::default()
-                },
-                [20.0, -5.0],
-            ),
-            (
-                Convention {
-                    velocity_sign: VelocitySign::PreviousMinusCurrent,
-                    ..Convention::default()
-                },
-                [-20.0, -5.0],
-            ),
-            (
-                Convention {
-                    velocity_per: VelocityTime::Shutter,
-                    ..Convention::default()
-                },
-                [10.0, 2.5],
-            ),
-            (
-                Convention {
-                    velocity_per: VelocityTime::Second,
-                    frames_per_second: Some(60.0),
-                    ..Convention::default()
-                },
+                "velocity_per = 'second'\nframes_per_second = 60",
                 [1200.0, 300.0],
             ),
-            (
-                Convention {
-                    velocity_scale: Some(0.5),
-                    ..Convention::default()
-                },
-                [10.0, 2.5],
-            ),
+            ("velocity_scale = 0.5", [10.0, 2.5]),
             // Unreal, per shutter: twice that part of the picture, upwards, for half the time.
             (
-                Convention {
-                    velocity: VelocityUnit::Ndc,
-                    velocity_y: VerticalDirection::Up,
-                    velocity_per: VelocityTime::Shutter,
-                    ..Convention::default()
-                },
+                "velocity = 'ndc'\nvelocity_y = 'up'\nvelocity_per = 'shutter'",
                 [0.25, -0.125],
             ),
         ];
-        for (form, expected) in cases {
+        for (text, expected) in cases {
+            let form: Convention = toml::from_str(text).unwrap();
             let converted = form.convert_velocity(&moving(), 0.5);
             assert_eq!(*converted.at(3, 4), expected, "{form:?}");
             assert_eq!(form.restore_velocity(&converted, 0.5), moving(), "{form:?}");

@@ -1,16 +1,18 @@
 //! Definition of a filter: everything that `filter.toml` and its kernels declare.
 
+use std::path::PathBuf;
+
 use frame::Alignment;
 
 use super::command::Command;
 use super::convention::Convention;
 use super::history::History;
-use super::lines::Lines;
 use super::parameter::Parameter;
 use super::pass::{Pass, Texture};
 use super::preset::Preset;
 use super::reach::ReachBy;
 use super::values::{count_numbers, is_of_matrix};
+use crate::Format;
 use crate::input::CameraUse;
 use crate::shader::{EntryPoint, Shader};
 
@@ -52,13 +54,23 @@ pub struct Filter {
     /// Inputs of the frame before that its kernels read, each once.
     pub history: Vec<History>,
     /// Passes, in the order in which they run.
-    pub passes: Vec<Pass>,
+    pub(crate) passes: Vec<Pass>,
     /// Form in which its shaders expect the frame.
     pub convention: Convention,
     /// Kernels: those of its WGSL file, and one shader for each pass that names its own.
     pub(crate) shaders: Vec<Shader>,
     /// Lines of filter.toml that declare it all.
     pub(crate) lines: Lines,
+}
+
+/// Lines of declarations in `filter.toml`, from 1, for messages.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lines {
+    pub path: PathBuf,
+    pub parameters: Vec<usize>,
+    pub presets: Vec<usize>,
+    pub textures: Vec<usize>,
+    pub passes: Vec<usize>,
 }
 
 impl Filter {
@@ -87,7 +99,7 @@ impl Filter {
         listed
     }
 
-    /// Tells whether a shader reads where the camera is, or how it moved.
+    /// Returns true if a shader reads where the camera is, or how it moved.
     pub fn reads_camera(&self) -> bool {
         let CameraUse {
             reprojection,
@@ -96,17 +108,15 @@ impl Filter {
         reprojection || matrices
     }
 
-    /// Finds the vertex stage that a pass names.
-    pub(crate) fn vertex_entry(&self, pass: &Pass) -> Option<&EntryPoint> {
-        self.vertex_shader(pass)?.entry_points.first()
+    /// Lists the stages of a pass: its kernel or fragment shader, then the vertex stage if the pass names one.
+    pub(crate) fn stages(&self, pass: &Pass) -> Vec<(&Shader, &EntryPoint)> {
+        let corners = pass.vertex_index.map(|index| &self.shaders[index]);
+        let corners = corners.map(|shader| (shader, &shader.entry_points[0]));
+        let own = (self.shader(pass), self.entry_point(pass));
+        [own].into_iter().chain(corners).collect()
     }
 
-    /// Finds the shader of the vertex stage that a pass names.
-    pub(crate) fn vertex_shader(&self, pass: &Pass) -> Option<&Shader> {
-        Some(&self.shaders[pass.vertex_index?])
-    }
-
-    /// Tells which parts of the camera the shaders read.
+    /// Lists the parts of the camera the shaders read.
     pub(crate) fn camera_use(&self) -> CameraUse {
         let mut blocks = self.shaders.iter().flat_map(|shader| &shader.blocks);
         CameraUse {
@@ -120,23 +130,31 @@ impl Filter {
         count_numbers(name, &self.parameters, &self.convention)
     }
 
+    /// Finds a declared texture.
+    pub(crate) fn texture(&self, name: &str) -> Option<&Texture> {
+        self.textures.iter().find(|texture| texture.name == name)
+    }
+
+    /// Returns the format of a texture that shaders can read.
+    pub(crate) fn read_format(&self, name: &str) -> Format {
+        let declared = self.texture(name);
+        declared.map_or(self.convention.format_of(name), |texture| texture.format)
+    }
+
     /// Returns true for a texture that shaders can name.
     pub(crate) fn has_texture(&self, name: &str) -> bool {
-        let mut before = self.history.iter().map(|history| history.texture());
-        let builtin = INPUTS.contains(&name) || name == "output" || before.any(|it| it == name);
-        builtin || (self.textures.iter()).any(|texture| texture.name == name)
+        self.texture_names().any(|known| known == name)
     }
 
     /// Lists the textures that shaders can name.
     pub(crate) fn list_textures(&self) -> String {
+        self.texture_names().collect::<Vec<_>>().join(", ")
+    }
+
+    fn texture_names(&self) -> impl Iterator<Item = &str> {
         let declared = self.textures.iter().map(|texture| &texture.name[..]);
         let before = self.history.iter().map(|history| history.texture());
-        let names: Vec<&str> = INPUTS
-            .into_iter()
-            .chain(before)
-            .chain(["output"])
-            .chain(declared)
-            .collect();
-        names.join(", ")
+        let inputs = INPUTS.into_iter().chain(before);
+        inputs.chain(["output"]).chain(declared)
     }
 }

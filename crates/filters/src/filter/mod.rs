@@ -4,9 +4,7 @@ mod command;
 mod convention;
 mod conversion;
 mod definition;
-mod expression;
 mod history;
-mod lines;
 mod parameter;
 mod pass;
 mod pass_shader;
@@ -21,20 +19,18 @@ pub use convention::{
     Convention, DepthKind, VelocitySign, VelocityTime, VelocityUnit, VerticalDirection,
 };
 pub use definition::Filter;
-pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS};
-pub use expression::Expression;
+pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS, Lines};
 pub use history::History;
-pub(crate) use lines::Lines;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
-pub use pass::{Holds, Pass, Repeat, Rounding, Texture};
-pub use pass_shader::{
-    Binding, BindingPlace, PassShader, SamplerFilter, Sampling, Stage, VertexShader, Wrap,
-};
+pub use pass::{Holds, Texture};
+pub(crate) use pass::{Pass, Repeat, Rounding};
+pub(crate) use pass_shader::{Binding, BindingPlace, PassShader, Stage, VertexShader};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
-pub use reach::{Growth, Length, ReachBy};
+pub(crate) use reach::Length;
+pub use reach::ReachBy;
 pub use settings::Settings;
 pub(crate) use values::{
     MATRICES, MATRIX_NUMBERS, count_numbers, explain_unknown, find_matrix, list_values,
-    name_element, split_element,
+    split_element,
 };

@@ -140,17 +140,4 @@ impl Kind {
             Kind::Choice { .. } => "u32",
         }
     }
-
-    /// Encodes a value as the WGSL struct holds it.
-    pub(crate) fn encode(&self, value: &Value) -> [u8; 4] {
-        match (self, value) {
-            (_, Value::Integer(value)) => value.to_ne_bytes(),
-            (_, Value::Real(value)) => (*value as f32).to_ne_bytes(),
-            (Kind::Choice { choices }, Value::Choice(name)) => {
-                let index = choices.iter().position(|choice| choice == name);
-                (index.expect("settings hold only allowed values") as u32).to_ne_bytes()
-            }
-            (_, Value::Choice(_)) => unreachable!("settings hold only values of their kind"),
-        }
-    }
 }

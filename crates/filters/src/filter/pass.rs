@@ -1,8 +1,7 @@
 //! Passes of a filter, and the textures between them.
 
-use super::expression::Expression;
 use super::pass_shader::PassShader;
-use crate::Format;
+use crate::{Expression, Format};
 
 /// Texture that one pass writes for another.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,9 +11,9 @@ pub struct Texture {
     /// Numbers per texel.
     pub format: Format,
     /// Divisors of the image's width and height, of parameters, `width` and `height`; `None` for the image's own size.
-    pub divided_by: Option<[Expression; 2]>,
+    pub(crate) divided_by: Option<[Expression; 2]>,
     /// Rounding of what they make.
-    pub rounding: Rounding,
+    pub(crate) rounding: Rounding,
     /// Mip levels, at most as many as there are halvings down to one texel.
     pub mips: u32,
     /// Meaning of its numbers, where a person may want to see them.
@@ -24,7 +23,7 @@ pub struct Texture {
 /// Rounding of the sides of a texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Rounding {
+pub(crate) enum Rounding {
     /// The last texels stand for a part of their pixels.
     #[default]
     Up,
@@ -42,7 +41,7 @@ pub enum Holds {
 
 /// One kernel, run over a whole texture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pass {
+pub(crate) struct Pass {
     /// Name in messages: the entry point of the kernel, or the file of a shader whose entry point is `main`.
     pub entry: String,
     /// The shader, if the pass names one of its own.
@@ -60,6 +59,11 @@ pub struct Pass {
 }
 
 impl Pass {
+    /// Lists its render targets, by location; none of a kernel.
+    pub fn list_targets(&self) -> impl Iterator<Item = &String> {
+        self.shader.iter().flat_map(|shader| &shader.targets)
+    }
+
     /// Names the entry point.
     pub(crate) fn kernel(&self) -> &str {
         match &self.shader {
@@ -70,8 +74,12 @@ impl Pass {
 }
 
 /// Number of times that a pass runs.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Repeat {
+#[derive(Clone, Debug, PartialEq, serde::Deserialize)]
+#[serde(
+    untagged,
+    expecting = "repeat is a count from 1 or the name of an integer parameter"
+)]
+pub(crate) enum Repeat {
     /// A fixed number.
     Times(u32),
     /// The value of this integer parameter.

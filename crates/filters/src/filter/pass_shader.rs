@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use super::expression::Expression;
+use crate::Expression;
+use crate::shader::Sampling;
 
 /// Stage of a shader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Stage {
+pub(crate) enum Stage {
     /// One invocation per texel writes storage textures.
     #[default]
     Compute,
@@ -20,7 +21,7 @@ pub enum Stage {
 
 /// A shader in a file of its own, with bindings that filter.toml explains.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PassShader {
+pub(crate) struct PassShader {
     /// The file, relative to the filter's folder.
     pub file: PathBuf,
     /// Entry point.
@@ -54,22 +55,22 @@ impl PassShader {
         constants.chain(levels).chain(&self.level)
     }
 
-    /// Returns the vertex stage as a shader of its own.
-    pub(crate) fn vertex_stage(&self) -> Option<PassShader> {
-        let vertex = self.vertex.as_ref()?;
-        Some(PassShader {
+    /// Lists its stages, each as a shader of its own: itself, then the vertex stage if it names one.
+    pub(crate) fn stages(&self) -> Vec<PassShader> {
+        let vertex = self.vertex.as_ref().map(|vertex| PassShader {
             file: vertex.file.clone(),
             entry: vertex.entry.clone(),
             stage: Stage::Vertex,
             targets: Vec::new(),
             ..self.clone()
-        })
+        });
+        [self.clone()].into_iter().chain(vertex).collect()
     }
 }
 
 /// Vertex stage of a fragment shader.
 #[derive(Clone, Debug, PartialEq)]
-pub struct VertexShader {
+pub(crate) struct VertexShader {
     /// The file, relative to the filter's folder.
     pub file: PathBuf,
     /// Entry point.
@@ -78,7 +79,7 @@ pub struct VertexShader {
 
 /// Meaning of one binding of a shader.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Binding {
+pub(crate) struct Binding {
     /// Place in the shader.
     pub place: BindingPlace,
     /// Texture that it reads or writes: `color`, `velocity`, `depth`, `output` or a [[texture]].
@@ -95,7 +96,7 @@ pub struct Binding {
 
 /// Place of a resource in a shader.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum BindingPlace {
+pub(crate) enum BindingPlace {
     /// `@group` and `@binding` of WGSL, `set` and `binding` of GLSL.
     Bound {
         /// Group or set.
@@ -120,56 +121,4 @@ impl std::fmt::Display for BindingPlace {
             Self::Globals => write!(f, "globals"),
         }
     }
-}
-
-/// Reading of a texture between and beyond its texels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Sampling {
-    /// Between texels.
-    pub filter: SamplerFilter,
-    /// Between mip levels.
-    pub mip_filter: SamplerFilter,
-    /// Beyond the border.
-    pub wrap: Wrap,
-}
-
-impl Default for Sampling {
-    fn default() -> Self {
-        Self {
-            filter: SamplerFilter::Linear,
-            mip_filter: SamplerFilter::Nearest,
-            wrap: Wrap::Clamp,
-        }
-    }
-}
-
-impl Sampling {
-    /// Returns true if it makes values that no texel holds.
-    pub(crate) fn interpolates(self) -> bool {
-        [self.filter, self.mip_filter].contains(&SamplerFilter::Linear)
-    }
-}
-
-/// Value of a texture between its texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SamplerFilter {
-    /// That of the nearest texel.
-    Nearest,
-    /// Interpolated between the four texels around.
-    #[default]
-    Linear,
-}
-
-/// Value of a texture beyond its border.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Wrap {
-    /// That of the border.
-    #[default]
-    Clamp,
-    /// That of the other side.
-    Repeat,
-    /// That of the mirrored picture.
-    Mirror,
 }

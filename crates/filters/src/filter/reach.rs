@@ -1,8 +1,14 @@
 //! Reach: the length along the velocity that a filter reads, and the parameter that sets it.
 
+use serde::Deserialize;
+
 /// A length in pixels.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Length {
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a length is a number of pixels or the name of an integer parameter"
+)]
+pub(crate) enum Length {
     /// A fixed number.
     Pixels(u32),
     /// The value of this integer parameter.
@@ -10,20 +16,26 @@ pub enum Length {
 }
 
 /// The parameter that bounds the reach of a filter.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ReachBy {
     /// An integer parameter.
     pub parameter: String,
     /// Growth of the reach with it.
-    pub growth: Growth,
-    /// The reach when the parameter is 1.
-    pub unit: Length,
+    pub(crate) growth: Growth,
+    /// The reach when the parameter is 1; a pixel if left out.
+    #[serde(default = "one_pixel")]
+    pub(crate) unit: Length,
+}
+
+fn one_pixel() -> Length {
+    Length::Pixels(1)
 }
 
 /// Growth of the reach with a parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Growth {
+pub(crate) enum Growth {
     /// Reach = unit x value: the side of a tile.
     Linear,
     /// Reach = unit x 2^(value - 1): the steps of a flood.

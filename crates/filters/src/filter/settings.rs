@@ -126,15 +126,19 @@ impl Settings {
         Ok(())
     }
 
-    /// Lists the numbers that expressions know by name, but for those of a frame: parameters, of which a choice is its index, and the
-    /// convention.
+    /// Lists the numbers that expressions know by name, but for those of a frame: parameters and the convention.
     pub(crate) fn list_numbers(&self, filter: &Filter) -> BTreeMap<String, f64> {
-        let mut numbers = BTreeMap::new();
-        for name in CONVENTION_VALUES {
-            let value = filter.convention.value(name);
-            numbers.extend(value.map(|value| (name.to_owned(), value)));
-        }
-        for parameter in &filter.parameters {
+        let convention = CONVENTION_VALUES.into_iter().filter_map(|name| {
+            let value = filter.convention.value(name)?;
+            Some((name.to_owned(), value))
+        });
+        // A parameter may be called like a value of the convention.
+        convention.chain(self.list_parameters(filter)).collect()
+    }
+
+    /// Lists the parameters with their values; that of a choice is its index.
+    pub(crate) fn list_parameters(&self, filter: &Filter) -> impl Iterator<Item = (String, f64)> {
+        filter.parameters.iter().map(|parameter| {
             let number = match (&self.values[&parameter.name], &parameter.kind) {
                 (Value::Integer(value), _) => f64::from(*value),
                 (Value::Real(value), _) => *value,
@@ -144,19 +148,8 @@ impl Settings {
                 }
                 (Value::Choice(_), _) => unreachable!("settings hold only values of their kind"),
             };
-            // A parameter may be called like a value of the convention.
-            numbers.insert(parameter.name.clone(), number);
-        }
-        numbers
-    }
-
-    /// Encodes the WGSL struct `Parameters`: four bytes per parameter, in order.
-    pub(crate) fn encode(&self, filter: &Filter) -> Vec<u8> {
-        filter
-            .parameters
-            .iter()
-            .flat_map(|parameter| parameter.kind.encode(&self.values[&parameter.name]))
-            .collect()
+            (parameter.name.clone(), number)
+        })
     }
 
     /// Returns the value of an integer parameter, which the check of the folder found to be positive.

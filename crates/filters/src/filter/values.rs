@@ -78,11 +78,6 @@ pub(crate) fn split_element(name: &str) -> Option<(&str, usize)> {
     Some((whole, index.parse().ok()?))
 }
 
-/// Names one number of several.
-pub(crate) fn name_element(whole: &str, index: usize) -> String {
-    format!("{whole}[{index}]")
-}
-
 /// Returns true for a number of a matrix.
 pub(crate) fn is_of_matrix(name: &str) -> bool {
     split_element(name).is_some_and(|(whole, _)| find_matrix(whole).is_some())

@@ -1,8 +1,7 @@
 //! Choice and opening of the adapter that runs the filters.
 
-use super::clock::Clock;
-use super::device::{AdapterDescription, Gpu};
-use super::loop_limit::LoopLimit;
+use super::device::{AdapterDescription, Clock, Gpu};
+use super::loop_counts::LoopLimit;
 use super::loop_probe::find_loop_limit;
 use crate::FilterError;
 
@@ -91,29 +90,27 @@ fn choose<'a>(adapters: &'a [wgpu::Adapter], wanted: &str) -> Option<&'a wgpu::A
         .find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted))
 }
 
-fn rank(adapter: &wgpu::Adapter) -> u32 {
-    match adapter.get_info().device_type {
-        wgpu::DeviceType::DiscreteGpu => 0,
-        wgpu::DeviceType::IntegratedGpu => 1,
-        wgpu::DeviceType::VirtualGpu => 2,
-        wgpu::DeviceType::Cpu => 3,
-        wgpu::DeviceType::Other => 4,
-    }
+/// Kinds of devices by name, the fastest first.
+const KINDS: [(wgpu::DeviceType, &str); 5] = [
+    (wgpu::DeviceType::DiscreteGpu, "discrete"),
+    (wgpu::DeviceType::IntegratedGpu, "integrated"),
+    (wgpu::DeviceType::VirtualGpu, "virtual"),
+    (wgpu::DeviceType::Cpu, "software"),
+    (wgpu::DeviceType::Other, "other"),
+];
+
+fn rank(adapter: &wgpu::Adapter) -> usize {
+    let own = adapter.get_info().device_type;
+    let rank = KINDS.iter().position(|(kind, _)| *kind == own);
+    rank.expect("every kind of device has a name")
 }
 
 fn describe(adapter: &wgpu::Adapter) -> AdapterDescription {
     let info = adapter.get_info();
-    let kind = match info.device_type {
-        wgpu::DeviceType::DiscreteGpu => "discrete",
-        wgpu::DeviceType::IntegratedGpu => "integrated",
-        wgpu::DeviceType::VirtualGpu => "virtual",
-        wgpu::DeviceType::Cpu => "software",
-        wgpu::DeviceType::Other => "other",
-    };
     AdapterDescription {
         name: info.name,
         driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
         backend: info.backend.to_string(),
-        kind: kind.to_owned(),
+        kind: KINDS[rank(adapter)].1.to_owned(),
     }
 }

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use wgpu::naga::ShaderStage;
 
 use super::device::Gpu;
-use crate::filter::{SamplerFilter, Wrap};
-use crate::shader::{EntryPoint, Role, Shader, Variable};
+use crate::shader::{EntryPoint, Role, SamplerFilter, Sampling, Shader, Variable, Wrap};
 
 /// A compiled pass.
 #[derive(Clone, Debug)]
@@ -15,8 +14,66 @@ pub(super) enum Pipeline {
     Render(wgpu::RenderPipeline),
 }
 
+/// A stage of a pass: a kernel, a fragment shader or its vertex stage.
+#[derive(Clone, Debug)]
+pub(super) struct CompiledStage {
+    module: wgpu::ShaderModule,
+    layout: wgpu::BindGroupLayout,
+    /// Samplers by the index of their variables.
+    pub samplers: BTreeMap<usize, wgpu::Sampler>,
+    /// Binding of the buffer of loop iterations, if they are counted.
+    counted_at: Option<u32>,
+}
+
+impl CompiledStage {
+    /// Makes the layout of the stage's group, and its samplers.
+    pub fn new(
+        gpu: &Gpu,
+        shader: &Shader,
+        entry: &EntryPoint,
+        module: wgpu::ShaderModule,
+        counted_at: Option<u32>,
+    ) -> Self {
+        let used = entry.variables.iter();
+        let samplers = used.filter_map(|index| match shader.variables[*index].role {
+            Role::Sampler(sampling) => Some((*index, create_sampler(gpu, &entry.name, sampling))),
+            _ => None,
+        });
+        Self {
+            module,
+            layout: create_layout(gpu, shader, entry, counted_at),
+            samplers: samplers.collect(),
+            counted_at,
+        }
+    }
+
+    /// Binds each variable of the stage to its resource, and the buffer of loop iterations if they are counted.
+    pub fn bind<'r>(
+        &self,
+        gpu: &Gpu,
+        shader: &Shader,
+        entry: &EntryPoint,
+        counts: Option<wgpu::BindingResource<'r>>,
+        resource: impl Fn(usize, &Variable) -> wgpu::BindingResource<'r>,
+    ) -> wgpu::BindGroup {
+        let counted = self.counted_at.zip(counts);
+        let used = entry.variables.iter().map(|index| {
+            let variable = &shader.variables[*index];
+            (variable.binding, resource(*index, variable))
+        });
+        let entries: Vec<wgpu::BindGroupEntry> = (used.chain(counted))
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&entry.name),
+            layout: &self.layout,
+            entries: &entries,
+        })
+    }
+}
+
 /// Creates the layout of a group as the shader uses it, with the buffer of loop iterations if there is one.
-pub(super) fn create_layout(
+fn create_layout(
     gpu: &Gpu,
     shader: &Shader,
     entry: &EntryPoint,
@@ -27,49 +84,41 @@ pub(super) fn create_layout(
         ShaderStage::Vertex => wgpu::ShaderStages::VERTEX,
         _ => wgpu::ShaderStages::COMPUTE,
     };
-    let counted = counted_at.map(|binding| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: false },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    });
-    let entries: Vec<wgpu::BindGroupLayoutEntry> = entry
-        .variables
-        .iter()
-        .map(|index| (*index, &shader.variables[*index]))
-        .map(|(index, variable)| wgpu::BindGroupLayoutEntry {
-            binding: variable.binding,
-            visibility,
-            ty: match variable.role {
-                Role::Uniform | Role::Block(_) => wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                Role::Read(texel) => wgpu::BindingType::Texture {
-                    sample_type: texel.wgpu(entry.interpolated.contains(&index)),
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-                Role::Write(format) => wgpu::BindingType::StorageTexture {
-                    access: wgpu::StorageTextureAccess::WriteOnly,
-                    format: format.wgpu(),
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                },
-                Role::Sampler(sampling) => {
-                    wgpu::BindingType::Sampler(match sampling.interpolates() {
-                        false => wgpu::SamplerBindingType::NonFiltering,
-                        true => wgpu::SamplerBindingType::Filtering,
-                    })
-                }
+    let buffer = |ty| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let counts = buffer(wgpu::BufferBindingType::Storage { read_only: false });
+    let used = entry.variables.iter().map(|index| {
+        let variable = &shader.variables[*index];
+        let ty = match variable.role {
+            Role::Block(_) => buffer(wgpu::BufferBindingType::Uniform),
+            Role::Read(texel) => wgpu::BindingType::Texture {
+                sample_type: texel.wgpu(entry.interpolated.contains(index)),
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
             },
+            Role::Write(format) => wgpu::BindingType::StorageTexture {
+                access: wgpu::StorageTextureAccess::WriteOnly,
+                format: format.wgpu(),
+                view_dimension: wgpu::TextureViewDimension::D2,
+            },
+            Role::Sampler(sampling) => wgpu::BindingType::Sampler(match sampling.interpolates() {
+                false => wgpu::SamplerBindingType::NonFiltering,
+                true => wgpu::SamplerBindingType::Filtering,
+            }),
+        };
+        (variable.binding, ty)
+    });
+    let entries: Vec<wgpu::BindGroupLayoutEntry> = used
+        .chain(counted_at.map(|binding| (binding, counts)))
+        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty,
             count: None,
         })
-        .chain(counted)
         .collect();
     gpu.device
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -78,25 +127,14 @@ pub(super) fn create_layout(
         })
 }
 
-/// A stage of a pipeline.
-#[derive(Clone, Copy)]
-pub(super) struct StageSource<'a> {
-    pub layout: &'a wgpu::BindGroupLayout,
-    pub module: &'a wgpu::ShaderModule,
-    pub entry: &'a EntryPoint,
-}
-
-/// Compiles the kernel, or the fragment shader with its vertex stage.
+/// Creates the pipeline of a kernel, or of a fragment shader with its vertex stage if there is one.
 pub(super) fn create_pipeline(
     gpu: &Gpu,
-    stage: StageSource,
-    vertex: Option<StageSource>,
+    stages: &[(&CompiledStage, &EntryPoint)],
     targets: &[wgpu::TextureFormat],
 ) -> Pipeline {
-    let StageSource { module, entry, .. } = stage;
-    let stages = [Some(stage), vertex];
-    let layouts = stages.into_iter().flatten();
-    let layouts: Vec<_> = layouts.map(|stage| Some(stage.layout)).collect();
+    let (stage, entry) = stages[0];
+    let layouts: Vec<_> = (stages.iter().map(|(stage, _)| Some(&stage.layout))).collect();
     let layout = gpu
         .device
         .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -105,14 +143,14 @@ pub(super) fn create_pipeline(
             immediate_size: 0,
         });
     if entry.is_fragment() {
-        return Pipeline::Render(create_render_pipeline(gpu, &layout, stage, vertex, targets));
+        return Pipeline::Render(create_render_pipeline(gpu, &layout, stages, targets));
     }
     let pipeline = gpu
         .device
         .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(&entry.name),
             layout: Some(&layout),
-            module,
+            module: &stage.module,
             entry_point: Some(&entry.name),
             compilation_options: Default::default(),
             cache: None,
@@ -142,13 +180,13 @@ fn triangle(@builtin(vertex_index) index: u32) -> Corner {{
 fn create_render_pipeline(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
-    StageSource { module, entry, .. }: StageSource,
-    vertex: Option<StageSource>,
+    stages: &[(&CompiledStage, &EntryPoint)],
     targets: &[wgpu::TextureFormat],
 ) -> wgpu::RenderPipeline {
+    let (stage, entry) = stages[0];
     let triangle;
-    let (corners, corner) = match vertex {
-        Some(vertex) => (vertex.module, &vertex.entry.name[..]),
+    let (corners, corner) = match stages.get(1) {
+        Some((vertex, entry)) => (&vertex.module, &entry.name[..]),
         None => {
             triangle = gpu
                 .device
@@ -182,7 +220,7 @@ fn create_render_pipeline(
             depth_stencil: None,
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
-                module,
+                module: &stage.module,
                 entry_point: Some(&entry.name),
                 compilation_options: Default::default(),
                 targets: &targets,
@@ -192,66 +230,27 @@ fn create_render_pipeline(
         })
 }
 
-/// Creates the samplers of the kernel, by the index of their variables.
-pub(super) fn create_samplers(
-    gpu: &Gpu,
-    shader: &Shader,
-    entry: &EntryPoint,
-) -> BTreeMap<usize, wgpu::Sampler> {
-    let mut samplers = BTreeMap::new();
-    for index in &entry.variables {
-        let Role::Sampler(sampling) = shader.variables[*index].role else {
-            continue;
-        };
-        let wrap = match sampling.wrap {
-            Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
-            Wrap::Repeat => wgpu::AddressMode::Repeat,
-            Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
-        };
-        let filter = match sampling.filter {
-            SamplerFilter::Nearest => wgpu::FilterMode::Nearest,
-            SamplerFilter::Linear => wgpu::FilterMode::Linear,
-        };
-        let mip_filter = match sampling.mip_filter {
-            SamplerFilter::Nearest => wgpu::MipmapFilterMode::Nearest,
-            SamplerFilter::Linear => wgpu::MipmapFilterMode::Linear,
-        };
-        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some(&entry.name),
-            address_mode_u: wrap,
-            address_mode_v: wrap,
-            mag_filter: filter,
-            min_filter: filter,
-            mipmap_filter: mip_filter,
-            ..Default::default()
-        });
-        samplers.insert(*index, sampler);
-    }
-    samplers
-}
-
-/// Binds each variable of a group to its resource, and the buffer of loop iterations if there is one.
-pub(super) fn create_bind_group<'r>(
-    gpu: &Gpu,
-    shader: &Shader,
-    entry: &EntryPoint,
-    layout: &wgpu::BindGroupLayout,
-    counted: Option<wgpu::BindGroupEntry<'r>>,
-    resource: impl Fn(usize, &Variable) -> wgpu::BindingResource<'r>,
-) -> wgpu::BindGroup {
-    let entries: Vec<wgpu::BindGroupEntry> = entry
-        .variables
-        .iter()
-        .map(|index| (*index, &shader.variables[*index]))
-        .map(|(index, variable)| wgpu::BindGroupEntry {
-            binding: variable.binding,
-            resource: resource(index, variable),
-        })
-        .chain(counted)
-        .collect();
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some(&entry.name),
-        layout,
-        entries: &entries,
+fn create_sampler(gpu: &Gpu, label: &str, sampling: Sampling) -> wgpu::Sampler {
+    let wrap = match sampling.wrap {
+        Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+    };
+    let filter = match sampling.filter {
+        SamplerFilter::Nearest => wgpu::FilterMode::Nearest,
+        SamplerFilter::Linear => wgpu::FilterMode::Linear,
+    };
+    let mip_filter = match sampling.mip_filter {
+        SamplerFilter::Nearest => wgpu::MipmapFilterMode::Nearest,
+        SamplerFilter::Linear => wgpu::MipmapFilterMode::Linear,
+    };
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some(label),
+        address_mode_u: wrap,
+        address_mode_v: wrap,
+        mag_filter: filter,
+        min_filter: filter,
+        mipmap_filter: mip_filter,
+        ..Default::default()
     })
 }

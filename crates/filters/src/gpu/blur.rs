@@ -11,7 +11,7 @@ use super::transfer::{row_bytes, to_texels, velocity_texels};
 use super::uniforms::FrameValues;
 use super::uploaded_input::UploadedInput;
 use crate::filter::History;
-use crate::input::CameraUse;
+use crate::input::{CameraUse, find_pixel, is_finite};
 use crate::{Convention, Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
@@ -75,7 +75,7 @@ impl<'g> Blur<'g> {
         self.run_after(input, input)
     }
 
-    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history behind another frame. That has as
+    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame. That has as
     /// many colour images, which go with those of the input.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         self.check(input)?;
@@ -85,18 +85,10 @@ impl<'g> Blur<'g> {
             before.color.len(),
             "every colour has one of the frame before"
         );
-        self.upload(input)?;
-        self.upload_layers_before(before)?;
-        let mut outputs = Vec::new();
-        for (color, color_before) in input.color.iter().zip(before.color) {
-            self.upload_color(color)?;
-            self.upload_color_before(color_before)?;
-            // Results that do not depend on colour stay from the first image.
-            let first = outputs.is_empty();
-            outputs.push(self.blur(|dispatch| first || dispatch.depends_on_color)?);
-        }
-        self.check_loops()?;
-        Ok(outputs)
+        self.upload_layers(input, before)?;
+        self.blur_all(input.color.len(), |index| {
+            self.upload_color(input.color[index], before.color[index]);
+        })
     }
 
     /// Blurs an input that is on the GPU already, as [`Blur::run`] does.
@@ -106,33 +98,39 @@ impl<'g> Blur<'g> {
             (&input.filter, input.size),
             "an input stays on the GPU for one filter and size"
         );
-        let place = self.place("upload");
-        self.gpu.catch_errors(place, || {
+        let copy = |from, name| self.gpu.copy(from, self.passes.target(name));
+        self.gpu.catch_errors(self.place("upload"), || {
             self.passes.upload_frame(self.gpu, input.frame);
-            self.gpu
-                .copy(&input.velocity, self.passes.target("velocity"));
-            self.gpu.copy(&input.depth, self.passes.target("depth"));
+            copy(&input.velocity, "velocity");
+            copy(&input.depth, "depth");
             for history in &self.history {
-                let own = match history {
-                    History::Velocity => &input.velocity,
-                    History::Depth => &input.depth,
-                    History::Color => continue,
-                };
-                self.gpu.copy(own, self.passes.target(history.texture()));
+                match history {
+                    History::Velocity => copy(&input.velocity, history.texture()),
+                    History::Depth => copy(&input.depth, history.texture()),
+                    History::Color => {}
+                }
             }
         })?;
-        let mut outputs = Vec::new();
-        for color in &input.color {
-            self.gpu.catch_errors(place, || {
-                self.gpu.copy(color, self.passes.target("color"));
-                if self.history.contains(&History::Color) {
-                    let before = self.passes.target(History::Color.texture());
-                    self.gpu.copy(color, before);
-                }
-            })?;
-            let first = outputs.is_empty();
-            outputs.push(self.blur(|dispatch| first || dispatch.depends_on_color)?);
-        }
+        self.blur_all(input.color.len(), |index| {
+            copy(&input.color[index], "color");
+            if self.history.contains(&History::Color) {
+                copy(&input.color[index], History::Color.texture());
+            }
+        })
+    }
+
+    /// Blurs each of several colours, which `place_color` uploads by its index.
+    fn blur_all(
+        &self,
+        count: usize,
+        place_color: impl Fn(usize),
+    ) -> Result<Vec<Image>, FilterError> {
+        let outputs = (0..count).map(|index| {
+            (self.gpu).catch_errors(self.place("upload"), || place_color(index))?;
+            // Results that do not depend on colour stay from the first image.
+            self.blur(|dispatch| index == 0 || dispatch.depends_on_color)
+        });
+        let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
         self.check_loops()?;
         Ok(outputs)
     }
@@ -144,25 +142,21 @@ impl<'g> Blur<'g> {
         input: &Input,
         frame_indices: impl IntoIterator<Item = u32>,
     ) -> Result<Option<Vec<Image>>, FilterError> {
-        if !self
-            .passes
-            .dispatches
-            .iter()
-            .any(|dispatch| dispatch.depends_on_noise)
-        {
+        let mut dispatches = self.passes.dispatches.iter();
+        if !dispatches.any(|dispatch| dispatch.depends_on_noise) {
             return Ok(None);
         }
-        self.check(input)?;
-        let color = input.color.first().expect("there is a colour to blur");
-        self.upload_color(color)?;
-        self.upload_color_before(color)?;
-        self.upload_layers_before(input)?;
+        self.upload_first(input)?;
         let mut outputs = Vec::new();
         for frame_index in frame_indices {
-            self.upload(&Input {
-                frame_index,
-                ..*input
-            })?;
+            let frame = FrameValues::of(
+                &Input {
+                    frame_index,
+                    ..*input
+                },
+                &self.convention,
+            );
+            self.passes.upload_frame(self.gpu, frame);
             let first = outputs.is_empty();
             outputs.push(self.blur(|dispatch| first || dispatch.depends_on_noise)?);
         }
@@ -170,17 +164,11 @@ impl<'g> Blur<'g> {
         Ok(Some(outputs))
     }
 
-    /// Runs the passes that are due on what has been uploaded, and reads the output.
-    fn blur(&self, due: impl Fn(&Dispatch) -> bool) -> Result<Image, FilterError> {
+    /// Runs the wanted dispatches on what has been uploaded, and reads the output.
+    fn blur(&self, is_wanted: impl Fn(&Dispatch) -> bool) -> Result<Image, FilterError> {
         let place = self.place("upload");
-        self.gpu
-            .catch_errors(place, || self.passes.mark_output(self.gpu, &due))?;
-        for dispatch in self
-            .passes
-            .dispatches
-            .iter()
-            .filter(|dispatch| due(dispatch))
-        {
+        (self.gpu).catch_errors(place, || self.passes.mark_output(self.gpu, &is_wanted))?;
+        for dispatch in self.passes.dispatches.iter().filter(|it| is_wanted(it)) {
             self.run_dispatch(dispatch)?;
         }
         self.read_output()
@@ -190,40 +178,30 @@ impl<'g> Blur<'g> {
     fn read_output(&self) -> Result<Image, FilterError> {
         let target = self.passes.target("output");
         let output = self.gpu.download(target, self.place("read back"))?;
-        let broken = |texel: &[f32; 4]| texel[..3].iter().any(|value| !value.is_finite());
-        match output.pixels.iter().position(broken) {
+        match find_pixel(&output, |texel| !is_finite(&texel[..3])) {
             None => {
                 let scale = self.color_scale();
                 Ok(output.map(|[r, g, b, _]| [*r / scale, *g / scale, *b / scale]))
             }
-            Some(index) => {
+            Some([x, y]) => {
                 // If a loop was ended early, the broken pixel is its effect.
                 self.check_loops()?;
-                Err(self.refuse_pixel(index as u32, output.pixels[index]))
+                Err(self.refuse_pixel([x, y], output.at(x, y)))
             }
         }
     }
 
-    fn refuse_pixel(&self, index: u32, texel: [f32; 4]) -> FilterError {
-        let [width, height] = self.size;
-        let (x, y) = (index % width, index / width);
-        let mut writers = self
-            .passes
-            .dispatches
-            .iter()
-            .filter(|dispatch| dispatch.writes_output);
-        let writer = writers.next_back();
+    fn refuse_pixel(&self, [x, y]: [u32; 2], [r, g, b, _]: &[f32; 4]) -> FilterError {
+        let mut dispatches = self.passes.dispatches.iter();
+        let writer = dispatches.rfind(|dispatch| dispatch.writes_output);
         let place = self.place(writer.map_or("output", |dispatch| &dispatch.entry));
         let mark = mark_of(self.passes.target("output").format);
-        if texel[..3]
-            .iter()
-            .any(|value| value.to_bits() == mark.to_bits())
-        {
+        if [r, g, b].iter().any(|it| it.to_bits() == mark.to_bits()) {
+            let [width, height] = self.size;
             return place.refuse(format!(
                 "leaves pixel ({x}, {y}) of the output unwritten; every pixel of {width}x{height} must be written"
             ));
         }
-        let [r, g, b, _] = texel;
         let first = self.find_first_broken().unwrap_or_default();
         place.refuse(format!(
             "writes [{r}, {g}, {b}] to pixel ({x}, {y}); every value must be finite{first}"
@@ -238,9 +216,8 @@ impl<'g> Blur<'g> {
                 .filter(|(name, target)| name != "output" && target.format != Format::R32Uint);
             for (name, target) in between {
                 let texels = self.gpu.download(target, self.place("read back")).ok()?;
-                let broken = |texel: &[f32; 4]| texel.iter().any(|value| !value.is_finite());
-                if let Some(index) = texels.pixels.iter().position(broken) {
-                    let (x, y) = (index as u32 % texels.width, index as u32 / texels.width);
+                let broken = find_pixel(&texels, |texel| !is_finite(texel));
+                if let Some([x, y]) = broken {
                     return Some(format!(
                         "; pass {} writes the first that is not, to texel ({x}, {y}) of \"{name}\"",
                         dispatch.entry
@@ -275,51 +252,44 @@ impl<'g> Blur<'g> {
         }
     }
 
-    pub(super) fn upload(&self, input: &Input) -> Result<(), FilterError> {
-        self.gpu.catch_errors(self.place("upload"), || {
-            let velocity = velocity_texels(&self.convention, input);
-            self.gpu.upload(self.passes.target("velocity"), &velocity);
-            let depth = self.convention.convert_depth(input.depth);
-            self.gpu.upload(self.passes.target("depth"), &depth.pixels);
-            let frame = FrameValues::of(input, &self.convention);
-            self.passes.upload_frame(self.gpu, frame);
-        })
+    /// Uploads an input and its first colour, as at the beginning of a sequence.
+    pub(super) fn upload_first(&self, input: &Input) -> Result<(), FilterError> {
+        self.check(input)?;
+        self.upload_layers(input, input)?;
+        let color = input.color.first().expect("there is a colour to blur");
+        (self.gpu).catch_errors(self.place("upload"), || self.upload_color(color, color))
     }
 
-    /// Uploads velocity and depth of the frame before, if the filter reads them.
-    pub(super) fn upload_layers_before(&self, before: &Input) -> Result<(), FilterError> {
+    /// Uploads all but the colour, and what the filter reads of the frame before.
+    fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
+        let velocity = |input| velocity_texels(&self.convention, input);
+        let depth = |input: &Input| self.convention.convert_depth(input.depth).pixels;
+        let upload = |name, values: &[f32]| self.gpu.upload(self.passes.target(name), values);
         self.gpu.catch_errors(self.place("upload"), || {
+            upload("velocity", &velocity(input));
+            upload("depth", &depth(input));
+            let frame = FrameValues::of(input, &self.convention);
+            self.passes.upload_frame(self.gpu, frame);
             for history in &self.history {
-                let values = match history {
-                    History::Velocity => velocity_texels(&self.convention, before),
-                    History::Depth => self.convention.convert_depth(before.depth).pixels,
-                    History::Color => continue,
-                };
-                let target = self.passes.target(history.texture());
-                self.gpu.upload(target, &values);
+                match history {
+                    History::Velocity => upload(history.texture(), &velocity(before)),
+                    History::Depth => upload(history.texture(), &depth(before)),
+                    History::Color => {}
+                }
             }
         })
     }
 
-    /// Uploads a colour of the frame before, if the filter reads it.
-    pub(super) fn upload_color_before(&self, color: &Image) -> Result<(), FilterError> {
-        if !self.history.contains(&History::Color) {
-            return Ok(());
+    /// Uploads a colour, and that of the frame before if the filter reads it.
+    fn upload_color(&self, color: &Image, before: &Image) {
+        let upload = |name, color| {
+            let texels = to_texels(color, self.color_scale());
+            self.gpu.upload(self.passes.target(name), &texels);
+        };
+        upload("color", color);
+        if self.history.contains(&History::Color) {
+            upload(History::Color.texture(), before);
         }
-        let target = self.passes.target(History::Color.texture());
-        self.gpu.catch_errors(self.place("upload"), || {
-            self.gpu
-                .upload(target, &to_texels(color, self.color_scale()));
-        })
-    }
-
-    pub(super) fn upload_color(&self, color: &Image) -> Result<(), FilterError> {
-        self.gpu.catch_errors(self.place("upload"), || {
-            self.gpu.upload(
-                self.passes.target("color"),
-                &to_texels(color, self.color_scale()),
-            );
-        })
     }
 
     /// Returns the factor on colours that the shaders expect.

@@ -4,18 +4,17 @@ use std::collections::BTreeMap;
 
 use half::f16;
 
-use super::binding::create_bind_group;
 use super::dependence::{find_color_dependent, find_noise_dependent};
 use super::device::Gpu;
 use super::dispatch::Dispatch;
-use super::kernels::Specialised;
+use super::kernels::{Compiled, Specialised};
 use super::levels::{Levels, WrittenLevels};
 use super::loop_counts::LoopCounts;
 use super::place::Place;
 use super::targets::Targets;
 use super::transfer::Target;
-use super::uniforms::{FrameValues, Uniforms};
-use crate::shader::{Role, UniformBlock};
+use super::uniforms::FrameValues;
+use crate::shader::{Role, UniformBlock, Variable};
 use crate::{Filter, FilterError, Format, Pass, Repeat, Settings};
 
 /// Everything of a filter that lives on the GPU.
@@ -30,9 +29,8 @@ pub(super) struct BoundPasses {
     /// Content of the output until a pass has written it.
     pub mark: Target,
     targets: Targets,
-    uniforms: Uniforms,
-    /// Values of the parameters, and of the convention, by name.
-    values: BTreeMap<String, f64>,
+    /// Values of the parameters by name.
+    parameters: BTreeMap<String, f64>,
 }
 
 impl BoundPasses {
@@ -44,162 +42,53 @@ impl BoundPasses {
         size: [u32; 2],
     ) -> Result<Self, FilterError> {
         let Specialised { filter, passes, .. } = kernels;
-        let values = settings.list_numbers(filter);
         let place_of = |pass| Place {
             filter: &filter.name,
             pass,
         };
-        let mut targets = Targets::new(gpu, filter, settings, size)?;
+        let targets = Targets::new(gpu, filter, settings, size)?;
         let times = |pass: &Pass| match &pass.repeat {
             Repeat::Times(times) => *times,
             Repeat::Parameter(name) => settings.count(name),
         };
         let count: u32 = filter.passes.iter().map(times).sum();
-        let uniforms = gpu.catch_errors(place_of("uniforms"), || {
-            Uniforms::new(gpu, &settings.encode(filter), count)
-        })?;
-        let loop_counts = (gpu.loop_limit)
-            .map(|limit| {
-                gpu.catch_errors(place_of("counts"), || LoopCounts::new(gpu, limit, count))
-            })
-            .transpose()?;
+        let counts = (gpu.loop_limit).map(|limit| {
+            gpu.catch_errors(place_of("counts"), || LoopCounts::new(gpu, limit, count))
+        });
         let format = targets.current("output").format;
         let mark = gpu.catch_errors(place_of("textures"), || create_mark(gpu, size, format))?;
-        let dependence = find_color_dependent(filter)
+        let mut binder = Binder {
+            gpu,
+            filter,
+            values: settings.list_numbers(filter),
+            targets,
+            loop_counts: counts.transpose()?,
+            ready: WrittenLevels::default(),
+            dispatches: Vec::new(),
+        };
+        let depends_on = find_color_dependent(filter)
             .into_iter()
             .zip(find_noise_dependent(filter));
-        let mut dispatches = Vec::new();
-        let mut ready = WrittenLevels::default();
-        let bound = filter.passes.iter().zip(passes).zip(dependence);
-        for ((pass, compiled), (depends_on_color, depends_on_noise)) in bound {
-            let entry = filter.entry_point(pass);
-            let drawn = pass
-                .shader
-                .as_ref()
-                .map_or(&[][..], |shader| &shader.targets);
-            let over = drawn.first().map(String::as_str).or(pass.over.as_deref());
-            let over = over.unwrap_or("output");
-            let shader = filter.shader(pass);
-            // Texels that one workgroup covers.
-            let [group_width, group_height] = match pass.workgroup_per_texel || entry.is_fragment()
-            {
-                true => [1, 1],
-                false => [entry.workgroup_size[0], entry.workgroup_size[1]],
-            };
-            let place = place_of(&pass.entry);
-            let repeats = times(pass);
-            for iteration in 0..repeats {
-                let value = |name: &str| match name {
-                    "iteration" => f64::from(iteration),
-                    "iterations" => f64::from(repeats),
-                    name => values[name],
-                };
-                let levels = Levels::find(filter, pass, &targets, &value);
-                let levels = levels.map_err(|reason| place.refuse(reason))?;
-                // A small texture has fewer levels.
-                if !levels.are_there(&targets) {
-                    continue;
-                }
-                let checked = levels.check(shader, entry, &targets, &ready);
-                checked.map_err(|reason| place.refuse(reason))?;
-                levels.add_to(&mut ready);
-                let [width, height] = targets.size(over, levels.of_written(over));
-                let frame = uniforms.bind_frame(dispatches.len());
-                let counted =
-                    (loop_counts.as_ref())
-                        .zip(compiled.counted_at)
-                        .map(|(counts, binding)| {
-                            let resource = counts.bind_dispatch(dispatches.len());
-                            wgpu::BindGroupEntry { binding, resource }
-                        });
-                let blocks = gpu.catch_errors(place, || create_blocks(gpu, &shader.blocks))?;
-                let bind_group = gpu.catch_errors(place, || {
-                    create_bind_group(
-                        gpu,
-                        shader,
-                        entry,
-                        &compiled.layout,
-                        counted,
-                        |index, variable| match variable.role {
-                            Role::Uniform if variable.name == "frame" => frame.clone(),
-                            Role::Uniform => uniforms.parameters.as_entire_binding(),
-                            Role::Block(block) => blocks[block].1.as_entire_binding(),
-                            Role::Sampler(_) => {
-                                wgpu::BindingResource::Sampler(&compiled.samplers[&index])
-                            }
-                            Role::Read(_) | Role::Write(_) => wgpu::BindingResource::TextureView(
-                                targets
-                                    .of_variable(entry, variable)
-                                    .view(levels.of_variable(index)),
-                            ),
-                        },
-                    )
-                })?;
-                let vertex = filter.vertex_shader(pass).zip(filter.vertex_entry(pass));
-                let vertex = vertex.zip(compiled.vertex_layout.as_ref());
-                let corner_blocks = gpu.catch_errors(place, || {
-                    vertex.map_or(Vec::new(), |((shader, _), _)| {
-                        create_blocks(gpu, &shader.blocks)
-                    })
-                })?;
-                let vertex_group = gpu.catch_errors(place, || {
-                    vertex.map(|((shader, entry), layout)| {
-                        create_bind_group(gpu, shader, entry, layout, None, |_, variable| {
-                            match variable.role {
-                                Role::Block(block) => corner_blocks[block].1.as_entire_binding(),
-                                _ => unreachable!("a vertex stage has uniform blocks alone"),
-                            }
-                        })
-                    })
-                })?;
-                let attachments = drawn.iter().map(|name| {
-                    let target = targets.written(entry, name);
-                    target.view(Some(levels.of_written(name))).clone()
-                });
-                dispatches.push(Dispatch {
-                    entry: pass.entry.clone(),
-                    pipeline: compiled.pipeline.clone(),
-                    attachments: attachments.collect(),
-                    copies: match entry.keeps_unwritten {
-                        true => targets.list_exchanged(entry),
-                        false => Vec::new(),
-                    },
-                    blocks: blocks.into_iter().chain(corner_blocks).collect(),
-                    bind_group,
-                    vertex_group,
-                    workgroups: [width.div_ceil(group_width), height.div_ceil(group_height)],
-                    bytes: sum_bytes(&targets, filter, pass, &levels),
-                    depends_on_color,
-                    depends_on_noise,
-                    writes_output: entry.writes.contains("output"),
-                    written: (entry.writes.iter())
-                        .filter(|name| levels.of_written(name) == 0)
-                        .map(|name| (name.clone(), targets.written(entry, name).clone()))
-                        .collect(),
-                    iteration,
-                    iterations: repeats,
-                });
-                targets.exchange(entry);
-            }
+        for ((pass, compiled), depends_on) in filter.passes.iter().zip(passes).zip(depends_on) {
+            binder.bind_pass(pass, compiled, times(pass), depends_on)?;
         }
         Ok(Self {
-            dispatches,
+            dispatches: binder.dispatches,
             time_limit: filter.time_limit,
-            loop_counts,
+            loop_counts: binder.loop_counts,
             mark,
-            targets,
-            uniforms,
-            values,
+            targets: binder.targets,
+            parameters: settings.list_parameters(filter).collect(),
         })
     }
 
-    /// Copies the mark to the output if every pass that writes it is due. Pixels that keep the mark were not written.
-    pub fn mark_output(&self, gpu: &Gpu, due: impl Fn(&Dispatch) -> bool) {
+    /// Copies the mark to the output if every dispatch that writes it is wanted. Pixels that keep the mark were not written.
+    pub fn mark_output(&self, gpu: &Gpu, is_wanted: impl Fn(&Dispatch) -> bool) {
         let mut writers = self
             .dispatches
             .iter()
             .filter(|dispatch| dispatch.writes_output);
-        if writers.all(due) {
+        if writers.all(is_wanted) {
             gpu.copy(&self.mark, self.target("output"));
         }
     }
@@ -209,23 +98,134 @@ impl BoundPasses {
         self.targets.current(name)
     }
 
-    /// Writes the uniform `frame` of every dispatch.
+    /// Writes the uniform blocks of every dispatch.
     pub fn upload_frame(&self, gpu: &Gpu, frame: FrameValues) {
-        for (index, dispatch) in self.dispatches.iter().enumerate() {
+        for dispatch in &self.dispatches {
             let frame = frame.of_run(dispatch.iteration, dispatch.iterations);
-            self.uniforms.upload_frame(gpu, index, frame.uniform);
+            let value = |name: &str| match self.parameters.get(name) {
+                Some(value) => *value,
+                None => frame.value(name),
+            };
             for (block, buffer) in &dispatch.blocks {
-                let bytes = block.encode(&|name| {
-                    let of_rate = frame.value_of_rate(name);
-                    match of_rate.or(self.values.get(name).copied()) {
-                        Some(value) => value,
-                        None => frame.value(name),
-                    }
-                });
-                gpu.queue.write_buffer(buffer, 0, &bytes);
+                gpu.queue.write_buffer(buffer, 0, &block.encode(&value));
             }
         }
     }
+}
+
+/// Passes of a filter, bound so far.
+struct Binder<'a> {
+    gpu: &'a Gpu,
+    filter: &'a Filter,
+    /// Values of the parameters, and of the convention, by name.
+    values: BTreeMap<String, f64>,
+    targets: Targets,
+    loop_counts: Option<LoopCounts>,
+    ready: WrittenLevels,
+    dispatches: Vec<Dispatch>,
+}
+
+/// Bind groups of a dispatch, and its uniform blocks with their buffers.
+type Groups = (Vec<wgpu::BindGroup>, Vec<(UniformBlock, wgpu::Buffer)>);
+
+impl Binder<'_> {
+    /// Binds every run of a pass. `depends_on` says whether its result changes with colour, and with noise.
+    fn bind_pass(
+        &mut self,
+        pass: &Pass,
+        compiled: &Compiled,
+        iterations: u32,
+        depends_on: (bool, bool),
+    ) -> Result<(), FilterError> {
+        let (gpu, filter) = (self.gpu, self.filter);
+        let (shader, entry) = (filter.shader(pass), filter.entry_point(pass));
+        let place = Place {
+            filter: &filter.name,
+            pass: &pass.entry,
+        };
+        for iteration in 0..iterations {
+            let value = |name: &str| match name {
+                "iteration" => f64::from(iteration),
+                "iterations" => f64::from(iterations),
+                name => self.values[name],
+            };
+            let levels = Levels::find(filter, pass, &self.targets, &value);
+            let levels = levels.map_err(|reason| place.refuse(reason))?;
+            // A small texture has fewer levels.
+            if !levels.are_there(&self.targets) {
+                continue;
+            }
+            let ready = levels.write(shader, entry, &self.targets, &mut self.ready);
+            ready.map_err(|reason| place.refuse(reason))?;
+            let (groups, blocks) =
+                gpu.catch_errors(place, || self.bind_stages(pass, compiled, &levels))?;
+            let targets = &self.targets;
+            let attachments = pass.list_targets().map(|name| {
+                let target = targets.written(entry, name);
+                target.view(Some(levels.of_written(name))).clone()
+            });
+            self.dispatches.push(Dispatch {
+                entry: pass.entry.clone(),
+                pipeline: compiled.pipeline.clone(),
+                attachments: attachments.collect(),
+                copies: match entry.keeps_unwritten {
+                    true => targets.list_exchanged(entry),
+                    false => Vec::new(),
+                },
+                blocks,
+                groups,
+                workgroups: count_workgroups(targets, filter, pass, &levels),
+                bytes: sum_bytes(targets, filter, pass, &levels),
+                depends_on_color: depends_on.0,
+                depends_on_noise: depends_on.1,
+                writes_output: entry.writes.contains("output"),
+                written: (entry.writes.iter())
+                    .filter(|name| levels.of_written(name) == 0)
+                    .map(|name| (name.clone(), targets.written(entry, name).clone()))
+                    .collect(),
+                iteration,
+                iterations,
+            });
+            self.targets.exchange(entry);
+        }
+        Ok(())
+    }
+
+    /// Binds the stages of a pass for the next dispatch.
+    fn bind_stages(&self, pass: &Pass, compiled: &Compiled, levels: &Levels) -> Groups {
+        let mut groups = Vec::new();
+        let mut all_blocks = Vec::new();
+        for (stage, (shader, entry)) in compiled.stages.iter().zip(self.filter.stages(pass)) {
+            let blocks = create_blocks(self.gpu, &shader.blocks);
+            let counts = self.loop_counts.as_ref();
+            let counts = counts.map(|counts| counts.bind_dispatch(self.dispatches.len()));
+            let resource = |index, variable: &Variable| match variable.role {
+                Role::Block(block) => blocks[block].1.as_entire_binding(),
+                Role::Sampler(_) => wgpu::BindingResource::Sampler(&stage.samplers[&index]),
+                Role::Read(_) | Role::Write(_) => {
+                    let target = self.targets.of_variable(entry, variable);
+                    wgpu::BindingResource::TextureView(target.view(levels.of_variable(index)))
+                }
+            };
+            groups.push(stage.bind(self.gpu, shader, entry, counts, resource));
+            all_blocks.extend(blocks);
+        }
+        (groups, all_blocks)
+    }
+}
+
+/// Counts the workgroups of a dispatch along x and y.
+fn count_workgroups(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Levels) -> [u32; 2] {
+    let over = pass.list_targets().chain(&pass.over).next();
+    let over = over.map_or("output", String::as_str);
+    let entry = filter.entry_point(pass);
+    let [width, height] = targets.size(over, levels.of_written(over));
+    // Texels that one workgroup covers.
+    let [x, y] = match pass.workgroup_per_texel || entry.is_fragment() {
+        true => [1, 1],
+        false => [entry.workgroup_size[0], entry.workgroup_size[1]],
+    };
+    [width.div_ceil(x), height.div_ceil(y)]
 }
 
 /// Sums the bytes of the textures that a pass reads and of those that it writes, render targets included.
@@ -238,28 +238,21 @@ fn sum_bytes(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Levels) -
             let target = targets.of_variable(entry, variable);
             target.bytes(levels.of_variable(index))
         });
-    let drawn = pass.shader.iter().flat_map(|shader| &shader.targets);
-    let drawn = drawn.map(|name| {
+    let attached = pass.list_targets().map(|name| {
         let level = levels.of_written(name);
         targets.written(entry, name).bytes(Some(level))
     });
-    bound.chain(drawn).sum()
+    bound.chain(attached).sum()
 }
 
 /// Creates a buffer for each uniform block.
 fn create_blocks(gpu: &Gpu, blocks: &[UniformBlock]) -> Vec<(UniformBlock, wgpu::Buffer)> {
+    let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
     let create = |block: &UniformBlock| {
-        gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("block"),
-            size: u64::from(block.bytes).next_multiple_of(16),
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        })
+        let bytes = u64::from(block.bytes).next_multiple_of(16);
+        (block.clone(), gpu.create_buffer("block", bytes, usage))
     };
-    blocks
-        .iter()
-        .map(|block| (block.clone(), create(block)))
-        .collect()
+    blocks.iter().map(create).collect()
 }
 
 /// Returns every component of a pixel that no pass has written: a NaN that no arithmetic makes.

@@ -26,14 +26,7 @@ impl<'g> BufferCopy<'g> {
     /// Makes buffers of 128 MiB, or of as much as the adapter allows.
     pub fn new(gpu: &'g Gpu) -> Result<Self, FilterError> {
         let size = BUFFER_BYTES.min(gpu.device.limits().max_buffer_size);
-        let buffer = |usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("copy"),
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
+        let buffer = |usage| gpu.create_buffer("copy", size, usage);
         let (from, to) = gpu.catch_errors(PLACE, || {
             (
                 buffer(wgpu::BufferUsages::COPY_SRC),

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::clock::Clock;
-use super::loop_limit::LoopLimit;
+use super::loop_counts::LoopLimit;
 
 /// Description of an adapter, as a run records it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -16,6 +15,17 @@ pub struct AdapterDescription {
     pub backend: String,
     /// Kind of device: `discrete`, `integrated`, `virtual`, `software` or `other`.
     pub kind: String,
+}
+
+/// Clock that durations are read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Clock {
+    /// The GPU's own clock, read between two pieces of work.
+    Timestamps,
+    /// The computer's clock, read before each piece is submitted and once the GPU is idle. It includes the way there and back,
+    /// so short work seems longer.
+    WallClock,
 }
 
 /// An opened GPU.
@@ -31,4 +41,21 @@ pub struct Gpu {
     pub interrupted: fn() -> bool,
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
+}
+
+impl Gpu {
+    /// Creates a buffer.
+    pub(super) fn create_buffer(
+        &self,
+        label: &str,
+        size: u64,
+        usage: wgpu::BufferUsages,
+    ) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size,
+            usage,
+            mapped_at_creation: false,
+        })
+    }
 }

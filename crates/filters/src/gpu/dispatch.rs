@@ -9,9 +9,8 @@ use crate::shader::UniformBlock;
 pub(super) struct Dispatch {
     pub entry: String,
     pub pipeline: Pipeline,
-    pub bind_group: wgpu::BindGroup,
-    /// Uniform blocks of its vertex stage, if filter.toml names one.
-    pub vertex_group: Option<wgpu::BindGroup>,
+    /// Bind groups of its stages.
+    pub groups: Vec<wgpu::BindGroup>,
     pub workgroups: [u32; 2],
     /// Render targets, by location; none of a kernel.
     pub attachments: Vec<wgpu::TextureView>,
@@ -44,7 +43,7 @@ impl Dispatch {
             Pipeline::Compute(pipeline) => {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
                 pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.bind_group, &[]);
+                pass.set_bind_group(0, &self.groups[0], &[]);
                 let [x, y] = self.workgroups;
                 pass.dispatch_workgroups(x, y, 1);
             }
@@ -69,9 +68,8 @@ impl Dispatch {
                     ..Default::default()
                 });
                 pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.bind_group, &[]);
-                if let Some(group) = &self.vertex_group {
-                    pass.set_bind_group(1, group, &[]);
+                for (index, group) in self.groups.iter().enumerate() {
+                    pass.set_bind_group(index as u32, group, &[]);
                 }
                 pass.draw(0..3, 0..1);
             }

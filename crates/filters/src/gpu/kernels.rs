@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use wgpu::naga::ShaderStage;
 
-use super::binding::{Pipeline, StageSource, create_layout, create_pipeline, create_samplers};
+use super::binding::{CompiledStage, Pipeline, create_pipeline};
 use super::device::Gpu;
 use super::limits::Limits;
 use super::place::Place;
@@ -43,17 +43,12 @@ pub(super) struct Specialised {
 /// The kernel of one pass.
 #[derive(Clone, Debug)]
 pub(super) struct Compiled {
-    pub layout: wgpu::BindGroupLayout,
-    /// Layout of the uniform blocks of its vertex stage.
-    pub vertex_layout: Option<wgpu::BindGroupLayout>,
+    /// Its stages, in the order of [`Filter::stages`].
+    pub stages: Vec<CompiledStage>,
     pub pipeline: Pipeline,
-    /// Samplers by the index of their variables.
-    pub samplers: BTreeMap<usize, wgpu::Sampler>,
-    /// Binding of the buffer of loop iterations, if they are counted.
-    pub counted_at: Option<u32>,
 }
 
-/// Upper limit on kernels that are kept for other values of specialisation constants.
+/// Upper limit on kernels that are cached for other values of specialisation constants.
 const MOST_KEPT: usize = 16;
 
 impl<'g> Kernels<'g> {
@@ -80,31 +75,30 @@ impl<'g> Kernels<'g> {
         let constants = list_all_constants(&self.filter, settings);
         let lock = || (self.specialised.lock()).unwrap_or_else(|broken| broken.into_inner());
         let first = {
-            let kept = lock();
-            if let Some(known) = kept.iter().find(|known| known.constants == constants) {
+            let cached = lock();
+            if let Some(known) = cached.iter().find(|known| known.constants == constants) {
                 return Ok(known.clone());
             }
-            kept[0].clone()
+            cached[0].clone()
         };
         let mut filter = self.filter.clone();
         let changed = constants.iter().zip(&first.constants);
-        for (pass, (own, kept)) in self.filter.passes.iter().zip(changed) {
-            let Some(shader) = pass.shader.as_ref().filter(|_| own != kept) else {
+        for (pass, (own, cached)) in self.filter.passes.iter().zip(changed) {
+            let Some(shader) = pass.shader.as_ref().filter(|_| own != cached) else {
                 continue;
             };
-            let make = |shader, made| specialise(&self.filter, shader, made, settings);
-            filter.shaders[pass.shader_index] = make(shader, self.filter.shader(pass))?;
-            let vertex = shader.vertex_stage().zip(pass.vertex_index);
-            if let Some((vertex, index)) = vertex {
-                filter.shaders[index] = make(&vertex, &self.filter.shaders[index])?;
+            let indices = [Some(pass.shader_index), pass.vertex_index];
+            for (stage, index) in shader.stages().iter().zip(indices.into_iter().flatten()) {
+                let made = &self.filter.shaders[index];
+                filter.shaders[index] = specialise(&self.filter, stage, made, settings)?;
             }
         }
         let made = Arc::new(compile(self.gpu, filter, constants, Some(&first))?);
-        let mut kept = lock();
-        if kept.len() > MOST_KEPT {
-            kept.remove(1);
+        let mut cached = lock();
+        if cached.len() > MOST_KEPT {
+            cached.remove(1);
         }
-        kept.push(made.clone());
+        cached.push(made.clone());
         Ok(made)
     }
 
@@ -164,47 +158,27 @@ fn compile_pass(
     pass: &Pass,
     modules: &mut Modules,
 ) -> Result<Compiled, FilterError> {
-    for index in [Some(pass.shader_index), pass.vertex_index]
-        .into_iter()
-        .flatten()
-    {
+    let indices = [Some(pass.shader_index), pass.vertex_index];
+    for index in indices.into_iter().flatten() {
         if let Entry::Vacant(missing) = modules.entry(index) {
             missing.insert(compile_shader(gpu, filter, &filter.shaders[index])?);
         }
     }
-    let shader = filter.shader(pass);
-    let (module, counted_at) = &modules[&pass.shader_index];
-    let entry = filter.entry_point(pass);
-    let targets = list_target_formats(filter, pass);
     let place = Place {
         filter: &filter.name,
         pass: &pass.entry,
     };
     let compiled = gpu.catch_errors(place, || {
-        let layout = create_layout(gpu, shader, entry, *counted_at);
-        let vertex = pass.vertex_index.zip(filter.vertex_entry(pass));
-        let vertex = vertex.map(|(index, entry)| {
-            let layout = create_layout(gpu, &filter.shaders[index], entry, None);
-            (layout, &modules[&index].0, entry)
+        let indices = indices.into_iter().flatten().zip(filter.stages(pass));
+        let stages = indices.map(|(index, (shader, entry))| {
+            let (module, counted_at) = &modules[&index];
+            CompiledStage::new(gpu, shader, entry, module.clone(), *counted_at)
         });
-        let own = StageSource {
-            layout: &layout,
-            module,
-            entry,
-        };
-        let corners = vertex.as_ref().map(|(layout, module, entry)| StageSource {
-            layout,
-            module,
-            entry,
-        });
-        let pipeline = create_pipeline(gpu, own, corners, &targets);
-        Compiled {
-            layout,
-            vertex_layout: vertex.map(|(layout, ..)| layout),
-            pipeline,
-            samplers: create_samplers(gpu, shader, entry),
-            counted_at: *counted_at,
-        }
+        let stages: Vec<CompiledStage> = stages.collect();
+        let entries = filter.stages(pass).into_iter().map(|(_, entry)| entry);
+        let named: Vec<_> = stages.iter().zip(entries).collect();
+        let pipeline = create_pipeline(gpu, &named, &list_target_formats(filter, pass));
+        Compiled { stages, pipeline }
     });
     compiled.map_err(|error| explain(gpu, filter, &pass.entry, error))
 }

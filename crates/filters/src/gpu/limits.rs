@@ -39,18 +39,11 @@ impl Limits {
         for pass in &filter.passes {
             let entry = filter.entry_point(pass);
             let shader = filter.shader(pass);
-            let broken = self.find_broken(shader, entry);
-            let of_vertex = || {
-                let (shader, entry) = (filter.vertex_shader(pass)?, filter.vertex_entry(pass)?);
-                self.find_broken(shader, entry)
-            };
-            let broken = broken.or_else(of_vertex);
+            let mut stages = filter.stages(pass).into_iter();
+            let broken = stages.find_map(|(shader, entry)| self.find_broken(shader, entry));
             if let Some(reason) = broken.or_else(|| self.find_uninterpolated(filter, pass)) {
-                return Err(FilterError::Folder {
-                    path: shader.path.clone(),
-                    line: entry.line,
-                    reason: format!("pass \"{}\": {reason}", pass.entry),
-                });
+                let reason = format!("pass \"{}\": {reason}", pass.entry);
+                return Err(FilterError::in_file(&shader.path, entry.line, reason));
             }
         }
         Ok(())
@@ -64,14 +57,7 @@ impl Limits {
         let variables = &filter.shader(pass).variables;
         let interpolated = filter.entry_point(pass).interpolated.iter();
         let mut names = interpolated.map(|index| &variables[*index].resource);
-        let name = names.find(|name| {
-            let declared = filter
-                .textures
-                .iter()
-                .find(|texture| texture.name == **name);
-            let format = declared.map_or(filter.convention.input_format(name), |it| it.format);
-            format.is_full_float()
-        })?;
+        let name = names.find(|name| filter.read_format(name).is_full_float())?;
         Some(format!(
             "a sampler interpolates the 32-bit floats of \"{name}\", not allowed by {}; give the texture a format of \
              16-bit floats ([convention] has color_format, velocity_format and depth_format), or take sampler = \"nearest\"",
@@ -83,67 +69,71 @@ impl Limits {
     fn find_broken(&self, shader: &Shader, entry: &EntryPoint) -> Option<String> {
         let Self { owner, limits, .. } = self;
         let [x, y, z] = entry.workgroup_size;
-        let invocations = u64::from(x) * u64::from(y) * u64::from(z);
-        let largest = [
-            limits.max_compute_workgroup_size_x,
-            limits.max_compute_workgroup_size_y,
-            limits.max_compute_workgroup_size_z,
-        ];
-        let variables = || {
-            let indices = entry.variables.iter();
-            indices.map(|index| &shader.variables[*index])
+        let count = |is: fn(Role) -> bool| {
+            let used = entry.variables.iter();
+            used.filter(|index| is(shader.variables[**index].role))
+                .count() as u64
         };
-        let count = |is: fn(Role) -> bool| variables().filter(|it| is(it.role)).count() as u64;
-        let highest = variables()
-            .map(|variable| u64::from(variable.binding))
-            .max();
+        let bindings = entry
+            .variables
+            .iter()
+            .map(|index| shader.variables[*index].binding);
+        let broken = |found: u64, allowed: u32, what: &str, way_out: &str| {
+            (found > u64::from(allowed)).then(|| {
+                format!("{found} {what}; allowed: at most {allowed} by {owner}; {way_out}")
+            })
+        };
+        let of_workgroup = |found, allowed, what| {
+            let reason = broken(found, allowed, what, "make @workgroup_size smaller")?;
+            Some(format!("@workgroup_size({x}, {y}, {z}): {reason}"))
+        };
+        let [x_side, y_side, z_side] = [x, y, z].map(u64::from);
         let found = [
-            (
-                invocations,
-                u64::from(limits.max_compute_invocations_per_workgroup),
+            of_workgroup(
+                x_side * y_side * z_side,
+                limits.max_compute_invocations_per_workgroup,
                 "invocations in a workgroup",
-                "make @workgroup_size smaller",
             ),
-            (
+            broken(
                 entry.usage.workgroup_bytes,
-                u64::from(limits.max_compute_workgroup_storage_size),
+                limits.max_compute_workgroup_storage_size,
                 "bytes of var<workgroup>",
                 "keep less in it, or divide the pass",
             ),
-            (
+            broken(
                 count(|role| matches!(role, Role::Write(_))),
-                u64::from(limits.max_storage_textures_per_shader_stage),
+                limits.max_storage_textures_per_shader_stage,
                 "textures that it writes",
                 "divide the pass",
             ),
-            (
+            broken(
                 count(|role| matches!(role, Role::Read(_))),
-                u64::from(limits.max_sampled_textures_per_shader_stage),
+                limits.max_sampled_textures_per_shader_stage,
                 "textures that it reads",
                 "divide the pass",
             ),
-            (
-                highest.unwrap_or(0),
-                u64::from(limits.max_bindings_per_bind_group) - 1,
+            broken(
+                u64::from(bindings.max().unwrap_or(0)),
+                limits.max_bindings_per_bind_group - 1,
                 "as a number of @binding",
                 "number the bindings from 1",
             ),
+            of_workgroup(
+                x_side,
+                limits.max_compute_workgroup_size_x,
+                "invocations along x",
+            ),
+            of_workgroup(
+                y_side,
+                limits.max_compute_workgroup_size_y,
+                "invocations along y",
+            ),
+            of_workgroup(
+                z_side,
+                limits.max_compute_workgroup_size_z,
+                "invocations along z",
+            ),
         ];
-        let broken = found.iter().find(|(found, allowed, ..)| found > allowed);
-        if let Some((found, allowed, what, way_out)) = broken {
-            let workgroup = match *what {
-                "invocations in a workgroup" => format!("@workgroup_size({x}, {y}, {z}): "),
-                _ => String::new(),
-            };
-            return Some(format!(
-                "{workgroup}{found} {what}; allowed: at most {allowed} by {owner}; {way_out}"
-            ));
-        }
-        let mut sides = [("x", x), ("y", y), ("z", z)].into_iter().zip(largest);
-        let ((axis, found), allowed) = sides.find(|((_, side), allowed)| side > allowed)?;
-        Some(format!(
-            "@workgroup_size({x}, {y}, {z}): {found} invocations along {axis}; allowed: at most {allowed} by {owner}; make \
-             @workgroup_size smaller"
-        ))
+        found.into_iter().flatten().next()
     }
 }

@@ -1,9 +1,24 @@
-//! Buffer in which kernels report their loop iterations.
+//! Limit of an adapter on loop iterations, and the buffer in which kernels report theirs.
 
 use super::device::Gpu;
-use super::loop_limit::LoopLimit;
 use super::place::Place;
 use crate::FilterError;
+
+/// Loop iterations that an adapter grants one invocation, all its loops together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LoopLimit {
+    /// Iterations after which every loop ends.
+    pub iterations: u32,
+    /// Invocations that run in step and share the limit, at most: where they branch apart, their iterations add up.
+    pub lanes: u32,
+}
+
+impl LoopLimit {
+    /// Returns the iterations of one invocation from which on the picture may be wrong: its neighbours in step may take as many.
+    pub fn safe(self) -> u32 {
+        self.iterations / self.lanes.max(1)
+    }
+}
 
 /// The largest count of any invocation, per dispatch; 0 where every count is safe.
 #[derive(Debug)]
@@ -19,14 +34,8 @@ impl LoopCounts {
     pub fn new(gpu: &Gpu, limit: LoopLimit, dispatches: u32) -> Self {
         let alignment = gpu.device.limits().min_storage_buffer_offset_alignment;
         let stride = u64::from(alignment.max(4));
-        let buffer = |usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("loop iterations"),
-                size: stride * u64::from(dispatches.max(1)),
-                usage,
-                mapped_at_creation: false,
-            })
-        };
+        let size = stride * u64::from(dispatches.max(1));
+        let buffer = |usage| gpu.create_buffer("loop iterations", size, usage);
         Self {
             limit,
             counts: buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC),

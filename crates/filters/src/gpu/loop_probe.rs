@@ -50,14 +50,7 @@ pub(super) fn find_loop_limit(gpu: &Gpu) -> Result<Option<u32>, FilterError> {
                 compilation_options: Default::default(),
                 cache: None,
             });
-        let buffer = |usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(place.pass),
-                size: 8,
-                usage: usage | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        };
+        let buffer = |usage| gpu.create_buffer(place.pass, 8, usage | wgpu::BufferUsages::COPY_DST);
         let found = buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
         let readable = buffer(wgpu::BufferUsages::MAP_READ);
         gpu.queue

@@ -17,8 +17,8 @@ pub(super) struct Targets(BTreeMap<String, Vec<Target>>);
 pub const MAX_TEXTURE_BYTES: u64 = 8 << 30;
 
 /// Description of a texture that is to be made.
-struct TargetDescription<'f> {
-    name: &'f str,
+struct TargetDescription {
+    name: String,
     size: [u32; 2],
     mips: u32,
     format: Format,
@@ -26,7 +26,7 @@ struct TargetDescription<'f> {
     usage: wgpu::TextureUsages,
 }
 
-impl TargetDescription<'_> {
+impl TargetDescription {
     fn bytes(&self) -> u64 {
         let [width, height] = self.size;
         let texels = count_texels(width, height, 0..self.mips);
@@ -35,54 +35,48 @@ impl TargetDescription<'_> {
 }
 
 /// Describes the textures that every filter has, and those that this one declares.
-fn describe_targets<'f>(
-    filter: &'f Filter,
+fn describe_targets(
+    filter: &Filter,
     settings: &Settings,
     size: [u32; 2],
-) -> Result<Vec<TargetDescription<'f>>, String> {
-    let inputs = INPUTS.map(|name| (name, filter.convention.input_format(name)));
-    let before = filter.history.iter().map(|history| {
-        let format = filter.convention.input_format(history.input());
-        (history.texture(), format)
-    });
-    let builtin = inputs
-        .into_iter()
-        .chain(before)
-        .chain([("output", output_format(filter))]);
-    let builtin = builtin.map(|(name, format)| TargetDescription {
-        name,
-        size,
-        mips: 1,
+) -> Result<Vec<TargetDescription>, String> {
+    let before = filter.history.iter().map(|history| history.texture());
+    let inputs = INPUTS.into_iter().chain(before);
+    let inputs = inputs.map(|name| (name, filter.convention.format_of(name)));
+    let builtin = inputs.chain([("output", output_format(filter))]);
+    let builtin = builtin.map(|(name, format)| Texture {
+        name: name.to_owned(),
         format,
-        copies: 1,
-        usage: find_usage(filter, name),
+        divided_by: None,
+        rounding: Rounding::Up,
+        mips: 1,
+        holds: None,
     });
     let numbers = settings.list_numbers(filter);
-    let declared = filter.textures.iter().map(|texture| {
-        let divisors = find_divisors(texture, &numbers, size)?;
-        let [width, height] = size;
-        let exchanged = filter.passes.iter().any(|pass| {
+    let describe = |texture: Texture| {
+        let divisors = find_divisors(&texture, &numbers, size)?;
+        let [width, height] = [0, 1].map(|axis| match texture.rounding {
+            Rounding::Up => size[axis].div_ceil(divisors[axis]),
+            Rounding::Down => (size[axis] / divisors[axis]).max(1),
+        });
+        let is_exchanged = filter.passes.iter().any(|pass| {
             let mut names = filter.entry_point(pass).exchanged_textures();
             names.any(|name| *name == texture.name)
         });
-        let size =
-            [(width, divisors[0]), (height, divisors[1])].map(|(side, divisor)| {
-                match texture.rounding {
-                    Rounding::Up => side.div_ceil(divisor),
-                    Rounding::Down => (side / divisor).max(1),
-                }
-            });
         Ok(TargetDescription {
-            name: &texture.name,
-            size,
+            size: [width, height],
             // The last level has one texel.
-            mips: texture.mips.min(size[0].max(size[1]).ilog2() + 1),
+            mips: texture.mips.min(width.max(height).ilog2() + 1),
             format: texture.format,
-            copies: if exchanged { 2 } else { 1 },
+            copies: if is_exchanged { 2 } else { 1 },
             usage: find_usage(filter, &texture.name),
+            name: texture.name,
         })
-    });
-    builtin.map(Ok).chain(declared).collect()
+    };
+    builtin
+        .chain(filter.textures.iter().cloned())
+        .map(describe)
+        .collect()
 }
 
 /// Computes what divides a texture's width and height on pictures of a size. `numbers` are the settings by name.
@@ -115,29 +109,17 @@ fn find_divisors(
 
 /// Finds the format of the output: that in which a shader stores it, or that of the convention for render targets.
 pub(super) fn output_format(filter: &Filter) -> Format {
-    let variables = filter.shaders.iter().flat_map(|shader| &shader.variables);
-    let stored = variables.filter(|variable| variable.resource == "output");
-    let mut stored = stored.filter_map(|variable| match variable.role {
-        Role::Write(format) => Some(format),
-        _ => None,
-    });
-    let by_convention = filter.convention.output_format;
-    stored
-        .next()
-        .or(by_convention)
-        .unwrap_or(Format::Rgba32Float)
+    let mut stored = (filter.shaders.iter()).filter_map(|shader| shader.stored_format("output"));
+    (stored.next()).unwrap_or(filter.convention.format_of("output"))
 }
 
 /// Lists the formats of the render targets of a pass, by location.
 pub(super) fn list_target_formats(filter: &Filter, pass: &Pass) -> Vec<wgpu::TextureFormat> {
-    let format = |name: &String| {
-        let declared = filter.textures.iter().find(|texture| texture.name == *name);
-        declared
-            .map_or(output_format(filter), |texture| texture.format)
-            .wgpu()
-    };
-    let targets = pass.shader.iter().flat_map(|shader| &shader.targets);
-    targets.map(format).collect()
+    let formats = pass.list_targets().map(|name| match filter.texture(name) {
+        Some(texture) => texture.format.wgpu(),
+        None => output_format(filter).wgpu(),
+    });
+    formats.collect()
 }
 
 /// Finds how the passes write a texture.
@@ -145,8 +127,7 @@ fn find_usage(filter: &Filter, name: &str) -> wgpu::TextureUsages {
     let mut usage = wgpu::TextureUsages::empty();
     for pass in &filter.passes {
         let entry = filter.entry_point(pass);
-        let is_target =
-            (pass.shader.iter()).any(|shader| shader.targets.iter().any(|it| it == name));
+        let is_target = pass.list_targets().any(|target| target == name);
         if is_target {
             usage |= wgpu::TextureUsages::RENDER_ATTACHMENT;
         } else if entry.writes.contains(name) {
@@ -183,18 +164,18 @@ impl Targets {
             pass: "textures",
         };
         gpu.catch_errors(place, || {
-            let made = descriptions.iter().map(|planned| {
-                let TargetDescription {
-                    name,
-                    size,
-                    mips,
-                    format,
-                    usage,
-                    ..
-                } = *planned;
-                let copies =
-                    (0..planned.copies).map(|_| gpu.create_target(name, size, mips, format, usage));
-                (planned.name.to_owned(), copies.collect())
+            let made = descriptions.into_iter().map(|planned| {
+                let make = |_| {
+                    gpu.create_target(
+                        &planned.name,
+                        planned.size,
+                        planned.mips,
+                        planned.format,
+                        planned.usage,
+                    )
+                };
+                let copies = (0..planned.copies).map(make).collect();
+                (planned.name, copies)
             });
             Self(made.collect())
         })

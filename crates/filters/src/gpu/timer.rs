@@ -2,8 +2,7 @@
 
 use std::time::Instant;
 
-use super::clock::Clock;
-use super::device::Gpu;
+use super::device::{Clock, Gpu};
 use super::place::Place;
 use crate::FilterError;
 use crate::filter::DEFAULT_TIME_LIMIT;
@@ -33,14 +32,7 @@ impl Gpu {
         // One before each piece, and one after the last.
         let stamps = count as u32 + 1;
         let size = u64::from(stamps) * u64::from(wgpu::QUERY_SIZE);
-        let buffer = |usage| {
-            self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("timestamps"),
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
+        let buffer = |usage| self.create_buffer("timestamps", size, usage);
         let readable = self.catch_errors(place, || {
             let queries = self.device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("timestamps"),

@@ -22,14 +22,9 @@ pub struct PassTime {
 }
 
 impl<'g> Blur<'g> {
-    /// Uploads an input and its first colour image.
+    /// Uploads an input and its first colour image, for timing.
     pub fn load(&mut self, input: &Input) -> Result<LoadedBlur<'_, 'g>, FilterError> {
-        self.check(input)?;
-        self.upload(input)?;
-        let color = input.color.first().expect("there is a colour to blur");
-        self.upload_color(color)?;
-        self.upload_color_before(color)?;
-        self.upload_layers_before(input)?;
+        self.upload_first(input)?;
         Ok(LoadedBlur { blur: self })
     }
 }

@@ -10,25 +10,6 @@ use crate::shader::Texel;
 use crate::{Convention, FilterError, Format, Input};
 
 impl Format {
-    /// Converts the format to that of wgpu.
-    pub(in crate::gpu) fn wgpu(self) -> wgpu::TextureFormat {
-        match self {
-            Format::R32Uint => wgpu::TextureFormat::R32Uint,
-            Format::R32Float => wgpu::TextureFormat::R32Float,
-            Format::Rg32Float => wgpu::TextureFormat::Rg32Float,
-            Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
-            Format::R16Float => wgpu::TextureFormat::R16Float,
-            Format::Rg16Float => wgpu::TextureFormat::Rg16Float,
-            Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
-            Format::R8Unorm => wgpu::TextureFormat::R8Unorm,
-            Format::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
-            Format::Rgb10a2Unorm => wgpu::TextureFormat::Rgb10a2Unorm,
-            Format::Rg11b10Ufloat => wgpu::TextureFormat::Rg11b10Ufloat,
-        }
-    }
-}
-
-impl Format {
     /// Encodes numbers; those of `r32uint` are given as the floats of their bits.
     fn encode(self, values: &[f32]) -> Vec<u8> {
         match self {
@@ -172,7 +153,7 @@ pub(super) fn to_texels(color: &Image, scale: f32) -> Vec<f32> {
 pub(super) fn velocity_texels(convention: &Convention, input: &Input) -> Vec<f32> {
     let convention = convention.at_rate(input.frames_per_second);
     let velocity = convention.convert_velocity(input.velocity, input.exposure);
-    match convention.input_format("velocity").components() {
+    match convention.format_of("velocity").components() {
         4 => (velocity.pixels.iter())
             .flat_map(|[x, y]| [*x, *y, 0.0, 1.0])
             .collect(),
@@ -263,12 +244,8 @@ impl Gpu {
         let (width, height) = (target.texture.width(), target.texture.height());
         let padded = row_bytes(width, target.format);
         let buffer = self.catch_errors(place, || {
-            let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("read back"),
-                size: padded * u64::from(height),
-                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-                mapped_at_creation: false,
-            });
+            let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+            let buffer = self.create_buffer("read back", padded * u64::from(height), usage);
             let mut encoder = self.device.create_command_encoder(&Default::default());
             encoder.copy_texture_to_buffer(
                 target.texture.as_image_copy(),
@@ -329,18 +306,21 @@ mod tests {
     fn packed_formats_keep_as_many_bits_as_they_have() {
         let values = [0.25, 1.0, 0.5, 1.0, 0.0, 2.0, -1.0, 0.5];
         let unorm = Format::Rgb10a2Unorm;
-        let kept = unorm.decode(&unorm.encode(&values));
-        for (kept, value) in kept.iter().zip(values).take(3) {
-            assert!((kept - value).abs() <= 0.5 / 1023.0, "{kept} for {value}");
+        let decoded = unorm.decode(&unorm.encode(&values));
+        for (decoded, value) in decoded.iter().zip(values).take(3) {
+            assert!(
+                (decoded - value).abs() <= 0.5 / 1023.0,
+                "{decoded} for {value}"
+            );
         }
-        assert_eq!(kept[4..7], [0.0, 1.0, 0.0]);
+        assert_eq!(decoded[4..7], [0.0, 1.0, 0.0]);
         let float = Format::Rg11b10Ufloat;
         let values = [3.17, 1000.0, 0.3, 1.0, 0.0, 1e9, -2.0, 1.0];
-        let kept = float.decode(&float.encode(&values));
+        let decoded = float.decode(&float.encode(&values));
         for (index, bits) in [(0, 7), (1, 7), (2, 6)] {
-            let error = (kept[index] / values[index] - 1.0).abs();
-            assert!(error <= 0.5_f32.powi(bits), "{kept:?}");
+            let error = (decoded[index] / values[index] - 1.0).abs();
+            assert!(error <= 0.5_f32.powi(bits), "{decoded:?}");
         }
-        assert_eq!(kept[4..], [0.0, 65024.0, 0.0, 1.0]);
+        assert_eq!(decoded[4..], [0.0, 65024.0, 0.0, 1.0]);
     }
 }

@@ -1,50 +1,26 @@
-//! Uniforms that every kernel may read.
+//! Values of a frame that uniform blocks hold.
 
 use frame::Reprojection;
 
-use super::device::Gpu;
 use super::matrices::CameraMatrices;
 use crate::filter::split_element;
 use crate::input::FRAMES_PER_SECOND;
+use crate::shader::FRAME_PREFIX;
 use crate::{Convention, Input};
 
-/// The uniform `frame`: the WGSL struct `Frame` of common.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
-pub(super) struct FrameUniform {
-    pub size: [i32; 2],
-    pub exposure: f32,
-    pub frame_index: u32,
-    pub iteration: u32,
-    pub iterations: u32,
-    pub frames_per_second: f32,
-    /// WGSL aligns matrices to 16 bytes.
-    pub gap: u32,
-    pub reprojection: [[f32; 4]; 4],
-}
-
-impl FrameUniform {
-    /// Takes what all dispatches of an input share.
-    pub fn of(input: &Input, convention: &Convention) -> Self {
-        let velocity = input.velocity;
-        let rate = (input.frames_per_second).or(convention.frames_per_second);
-        Self {
-            size: [velocity.width as i32, velocity.height as i32],
-            exposure: input.exposure as f32,
-            frame_index: input.frame_index,
-            frames_per_second: rate.unwrap_or(FRAMES_PER_SECOND) as f32,
-            reprojection: to_columns(input.reprojection.unwrap_or(Reprojection::STILL)),
-            ..Self::default()
-        }
-    }
-}
-
-/// Values of a frame that kernels may read, and that members of uniform blocks may name.
+/// Values of a frame that members of uniform blocks name.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrameValues {
-    pub uniform: FrameUniform,
+    size: [u32; 2],
+    exposure: f64,
+    frame_index: u32,
+    /// Run of the pass, from 0, and number of its runs.
+    run: [u32; 2],
     /// Convention of the filter, with the frame's own rate.
-    rate: Convention,
+    convention: Convention,
+    /// Rate that kernels get.
+    frames_per_second: f64,
+    reprojection: Reprojection,
     /// Matrices of the camera; none for a filter that reads none.
     matrices: Option<CameraMatrices>,
 }
@@ -53,142 +29,115 @@ impl FrameValues {
     /// Takes what all dispatches of an input share.
     pub fn of(input: &Input, convention: &Convention) -> Self {
         let size = [input.velocity.width, input.velocity.height];
+        let rate = (input.frames_per_second).or(convention.frames_per_second);
         Self {
-            uniform: FrameUniform::of(input, convention),
-            rate: convention.at_rate(input.frames_per_second),
+            size,
+            exposure: f64::from(input.exposure as f32),
+            frame_index: input.frame_index,
+            run: [0, 1],
+            convention: convention.at_rate(input.frames_per_second),
+            frames_per_second: rate.unwrap_or(FRAMES_PER_SECOND),
+            reprojection: input.reprojection.unwrap_or(Reprojection::STILL),
             matrices: (input.camera.as_ref())
                 .map(|camera| CameraMatrices::new(camera, size, convention)),
         }
     }
 
     /// Sets the run of a pass.
-    pub fn of_run(mut self, iteration: u32, iterations: u32) -> Self {
-        self.uniform.iteration = iteration;
-        self.uniform.iterations = iterations;
-        self
-    }
-
-    /// Returns a value of the convention that depends on the frame; none for any other name.
-    pub fn value_of_rate(&self, name: &str) -> Option<f64> {
-        let depends = matches!(name, "frames_per_second" | "delta_time");
-        self.rate.value(name).filter(|_| depends)
+    pub fn of_run(self, iteration: u32, iterations: u32) -> Self {
+        Self {
+            run: [iteration, iterations],
+            ..self
+        }
     }
 
     /// Returns a value by name.
     pub fn value(&self, name: &str) -> f64 {
-        let uniform = &self.uniform;
-        match name {
-            "width" | "resolution[0]" => f64::from(uniform.size[0]),
-            "height" | "resolution[1]" => f64::from(uniform.size[1]),
-            // Frames are seen through the middle of each pixel.
-            "jitter[0]" | "jitter[1]" => 0.0,
-            "exposure" => f64::from(uniform.exposure),
-            "frame_index" => f64::from(uniform.frame_index),
-            "iteration" => f64::from(uniform.iteration),
-            "iterations" => f64::from(uniform.iterations),
-            _ => self.number_of_matrix(name).unwrap_or_else(|| {
-                unreachable!("filter.toml was refused for the unknown value {name}")
-            }),
+        let found = match name.strip_prefix(FRAME_PREFIX) {
+            Some(member) => self.value_of_frame(member),
+            None => self.named_value(name),
+        };
+        found.unwrap_or_else(|| unreachable!("a shader was refused for the unknown value {name}"))
+    }
+
+    /// Returns a number of the uniform `frame` of common.wgsl.
+    fn value_of_frame(&self, member: &str) -> Option<f64> {
+        match (member, split_element(member)) {
+            ("frames_per_second", _) => Some(self.frames_per_second),
+            (_, Some(("size", index))) => self.size.get(index).copied().map(f64::from),
+            // The columns of a mat4x3 come one after the other.
+            (_, Some(("reprojection", index))) => {
+                Some(self.reprojection.rows[index % 3][index / 3])
+            }
+            _ => self.named_value(member),
         }
     }
 
-    fn number_of_matrix(&self, name: &str) -> Option<f64> {
-        let (matrix, index) = split_element(name)?;
-        self.matrices.as_ref()?.number(matrix, index)
-    }
-}
-
-/// Lays a matrix out as a WGSL mat4x3: columns, each filled up to four numbers.
-fn to_columns(reprojection: Reprojection) -> [[f32; 4]; 4] {
-    let [x, y, common] = reprojection.rows;
-    [0, 1, 2, 3].map(|column| {
-        [
-            x[column] as f32,
-            y[column] as f32,
-            common[column] as f32,
-            0.0,
-        ]
-    })
-}
-
-/// The uniforms `parameters` and `frame`.
-#[derive(Debug)]
-pub(super) struct Uniforms {
-    pub parameters: wgpu::Buffer,
-    /// One `frame` per dispatch, a stride apart.
-    frames: wgpu::Buffer,
-    stride: u64,
-}
-
-impl Uniforms {
-    /// Uploads the parameters, and makes room for one `frame` per dispatch.
-    pub fn new(gpu: &Gpu, parameters: &[u8], dispatches: u32) -> Self {
-        let buffer = |label, size| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        };
-        let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
-        let stride = (size_of::<FrameUniform>() as u64).next_multiple_of(alignment.into());
-        let uniforms = Self {
-            parameters: buffer(
-                "parameters",
-                parameters.len().next_multiple_of(16).max(16) as u64,
-            ),
-            frames: buffer("frame", stride * u64::from(dispatches)),
-            stride,
-        };
-        gpu.queue.write_buffer(&uniforms.parameters, 0, parameters);
-        uniforms
-    }
-
-    /// Writes the uniform `frame` of one dispatch.
-    pub fn upload_frame(&self, gpu: &Gpu, dispatch: usize, frame: FrameUniform) {
-        let offset = dispatch as u64 * self.stride;
-        let bytes = bytemuck::bytes_of(&frame);
-        gpu.queue.write_buffer(&self.frames, offset, bytes);
-    }
-
-    /// Binds the uniform `frame` of one dispatch.
-    pub fn bind_frame(&self, dispatch: usize) -> wgpu::BindingResource<'_> {
-        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: &self.frames,
-            offset: dispatch as u64 * self.stride,
-            size: wgpu::BufferSize::new(size_of::<FrameUniform>() as u64),
+    fn named_value(&self, name: &str) -> Option<f64> {
+        let [width, height] = self.size.map(f64::from);
+        Some(match name {
+            "width" | "resolution[0]" => width,
+            "height" | "resolution[1]" => height,
+            // Frames are seen through the middle of each pixel.
+            "jitter[0]" | "jitter[1]" => 0.0,
+            "exposure" => self.exposure,
+            "frame_index" => f64::from(self.frame_index),
+            "iteration" => f64::from(self.run[0]),
+            "iterations" => f64::from(self.run[1]),
+            _ => {
+                let of_matrix = || {
+                    let (matrix, index) = split_element(name)?;
+                    self.matrices.as_ref()?.number(matrix, index)
+                };
+                return self.convention.value(name).or_else(of_matrix);
+            }
         })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::mem::offset_of;
     use std::path::Path;
 
-    use super::FrameUniform;
+    use frame::Raster;
+
+    use super::*;
     use crate::shader::Shader;
 
     #[test]
-    fn the_uniform_frame_lies_as_common_wgsl_declares_it() {
+    fn each_number_of_the_uniform_frame_of_common_wgsl_has_its_value() {
         let shader = Shader::parse(Path::new("none.wgsl"), "").unwrap();
-        let found: Vec<(&str, usize)> = shader.uniforms["frame"]
-            .iter()
-            .map(|member| (&member.name[..], member.offset as usize))
-            .collect();
-        let expected = [
-            ("size", offset_of!(FrameUniform, size)),
-            ("exposure", offset_of!(FrameUniform, exposure)),
-            ("frame_index", offset_of!(FrameUniform, frame_index)),
-            ("iteration", offset_of!(FrameUniform, iteration)),
-            ("iterations", offset_of!(FrameUniform, iterations)),
-            (
-                "frames_per_second",
-                offset_of!(FrameUniform, frames_per_second),
-            ),
-            ("reprojection", offset_of!(FrameUniform, reprojection)),
-        ];
-        assert_eq!(found, expected);
+        let reprojection = Reprojection {
+            rows: [
+                [1.0, 2.0, 3.0, 4.0],
+                [5.0, 6.0, 7.0, 8.0],
+                [9.0, 10.0, 11.0, 12.0],
+            ],
+        };
+        let input = Input {
+            color: &[],
+            velocity: &Raster::from_fn(40, 30, |_, _| [0.0, 0.0]),
+            depth: &Raster::from_fn(40, 30, |_, _| 1.0),
+            reprojection: Some(reprojection),
+            camera: None,
+            exposure: 0.5,
+            frames_per_second: None,
+            frame_index: 7,
+        };
+        let frame = FrameValues::of(&input, &Convention::default()).of_run(2, 3);
+        let numbers = shader.blocks[0].numbers.iter();
+        let found =
+            numbers.map(|number| (number.offset, number.value.evaluate(&|it| frame.value(it))));
+        // Columns of a mat4x3 are filled up to four numbers, and begin at a multiple of 16 bytes.
+        let columns =
+            (0..4).flat_map(|x| (0..3).map(move |y| (32 + 16 * x + 4 * y, x + 4 * y + 1)));
+        let members = [(0, 40), (4, 30), (12, 7), (16, 2), (20, 3), (24, 60)];
+        let expected = members
+            .into_iter()
+            .chain(columns)
+            .map(|(at, value)| (at, f64::from(value)));
+        let mut expected: Vec<(u32, f64)> = expected.chain([(8, 0.5)]).collect();
+        expected.sort_by_key(|(at, _)| *at);
+        assert_eq!(found.collect::<Vec<_>>(), expected);
     }
 }

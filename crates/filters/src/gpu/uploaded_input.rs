@@ -28,7 +28,7 @@ impl UploadedInput {
         let convention = &filter.convention;
         let scale = convention.color_scale.unwrap_or(1.0) as f32;
         let texture = |name, values: &[f32]| {
-            let format = convention.input_format(name);
+            let format = convention.format_of(name);
             let usage = wgpu::TextureUsages::empty();
             let target = gpu.create_target(name, size, 1, format, usage);
             gpu.upload(&target, values);

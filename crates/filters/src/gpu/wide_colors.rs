@@ -28,10 +28,7 @@ impl Filter {
         }
         let formats = |filter: &Self| {
             let declared = filter.textures.iter().map(|texture| texture.format);
-            let builtin = [
-                filter.convention.input_format("color"),
-                output_format(filter),
-            ];
+            let builtin = [filter.convention.format_of("color"), output_format(filter)];
             builtin.into_iter().chain(declared).collect::<Vec<_>>()
         };
         (formats(self) != formats(&wide)).then_some(wide)

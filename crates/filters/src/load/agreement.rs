@@ -4,16 +4,19 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use crate::filter::{INPUTS, Lines, PassShader};
-use crate::shader::{EntryPoint, Role, Shader, Texel, written_texture};
-use crate::{Filter, FilterError, Format, Pass, Repeat, Stage};
+use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, written_texture};
+use crate::translate::check_texture;
+use crate::{Expression, Filter, FilterError, Pass, Repeat, Stage};
 
 /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
 /// passes read and write.
 pub(super) fn check_agreement(filter: &Filter) -> Result<(), FilterError> {
     let lines = &filter.lines;
     let check = Check { filter, lines };
-    check.check_parameters()?;
-    check.check_variables()?;
+    match check.kernels() {
+        Some(kernels) => check.check_kernels(kernels)?,
+        None => check.check_parameters_are_used()?,
+    }
     check.check_passes()
 }
 
@@ -24,60 +27,79 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn check_parameters(&self) -> Result<(), FilterError> {
-        let parameters = &self.filter.parameters;
-        let Some(kernels) = self.kernels() else {
-            return self.check_parameters_are_used();
-        };
-        let uniforms = &kernels.uniforms;
-        let members = uniforms.get("parameters").map_or(&[][..], Vec::as_slice);
-        for index in 0..parameters.len().max(members.len()) {
-            let reason = match (parameters.get(index), members.get(index)) {
-                (Some(parameter), Some(member)) => {
-                    let wanted = (&parameter.name[..], parameter.kind.wgsl_type(), 4 * index);
-                    let found = (
-                        &member.name[..],
-                        &member.wgsl_type[..],
-                        member.offset as usize,
-                    );
-                    if wanted == found {
-                        continue;
-                    }
-                    format!(
-                        "member {} of the uniform parameters is {}: {} at byte {}; {}:{} declares {}: {} at byte {} there",
-                        index + 1,
-                        found.0,
-                        found.1,
-                        found.2,
-                        self.lines.path.display(),
-                        self.lines.parameters[index],
-                        wanted.0,
-                        wanted.1,
-                        wanted.2,
-                    )
-                }
-                (None, Some(member)) => format!(
-                    "the uniform parameters has a member \"{}\" that {} does not declare; add a [[parameter]] in the \
-                     same order",
-                    member.name,
-                    self.lines.path.display(),
-                ),
-                (Some(parameter), None) => {
-                    let reason = format!(
-                        "parameter \"{}\" is not a member of the uniform parameters in {}; add `{}: {},` to its struct",
-                        parameter.name,
-                        self.kernel_path().display(),
-                        parameter.name,
-                        parameter.kind.wgsl_type(),
-                    );
-                    return Err(self.refuse_manifest(self.lines.parameters[index], reason));
-                }
-                (None, None) => unreachable!("the loop ends at the longer list"),
-            };
-            let line = members.get(index).map(|member| member.line);
-            return Err(self.refuse_kernel(line, reason));
+    /// Checks the variables of the WGSL file, which are bound by name, and the uniform of parameters.
+    fn check_kernels(&self, kernels: &Shader) -> Result<(), FilterError> {
+        let mut uniforms = kernels.variables.iter().filter_map(|it| match it.role {
+            Role::Block(block) => Some((it, &kernels.blocks[block])),
+            _ => None,
+        });
+        let uniform = uniforms.find(|(variable, _)| variable.name == "parameters");
+        let members = uniform.map_or(&[][..], |(_, block)| &block.numbers);
+        let line = uniform.and_then(|(variable, _)| variable.line);
+        self.check_members(members, line)?;
+        for variable in &kernels.variables {
+            self.check_variable(variable).map_err(|reason| {
+                self.refuse_kernel(variable.line, format!("\"{}\" {reason}", variable.name))
+            })?;
         }
         Ok(())
+    }
+
+    /// Compares the parameters with the numbers of their uniform: names, types and offsets. `line` is that of the uniform.
+    fn check_members(
+        &self,
+        members: &[BlockNumber],
+        line: Option<usize>,
+    ) -> Result<(), FilterError> {
+        let name = |member: &BlockNumber| match &member.value {
+            Expression::Name(name) => name.clone(),
+            _ => unreachable!("numbers of a kernel are called after members"),
+        };
+        let manifest = self.lines.path.display();
+        let parameters = &self.filter.parameters;
+        for (index, parameter) in parameters.iter().enumerate() {
+            let declared = self.lines.parameters[index];
+            let wanted = (
+                parameter.name.clone(),
+                parameter.kind.wgsl_type(),
+                4 * index,
+            );
+            let Some(member) = members.get(index) else {
+                let reason = format!(
+                    "parameter \"{0}\" is not a member of the uniform parameters in {1}; add `{0}: {2},` to its struct",
+                    wanted.0,
+                    self.kernel_path().display(),
+                    wanted.1,
+                );
+                return Err(self.refuse_manifest(declared, reason));
+            };
+            let found = (name(member), member.kind.name(), member.offset as usize);
+            if wanted != found {
+                let reason = format!(
+                    "member {} of the uniform parameters is {}: {} at byte {}; {manifest}:{declared} declares {}: {} at byte \
+                     {} there",
+                    index + 1,
+                    found.0,
+                    found.1,
+                    found.2,
+                    wanted.0,
+                    wanted.1,
+                    wanted.2,
+                );
+                return Err(self.refuse_kernel(line, reason));
+            }
+        }
+        match members.get(parameters.len()) {
+            None => Ok(()),
+            Some(member) => {
+                let reason = format!(
+                    "the uniform parameters has a member \"{}\" that {manifest} does not declare; add a [[parameter]] in \
+                     the same order",
+                    name(member)
+                );
+                Err(self.refuse_kernel(line, reason))
+            }
+        }
     }
 
     /// Refuses a parameter that changes nothing, where shaders take only the parameters that they want.
@@ -114,60 +136,18 @@ impl Check<'_> {
         }
     }
 
-    fn check_variables(&self) -> Result<(), FilterError> {
-        let kernels = self.kernels();
-        for variable in kernels.iter().flat_map(|kernels| &kernels.variables) {
-            self.check_variable(&variable.name, variable.role)
-                .map_err(|reason| {
-                    self.refuse_kernel(variable.line, format!("\"{}\" {reason}", variable.name))
-                })?;
-        }
-        Ok(())
-    }
-
-    fn check_variable(&self, name: &str, role: Role) -> Result<(), String> {
-        let declared = |name: &str| {
-            let mut textures = self.filter.textures.iter();
-            textures.find(|texture| texture.name == name)
+    fn check_variable(&self, variable: &Variable) -> Result<(), String> {
+        let Variable { name, resource, .. } = variable;
+        let is_known = match variable.role {
+            Role::Block(_) => matches!(&name[..], "parameters" | "frame"),
+            Role::Write(_) if name == "output" => true,
+            Role::Write(_) if name == written_texture(name) => false,
+            _ => self.filter.has_texture(resource) && resource != "output",
         };
-        match (role, name) {
-            (Role::Uniform, "parameters" | "frame") => Ok(()),
-            (Role::Read(Texel::Float), "color" | "velocity" | "depth") => Ok(()),
-            (Role::Read(Texel::Float), name) if self.is_history(name) => Ok(()),
-            (Role::Read(Texel::Uint), "color" | "velocity" | "depth") => {
-                Err("holds floats: texture_2d<f32>".into())
-            }
-            (Role::Read(found), name) => match declared(name) {
-                Some(texture) if Texel::of(texture.format) == found => Ok(()),
-                Some(texture) => Err(format!(
-                    "does not fit the declared format {:?}: r32uint is read as texture_2d<u32>, every other as \
-                     texture_2d<f32>",
-                    texture.format
-                )),
-                None => Err(self.refuse_undeclared()),
-            },
-            (Role::Write(Format::Rgba32Float | Format::Rgba16Float), "output") => Ok(()),
-            (Role::Write(_), "output") => {
-                Err("has another format than the image: rgba32float or rgba16float".into())
-            }
-            (Role::Write(found), name) if name != written_texture(name) => {
-                match declared(written_texture(name)) {
-                    Some(texture) if texture.format == found => Ok(()),
-                    Some(texture) => Err(format!(
-                        "has format {found:?}; texture \"{}\" is declared as {:?}",
-                        texture.name, texture.format
-                    )),
-                    None => Err(self.refuse_undeclared()),
-                }
-            }
-            _ => Err(self.refuse_undeclared()),
+        match is_known {
+            true => check_texture(self.filter, variable.role, resource),
+            false => Err(self.refuse_undeclared()),
         }
-    }
-
-    /// Tells whether a name is that of a declared input of the frame before.
-    fn is_history(&self, name: &str) -> bool {
-        let mut history = self.filter.history.iter();
-        history.any(|history| history.texture() == name)
     }
 
     fn refuse_undeclared(&self) -> String {
@@ -197,7 +177,7 @@ impl Check<'_> {
             if let Some(shader) = &pass.shader {
                 check_targets(self.filter, shader, entry).map_err(refuse)?;
             }
-            if let Some(vertex) = self.filter.vertex_entry(pass) {
+            if let [_, (_, vertex)] = self.filter.stages(pass)[..] {
                 check_vertex(vertex, entry).map_err(refuse)?;
             }
             if let Some(name) = entry.reads.iter().find(|name| !ready.contains(&name[..])) {
@@ -250,19 +230,11 @@ impl Check<'_> {
     }
 
     fn refuse_kernel(&self, line: Option<usize>, reason: String) -> FilterError {
-        FilterError::Folder {
-            path: self.kernel_path(),
-            line,
-            reason,
-        }
+        FilterError::in_file(&self.kernel_path(), line, reason)
     }
 
     fn refuse_manifest(&self, line: usize, reason: String) -> FilterError {
-        FilterError::Folder {
-            path: self.lines.path.clone(),
-            line: Some(line),
-            reason,
-        }
+        FilterError::in_file(&self.lines.path, line, reason)
     }
 }
 
@@ -281,20 +253,14 @@ fn check_targets(filter: &Filter, shader: &PassShader, entry: &EntryPoint) -> Re
             targets.join(", ")
         ));
     }
-    let size = |name: &String| {
-        let texture = filter.textures.iter().find(|texture| texture.name == *name);
-        texture.and_then(|texture| texture.divided_by.clone())
-    };
+    let size = |name: &String| filter.texture(name).and_then(|it| it.divided_by.clone());
     if let Some(other) = targets.iter().find(|name| size(name) != size(&targets[0])) {
         return Err(format!(
             "targets \"{}\" and \"{other}\" have different sizes; allowed: targets of one size",
             targets[0]
         ));
     }
-    let has_mips = |name: &String| {
-        let texture = filter.textures.iter().find(|texture| texture.name == *name);
-        texture.is_some_and(|texture| texture.mips > 1)
-    };
+    let has_mips = |name: &String| filter.texture(name).is_some_and(|texture| texture.mips > 1);
     match targets
         .iter()
         .find(|name| shader.level.is_some() && !has_mips(name))

@@ -8,7 +8,7 @@ use frame::{FileError, read_bounded};
 use include_dir::{Dir, include_dir};
 
 use crate::shader::Shader;
-use crate::translate::{MAX_SHADER_BYTES, Translated, stays_below, translate};
+use crate::translate::{MAX_MODULE_BYTES, stays_below, translate};
 use crate::{Filter, FilterError, manifest};
 use agreement::check_agreement;
 
@@ -28,7 +28,7 @@ impl Filter {
             // Of a device, a FIFO or a folder, its own refusal says more.
             if path.is_file() && !stays_below(folder, path) {
                 let reason = "is a link to a file outside of the filter's folder; copy the file in its place";
-                return Err(refuse(path, reason.to_owned()));
+                return Err(FilterError::in_file(path, None, reason));
             }
             read_bytes(path, limit)
         };
@@ -87,18 +87,17 @@ fn parse_filter(
         if let Some(shader) = &filter.passes[index].shader {
             let read_shader = |file: &Path| {
                 let path = folder.join(file);
-                let bytes = read_file(&path, MAX_SHADER_BYTES)?;
+                let bytes = read_file(&path, MAX_MODULE_BYTES)?;
                 Ok((path, bytes))
             };
-            let Translated { mut shader, vertex } = translate(&filter, shader, &read_shader)?;
-            let mut corners = vertex.iter().flat_map(|vertex| &vertex.entry_points);
-            let is_noisy = corners.any(|corner| corner.draws_noise);
-            (shader.entry_points.iter_mut()).for_each(|entry| entry.draws_noise |= is_noisy);
-            shaders.push(shader);
+            let mut stages = translate(&filter, shader, &read_shader)?;
+            let mut entries = stages.iter().flat_map(|stage| &stage.entry_points);
+            let is_noisy = entries.any(|entry| entry.draws_noise);
+            (stages[0].entry_points.iter_mut()).for_each(|entry| entry.draws_noise = is_noisy);
             let pass = &mut filter.passes[index];
-            pass.shader_index = shaders.len() - 1;
-            pass.vertex_index = vertex.as_ref().map(|_| shaders.len());
-            shaders.extend(vertex);
+            pass.shader_index = shaders.len();
+            pass.vertex_index = (stages.len() > 1).then_some(shaders.len() + 1);
+            shaders.extend(stages);
         }
     }
     filter.shaders = shaders;
@@ -114,24 +113,14 @@ fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, FilterError> {
             FileError::Io { source, .. } => format!("cannot be read: {source}; {holds}"),
             FileError::Broken { reason, .. } | FileError::Foreign { reason, .. } => reason,
         };
-        refuse(path, reason)
+        FilterError::in_file(path, None, reason)
     })
 }
 
 fn as_text(path: &Path, bytes: Vec<u8>) -> Result<String, FilterError> {
     String::from_utf8(bytes).map_err(|error| {
         let place = error.utf8_error().valid_up_to();
-        refuse(
-            path,
-            format!("is not UTF-8 from byte {place} on; save it as UTF-8"),
-        )
+        let reason = format!("is not UTF-8 from byte {place} on; save it as UTF-8");
+        FilterError::in_file(path, None, reason)
     })
-}
-
-fn refuse(path: &Path, reason: String) -> FilterError {
-    FilterError::Folder {
-        path: path.to_owned(),
-        line: None,
-        reason,
-    }
 }

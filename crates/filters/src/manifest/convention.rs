@@ -19,13 +19,7 @@ impl Convention {
     /// Parses a TOML file that holds the table `[convention]` and nothing else.
     pub fn parse(path: &Path, text: &str) -> Result<Self, FilterError> {
         let file = File { path, text };
-        let read: ConventionFile = toml::from_str(text).map_err(|error| {
-            let start = error.span().map(|span| span.start);
-            file.refuse(
-                start,
-                format!("{}; allowed: the table [convention] alone", error.message()),
-            )
-        })?;
+        let read: ConventionFile = file.read("; allowed: the table [convention] alone")?;
         check(&file, &read.convention)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use serde::de::DeserializeOwned;
 use toml::Spanned;
 
 use crate::FilterError;
@@ -10,17 +11,6 @@ use crate::printable::{check_line, escape_controls};
 /// Upper limit on parameters, presets, textures and passes of a filter, each.
 pub const MAX_ENTRIES: usize = 256;
 
-/// Rule for names, as messages say it.
-pub(super) const IDENTIFIER: &str = "a name is made of a-z, 0-9 and _, and begins with a letter";
-
-/// Returns true for a name that keeps [`IDENTIFIER`].
-pub(super) fn is_identifier(name: &str) -> bool {
-    name.starts_with(|first: char| first.is_ascii_lowercase())
-        && name
-            .chars()
-            .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
-}
-
 /// `filter.toml`, for messages that name its lines.
 pub(super) struct File<'a> {
     pub path: &'a Path,
@@ -28,13 +18,22 @@ pub(super) struct File<'a> {
 }
 
 impl File<'_> {
+    /// Reads the text; the error ends with `allowed`.
+    pub fn read<T: DeserializeOwned>(&self, allowed: &str) -> Result<T, FilterError> {
+        toml::from_str(self.text).map_err(|error| {
+            let start = error.span().map(|span| span.start);
+            self.refuse(start, format!("{}{allowed}", error.message()))
+        })
+    }
+
     /// Makes an error that names the line of an offset.
     pub fn refuse(&self, offset: Option<usize>, reason: String) -> FilterError {
-        FilterError::Folder {
-            path: self.path.to_owned(),
-            line: offset.map(|offset| self.line(offset)),
-            reason: escape_controls(&reason.replace('\n', "; ")),
-        }
+        let line = offset.map(|offset| self.line(offset));
+        FilterError::in_file(
+            self.path,
+            line,
+            escape_controls(&reason.replace('\n', "; ")),
+        )
     }
 
     /// Refuses a text that would disturb the terminal, log or page that shows it.
@@ -50,10 +49,10 @@ impl File<'_> {
         }
     }
 
-    /// Refuses more than [`MAX_ENTRIES`] tables of one kind.
-    pub fn check_number<T>(&self, kind: &str, entries: &[Spanned<T>]) -> Result<(), FilterError> {
+    /// Finds the lines of the tables of one kind; refuses more than [`MAX_ENTRIES`].
+    pub fn lines<T>(&self, kind: &str, entries: &[Spanned<T>]) -> Result<Vec<usize>, FilterError> {
         match entries.get(MAX_ENTRIES) {
-            None => Ok(()),
+            None => Ok((entries.iter().map(|entry| self.line(entry.span().start))).collect()),
             Some(first_too_many) => Err(self.at(
                 first_too_many,
                 format!(
@@ -73,13 +72,5 @@ impl File<'_> {
     pub fn line(&self, offset: usize) -> usize {
         let before = self.text.as_bytes().iter().take(offset);
         before.filter(|byte| **byte == b'\n').count() + 1
-    }
-
-    /// Finds the lines of tables.
-    pub fn lines<T>(&self, entries: &[Spanned<T>]) -> Vec<usize> {
-        entries
-            .iter()
-            .map(|entry| self.line(entry.span().start))
-            .collect()
     }
 }

@@ -3,7 +3,8 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::file::{File, IDENTIFIER, is_identifier};
+use super::file::File;
+use super::number::{IDENTIFIER, is_identifier};
 use crate::printable::check_line;
 use crate::{FilterError, Kind, Parameter, Scale, Unit, Value};
 
@@ -147,16 +148,4 @@ pub(super) fn read_value(kind: &Kind, given: &toml::Value) -> Option<Value> {
         _ => return None,
     };
     kind.allows(&value).then_some(value)
-}
-
-/// Refuses a name that is no integer parameter from 1, which a count or a length needs.
-pub(super) fn check_count(parameters: &[Parameter], name: &str) -> Result<(), String> {
-    let parameter = parameters.iter().find(|parameter| parameter.name == name);
-    match parameter.map(|parameter| &parameter.kind) {
-        None => Err(format!("\"{name}\" is no parameter of this filter")),
-        Some(Kind::Integer { min, .. }) if *min >= 1 => Ok(()),
-        Some(_) => Err(format!(
-            "\"{name}\" is not an integer parameter whose range begins at 1 or more"
-        )),
-    }
 }

@@ -8,14 +8,13 @@ use toml::Spanned;
 
 use super::command::{add_environment, read_command};
 use super::convention::read_convention;
-use super::file::{File, IDENTIFIER, is_identifier};
+use super::file::File;
+use super::number::{IDENTIFIER, Names, is_identifier};
 use super::parameters::{ParameterEntry, read_parameters};
 use super::passes::{PassEntry, TextureEntry, read_passes, read_textures};
 use super::presets::{PresetEntry, read_presets};
-use super::reach_by::{ReachEntry, read_reach_by};
-use super::time_limit::read_time_limit;
-use crate::filter::{History, Lines};
-use crate::{Convention, Filter, FilterError};
+use crate::filter::{DEFAULT_TIME_LIMIT, History, Lines};
+use crate::{Convention, Filter, FilterError, Length, ReachBy};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -24,7 +23,7 @@ struct Manifest {
     summary: Spanned<String>,
     source: Option<Spanned<String>>,
     reach: Option<Spanned<String>>,
-    reach_by: Option<Spanned<ReachEntry>>,
+    reach_by: Option<Spanned<ReachBy>>,
     cannot: Option<Spanned<String>>,
     alignment: Alignment,
     #[serde(default)]
@@ -49,10 +48,7 @@ struct Manifest {
 /// Parses `filter.toml` into a filter that still lacks its kernels.
 pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     let file = File { path, text };
-    let manifest: Manifest = toml::from_str(text).map_err(|error| {
-        let start = error.span().map(|span| span.start);
-        file.refuse(start, error.message().to_owned())
-    })?;
+    let manifest: Manifest = file.read("")?;
     let name = manifest.name.get_ref();
     if !is_identifier(name) {
         return Err(file.at(
@@ -61,25 +57,35 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         ));
     }
     check_method(&file, &manifest)?;
-    file.check_number("parameter", &manifest.parameter)?;
-    file.check_number("preset", &manifest.preset)?;
-    file.check_number("texture", &manifest.texture)?;
-    file.check_number("pass", &manifest.pass)?;
-    let check_sentence = |name: &str, text: Option<&Spanned<String>>| match text {
-        Some(text) => file.check_line(text, name, text.get_ref()),
-        None => Ok(String::new()),
+    let lines = Lines {
+        path: path.to_owned(),
+        parameters: file.lines("parameter", &manifest.parameter)?,
+        presets: file.lines("preset", &manifest.preset)?,
+        textures: file.lines("texture", &manifest.texture)?,
+        passes: file.lines("pass", &manifest.pass)?,
+    };
+    let check_sentence = |name: &str, text: Option<&Spanned<String>>| {
+        text.map_or(Ok(String::new()), |text| {
+            file.check_line(text, name, text.get_ref())
+        })
     };
     let parameters = read_parameters(&file, &manifest.parameter)?;
     let command = (manifest.command.as_ref())
         .map(|words| read_command(&file, words, &parameters))
         .transpose()?;
     let command = add_environment(&file, manifest.environment.as_ref(), command)?;
-    let textures = read_textures(&file, &manifest.texture, &parameters)?;
-    let convention = read_convention(
-        &file,
-        manifest.convention.as_ref(),
-        manifest.command.is_some(),
-    )?;
+    let is_command = command.is_some();
+    let convention = read_convention(&file, manifest.convention.as_ref(), is_command)?;
+    let mut names = Names {
+        textures: &[],
+        parameters: &parameters,
+        convention: &convention,
+    };
+    let textures = read_textures(&file, &manifest.texture, names)?;
+    names.textures = &textures;
+    if let Some(reach_by) = &manifest.reach_by {
+        check_reach_by(&file, reach_by, names)?;
+    }
     Ok(Filter {
         name: name.clone(),
         presets: read_presets(
@@ -88,12 +94,12 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
             &parameters,
             manifest.reference_width.as_ref(),
         )?,
-        passes: read_passes(&file, &manifest.pass, &textures, &parameters, &convention)?,
+        passes: read_passes(&file, &manifest.pass, names)?,
         convention,
         history: read_history(&file, &manifest)?,
         command,
         time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
-        reach_by: read_reach_by(&file, manifest.reach_by.as_ref(), &parameters)?,
+        reach_by: manifest.reach_by.map(Spanned::into_inner),
         textures,
         parameters,
         summary: check_sentence("summary", Some(&manifest.summary))?,
@@ -103,14 +109,44 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         alignment: manifest.alignment,
         mirror_symmetric: manifest.mirror_symmetric,
         shaders: Vec::new(),
-        lines: Lines {
-            path: path.to_owned(),
-            parameters: file.lines(&manifest.parameter),
-            presets: file.lines(&manifest.preset),
-            textures: file.lines(&manifest.texture),
-            passes: file.lines(&manifest.pass),
-        },
+        lines,
     })
+}
+
+/// Refuses a reach that does not come from integer parameters.
+fn check_reach_by(
+    file: &File,
+    spanned: &Spanned<ReachBy>,
+    names: Names,
+) -> Result<(), FilterError> {
+    let ReachBy {
+        parameter, unit, ..
+    } = spanned.get_ref();
+    let unit = match unit {
+        Length::Pixels(0) => Err("0; allowed: 1 pixel or more".to_owned()),
+        Length::Pixels(_) => Ok(()),
+        Length::Parameter(parameter) => names.check_count(parameter),
+    };
+    let parameter = names.check_count(parameter);
+    parameter
+        .map_err(|reason| format!("parameter = {reason}"))
+        .and(unit.map_err(|reason| format!("unit = {reason}")))
+        .map_err(|reason| file.at(spanned, format!("reach_by: {reason}")))
+}
+
+/// Reads the seconds that one run of a program, or one pass of kernels, may take: at most a day.
+fn read_time_limit(file: &File, limit: Option<&Spanned<f64>>) -> Result<f64, FilterError> {
+    let longest = 86_400.0;
+    let Some(spanned) = limit else {
+        return Ok(DEFAULT_TIME_LIMIT);
+    };
+    match *spanned.get_ref() {
+        limit if limit > 0.0 && limit <= longest => Ok(limit),
+        limit => Err(file.at(
+            spanned,
+            format!("time_limit = {limit}; allowed: seconds, above 0 and at most {longest}"),
+        )),
+    }
 }
 
 /// Reads the inputs of the frame before, each of which may stand once. A program gets none of them.

@@ -1,57 +1,28 @@
 //! `shader` of a pass in filter.toml, and the keys that go with it.
 
-use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
 use toml::Spanned;
 
-use super::bindings::{BindingEntry, Names, NumberEntry, read_binding, read_level};
+use super::bindings::read_bindings;
 use super::file::File;
+use super::number::Names;
+use super::passes::PassEntry;
 use crate::FilterError;
-use crate::filter::{Binding, Expression, PassShader, Stage, VertexShader};
+use crate::filter::{PassShader, Stage, VertexShader};
 use crate::translate::Language;
 
-/// Keys of a pass that are for shaders of its own.
-pub(super) struct ShaderKeys<'m> {
-    pub file: Option<&'m Spanned<String>>,
-    pub entry: Option<&'m str>,
-    pub stage: Option<Stage>,
-    pub targets: Option<&'m Vec<String>>,
-    pub level: Option<&'m NumberEntry>,
-    pub vertex: Option<&'m str>,
-    pub vertex_shader: Option<&'m Spanned<String>>,
-    pub bindings: &'m [Spanned<BindingEntry>],
-    pub constants: &'m BTreeMap<String, NumberEntry>,
-    pub conditions: &'m [String],
-    pub compiler: Option<&'m str>,
-}
-
 /// Reads the shader of a pass; none where the pass runs a kernel of the filter's WGSL file.
-pub(super) fn read_shader<T>(
+pub(super) fn read_shader(
     file: &File,
-    place: &Spanned<T>,
-    keys: &ShaderKeys,
+    pass: &Spanned<PassEntry>,
     names: Names,
 ) -> Result<Option<PassShader>, FilterError> {
-    let Some(path) = keys.file else {
-        let given = [
-            ("stage", keys.stage.is_some()),
-            ("targets", keys.targets.is_some()),
-            ("level", keys.level.is_some()),
-            ("vertex", keys.vertex.is_some()),
-            ("vertex_shader", keys.vertex_shader.is_some()),
-            ("[[pass.binding]]", !keys.bindings.is_empty()),
-            ("constants", !keys.constants.is_empty()),
-            ("conditions", !keys.conditions.is_empty()),
-            ("compiler", keys.compiler.is_some()),
-        ];
-        return match given.iter().find(|(_, given)| *given) {
-            None => Ok(None),
-            Some((key, _)) => Err(file.at(
-                place,
-                format!("pass: {key} is for a pass with `shader`; add the file of its shader, or leave it out"),
-            )),
-        };
+    let keys = pass.get_ref();
+    let Some(path) = &keys.shader else {
+        return refuse_keys(keys)
+            .map(|()| None)
+            .map_err(|reason| file.at(pass, reason));
     };
     let refuse = |reason: String| file.at(path, format!("shader: {reason}"));
     let (relative, language) = read_file(file, "shader", path)?;
@@ -59,180 +30,166 @@ pub(super) fn read_shader<T>(
         Some(ending) if ending == "frag" => Stage::Fragment,
         _ => Stage::Compute,
     });
-    let targets = read_targets(file, place, keys, stage, names)?;
-    if language != Language::Wesl && !keys.conditions.is_empty() {
-        return Err(refuse(format!(
-            "conditions are for WESL; \"{}\" is {}",
-            path.get_ref(),
-            language.name()
-        )));
-    }
-    if let Some(compiler) = keys
-        .compiler
-        .filter(|it| !language.compilers().contains(it))
-    {
-        let (name, known) = (language.name(), language.compilers().join(", "));
-        return Err(refuse(match known.is_empty() {
-            true => format!("compiler = \"{compiler}\"; {name} needs no compiler; leave it out"),
-            false => format!("compiler = \"{compiler}\"; allowed for {name}: {known}"),
-        }));
-    }
-    let vertex = read_vertex(file, place, keys, stage, &relative)?;
-    let entry = keys.entry.unwrap_or("main");
-    // Names are words of a compiler's command line.
-    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let is_name = |name: &&str| name.starts_with(is_part) && name.chars().all(is_part);
-    let corner = vertex.as_ref().map(|vertex| vertex.entry.clone());
-    let mut names_of_code = (keys.conditions.iter().map(String::as_str))
-        .chain([entry])
-        .chain(corner.as_deref());
-    if let Some(name) = names_of_code.find(|name| !is_name(name)) {
-        return Err(refuse(format!(
-            "\"{name}\" is no name of an entry point or a condition; allowed: letters, digits and _"
-        )));
-    }
-    let mut bindings = Vec::<Binding>::new();
-    file.check_number("pass.binding", keys.bindings)?;
-    for spanned in keys.bindings {
-        let binding = read_binding(file, spanned, names)?;
-        if bindings.iter().any(|known| known.place == binding.place) {
-            return Err(file.at(
-                spanned,
-                format!("binding: {} is explained twice", binding.place),
-            ));
-        }
-        bindings.push(binding);
-    }
+    let targets = read_targets(keys, stage, names).map_err(|reason| file.at(pass, reason))?;
+    check_compiler(keys, language, path.get_ref()).map_err(refuse)?;
+    let vertex = read_vertex(file, pass, stage, &relative)?;
+    let entry = keys.entry.as_deref().unwrap_or("main");
+    let corner = vertex.as_ref().map(|vertex| &vertex.entry[..]);
+    let conditions = keys.conditions.iter().map(String::as_str);
+    check_names(conditions.chain([entry]).chain(corner)).map_err(refuse)?;
+    let level = keys.level.as_ref().map(|level| names.read_level(level));
+    let constants = keys.constants.iter().map(|(name, value)| {
+        let value = names.read_constant(value);
+        let value = value.map_err(|reason| format!("constants: {name} = {reason}"))?;
+        Ok((name.clone(), value))
+    });
+    let constants: Result<_, String> = constants.collect();
     Ok(Some(PassShader {
         file: relative,
         entry: entry.to_owned(),
         stage,
         targets,
-        level: read_level(file, place, keys.level, names)?,
+        bindings: read_bindings(file, &keys.binding, names)?,
+        level: (level.transpose()).map_err(|reason| file.at(pass, format!("level = {reason}")))?,
         vertex,
-        bindings,
-        constants: read_constants(file, place, keys.constants, names)?,
-        conditions: keys.conditions.to_vec(),
-        compiler: keys.compiler.map(str::to_owned),
+        constants: constants.map_err(|reason| file.at(pass, reason))?,
+        conditions: keys.conditions.clone(),
+        compiler: keys.compiler.clone(),
     }))
 }
 
-/// Reads the name of a file of a shader.
+/// Refuses keys that are for a shader of the pass's own.
+fn refuse_keys(keys: &PassEntry) -> Result<(), String> {
+    let given = [
+        ("stage", keys.stage.is_some()),
+        ("targets", keys.targets.is_some()),
+        ("level", keys.level.is_some()),
+        ("vertex", keys.vertex.is_some()),
+        ("vertex_shader", keys.vertex_shader.is_some()),
+        ("[[pass.binding]]", !keys.binding.is_empty()),
+        ("constants", !keys.constants.is_empty()),
+        ("conditions", !keys.conditions.is_empty()),
+        ("compiler", keys.compiler.is_some()),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((key, _)) => Err(format!(
+            "pass: {key} is for a pass with `shader`; add the file of its shader, or leave it out"
+        )),
+    }
+}
+
+/// Refuses conditions and a compiler that the language does not have.
+fn check_compiler(keys: &PassEntry, language: Language, path: &str) -> Result<(), String> {
+    let name = language.name();
+    if language != Language::Wesl && !keys.conditions.is_empty() {
+        return Err(format!("conditions are for WESL; \"{path}\" is {name}"));
+    }
+    let known: Vec<&str> = language.compilers().iter().map(|it| it.program).collect();
+    match keys.compiler.as_deref() {
+        Some(compiler) if known.is_empty() => Err(format!(
+            "compiler = \"{compiler}\"; {name} needs no compiler; leave it out"
+        )),
+        Some(compiler) if !known.contains(&compiler) => Err(format!(
+            "compiler = \"{compiler}\"; allowed for {name}: {}",
+            known.join(", ")
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses names of entry points and conditions that are no words, since they stand in the command line of a compiler.
+fn check_names<'n>(mut names: impl Iterator<Item = &'n str>) -> Result<(), String> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let is_name = |name: &str| name.starts_with(is_part) && name.chars().all(is_part);
+    match names.find(|name| !is_name(name)) {
+        None => Ok(()),
+        Some(name) => Err(format!(
+            "\"{name}\" is no name of an entry point or a condition; allowed: letters, digits and _"
+        )),
+    }
+}
+
+/// Reads the name of a file of a shader, which stays in the filter's folder.
 fn read_file(
     file: &File,
     key: &str,
-    path: &Spanned<String>,
+    spanned: &Spanned<String>,
 ) -> Result<(PathBuf, Language), FilterError> {
-    let refuse = |reason: String| file.at(path, format!("{key}: {reason}"));
-    let relative = read_relative(path.get_ref()).map_err(refuse)?;
-    let language = Language::of(&relative).map_err(refuse)?;
-    file.check_line(path, key, path.get_ref())?;
-    Ok((relative, language))
+    let refuse = |reason: String| file.at(spanned, format!("{key}: {reason}"));
+    let path = Path::new(spanned.get_ref());
+    let stays = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
+    if path.as_os_str().is_empty() || !path.components().all(stays) {
+        return Err(refuse(format!(
+            "\"{}\" is no path within the filter's folder; allowed: a path without .. that begins with no /",
+            spanned.get_ref()
+        )));
+    }
+    let language = Language::of(path).map_err(refuse)?;
+    file.check_line(spanned, key, spanned.get_ref())?;
+    Ok((path.to_owned(), language))
 }
 
 /// Reads the vertex stage: an entry point of the shader's own file, or of another one.
-fn read_vertex<T>(
+fn read_vertex(
     file: &File,
-    place: &Spanned<T>,
-    keys: &ShaderKeys,
+    pass: &Spanned<PassEntry>,
     stage: Stage,
     shader: &Path,
 ) -> Result<Option<VertexShader>, FilterError> {
-    if keys.vertex.is_none() && keys.vertex_shader.is_none() {
+    let PassEntry {
+        vertex,
+        vertex_shader,
+        ..
+    } = pass.get_ref();
+    if vertex.is_none() && vertex_shader.is_none() {
         return Ok(None);
     }
     if stage != Stage::Fragment {
         let reason =
             "vertex and vertex_shader are for stage = \"fragment\"; a compute shader draws nothing";
-        return Err(file.at(place, reason.into()));
+        return Err(file.at(pass, reason.into()));
     }
-    let path = keys
-        .vertex_shader
-        .map(|path| read_file(file, "vertex_shader", path));
-    let path = path.transpose()?;
+    let own = vertex_shader.as_ref();
+    let own = own.map(|path| read_file(file, "vertex_shader", path));
     Ok(Some(VertexShader {
-        file: path.map_or(shader.to_owned(), |(path, _)| path),
-        entry: keys.vertex.unwrap_or("main").to_owned(),
+        file: own.transpose()?.map_or(shader.to_owned(), |(path, _)| path),
+        entry: vertex.clone().unwrap_or_else(|| "main".to_owned()),
     }))
 }
 
-/// Reads values of specialisation constants: numbers, and expressions of parameters.
-fn read_constants<T>(
-    file: &File,
-    place: &Spanned<T>,
-    constants: &BTreeMap<String, NumberEntry>,
-    names: Names,
-) -> Result<Vec<(String, Expression)>, FilterError> {
-    let is_known = |name: &str| names.is_setting(name);
-    let read = |(name, entry): (&String, &NumberEntry)| {
-        let value = match entry {
-            NumberEntry::Number(number) if number.is_finite() => Ok(Expression::Number(*number)),
-            NumberEntry::Number(number) => Err(format!("{name} = {number}; allowed: finite")),
-            NumberEntry::Text(text) => Expression::parse(text, &is_known).map_err(|reason| {
-                format!(
-                    "{name} = \"{text}\" {reason}; allowed: numbers, parameters, and values of [convention]"
-                )
-            }),
-        };
-        let value = value.map_err(|reason| file.at(place, format!("constants: {reason}")))?;
-        Ok((name.clone(), value))
-    };
-    constants.iter().map(read).collect()
-}
-
-/// Reads a path that stays in the filter's folder.
-fn read_relative(text: &str) -> Result<PathBuf, String> {
-    let path = Path::new(text);
-    let stays = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
-    match !text.is_empty() && path.components().all(stays) {
-        true => Ok(path.to_owned()),
-        false => Err(format!(
-            "\"{text}\" is no path within the filter's folder; allowed: a path without .. that begins with no /"
-        )),
-    }
-}
-
 /// Reads the render targets of a fragment shader: the picture if none are named.
-fn read_targets<T>(
-    file: &File,
-    place: &Spanned<T>,
-    keys: &ShaderKeys,
-    stage: Stage,
-    names: Names,
-) -> Result<Vec<String>, FilterError> {
-    let targets = match (stage, keys.targets) {
-        (Stage::Compute | Stage::Vertex, None) => {
-            return match keys.level {
-                None => Ok(Vec::new()),
-                Some(_) => {
-                    let reason = "level of a pass is for stage = \"fragment\"; a compute shader writes the `level` of its \
-                                  [[pass.binding]]";
-                    Err(file.at(place, reason.into()))
-                }
-            };
-        }
-        (Stage::Compute | Stage::Vertex, Some(_)) => {
-            let reason =
-                "targets are for stage = \"fragment\"; a compute shader writes storage textures";
-            return Err(file.at(place, reason.into()));
-        }
+fn read_targets(keys: &PassEntry, stage: Stage, names: Names) -> Result<Vec<String>, String> {
+    let targets = match (stage, &keys.targets) {
         (Stage::Fragment, None) => return Ok(vec!["output".to_owned()]),
         (Stage::Fragment, Some(targets)) => targets,
+        (_, None) if keys.level.is_none() => return Ok(Vec::new()),
+        (_, None) => {
+            return Err(
+                "level of a pass is for stage = \"fragment\"; a compute shader writes the `level` of its [[pass.binding]]"
+                    .into(),
+            );
+        }
+        (_, Some(_)) => {
+            return Err(
+                "targets are for stage = \"fragment\"; a compute shader writes storage textures"
+                    .into(),
+            );
+        }
     };
     let is_declared = |name: &String| (names.textures.iter()).any(|texture| texture.name == *name);
     let unknown = (targets.iter()).find(|name| *name != "output" && !is_declared(name));
     if let Some(unknown) = unknown {
-        return Err(file.at(
-            place,
-            format!("targets: \"{unknown}\" is neither output nor a declared texture"),
+        return Err(format!(
+            "targets: \"{unknown}\" is neither output nor a declared texture"
         ));
     }
     let twice = (targets.iter().enumerate()).any(|(index, name)| targets[..index].contains(name));
     if targets.is_empty() || targets.len() > 8 || twice {
-        return Err(file.at(
-            place,
-            "targets: allowed: from one to eight different textures, in the order of the shader's locations".into(),
-        ));
+        return Err(
+            "targets: allowed: from one to eight different textures, in the order of the shader's locations"
+                .into(),
+        );
     }
     Ok(targets.clone())
 }

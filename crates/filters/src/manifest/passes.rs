@@ -5,14 +5,13 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::bindings::{BindingEntry, Names, NumberEntry};
-use super::divisors::{DivisorEntry, read_divisors};
-use super::file::{File, IDENTIFIER, is_identifier};
-use super::parameters::check_count;
-use super::pass_shader::{ShaderKeys, read_shader};
+use super::bindings::BindingEntry;
+use super::file::File;
+use super::number::{IDENTIFIER, Names, NumberEntry, NumbersEntry, is_identifier};
+use super::pass_shader::read_shader;
 use crate::filter::{PassShader, Stage};
 use crate::{
-    Convention, FilterError, Format, Holds, Kind, Parameter, Pass, Repeat, Rounding, Texture,
+    Expression, FilterError, Format, Holds, Kind, Parameter, Pass, Repeat, Rounding, Texture,
 };
 
 #[derive(Deserialize)]
@@ -20,44 +19,39 @@ use crate::{
 pub(super) struct TextureEntry {
     name: String,
     format: Format,
-    divided_by: Option<DivisorEntry>,
+    divided_by: Option<NumbersEntry>,
     #[serde(default)]
     rounding: Rounding,
-    mips: Option<u32>,
+    #[serde(default = "one")]
+    mips: u32,
     holds: Option<Holds>,
+}
+
+fn one() -> u32 {
+    1
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PassEntry {
-    entry: Option<String>,
+    pub entry: Option<String>,
     over: Option<String>,
     #[serde(default)]
     workgroup_per_texel: bool,
-    repeat: Option<RepeatEntry>,
-    shader: Option<Spanned<String>>,
-    stage: Option<Stage>,
-    targets: Option<Vec<String>>,
-    level: Option<NumberEntry>,
-    vertex: Option<String>,
-    vertex_shader: Option<Spanned<String>>,
+    repeat: Option<Repeat>,
+    pub shader: Option<Spanned<String>>,
+    pub stage: Option<Stage>,
+    pub targets: Option<Vec<String>>,
+    pub level: Option<NumberEntry>,
+    pub vertex: Option<String>,
+    pub vertex_shader: Option<Spanned<String>>,
     #[serde(default)]
-    binding: Vec<Spanned<BindingEntry>>,
+    pub binding: Vec<Spanned<BindingEntry>>,
     #[serde(default)]
-    constants: BTreeMap<String, NumberEntry>,
+    pub constants: BTreeMap<String, NumberEntry>,
     #[serde(default)]
-    conditions: Vec<String>,
-    compiler: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(
-    untagged,
-    expecting = "repeat is a count from 1 or the name of an integer parameter"
-)]
-enum RepeatEntry {
-    Times(u32),
-    Parameter(String),
+    pub conditions: Vec<String>,
+    pub compiler: Option<String>,
 }
 
 /// Upper limit on the dispatches of a filter, with the largest value that each `repeat` may have. A GPU takes no more timestamps in
@@ -84,158 +78,134 @@ const BUILTIN_VARIABLES: [&str; 9] = [
 pub(super) fn read_textures(
     file: &File,
     entries: &[Spanned<TextureEntry>],
-    parameters: &[Parameter],
+    names: Names,
 ) -> Result<Vec<Texture>, FilterError> {
     let mut textures = Vec::<Texture>::new();
     for spanned in entries {
-        let TextureEntry {
-            name,
-            format,
-            divided_by,
-            rounding,
-            mips,
-            holds,
-        } = spanned.get_ref();
-        if !is_identifier(name) || BUILTIN_VARIABLES.contains(&name.as_str()) {
-            let reason = format!(
-                "texture \"{name}\": {IDENTIFIER}, and none of {}",
-                BUILTIN_VARIABLES.join(", ")
-            );
-            return Err(file.at(spanned, reason));
-        }
-        if textures.iter().any(|known| known.name == *name) {
-            return Err(file.at(spanned, format!("texture \"{name}\" is declared twice")));
-        }
-        let divided_by = divided_by
-            .as_ref()
-            .map(|entry| read_divisors(parameters, entry))
-            .transpose()
-            .map_err(|reason| {
-                file.at(
-                    spanned,
-                    format!("texture \"{name}\": divided_by = {reason}"),
-                )
-            })?;
-        let mips = mips.unwrap_or(1);
-        if !(1..=MAX_MIPS).contains(&mips) {
-            let reason =
-                format!("texture \"{name}\": mips = {mips}; allowed: from 1 to {MAX_MIPS}");
-            return Err(file.at(spanned, reason));
-        }
-        let two_numbers = matches!(format, Format::Rg32Float | Format::Rgba32Float);
-        if holds.is_some() && (divided_by.is_some() || !two_numbers) {
-            let reason = format!(
-                "texture \"{name}\": holds = \"places\" is an x and a y per pixel; allowed with it: format rg32float or \
-                 rgba32float, and no divided_by"
-            );
-            return Err(file.at(spanned, reason));
-        }
-        textures.push(Texture {
-            name: name.clone(),
-            format: *format,
-            divided_by,
-            rounding: *rounding,
-            mips,
-            holds: *holds,
+        let name = &spanned.get_ref().name;
+        let texture = read_texture(spanned.get_ref(), names).and_then(|texture| {
+            match textures.iter().any(|known| known.name == *name) {
+                true => Err(" is declared twice".into()),
+                false => Ok(texture),
+            }
         });
+        let refuse = |reason| file.at(spanned, format!("texture \"{name}\"{reason}"));
+        textures.push(texture.map_err(refuse)?);
     }
     Ok(textures)
+}
+
+fn read_texture(entry: &TextureEntry, names: Names) -> Result<Texture, String> {
+    let TextureEntry {
+        name, format, mips, ..
+    } = entry;
+    if !is_identifier(name) || BUILTIN_VARIABLES.contains(&name.as_str()) {
+        let builtin = BUILTIN_VARIABLES.join(", ");
+        return Err(format!(": {IDENTIFIER}, and none of {builtin}"));
+    }
+    if !(1..=MAX_MIPS).contains(mips) {
+        return Err(format!(": mips = {mips}; allowed: from 1 to {MAX_MIPS}"));
+    }
+    let two_numbers = matches!(format, Format::Rg32Float | Format::Rgba32Float);
+    if entry.holds.is_some() && (entry.divided_by.is_some() || !two_numbers) {
+        return Err(
+            ": holds = \"places\" is an x and a y per pixel; allowed with it: format rg32float or rgba32float, and no \
+             divided_by"
+                .into(),
+        );
+    }
+    let divided_by = entry.divided_by.as_ref();
+    let divided_by = divided_by.map(|entry| read_divisors(entry.as_slice(), names));
+    Ok(Texture {
+        name: name.clone(),
+        format: *format,
+        divided_by: (divided_by.transpose())
+            .map_err(|reason| format!(": divided_by = {reason}"))?,
+        rounding: entry.rounding,
+        mips: *mips,
+        holds: entry.holds,
+    })
+}
+
+/// Reads what divides the width and the height of the image: one for both, or one each.
+fn read_divisors(entries: &[NumberEntry], names: Names) -> Result<[Expression; 2], String> {
+    let divisors = entries.iter().map(|entry| names.read_divisor(entry));
+    match &divisors.collect::<Result<Vec<_>, _>>()?[..] {
+        [both] => Ok([both.clone(), both.clone()]),
+        [width, height] => Ok([width.clone(), height.clone()]),
+        found => Err(format!(
+            "a list of {}; allowed: one divisor, or two for width and height",
+            found.len()
+        )),
+    }
 }
 
 /// Reads every pass.
 pub(super) fn read_passes(
     file: &File,
     entries: &[Spanned<PassEntry>],
-    textures: &[Texture],
-    parameters: &[Parameter],
-    convention: &Convention,
+    names: Names,
 ) -> Result<Vec<Pass>, FilterError> {
     let mut passes = Vec::new();
     let mut dispatches = 0u32;
     for spanned in entries {
-        let PassEntry {
-            entry,
-            over,
-            workgroup_per_texel,
-            repeat,
-            shader,
-            stage,
-            targets,
-            level,
-            vertex,
-            vertex_shader,
-            binding,
-            constants,
-            conditions,
-            compiler,
-        } = spanned.get_ref();
-        if let Some(entry) = entry {
-            file.check_line(spanned, "entry", entry)?;
-        }
-        let keys = ShaderKeys {
-            file: shader.as_ref(),
-            entry: entry.as_deref(),
-            stage: *stage,
-            targets: targets.as_ref(),
-            level: level.as_ref(),
-            vertex: vertex.as_deref(),
-            vertex_shader: vertex_shader.as_ref(),
-            bindings: binding,
-            constants,
-            conditions,
-            compiler: compiler.as_deref(),
-        };
-        let names = Names {
-            textures,
-            parameters,
-            convention,
-        };
-        let shader = read_shader(file, spanned, &keys, names)?;
-        let draws = (shader.iter()).any(|shader| shader.stage == Stage::Fragment);
-        if draws && (over.is_some() || *workgroup_per_texel) {
-            let reason = "pass: over and workgroup_per_texel are for kernels; a fragment shader runs over its `targets`";
-            return Err(file.at(spanned, reason.into()));
-        }
-        let entry = match (entry, &shader) {
-            (None, None) => return Err(file.at(spanned, "missing field `entry`".into())),
-            (Some(entry), None) => entry.clone(),
-            (_, Some(shader)) => name_pass(shader),
-        };
-        let named = |reason: String| file.at(spanned, format!("pass \"{entry}\": {reason}"));
-        if let Some(over) = over
-            && !textures.iter().any(|texture| texture.name == *over)
-        {
-            return Err(named(format!(
-                "over = \"{over}\" names no declared texture; leave it out to run over the image"
-            )));
-        }
-        if *workgroup_per_texel && over.is_none() {
-            return Err(named(
-                "workgroup_per_texel = true without over; name the texture whose texels get a workgroup each"
-                    .into(),
-            ));
-        }
-        let repeat = match repeat {
-            None => Repeat::Times(1),
-            Some(RepeatEntry::Times(0)) => {
-                return Err(named("repeat = 0; allowed: 1 or more".into()));
-            }
-            Some(RepeatEntry::Times(times)) => Repeat::Times(*times),
-            Some(RepeatEntry::Parameter(parameter)) => {
-                check_count(parameters, parameter)
-                    .map_err(|reason| named(format!("repeat = {reason}")))?;
-                Repeat::Parameter(parameter.clone())
-            }
-        };
-        let times = most_runs(&repeat, parameters);
+        let pass = read_pass(file, spanned, names)?;
+        let times = most_runs(&pass.repeat, names.parameters);
         dispatches = dispatches.saturating_add(times);
         if dispatches > MAX_DISPATCHES {
-            return Err(named(format!(
-                "runs up to {times} times, and all passes to here {dispatches} times in sum; allowed: at most \
-                 {MAX_DISPATCHES}; lower repeat, or the range of its parameter"
-            )));
+            let reason = format!(
+                "pass \"{}\": runs up to {times} times, and all passes to here {dispatches} times in sum; allowed: at most \
+                 {MAX_DISPATCHES}; lower repeat, or the range of its parameter",
+                pass.entry
+            );
+            return Err(file.at(spanned, reason));
         }
-        passes.push(Pass {
+        passes.push(pass);
+    }
+    Ok(passes)
+}
+
+fn read_pass(file: &File, spanned: &Spanned<PassEntry>, names: Names) -> Result<Pass, FilterError> {
+    let PassEntry {
+        entry,
+        over,
+        workgroup_per_texel,
+        repeat,
+        ..
+    } = spanned.get_ref();
+    if let Some(entry) = entry {
+        file.check_line(spanned, "entry", entry)?;
+    }
+    let shader = read_shader(file, spanned, names)?;
+    let draws = (shader.iter()).any(|shader| shader.stage == Stage::Fragment);
+    if draws && (over.is_some() || *workgroup_per_texel) {
+        let reason = "pass: over and workgroup_per_texel are for kernels; a fragment shader runs over its `targets`";
+        return Err(file.at(spanned, reason.into()));
+    }
+    let entry = match (entry, &shader) {
+        (None, None) => return Err(file.at(spanned, "missing field `entry`".into())),
+        (Some(entry), None) => entry.clone(),
+        (_, Some(shader)) => name_pass(shader),
+    };
+    let repeat = repeat.clone().unwrap_or(Repeat::Times(1));
+    let reason = match (over, &repeat) {
+        (Some(over), _) if !names.textures.iter().any(|it| it.name == *over) => Some(format!(
+            "over = \"{over}\" names no declared texture; leave it out to run over the image"
+        )),
+        (None, _) if *workgroup_per_texel => Some(
+            "workgroup_per_texel = true without over; name the texture whose texels get a workgroup each"
+                .into(),
+        ),
+        (_, Repeat::Times(0)) => Some("repeat = 0; allowed: 1 or more".into()),
+        (_, Repeat::Parameter(parameter)) => {
+            let checked = names.check_count(parameter).err();
+            checked.map(|reason| format!("repeat = {reason}"))
+        }
+        (_, Repeat::Times(_)) => None,
+    };
+    match reason {
+        Some(reason) => Err(file.at(spanned, format!("pass \"{entry}\": {reason}"))),
+        None => Ok(Pass {
             entry,
             shader_index: 0,
             vertex_index: None,
@@ -243,9 +213,8 @@ pub(super) fn read_passes(
             over: over.clone(),
             workgroup_per_texel: *workgroup_per_texel,
             repeat,
-        });
+        }),
     }
-    Ok(passes)
 }
 
 /// Names a pass with a shader of its own: after its entry point, or after its file where that is called `main` as all are.

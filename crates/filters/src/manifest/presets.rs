@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::file::{File, IDENTIFIER, is_identifier};
+use super::file::File;
+use super::number::{IDENTIFIER, is_identifier};
 use super::parameters::read_value;
 use super::source::{SourceEntry, read_source};
 use crate::{FilterError, Parameter, Preset, TuningRecord};
@@ -33,56 +34,21 @@ pub(super) fn read_presets(
     let of_filter = read_reference_width(file, "", reference_width, parameters)?;
     let mut presets = Vec::<Preset>::new();
     for spanned in entries {
-        let entry = spanned.get_ref();
-        if !is_identifier(&entry.name) || presets.iter().any(|known| known.name == entry.name) {
+        let preset = read_preset(file, spanned, parameters, of_filter)?;
+        let is_known = |name: &String| presets.iter().any(|known| known.name == *name);
+        if is_known(&preset.name) {
+            let reason = format!("preset \"{}\": no two presets share a name", preset.name);
+            return Err(file.at(spanned, reason));
+        }
+        let from = preset.tuned.as_ref().map(|tuned| &tuned.from);
+        if let Some(from) = from.filter(|from| !is_known(from)) {
             let reason = format!(
-                "preset \"{}\": {IDENTIFIER}, and no two presets share one",
-                entry.name
+                "preset \"{}\": tuned from \"{from}\", which is no preset before it",
+                preset.name
             );
             return Err(file.at(spanned, reason));
         }
-        let doc = format!("preset \"{}\": doc", entry.name);
-        let doc = file.check_line(spanned, &doc, &entry.doc)?;
-        if let Some(tuned) = &entry.tuned {
-            for text in [&tuned.by, &tuned.from].into_iter().chain(&tuned.scenes) {
-                file.check_line(spanned, &format!("preset \"{}\": tuned", entry.name), text)?;
-            }
-        }
-        let mut values = BTreeMap::new();
-        for (name, given) in &entry.values {
-            let named = |reason: String| {
-                file.at(given, format!("preset \"{}\": {name} {reason}", entry.name))
-            };
-            let parameter = parameters
-                .iter()
-                .find(|parameter| parameter.name == *name)
-                .ok_or_else(|| named("is no parameter of this filter".into()))?;
-            let value = read_value(&parameter.kind, given.get_ref()).ok_or_else(|| {
-                let allowed = parameter.kind.allowed();
-                named(format!("= {} is not {allowed}", given.get_ref()))
-            })?;
-            values.insert(name.clone(), value);
-        }
-        if let Some(tuned) = &entry.tuned
-            && presets.iter().all(|known| known.name != tuned.from)
-        {
-            let reason = format!(
-                "preset \"{}\": tuned from \"{}\", which is no preset before it",
-                entry.name, tuned.from
-            );
-            return Err(file.at(spanned, reason));
-        }
-        let named = format!("preset \"{}\": ", entry.name);
-        let own = entry.reference_width.as_ref();
-        let own = read_reference_width(file, &named, own, parameters)?;
-        presets.push(Preset {
-            name: entry.name.clone(),
-            doc,
-            source: read_source(file, &entry.name, entry.source.as_ref())?,
-            reference_width: own.or(of_filter),
-            values,
-            tuned: entry.tuned.clone(),
-        });
+        presets.push(preset);
     }
     if presets.is_empty() {
         presets.push(Preset {
@@ -95,6 +61,47 @@ pub(super) fn read_presets(
         });
     }
     Ok(presets)
+}
+
+fn read_preset(
+    file: &File,
+    spanned: &Spanned<PresetEntry>,
+    parameters: &[Parameter],
+    of_filter: Option<u32>,
+) -> Result<Preset, FilterError> {
+    let entry = spanned.get_ref();
+    let named = |reason: &str| format!("preset \"{}\": {reason}", entry.name);
+    if !is_identifier(&entry.name) {
+        return Err(file.at(spanned, named(IDENTIFIER)));
+    }
+    let doc = file.check_line(spanned, &named("doc"), &entry.doc)?;
+    if let Some(tuned) = &entry.tuned {
+        for text in [&tuned.by, &tuned.from].into_iter().chain(&tuned.scenes) {
+            file.check_line(spanned, &named("tuned"), text)?;
+        }
+    }
+    let mut values = BTreeMap::new();
+    for (name, given) in &entry.values {
+        let refuse = |reason: String| file.at(given, named(&format!("{name} {reason}")));
+        let parameter = (parameters.iter())
+            .find(|parameter| parameter.name == *name)
+            .ok_or_else(|| refuse("is no parameter of this filter".into()))?;
+        let value = read_value(&parameter.kind, given.get_ref()).ok_or_else(|| {
+            let allowed = parameter.kind.allowed();
+            refuse(format!("= {} is not {allowed}", given.get_ref()))
+        })?;
+        values.insert(name.clone(), value);
+    }
+    let own = entry.reference_width.as_ref();
+    let own = read_reference_width(file, &named(""), own, parameters)?;
+    Ok(Preset {
+        name: entry.name.clone(),
+        doc,
+        source: read_source(file, &entry.name, entry.source.as_ref())?,
+        reference_width: own.or(of_filter),
+        values,
+        tuned: entry.tuned.clone(),
+    })
 }
 
 /// Reads the width that a filter or a preset was made for, which `named` names; refuses one that changes no parameter.

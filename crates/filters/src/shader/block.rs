@@ -1,8 +1,24 @@
-//! Uniform blocks of shaders, filled with values that filter.toml names.
+//! Uniform blocks of shaders, filled with values by name.
 
-use wgpu::naga::Scalar;
+use wgpu::naga::proc::Layouter;
+use wgpu::naga::{ArraySize, Handle, Module, Scalar, Type, TypeInner, VectorSize};
 
-use crate::filter::Expression;
+use crate::Expression;
+
+/// Upper limit on the numbers of a block.
+const MAX_NUMBERS: usize = 1024;
+
+/// Upper limit on its bytes, which every adapter grants.
+const MAX_BYTES: u32 = 64 << 10;
+
+/// A member of a block: its name, its place and its numbers.
+pub(crate) struct Member {
+    pub name: String,
+    /// Offset in bytes.
+    pub offset: u32,
+    /// Places and kinds of its numbers.
+    pub numbers: Vec<(u32, NumberKind)>,
+}
 
 /// A uniform block, and where its numbers lie.
 #[derive(Clone, Debug)]
@@ -51,6 +67,44 @@ impl NumberKind {
 }
 
 impl UniformBlock {
+    /// Refuses a block that is larger than adapters grant, or that does not hold all of its numbers.
+    pub fn new(
+        module: &Module,
+        block: Handle<Type>,
+        numbers: Vec<BlockNumber>,
+    ) -> Result<Self, String> {
+        let mut layouter = Layouter::default();
+        (layouter.update(module.to_ctx())).map_err(|error| format!("has no layout: {error}"))?;
+        let bytes = layouter[block].size;
+        let is_outside = |number: &BlockNumber| number.offset.saturating_add(4) > bytes;
+        if bytes > MAX_BYTES || numbers.iter().any(is_outside) {
+            return Err(format!(
+                "takes {bytes} bytes; allowed: at most {MAX_BYTES}, with all members in it"
+            ));
+        }
+        Ok(Self { bytes, numbers })
+    }
+
+    /// Makes a block whose numbers are called after its members: `prefix`, the member, and the index of the number if it holds several.
+    pub fn by_name(module: &Module, block: Handle<Type>, prefix: &str) -> Result<Self, String> {
+        let mut numbers = Vec::new();
+        for member in list_members(module, block)? {
+            for (index, (offset, kind)) in member.numbers.iter().enumerate() {
+                let name = format!("{prefix}{}", member.name);
+                let value = match member.numbers.len() {
+                    1 => Expression::Name(name),
+                    _ => Expression::Name(name_element(&name, index)),
+                };
+                numbers.push(BlockNumber {
+                    offset: *offset,
+                    kind: *kind,
+                    value,
+                });
+            }
+        }
+        Self::new(module, block, numbers)
+    }
+
     /// Encodes the block with the values of names. Whole numbers are rounded to the nearest.
     pub fn encode(&self, value: &dyn Fn(&str) -> f64) -> Vec<u8> {
         let mut bytes = vec![0; (self.bytes as usize).next_multiple_of(16)];
@@ -75,5 +129,93 @@ impl UniformBlock {
     /// Returns true if a value depends on one of several names.
     pub fn reads_any(&self, is_wanted: &dyn Fn(&str) -> bool) -> bool {
         (self.numbers.iter()).any(|number| number.value.reads_any(is_wanted))
+    }
+}
+
+/// Names one number of several.
+pub(crate) fn name_element(whole: &str, index: usize) -> String {
+    format!("{whole}[{index}]")
+}
+
+/// Lists the members of a block.
+pub(crate) fn list_members(module: &Module, block: Handle<Type>) -> Result<Vec<Member>, String> {
+    let ty = &module.types[block];
+    let mut left = MAX_NUMBERS;
+    let mut list = |name: String, ty, offset| {
+        let mut numbers = Vec::new();
+        list_numbers(module, ty, offset, &mut left, &mut numbers)
+            .map_err(|reason| format!("its member \"{name}\" {reason}"))?;
+        Ok(Member {
+            name,
+            offset,
+            numbers,
+        })
+    };
+    match &ty.inner {
+        TypeInner::Struct { members, .. } => (members.iter())
+            .map(|member| {
+                let name = member
+                    .name
+                    .clone()
+                    .unwrap_or_else(|| format!("@{}", member.offset));
+                list(name, member.ty, member.offset)
+            })
+            .collect(),
+        _ => Ok(vec![list("@0".to_owned(), block, 0)?]),
+    }
+}
+
+/// Lists the numbers of a type in order.
+fn list_numbers(
+    module: &Module,
+    ty: Handle<Type>,
+    offset: u32,
+    left: &mut usize,
+    numbers: &mut Vec<(u32, NumberKind)>,
+) -> Result<(), String> {
+    let mut row = |offset: u32, count: u32, scalar: Scalar| {
+        let kind = NumberKind::of(scalar).ok_or("holds numbers that are not of 32 bits")?;
+        *left = (left.checked_sub(count as usize))
+            .ok_or_else(|| format!("makes the block hold more than {MAX_NUMBERS} numbers"))?;
+        numbers.extend((0..count).map(|index| (offset.saturating_add(4 * index), kind)));
+        Ok::<(), String>(())
+    };
+    match &module.types[ty].inner {
+        TypeInner::Scalar(scalar) => row(offset, 1, *scalar),
+        TypeInner::Vector { size, scalar } => row(offset, *size as u32, *scalar),
+        TypeInner::Matrix {
+            columns,
+            rows,
+            scalar,
+        } => {
+            let stride = match rows {
+                VectorSize::Bi => 8,
+                VectorSize::Tri | VectorSize::Quad => 16,
+            };
+            (0..*columns as u32).try_for_each(|column| {
+                row(
+                    offset.saturating_add(column * stride),
+                    *rows as u32,
+                    *scalar,
+                )
+            })
+        }
+        TypeInner::Array {
+            base,
+            size: ArraySize::Constant(count),
+            stride,
+        } => (0..count.get()).try_for_each(|index| {
+            let offset = offset.saturating_add(index.saturating_mul(*stride));
+            // An array of empty structs is refused by its length.
+            *left = left.checked_sub(1).ok_or("is too long")?;
+            let listed = list_numbers(module, *base, offset, left, numbers);
+            *left += 1;
+            listed
+        }),
+        TypeInner::Struct { members, .. } => members.iter().try_for_each(|member| {
+            let offset = offset.saturating_add(member.offset);
+            list_numbers(module, member.ty, offset, left, numbers)
+        }),
+        _ => Err("is no number, vector, matrix, array of known length, or struct of these".into()),
     }
 }

@@ -1,6 +1,5 @@
 //! Declarations of a kernel file, found with naga's reflection; needs no adapter.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -8,15 +7,14 @@ use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 use wgpu::naga::{GlobalVariable, Handle, Module, ShaderStage, front};
 
 use super::block::UniformBlock;
+use super::compiled_by::CompiledBy;
 use super::entry_point::{EntryPoint, find_entry_points};
 use super::nesting::check_nesting;
 use super::source::Source;
 use super::stack::run_on_large_stack;
-use super::uniform::{Member, find_uniforms};
 use super::variable::{Variable, find_variable};
 use crate::FilterError;
 use crate::printable::escape_controls;
-use crate::translate::CompiledBy;
 
 /// WGSL that is appended to every filter's kernels.
 const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
@@ -30,9 +28,7 @@ pub(crate) struct Shader {
     pub code: Code,
     /// Resource variables of group 0, in order of declaration.
     pub variables: Vec<Variable>,
-    /// Members of the structs that uniforms hold, by the uniform's name.
-    pub uniforms: BTreeMap<String, Vec<Member>>,
-    /// Uniform blocks that filter.toml explains.
+    /// Uniform blocks, by the index in `Role::Block`.
     pub blocks: Vec<UniformBlock>,
     /// True if the kernels read how the camera moved.
     pub reads_reprojection: bool,
@@ -100,14 +96,14 @@ impl Shader {
         check_nesting(path, kernels)?;
         let parsed = run_on_large_stack(|| Self::parse_here(path, kernels));
         parsed.unwrap_or_else(|panic| {
-            Err(FilterError::Folder {
-                path: path.to_owned(),
-                line: None,
-                reason: format!(
-                    "naga, which reads WGSL, fails on it: {}; write it otherwise, or make it smaller",
-                    escape_controls(&panic)
+            let panic = escape_controls(&panic);
+            Err(FilterError::in_file(
+                path,
+                None,
+                format!(
+                    "naga, which reads WGSL, fails on it: {panic}; write it otherwise, or make it smaller"
                 ),
-            })
+            ))
         })
     }
 
@@ -127,9 +123,10 @@ impl Shader {
             .filter(|(_, variable)| variable.binding.is_some())
             .map(|(handle, _)| handle)
             .collect();
+        let mut blocks = Vec::new();
         let variables = handles
             .iter()
-            .map(|handle| find_variable(&source, &module, *handle))
+            .map(|handle| find_variable(&source, &module, *handle, &mut blocks))
             .collect::<Result<Vec<_>, _>>()?;
         let find_line = |function: &str| source.line_of_function(function);
         let mut entry_points = find_entry_points(&module, &info, &handles, &variables, &find_line);
@@ -141,12 +138,11 @@ impl Shader {
         }
         Ok(Self {
             path: path.to_owned(),
-            uniforms: find_uniforms(&source, &module),
             reads_reprojection: kernels.contains("before_camera(")
                 || kernels.contains("frame.reprojection"),
             entry_points,
             variables,
-            blocks: Vec::new(),
+            blocks,
             compiled: None,
             compiled_by: None,
             code: Code::Wgsl(source.text),

@@ -76,7 +76,7 @@ pub(crate) fn find_entry_points(
             for variable in used_variables {
                 let resource = || variable.resource.clone();
                 match variable.role {
-                    Role::Uniform | Role::Block(_) | Role::Sampler(_) => {}
+                    Role::Block(_) | Role::Sampler(_) => {}
                     Role::Read(_) => {
                         reads.insert(resource());
                         reads_whole.extend(variable.level.is_none().then(resource));

@@ -1,27 +1,28 @@
 //! Kernels of a filter, read without an adapter: their declarations, and what they ask of a device.
 
 mod block;
+mod compiled_by;
 mod declarations;
 mod entry_point;
 mod loop_counter;
 mod nesting;
 mod noise;
 mod resource_usage;
+mod sampling;
 mod source;
 mod stack;
 mod storage_formats;
 mod texel;
-mod uniform;
 mod variable;
 
-pub(crate) use block::{BlockNumber, NumberKind, UniformBlock};
+pub(crate) use block::{BlockNumber, Member, NumberKind, UniformBlock, list_members, name_element};
+pub(crate) use compiled_by::try_each;
 pub(crate) use declarations::{CAPABILITIES, Code, Shader, parse_wgsl};
 pub(crate) use entry_point::{EntryPoint, find_entry_points};
 pub(crate) use loop_counter::count_loop_iterations;
-pub use nesting::MAX_NESTING;
-pub use resource_usage::{MAX_INLINED, MAX_INVOCATION_BYTES};
+pub(crate) use sampling::{SamplerFilter, Sampling, Wrap};
 pub(crate) use source::tidy;
 pub(crate) use stack::run_on_large_stack;
 pub use texel::Format;
 pub(crate) use texel::Texel;
-pub(crate) use variable::{Role, Variable, find_image_role, written_texture};
+pub(crate) use variable::{FRAME_PREFIX, Role, Variable, find_image_role, written_texture};

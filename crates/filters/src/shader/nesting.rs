@@ -12,88 +12,72 @@ pub const MAX_NESTING: usize = 1000;
 /// A sum `a + b + c` is `(a + b) + c` to a parser, so each operator counts as a level until the next `,` or `;`.
 pub(super) fn check_nesting(path: &Path, kernels: &str) -> Result<(), FilterError> {
     let mut nesting = Nesting::default();
-    let mut line = 1;
     let mut rest = kernels;
-    while let Some(token) = Token::take(&mut rest) {
-        if let Token::Blank(text) = token {
-            line += text.matches('\n').count();
+    while let Some(first) = rest.chars().next() {
+        let blank = measure_blank(rest);
+        if blank > 0 {
+            rest = &rest[blank..];
             continue;
         }
+        let (token, length) = match measure_word(rest) {
+            0 => (Token::Mark(first), first.len_utf8()),
+            length => (Token::Word(&rest[..length]), length),
+        };
         if nesting.enter(token) > MAX_NESTING {
-            return Err(FilterError::Folder {
-                path: path.to_owned(),
-                line: Some(line),
-                reason: format!(
+            let before = &kernels[..kernels.len() - rest.len()];
+            return Err(FilterError::in_file(
+                path,
+                before.matches('\n').count() + 1,
+                format!(
                     "more than {MAX_NESTING} operators, brackets or else-branches lie within one another here; allowed: \
                      at most {MAX_NESTING}; divide the expression among several statements"
                 ),
-            });
+            ));
         }
+        rest = &rest[length..];
     }
     Ok(())
 }
 
-/// A piece of WGSL, as far as it matters here.
-#[derive(Clone, Copy)]
+/// A piece of WGSL that is neither blank nor a comment.
 enum Token<'a> {
-    /// Blanks and comments.
-    Blank(&'a str),
     /// A name, keyword or number.
     Word(&'a str),
     /// Any other character.
     Mark(char),
 }
 
-impl<'a> Token<'a> {
-    /// Takes the first token from the text.
-    fn take(rest: &mut &'a str) -> Option<Self> {
-        let text = *rest;
-        let first = text.chars().next()?;
-        let is_word = |c: char| c.is_alphanumeric() || c == '_';
-        let end = |is_inside: fn(char) -> bool| text.find(|c| !is_inside(c)).unwrap_or(text.len());
-        let (length, token): (usize, fn(&'a str) -> Self) = if first.is_whitespace() {
-            (end(char::is_whitespace), Self::Blank)
-        } else if text.starts_with("//") {
-            (text.find('\n').unwrap_or(text.len()), Self::Blank)
-        } else if text.starts_with("/*") {
-            (measure_comment(text), Self::Blank)
-        } else if first.is_ascii_digit() {
-            (
-                end(|c| c.is_alphanumeric() || c == '_' || c == '.'),
-                Self::Word,
-            )
-        } else if is_word(first) {
-            (end(|c| c.is_alphanumeric() || c == '_'), Self::Word)
-        } else {
-            *rest = &text[first.len_utf8()..];
-            return Some(Self::Mark(first));
-        };
-        let (taken, left) = text.split_at(length);
-        *rest = left;
-        Some(token(taken))
+/// Measures the blanks or the comment that a text begins with, in bytes; comments may lie within one another.
+fn measure_blank(text: &str) -> usize {
+    if text.starts_with("//") {
+        return text.find('\n').unwrap_or(text.len());
+    }
+    let mut depth = 0;
+    let mut at = 0;
+    while let Some(here) = text.as_bytes().get(at..at + 2) {
+        match here {
+            b"/*" => depth += 1,
+            b"*/" if depth > 0 => depth -= 1,
+            _ if depth == 0 => break,
+            _ => {
+                at += 1;
+                continue;
+            }
+        }
+        at += 2;
+    }
+    match (at, depth) {
+        (0, _) => text.len() - text.trim_start().len(),
+        (end, 0) => end,
+        _ => text.len(),
     }
 }
 
-/// Measures the comment that the text begins with, in bytes; comments may lie within one another.
-fn measure_comment(text: &str) -> usize {
-    let mut depth = 0;
-    let mut at = 0;
-    while at < text.len() {
-        let here = &text.as_bytes()[at..];
-        if here.starts_with(b"/*") {
-            depth += 1;
-            at += 2;
-        } else if here.starts_with(b"*/") {
-            depth -= 1;
-            at += 2;
-            if depth == 0 {
-                return at;
-            }
-        } else {
-            at += 1;
-        }
-    }
-    text.len()
+/// Measures the word or number that a text begins with, in bytes.
+fn measure_word(text: &str) -> usize {
+    let is_number = text.starts_with(|c: char| c.is_ascii_digit());
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || (is_number && c == '.');
+    text.find(|c| !is_part(c)).unwrap_or(text.len())
 }
 
 /// The levels that are open.
@@ -130,7 +114,7 @@ impl Nesting {
             }
             Token::Mark(',' | ';') => self.reset(),
             Token::Mark(_) | Token::Word("else") => self.add(1),
-            Token::Word(_) | Token::Blank(_) => {}
+            Token::Word(_) => {}
         }
         self.sum + self.outside.len()
     }

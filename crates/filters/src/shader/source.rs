@@ -34,18 +34,17 @@ impl<'a> Source<'a> {
 
     /// Makes an error of a message of naga.
     pub fn refuse(&self, place: Option<SourceLocation>, message: &str) -> FilterError {
-        let message = tidy(message);
-        match place {
-            Some(place) if place.line_number as usize <= self.kernel_lines => {
-                FilterError::Kernels {
-                    path: self.path.to_owned(),
-                    line: place.line_number as usize,
-                    column: place.line_position as usize,
-                    reason: message,
-                }
-            }
-            place => self.at(place.map(|place| place.line_number as usize), message),
+        let line = place.map(|place| place.line_number as usize);
+        let mut error = self.at(line, tidy(message));
+        if let FilterError::Folder {
+            line: Some(_),
+            column,
+            ..
+        } = &mut error
+        {
+            *column = place.map(|place| place.line_position as usize);
         }
+        error
     }
 
     /// Makes an error that names a line.
@@ -60,11 +59,7 @@ impl<'a> Source<'a> {
             ),
             line => (line, reason),
         };
-        FilterError::Folder {
-            path: self.path.to_owned(),
-            line,
-            reason,
-        }
+        FilterError::in_file(self.path, line, reason)
     }
 
     /// Refuses `override`, which nothing sets and which leaves sizes unknown.

@@ -1,6 +1,7 @@
 //! Texels of textures, as filter.toml and kernels declare them.
 
 use serde::{Deserialize, Serialize};
+use wgpu::TextureFormat;
 use wgpu::naga::StorageFormat;
 
 /// Texel format.
@@ -47,67 +48,52 @@ impl Format {
         Self::Rg11b10Ufloat,
     ];
 
+    /// Returns its name in filter.toml and in WGSL, how many numbers a texel is given as, and its formats as a texture and as a
+    /// storage texture.
+    fn describe(self) -> (&'static str, usize, TextureFormat, StorageFormat) {
+        use StorageFormat as S;
+        use TextureFormat as T;
+        match self {
+            Self::R32Uint => ("r32uint", 1, T::R32Uint, S::R32Uint),
+            Self::R32Float => ("r32float", 1, T::R32Float, S::R32Float),
+            Self::Rg32Float => ("rg32float", 2, T::Rg32Float, S::Rg32Float),
+            Self::Rgba32Float => ("rgba32float", 4, T::Rgba32Float, S::Rgba32Float),
+            Self::R16Float => ("r16float", 1, T::R16Float, S::R16Float),
+            Self::Rg16Float => ("rg16float", 2, T::Rg16Float, S::Rg16Float),
+            Self::Rgba16Float => ("rgba16float", 4, T::Rgba16Float, S::Rgba16Float),
+            Self::R8Unorm => ("r8unorm", 1, T::R8Unorm, S::R8Unorm),
+            Self::Rgba8Unorm => ("rgba8unorm", 4, T::Rgba8Unorm, S::Rgba8Unorm),
+            Self::Rgb10a2Unorm => ("rgb10a2unorm", 4, T::Rgb10a2Unorm, S::Rgb10a2Unorm),
+            Self::Rg11b10Ufloat => ("rg11b10ufloat", 4, T::Rg11b10Ufloat, S::Rg11b10Ufloat),
+        }
+    }
+
     /// Returns its name in filter.toml and in WGSL.
     pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::R32Uint => "r32uint",
-            Self::R32Float => "r32float",
-            Self::Rg32Float => "rg32float",
-            Self::Rgba32Float => "rgba32float",
-            Self::R16Float => "r16float",
-            Self::Rg16Float => "rg16float",
-            Self::Rgba16Float => "rgba16float",
-            Self::R8Unorm => "r8unorm",
-            Self::Rgba8Unorm => "rgba8unorm",
-            Self::Rgb10a2Unorm => "rgb10a2unorm",
-            Self::Rg11b10Ufloat => "rg11b10ufloat",
-        }
+        self.describe().0
     }
 
     /// Returns how many numbers a texel is given as and read as.
     pub(crate) fn components(self) -> usize {
-        match self {
-            Self::R32Uint | Self::R32Float | Self::R16Float | Self::R8Unorm => 1,
-            Self::Rg32Float | Self::Rg16Float => 2,
-            Self::Rgba32Float
-            | Self::Rgba16Float
-            | Self::Rgba8Unorm
-            | Self::Rgb10a2Unorm
-            | Self::Rg11b10Ufloat => 4,
-        }
+        self.describe().1
     }
 
-    /// Returns the bytes of a texel.
-    pub(crate) fn texel_bytes(self) -> u64 {
-        match self {
-            Self::R8Unorm => 1,
-            Self::R16Float => 2,
-            Self::R32Uint
-            | Self::R32Float
-            | Self::Rg16Float
-            | Self::Rgba8Unorm
-            | Self::Rgb10a2Unorm
-            | Self::Rg11b10Ufloat => 4,
-            Self::Rg32Float | Self::Rgba16Float => 8,
-            Self::Rgba32Float => 16,
-        }
+    /// Converts the format to that of wgpu.
+    pub(crate) fn wgpu(self) -> TextureFormat {
+        self.describe().2
     }
 
     /// Returns the format of a storage texture.
     pub(crate) fn stored(self) -> StorageFormat {
-        match self {
-            Self::R32Uint => StorageFormat::R32Uint,
-            Self::R32Float => StorageFormat::R32Float,
-            Self::Rg32Float => StorageFormat::Rg32Float,
-            Self::Rgba32Float => StorageFormat::Rgba32Float,
-            Self::R16Float => StorageFormat::R16Float,
-            Self::Rg16Float => StorageFormat::Rg16Float,
-            Self::Rgba16Float => StorageFormat::Rgba16Float,
-            Self::R8Unorm => StorageFormat::R8Unorm,
-            Self::Rgba8Unorm => StorageFormat::Rgba8Unorm,
-            Self::Rgb10a2Unorm => StorageFormat::Rgb10a2Unorm,
-            Self::Rg11b10Ufloat => StorageFormat::Rg11b10Ufloat,
-        }
+        self.describe().3
+    }
+
+    /// Returns the bytes of a texel.
+    pub(crate) fn texel_bytes(self) -> u64 {
+        let bytes = self.wgpu().block_copy_size(None);
+        bytes
+            .expect("a texel of a color format has one size")
+            .into()
     }
 
     /// Returns the format of as many floats of 32 bits; formats of other numbers than floats stay.

@@ -1,14 +1,15 @@
 //! Resource variables of kernels: uniforms, and the textures that they read and write.
 
 use wgpu::naga::{
-    AddressSpace, GlobalVariable, Handle, ImageClass, ImageDimension, Module, ScalarKind,
-    StorageAccess, TypeInner,
+    AddressSpace, GlobalVariable, Handle, ImageClass, ImageDimension, Module, ResourceBinding,
+    ScalarKind, StorageAccess, TypeInner,
 };
 
+use super::block::UniformBlock;
+use super::sampling::Sampling;
 use super::source::Source;
 use super::texel::{Format, Texel};
-use crate::FilterError;
-use crate::filter::{Expression, Sampling};
+use crate::{Expression, FilterError};
 
 /// A resource variable.
 #[derive(Clone, Debug)]
@@ -27,13 +28,11 @@ pub(crate) struct Variable {
 /// Use of a resource variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// `var<uniform>`.
-    Uniform,
     /// `texture_2d<f32>` or `texture_2d<u32>`.
     Read(Texel),
     /// `texture_storage_2d<format, write>`.
     Write(Format),
-    /// Uniform block with that index among the shader's, which filter.toml explains.
+    /// `var<uniform>`, with the index of its block among the shader's.
     Block(usize),
     /// `sampler`.
     Sampler(Sampling),
@@ -44,72 +43,72 @@ pub(crate) fn written_texture(variable: &str) -> &str {
     variable.strip_suffix("_out").unwrap_or(variable)
 }
 
-/// Finds the role of a variable; refuses one that nothing can be bound to.
+/// Finds the role of a variable, and adds the block of a uniform; refuses one that nothing can be bound to.
 pub(super) fn find_variable(
     source: &Source,
     module: &Module,
     handle: Handle<GlobalVariable>,
+    blocks: &mut Vec<UniformBlock>,
 ) -> Result<Variable, FilterError> {
     let variable = &module.global_variables[handle];
     let name = variable.name.clone().unwrap_or_default();
     let line = source.line(module, handle);
-    let binding = variable.binding.expect("only bound variables are listed");
-    if binding.group != 0 {
-        return Err(source.at(
-            Some(line),
-            format!(
-                "\"{name}\" is in group {}; only @group(0) is bound",
-                binding.group
-            ),
-        ));
+    let refuse = |reason: String| source.at(Some(line), format!("\"{name}\" {reason}"));
+    let ResourceBinding { group, binding } =
+        variable.binding.expect("only bound variables are listed");
+    if group != 0 {
+        return Err(refuse(format!(
+            "is in group {group}; only @group(0) is bound"
+        )));
     }
-    let role = match (&variable.space, &module.types[variable.ty].inner) {
-        (AddressSpace::Uniform, _) => Some(Role::Uniform),
-        (
-            AddressSpace::Handle,
-            TypeInner::Image {
-                dim: ImageDimension::D2,
-                arrayed: false,
-                class,
-            },
-        ) => find_image_role(*class),
+    let role = match (variable.space, &module.types[variable.ty].inner) {
+        (AddressSpace::Uniform, _) => {
+            let prefix = if name == "frame" { FRAME_PREFIX } else { "" };
+            blocks.push(UniformBlock::by_name(module, variable.ty, prefix).map_err(refuse)?);
+            Some(Role::Block(blocks.len() - 1))
+        }
+        (AddressSpace::Handle, inner) => find_image_role(inner),
         _ => None,
     };
     let role = role.ok_or_else(|| {
-        source.at(
-            Some(line),
-            format!(
-                "\"{name}\" cannot be bound; allowed: var<uniform>, texture_2d<f32>, texture_2d<u32>, and \
-                 texture_storage_2d<{}, write>",
-                Format::ALL.map(Format::name).join(" | ")
-            ),
-        )
+        refuse(format!(
+            "cannot be bound; allowed: var<uniform>, texture_2d<f32>, texture_2d<u32>, and texture_storage_2d<{}, write>",
+            Format::ALL.map(Format::name).join(" | ")
+        ))
     })?;
     let resource = match role {
-        Role::Write(_) => written_texture(&name).to_owned(),
-        _ => name.clone(),
+        Role::Write(_) => written_texture(&name),
+        _ => &name,
     };
     Ok(Variable {
+        resource: resource.to_owned(),
         name,
-        resource,
-        binding: binding.binding,
+        binding,
         role,
         level: None,
         line: Some(line),
     })
 }
 
-/// Finds the role of a texture of two dimensions.
-pub(crate) fn find_image_role(class: ImageClass) -> Option<Role> {
-    match class {
-        ImageClass::Sampled {
-            kind: ScalarKind::Float,
-            multi: false,
-        } => Some(Role::Read(Texel::Float)),
-        ImageClass::Sampled {
-            kind: ScalarKind::Uint,
-            multi: false,
-        } => Some(Role::Read(Texel::Uint)),
+/// First part of the names of numbers of the uniform `frame` of common.wgsl. No parameter is called so.
+pub(crate) const FRAME_PREFIX: &str = "frame.";
+
+/// Finds the role of a texture; none for one that cannot be bound.
+pub(crate) fn find_image_role(inner: &TypeInner) -> Option<Role> {
+    let TypeInner::Image {
+        dim: ImageDimension::D2,
+        arrayed: false,
+        class,
+    } = inner
+    else {
+        return None;
+    };
+    match *class {
+        ImageClass::Sampled { kind, multi: false } => match kind {
+            ScalarKind::Float => Some(Role::Read(Texel::Float)),
+            ScalarKind::Uint => Some(Role::Read(Texel::Uint)),
+            _ => None,
+        },
         ImageClass::Storage { format, access } if access == StorageAccess::STORE => {
             let mut known = Format::ALL.into_iter();
             known

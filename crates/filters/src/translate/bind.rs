@@ -4,21 +4,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use wgpu::naga::compact::{KeepUnused, compact};
-use wgpu::naga::{
-    AddressSpace, GlobalVariable, Handle, ImageDimension, Module, ResourceBinding, TypeInner,
-};
+use wgpu::naga::{AddressSpace, GlobalVariable, Handle, Module, ResourceBinding, TypeInner};
 
 use super::entry::{keep_entry_point, set_constants, validate};
-use super::members::{KnownValues, fill_block};
+use super::members::fill_block;
 use super::module::{OpenModule, PUSH_CONSTANTS};
-use super::refuse;
 use super::textures::{check_texture, describe_image};
-use super::words::Place;
-use crate::filter::{Binding, BindingPlace, PassShader, Stage, list_values};
+use crate::filter::{Binding, BindingPlace, PassShader, Stage};
 use crate::shader::{
     Code, Role, Shader, UniformBlock, Variable, find_entry_points, find_image_role, written_texture,
 };
-use crate::{Filter, FilterError, Texture};
+use crate::{Filter, FilterError};
 
 /// Names that compilers give to the block of uniforms outside of any block, or to its type.
 const GLOBALS: [&str; 5] = [
@@ -38,11 +34,10 @@ pub(super) fn bind(
     open: OpenModule,
     constants: &[(String, f64)],
 ) -> Result<Shader, FilterError> {
-    let owners = find_owners(&open);
     let OpenModule {
         mut module,
+        owners,
         by_rows,
-        ..
     } = open;
     validate(path, &module)?;
     keep_entry_point(shader, path, &mut module)?;
@@ -66,7 +61,7 @@ pub(super) fn bind(
         entry.writes.extend(shader.targets.iter().cloned());
         entry.keeps_unwritten = true;
         let checked = entry.usage.check(&entry.name);
-        checked.map_err(|reason| refuse(path, reason))?;
+        checked.map_err(|reason| FilterError::in_file(path, None, reason))?;
     }
     Ok(Shader {
         path: path.to_owned(),
@@ -78,14 +73,6 @@ pub(super) fn bind(
     })
 }
 
-/// Finds the places of variables that were split from others. They are explained where those are.
-fn find_owners(open: &OpenModule) -> BTreeMap<BindingPlace, BindingPlace> {
-    let bound_at = |(group, binding): Place| BindingPlace::Bound { group, binding };
-    (open.owners.iter())
-        .map(|(split, owner)| (bound_at(*split), bound_at(*owner)))
-        .collect()
-}
-
 /// Refuses a binding of filter.toml that none of the stages of a pass has.
 pub(super) fn check_places(
     filter: &Filter,
@@ -95,7 +82,7 @@ pub(super) fn check_places(
 ) -> Result<(), FilterError> {
     let mut declared: Vec<(&Module, &GlobalVariable, BindingPlace)> = Vec::new();
     for open in stages {
-        let (module, owners) = (&open.module, find_owners(open));
+        let OpenModule { module, owners, .. } = open;
         let placed = (module.global_variables.iter())
             .filter_map(|(_, variable)| Some((module, variable, find_place(variable)?)));
         declared.extend(placed.filter(|(.., place)| !owners.contains_key(place)));
@@ -112,10 +99,10 @@ pub(super) fn check_places(
         .collect();
     places.sort_unstable();
     places.dedup();
-    Err(FilterError::Folder {
-        path: filter.lines.path.clone(),
-        line: Some(unknown.line),
-        reason: format!(
+    Err(FilterError::in_file(
+        &filter.lines.path,
+        unknown.line,
+        format!(
             "binding: {} has nothing at {}; it has: {}",
             path.display(),
             unknown.place,
@@ -124,7 +111,7 @@ pub(super) fn check_places(
                 false => places.join("; "),
             }
         ),
-    })
+    ))
 }
 
 /// Returns true if a binding of filter.toml is meant for a variable at a place.
@@ -207,12 +194,12 @@ impl Binder<'_> {
     ) -> FilterError {
         let named = name_variable(variable, place);
         match binding {
-            None => refuse(self.path, format!("{named}: {reason}")),
-            Some(binding) => FilterError::Folder {
-                path: self.filter.lines.path.clone(),
-                line: Some(binding.line),
-                reason: format!("binding: {named} of {}: {reason}", self.path.display()),
-            },
+            None => FilterError::in_file(self.path, None, format!("{named}: {reason}")),
+            Some(binding) => FilterError::in_file(
+                &self.filter.lines.path,
+                binding.line,
+                format!("binding: {named} of {}: {reason}", self.path.display()),
+            ),
         }
     }
 
@@ -225,16 +212,10 @@ impl Binder<'_> {
     ) -> Result<(), String> {
         let variable = &module.global_variables[handle];
         let name = variable.name.clone().unwrap_or_default();
-        let texture = || self.name_texture(binding, &name);
         let inner = &module.types[variable.ty].inner;
         let (role, resource) = match (variable.space, inner) {
             (AddressSpace::Uniform, _) => {
-                let known = KnownValues {
-                    count: &|name| self.filter.count_numbers(name),
-                    listed: list_values(&self.filter.parameters, &self.filter.convention),
-                    by_rows: &self.by_rows,
-                };
-                let block = fill_block(module, variable.ty, binding, &known)?;
+                let block = fill_block(self.filter, module, variable.ty, binding, &self.by_rows)?;
                 self.blocks.push(block);
                 (Role::Block(self.blocks.len() - 1), String::new())
             }
@@ -242,23 +223,12 @@ impl Binder<'_> {
                 let sampling = binding.map(|binding| binding.sampling).unwrap_or_default();
                 (Role::Sampler(sampling), String::new())
             }
-            (
-                AddressSpace::Handle,
-                TypeInner::Image {
-                    dim,
-                    arrayed,
-                    class,
-                },
-            ) if self.shader.stage != Stage::Vertex => {
-                let role = match (dim, arrayed) {
-                    (ImageDimension::D2, false) => find_image_role(*class),
-                    _ => None,
-                };
-                let role = role.ok_or_else(|| describe_image(*class))?;
-                (role, texture()?)
-            }
             (AddressSpace::Handle, TypeInner::Image { .. }) => {
-                return Err("is a texture of a vertex stage; allowed there: uniform blocks and push constants".into());
+                if self.shader.stage == Stage::Vertex {
+                    return Err("is a texture of a vertex stage; allowed there: uniform blocks and push constants".into());
+                }
+                let role = find_image_role(inner).ok_or_else(|| describe_image(inner))?;
+                (role, self.name_texture(binding, &name)?)
             }
             _ => {
                 return Err(
@@ -270,8 +240,8 @@ impl Binder<'_> {
         };
         check_texture(self.filter, role, &resource)?;
         let level = binding.and_then(|binding| binding.level.clone());
-        let has_mips = |it: &Texture| it.name == resource && it.mips > 1;
-        if level.is_some() && !self.filter.textures.iter().any(has_mips) {
+        let has_mips = (self.filter.texture(&resource)).is_some_and(|texture| texture.mips > 1);
+        if level.is_some() && !has_mips {
             return Err(format!(
                 "has a `level`, and \"{resource}\" has no mip levels; give its [[texture]] `mips`, or leave `level` out"
             ));

@@ -3,8 +3,8 @@
 //! Compilers and the program may disagree about what is a comment, a text in quotes or the end of a line. So the check asks for
 //! words, wherever they are, and refuses what could hide one.
 
-use super::Language;
 use super::includes::{IMPORTS, ends_with_import, list_lines};
+use super::language::Language;
 
 /// Words after `#` that open a file.
 const OPENING: [&str; 3] = ["include", "import", "embed"];
@@ -68,7 +68,7 @@ fn find_hidden(line: &str, is_resolved: bool) -> Option<String> {
     })
 }
 
-/// Lists what follows each `#` of a line, and blanks behind it.
+/// Lists what follows each `#` of a line, after its blanks.
 fn list_directives(line: &str) -> Vec<&str> {
     let marks = line.match_indices('#').chain(line.match_indices("%:"));
     // `##` joins words.

@@ -5,9 +5,23 @@
 
 use std::collections::BTreeMap;
 
-use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, decoration, op};
+use spirv::{Decoration, Op};
 
-/// Types that stand for those of combined ones.
+use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words};
+
+/// Ids that stand for combined image samplers.
+struct Split {
+    /// Image types by the combined type.
+    images: BTreeMap<u32, u32>,
+    /// New types by the pointer to the combined type.
+    types: BTreeMap<u32, SplitTypes>,
+    /// The sampler of each combined variable or parameter.
+    samplers: BTreeMap<u32, u32>,
+    /// Places of the samplers of variables.
+    places: BTreeMap<u32, Place>,
+}
+
+/// Types that stand for that of a combined one.
 struct SplitTypes {
     image: u32,
     image_pointer: u32,
@@ -17,131 +31,108 @@ struct SplitTypes {
 
 /// Splits every combined image sampler. Returns the places of the new samplers, each with the place of its texture.
 pub(super) fn split_combined_samplers(words: &mut Words) -> Result<BTreeMap<Place, Place>, String> {
-    let images: BTreeMap<u32, u32> = (words.all(op::TYPE_SAMPLED_IMAGE))
+    let images: BTreeMap<u32, u32> = (words.all(Op::TypeSampledImage))
         .map(|[combined, image]| (combined, image))
         .collect();
-    let arrays = (words.all(op::TYPE_ARRAY)).chain(words.all(op::TYPE_RUNTIME_ARRAY));
-    if arrays
-        .into_iter()
-        .any(|[_, element]| images.contains_key(&element))
-    {
+    let mut arrays = (words.all(Op::TypeArray)).chain(words.all(Op::TypeRuntimeArray));
+    if arrays.any(|[_, element]| images.contains_key(&element)) {
         return Err("has an array of combined image samplers; allowed: single ones".into());
     }
-    let pointers: BTreeMap<u32, u32> = (words.all(op::TYPE_POINTER))
-        .filter(|[_, _, pointee]| images.contains_key(pointee))
-        .map(|[pointer, _, pointee]| (pointer, pointee))
+    drop(arrays);
+    let pointers: Vec<[u32; 2]> = (words.all(Op::TypePointer))
+        .filter_map(|[pointer, _, combined]| Some([pointer, *images.get(&combined)?]))
         .collect();
-    let variables: Vec<u32> = (words.all(op::VARIABLE))
-        .filter(|[pointer, _]| pointers.contains_key(pointer))
-        .map(|[_, variable]| variable)
-        .collect();
-    let parameters: Vec<u32> = (words.all(op::FUNCTION_PARAMETER))
-        .filter(|[pointer, _]| pointers.contains_key(pointer))
-        .map(|[_, parameter]| parameter)
-        .collect();
-    // The sampler of each combined variable or parameter.
-    let samplers: BTreeMap<u32, u32> = (variables.iter().chain(&parameters))
-        .map(|combined| (*combined, words.new_id()))
-        .collect();
-    let types: BTreeMap<u32, SplitTypes> = (pointers.iter())
-        .map(|(pointer, combined)| {
+    let types: BTreeMap<u32, SplitTypes> = (pointers.into_iter())
+        .map(|[pointer, image]| {
             let types = SplitTypes {
-                image: images[combined],
+                image,
                 image_pointer: words.new_id(),
                 sampler: words.new_id(),
                 sampler_pointer: words.new_id(),
             };
-            (*pointer, types)
+            (pointer, types)
         })
         .collect();
+    let declared = |words: &Words, op| -> Vec<u32> {
+        let declared = words.all(op);
+        let combined = declared.filter(|[pointer, _]| types.contains_key(pointer));
+        combined.map(|[_, id]| id).collect()
+    };
+    let variables = declared(words, Op::Variable);
+    let parameters = declared(words, Op::FunctionParameter);
     let textures = words.find_places();
-    let places = words.find_free_places(&variables);
-    let mut split = Vec::with_capacity(words.instructions.len());
-    // Type and pointers of loads that take a combined one.
-    for instruction in std::mem::take(&mut words.instructions) {
-        let replaced = match (instruction.opcode, instruction.first::<3>()) {
-            (op::FUNCTION_PARAMETER, _) => {
-                let Some([pointer, parameter]) = instruction.first() else {
-                    continue;
-                };
-                types.get(&pointer).map(|types| {
-                    let make = |ty, id| Instruction::new(op::FUNCTION_PARAMETER, [ty, id]);
-                    vec![
-                        make(types.image_pointer, parameter),
-                        make(types.sampler_pointer, samplers[&parameter]),
-                    ]
-                })
-            }
-            (op::TYPE_POINTER, Some([pointer, ..])) => types.get(&pointer).map(|types| {
-                let make = |id, pointee| {
-                    Instruction::new(op::TYPE_POINTER, [id, UNIFORM_CONSTANT, pointee])
-                };
+    let split = Split {
+        places: words.find_free_places(&variables),
+        samplers: (variables.into_iter().chain(parameters))
+            .map(|combined| (combined, words.new_id()))
+            .collect(),
+        images,
+        types,
+    };
+    words.rewrite(|words, instruction| split.replace(words, instruction));
+    Ok((split.places.into_iter())
+        .map(|(variable, sampler)| (sampler, textures[&variable]))
+        .collect())
+}
+
+impl Split {
+    /// Returns what an instruction becomes if it names a combined one.
+    fn replace(&self, words: &mut Words, instruction: &Instruction) -> Option<Vec<Instruction>> {
+        let op = instruction.op;
+        let make = |op, operands: Vec<u32>| Instruction::new(op, operands);
+        Some(match (op, &instruction.operands[..]) {
+            (Op::TypePointer, [pointer, ..]) => {
+                let types = self.types.get(pointer)?;
+                let pointer = |id, to| make(op, vec![id, UNIFORM_CONSTANT, to]);
                 vec![
                     instruction.clone(),
-                    Instruction::new(op::TYPE_SAMPLER, [types.sampler]),
-                    make(types.sampler_pointer, types.sampler),
-                    make(types.image_pointer, types.image),
+                    make(Op::TypeSampler, vec![types.sampler]),
+                    pointer(types.sampler_pointer, types.sampler),
+                    pointer(types.image_pointer, types.image),
                 ]
-            }),
-            (op::VARIABLE, Some([pointer, variable, _])) => types.get(&pointer).map(|types| {
-                let make = |ty, id| Instruction::new(op::VARIABLE, [ty, id, UNIFORM_CONSTANT]);
+            }
+            (Op::Variable | Op::FunctionParameter, [pointer, id, class @ ..]) => {
+                let types = self.types.get(pointer)?;
+                let class = class.first().copied();
+                let declare = |ty, id| make(op, [ty, id].into_iter().chain(class).collect());
                 vec![
-                    make(types.image_pointer, variable),
-                    make(types.sampler_pointer, samplers[&variable]),
+                    declare(types.image_pointer, *id),
+                    declare(types.sampler_pointer, self.samplers[id]),
                 ]
-            }),
-            (op::TYPE_FUNCTION, Some([function, result, _])) => {
-                let parameters = instruction.operands[2..].iter();
-                let split = parameters.flat_map(|ty| match types.get(ty) {
+            }
+            (Op::TypeFunction, [function, result, parameters @ ..]) => {
+                let split = parameters.iter().flat_map(|ty| match self.types.get(ty) {
                     Some(types) => vec![types.image_pointer, types.sampler_pointer],
                     None => vec![*ty],
                 });
-                let operands: Vec<u32> = [function, result].into_iter().chain(split).collect();
-                Some(vec![Instruction::new(op::TYPE_FUNCTION, operands)])
+                let head = [*function, *result].into_iter();
+                vec![make(op, head.chain(split).collect())]
             }
-            (op::FUNCTION_CALL, Some([ty, result, function])) => {
-                let arguments = instruction.operands[3..].iter();
-                let split = arguments
-                    .flat_map(|id| [Some(*id), samplers.get(id).copied()])
-                    .flatten();
-                let operands: Vec<u32> = [ty, result, function].into_iter().chain(split).collect();
-                Some(vec![Instruction::new(op::FUNCTION_CALL, operands)])
+            (Op::FunctionCall, [ty, result, function, arguments @ ..]) => {
+                let sampler = |id: &u32| self.samplers.get(id).copied();
+                let split = arguments.iter().flat_map(|id| [Some(*id), sampler(id)]);
+                let head = [*ty, *result, *function].into_iter();
+                vec![make(op, head.chain(split.flatten()).collect())]
             }
-            (op::LOAD, Some([combined, result, pointer])) => {
-                let image = images.get(&combined).copied();
-                let sampler = samplers.get(&pointer).copied();
-                image.zip(sampler).map(|(image_type, sampler)| {
-                    let (image, loaded_sampler) = (words.new_id(), words.new_id());
-                    let sampler_type = (types.values().next()).map_or(0, |types| types.sampler);
-                    vec![
-                        Instruction::new(op::LOAD, [image_type, image, pointer]),
-                        Instruction::new(op::LOAD, [sampler_type, loaded_sampler, sampler]),
-                        Instruction::new(
-                            op::SAMPLED_IMAGE,
-                            [combined, result, image, loaded_sampler],
-                        ),
-                    ]
-                })
+            (Op::Load, [combined, result, pointer, ..]) => {
+                let image_type = *self.images.get(combined)?;
+                let sampler = *self.samplers.get(pointer)?;
+                let sampler_type = self.types.values().next()?.sampler;
+                let (image, loaded) = (words.new_id(), words.new_id());
+                vec![
+                    make(op, vec![image_type, image, *pointer]),
+                    make(op, vec![sampler_type, loaded, sampler]),
+                    make(Op::SampledImage, vec![*combined, *result, image, loaded]),
+                ]
             }
-            (op::DECORATE, Some([target, kind, value])) => {
-                (samplers.get(&target).zip(places.get(&target))).map(|(sampler, (_, own))| {
-                    let value = match kind {
-                        decoration::BINDING => *own,
-                        _ => value,
-                    };
-                    let copy = Instruction::new(op::DECORATE, [*sampler, kind, value]);
-                    vec![instruction.clone(), copy]
-                })
+            (Op::Decorate, [target, kind, value, ..]) => {
+                let (sampler, (_, binding)) =
+                    (self.samplers.get(target)?, self.places.get(target)?);
+                let is_binding = *kind == Decoration::Binding as u32;
+                let value = if is_binding { *binding } else { *value };
+                vec![instruction.clone(), make(op, vec![*sampler, *kind, value])]
             }
-            _ => None,
-        };
-        match replaced {
-            Some(replaced) => split.extend(replaced),
-            None => split.push(instruction),
-        }
+            _ => return None,
+        })
     }
-    words.instructions = split;
-    Ok((places.into_iter())
-        .map(|(variable, sampler)| (sampler, textures[&variable]))
-        .collect())
 }

@@ -1,15 +1,17 @@
 //! Compilation of a shader by a program on the PATH: to SPIR-V, or to WGSL in the case of WESL.
 
 use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use super::compiler::{Compiler, MAX_MODULE_BYTES};
+use super::compiler::Compiler;
 use super::language::Language;
-use super::sources::Sources;
+use super::sources::{MAX_MODULE_BYTES, Sources};
 use crate::FilterError;
 use crate::command::collect_environment;
 use crate::filter::PassShader;
@@ -35,42 +37,35 @@ pub(super) fn list_installed(
     language: Language,
     shader: &PassShader,
     path: &Path,
-) -> Result<Vec<&'static str>, FilterError> {
-    let known = language.compilers().iter().copied();
+) -> Result<Vec<&'static Compiler>, FilterError> {
+    let known = language.compilers();
+    let is_chosen = |it: &&Compiler| shader.compiler.as_deref() == Some(it.program);
     // A vertex stage may have another language.
-    let chosen =
-        (shader.compiler.as_deref()).filter(|chosen| known.clone().any(|it| it == *chosen));
-    let wanted: Vec<&str> = known
-        .filter(|program| chosen.is_none_or(|chosen| chosen == *program))
-        .collect();
-    let installed: Vec<&str> = wanted
-        .iter()
-        .copied()
-        .filter(|it| is_installed(it))
-        .collect();
+    let wanted: Vec<&Compiler> = match known.iter().find(is_chosen) {
+        Some(chosen) => vec![chosen],
+        None => known.iter().collect(),
+    };
+    let installed = wanted.iter().copied();
+    let installed: Vec<&Compiler> = installed.filter(|it| is_installed(it.program)).collect();
     if !installed.is_empty() {
         return Ok(installed);
     }
-    let compilers = Compiler::list(language, shader, "");
-    let way_out = compilers
-        .iter()
-        .rev()
-        .find(|it| wanted.contains(&it.program))
-        .map_or("", |it| it.way_out);
     let (becomes, ending) = match language {
         Language::Wesl => ("WGSL", "wgsl"),
         _ => ("SPIR-V", "spv"),
     };
-    Err(FilterError::Folder {
-        path: path.to_owned(),
-        line: None,
-        reason: format!(
-            "{} needs {} on the PATH, which is not there; {way_out}; or compile it to {becomes} elsewhere and name the \
+    let programs: Vec<&str> = wanted.iter().map(|it| it.program).collect();
+    Err(FilterError::in_file(
+        path,
+        None,
+        format!(
+            "{} needs {} on the PATH, which is not there; {}; or compile it to {becomes} elsewhere and name the \
              .{ending} file in filter.toml",
             language.name(),
-            wanted.join(" or "),
+            programs.join(" or "),
+            wanted.last().map_or("", |last| last.way_out),
         ),
-    })
+    ))
 }
 
 /// Compiles a shader with one of its language's compilers: WESL to WGSL, others to SPIR-V.
@@ -79,19 +74,10 @@ pub(super) fn compile(
     text: &str,
     language: Language,
     shader: &PassShader,
-    program: &str,
+    compiler: &Compiler,
 ) -> Result<Vec<u8>, FilterError> {
-    let path = &folder.join(&shader.file);
-    let refuse = |line, reason| FilterError::Folder {
-        path: path.to_owned(),
-        line,
-        reason,
-    };
-    let compilers = Compiler::list(language, shader, text);
-    let compiler = compilers.iter().find(|it| it.program == program);
-    let compiler = compiler.expect("the program is one of the language's");
     let sources = Sources::collect(folder, &shader.file, text, language)?;
-    let arguments = compiler.arguments.join(" ");
+    let arguments = (compiler.arguments)(shader, text);
     let key = (
         format!(
             "{} {arguments} {}",
@@ -100,13 +86,15 @@ pub(super) fn compile(
         ),
         sources.texts.clone(),
     );
-    let kept = || COMPILED.lock().unwrap_or_else(|broken| broken.into_inner());
-    if let Some(module) = kept().get(&key) {
+    let cache = || COMPILED.lock().unwrap_or_else(|broken| broken.into_inner());
+    if let Some(module) = cache().get(&key) {
         return Ok(module.clone());
     }
-    let module =
-        run(compiler, folder, &sources, language).map_err(|(line, reason)| refuse(line, reason))?;
-    kept().insert(key, module.clone());
+    let program = compiler.program;
+    let module = run(program, &arguments, folder, &sources, language)
+        .unwrap_or_else(|error| Err((None, format!("{program}: {error}"))))
+        .map_err(|(line, reason)| FilterError::in_file(&folder.join(&shader.file), line, reason))?;
+    cache().insert(key, module.clone());
     Ok(module)
 }
 
@@ -117,83 +105,80 @@ fn is_installed(program: &str) -> bool {
         .any(|folder| (endings.iter()).any(|end| folder.join(format!("{program}{end}")).is_file()))
 }
 
-/// Runs a compiler on copies of the sources. An error has the line that the compiler names.
+/// What a compiler made, or its error with the line that it names.
+type Outcome = Result<Vec<u8>, (Option<usize>, String)>;
+
+/// Runs a compiler on copies of the sources.
 fn run(
-    compiler: &Compiler,
+    program: &str,
+    arguments: &str,
     folder: &Path,
     sources: &Sources,
     language: Language,
-) -> Result<Vec<u8>, (Option<usize>, String)> {
-    let program = compiler.program;
-    let fail = |what: &str, error: std::io::Error| (None, format!("{program}: {what}: {error}"));
-    let bench = tempfile::tempdir().map_err(|error| fail("no temporary folder", error))?;
-    let copies = bench.path().join("sources");
-    (sources.write(&copies)).map_err(|error| fail("its input cannot be written", error))?;
+) -> std::io::Result<Outcome> {
+    let workplace = tempfile::tempdir()?;
+    let copies = workplace.path().join("sources");
+    sources.write(&copies)?;
     let input = copies.join(&sources.shader);
-    let log = bench.path().join("log.txt");
-    let output = bench.path().join(match language {
+    let log = workplace.path().join("log.txt");
+    let output = workplace.path().join(match language {
         Language::Wesl => "shader.wgsl",
         _ => "module.spv",
     });
-    let mut include = std::ffi::OsString::from("-I");
+    let mut include = OsString::from("-I");
     include.push(input.parent().unwrap_or(&copies));
-    let words = compiler.arguments.iter().map(|word| match word.as_str() {
+    let words = arguments.split_whitespace().map(|word| match word {
         "{in}" => input.clone().into_os_string(),
         "{out}" => output.clone().into_os_string(),
         "{include}" => include.clone(),
         word => word.into(),
     });
-    let create =
-        |path: &Path| std::fs::File::create(path).map_err(|error| fail("no temporary file", error));
-    let errors = create(&log)?;
+    let errors = File::create(&log)?;
     // The compiler of WESL prints what it makes; the others print errors there.
     let said = match language {
-        Language::Wesl => create(&output)?,
-        _ => errors
-            .try_clone()
-            .map_err(|error| fail("no temporary file", error))?,
+        Language::Wesl => File::create(&output)?,
+        _ => errors.try_clone()?,
     };
     let mut child = Command::new(program)
         .args(words)
         .env_clear()
         .envs(collect_environment(&[]))
-        .current_dir(bench.path())
+        .current_dir(workplace.path())
         .stdin(Stdio::null())
         .stdout(said)
         .stderr(errors)
-        .spawn()
-        .map_err(|error| fail("cannot be started", error))?;
-    let start = Instant::now();
-    let status = loop {
-        match child
-            .try_wait()
-            .map_err(|error| fail("cannot be waited for", error))?
-        {
-            Some(status) => break status,
-            None if start.elapsed() < TIME_LIMIT => std::thread::sleep(Duration::from_millis(2)),
-            None => {
-                _ = child.kill();
-                _ = child.wait();
-                let reason = format!(
-                    "{program} took longer than {} s and was stopped",
-                    TIME_LIMIT.as_secs()
-                );
-                return Err((None, reason));
-            }
-        }
+        .spawn()?;
+    let Some(status) = wait(&mut child)? else {
+        let limit = TIME_LIMIT.as_secs();
+        let reason = format!("{program} took longer than {limit} s and was stopped");
+        return Ok(Err((None, reason)));
     };
     let is_empty = std::fs::metadata(&output).map_or(true, |output| output.len() == 0);
     if !status.success() || is_empty {
         let mut said = Vec::new();
-        let file = std::fs::File::open(&log).map_err(|error| fail("its words are lost", error))?;
-        (file.take(MAX_LOG_BYTES).read_to_end(&mut said))
-            .map_err(|error| fail("its words are lost", error))?;
+        (File::open(&log)?.take(MAX_LOG_BYTES)).read_to_end(&mut said)?;
         let said = remove_colors(&String::from_utf8_lossy(&said));
         let (line, message) = find_error(&said, &input, &copies, folder);
-        return Err((line, format!("{program} refuses it: {message}")));
+        return Ok(Err((line, format!("{program} refuses it: {message}"))));
     }
-    frame::read_bounded(&output, MAX_MODULE_BYTES)
-        .map_err(|error| (None, format!("{program} wrote no module: {error}")))
+    Ok(frame::read_bounded(&output, MAX_MODULE_BYTES)
+        .map_err(|error| (None, format!("{program} wrote no module: {error}"))))
+}
+
+/// Waits for a compiler; stops one that takes too long.
+fn wait(child: &mut Child) -> std::io::Result<Option<ExitStatus>> {
+    let start = Instant::now();
+    loop {
+        match child.try_wait()? {
+            Some(status) => return Ok(Some(status)),
+            None if start.elapsed() < TIME_LIMIT => std::thread::sleep(Duration::from_millis(2)),
+            None => {
+                child.kill()?;
+                child.wait()?;
+                return Ok(None);
+            }
+        }
+    }
 }
 
 /// Removes the sequences that colour a terminal.

@@ -4,11 +4,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::words::{Instruction, Words, decoration, op};
+use spirv::{BuiltIn, Decoration, ExecutionMode, Op};
 
-/// Number of the built-in that is the size of a workgroup, and of the execution mode that gives it.
-const WORKGROUP_SIZE: u32 = 25;
-const LOCAL_SIZE: u32 = 17;
+use super::words::{Instruction, Words};
 
 /// Type of a constant of 32 bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,16 +58,15 @@ pub(super) fn set_constants(
         }
     }
     size_workgroups(words, &constants.values);
-    words
-        .instructions
-        .retain(|it| it.opcode != op::DECORATE || it.operands.get(1) != Some(&decoration::SPEC_ID));
+    let number = Decoration::SpecId as u32;
+    (words.instructions).retain(|it| it.op != Op::Decorate || it.operands.get(1) != Some(&number));
     Ok(())
 }
 
 fn list_types(words: &Words) -> BTreeMap<u32, Scalar> {
-    let bools = words.all(op::TYPE_BOOL).map(|[id]| (id, Scalar::Bool));
-    let floats = (words.all(op::TYPE_FLOAT)).filter(|[_, width]| *width == 32);
-    let integers = (words.all(op::TYPE_INT)).filter(|[_, width, _]| *width == 32);
+    let bools = words.all(Op::TypeBool).map(|[id]| (id, Scalar::Bool));
+    let floats = (words.all(Op::TypeFloat)).filter(|[_, width]| *width == 32);
+    let integers = (words.all(Op::TypeInt)).filter(|[_, width, _]| *width == 32);
     let integers = integers.map(|[id, _, signed]| match signed {
         0 => (id, Scalar::Unsigned),
         _ => (id, Scalar::Signed),
@@ -82,23 +79,17 @@ fn list_types(words: &Words) -> BTreeMap<u32, Scalar> {
 
 /// Lists the names and numbers of specialisation constants.
 fn list_names(words: &Words) -> BTreeMap<u32, [Option<String>; 2]> {
-    let names = words.find_names();
-    (words.all(op::DECORATE))
-        .filter(|[_, kind, _]| *kind == decoration::SPEC_ID)
-        .map(|[id, _, number]| {
-            let name = names.get(&id).cloned().filter(|name| !name.is_empty());
-            (id, [name, Some(number.to_string())])
-        })
+    let names = words.find_names(Op::Name);
+    (words.decorated(Decoration::SpecId))
+        .map(|(id, number)| (id, [names.get(&[id]).cloned(), Some(number.to_string())]))
         .collect()
 }
 
 /// Gives entry points the size of workgroups that a constant has.
 fn size_workgroups(words: &mut Words, values: &BTreeMap<u32, Value>) {
-    let sizes: Vec<u32> = (words.all(op::DECORATE))
-        .filter(|[_, kind, built_in]| [*kind, *built_in] == [decoration::BUILT_IN, WORKGROUP_SIZE])
-        .map(|[id, ..]| id)
-        .collect();
-    let Some(Value::Composite(sides)) = sizes.first().and_then(|id| values.get(id)) else {
+    let mut built_in = words.decorated(Decoration::BuiltIn);
+    let size = built_in.find(|(_, kind)| *kind == BuiltIn::WorkgroupSize as u32);
+    let Some(Value::Composite(sides)) = size.and_then(|(id, _)| values.get(&id)) else {
         return;
     };
     let sides: Vec<u32> = (sides.iter())
@@ -107,12 +98,12 @@ fn size_workgroups(words: &mut Words, values: &BTreeMap<u32, Value>) {
             _ => None,
         })
         .collect();
+    drop(built_in);
     for instruction in &mut words.instructions {
-        if let (op::EXECUTION_MODE, [_, LOCAL_SIZE, size @ ..], 3) = (
-            instruction.opcode,
-            &mut instruction.operands[..],
-            sides.len(),
-        ) && size.len() == 3
+        if let (Op::ExecutionMode, [_, mode, size @ ..]) =
+            (instruction.op, &mut instruction.operands[..])
+            && *mode == ExecutionMode::LocalSize as u32
+            && size.len() == sides.len()
         {
             size.copy_from_slice(&sides);
         }
@@ -129,25 +120,26 @@ impl Constants<'_> {
 
     /// Remembers a constant, and returns what a specialisation constant is replaced by.
     fn replace(&mut self, instruction: &Instruction) -> Result<Option<Instruction>, String> {
-        let (opcode, operands) = (instruction.opcode, &instruction.operands[..]);
+        let (op, operands) = (instruction.op, &instruction.operands[..]);
         let [ty, id, rest @ ..] = operands else {
             return Ok(None);
         };
         let scalar = self.types.get(ty).copied();
-        let own = match (opcode, rest) {
-            (op::CONSTANT_TRUE | op::SPEC_CONSTANT_TRUE, []) => Value::Scalar(1),
-            (op::CONSTANT_FALSE | op::SPEC_CONSTANT_FALSE, []) => Value::Scalar(0),
-            (op::CONSTANT | op::SPEC_CONSTANT, [bits]) if scalar.is_some() => Value::Scalar(*bits),
+        let own = match (op, rest) {
+            (Op::ConstantTrue | Op::SpecConstantTrue, []) => Value::Scalar(1),
+            (Op::ConstantFalse | Op::SpecConstantFalse, []) => Value::Scalar(0),
+            (Op::Constant | Op::SpecConstant, [bits]) if scalar.is_some() => Value::Scalar(*bits),
             // A number of another width keeps its value.
-            (op::SPEC_CONSTANT, _) => {
+            (Op::SpecConstant, _) => {
                 self.refuse_given(*id)?;
-                return Ok(Some(Instruction::new(op::CONSTANT, operands)));
+                return Ok(Some(Instruction::new(Op::Constant, operands)));
             }
-            (op::CONSTANT_COMPOSITE | op::SPEC_CONSTANT_COMPOSITE, parts) => {
+            (Op::ConstantComposite | Op::SpecConstantComposite, parts) => {
                 Value::Composite(parts.to_vec())
             }
-            (op::SPEC_CONSTANT_OP, [operation, operands @ ..]) => {
-                self.compute(*operation, operands, scalar)?
+            (Op::SpecConstantOp, [operation, operands @ ..]) => {
+                let op = Op::from_u32(*operation).unwrap_or(Op::Nop);
+                self.compute(op, operands, scalar)?
             }
             _ => return Ok(None),
         };
@@ -157,15 +149,15 @@ impl Constants<'_> {
         };
         let replaced = match (&value, scalar) {
             (Value::Scalar(0), Some(Scalar::Bool)) => {
-                Instruction::new(op::CONSTANT_FALSE, [*ty, *id])
+                Instruction::new(Op::ConstantFalse, [*ty, *id])
             }
             (Value::Scalar(_), Some(Scalar::Bool)) => {
-                Instruction::new(op::CONSTANT_TRUE, [*ty, *id])
+                Instruction::new(Op::ConstantTrue, [*ty, *id])
             }
-            (Value::Scalar(bits), _) => Instruction::new(op::CONSTANT, [*ty, *id, *bits]),
+            (Value::Scalar(bits), _) => Instruction::new(Op::Constant, [*ty, *id, *bits]),
             (Value::Composite(parts), _) => {
                 let operands = [*ty, *id].into_iter().chain(parts.iter().copied());
-                Instruction::new(op::CONSTANT_COMPOSITE, operands.collect::<Vec<u32>>())
+                Instruction::new(Op::ConstantComposite, operands.collect::<Vec<u32>>())
             }
         };
         self.values.insert(*id, value);
@@ -192,44 +184,31 @@ impl Constants<'_> {
     /// Computes what is made of other constants.
     fn compute(
         &self,
-        operation: u32,
+        operation: Op,
         operands: &[u32],
         result: Option<Scalar>,
     ) -> Result<Value, String> {
-        let unknown = || {
-            format!(
-                "computes a constant by instruction {operation} from others; allowed: arithmetic, comparisons and choices of \
-                 single numbers of 32 bits"
-            )
-        };
         let find = |id: &u32| self.values.get(id);
-        if operation == op::COMPOSITE_EXTRACT {
-            let [composite, index] = operands else {
-                return Err(unknown());
-            };
-            let parts = match find(composite) {
-                Some(Value::Composite(parts)) => parts,
-                _ => return Err(unknown()),
-            };
-            let part = parts.get(*index as usize).and_then(find);
-            return part.cloned().ok_or_else(unknown);
-        }
-        let scalars: Option<Vec<u32>> = (operands.iter())
-            .map(|id| match find(id) {
-                Some(Value::Scalar(bits)) => Some(*bits),
-                _ => None,
-            })
-            .collect();
-        let computed = match (&scalars.ok_or_else(unknown)?[..], result) {
-            (_, None) => None,
-            ([a], _) => compute_one(operation, *a),
-            ([a, b], _) => compute_two(operation, *a, *b),
-            ([condition, yes, no], _) if operation == op::SELECT => {
-                Some(if *condition != 0 { *yes } else { *no })
-            }
+        let scalar = |id: &u32| match find(id) {
+            Some(Value::Scalar(bits)) => Some(*bits),
             _ => None,
         };
-        computed.map(Value::Scalar).ok_or_else(unknown)
+        let computed = match (operation, operands) {
+            (Op::CompositeExtract, [composite, index]) => match find(composite) {
+                Some(Value::Composite(parts)) => parts.get(*index as usize).and_then(find).cloned(),
+                _ => None,
+            },
+            _ => (operands.iter().map(scalar).collect::<Option<Vec<u32>>>())
+                .filter(|_| result.is_some())
+                .and_then(|operands| compute(operation, &operands))
+                .map(Value::Scalar),
+        };
+        computed.ok_or_else(|| {
+            format!(
+                "computes a constant by {operation:?} from others; allowed: arithmetic, comparisons and choices of single \
+                 numbers of 32 bits"
+            )
+        })
     }
 }
 
@@ -268,52 +247,58 @@ fn encode(scalar: Scalar, name: &str, value: f64) -> Result<u32, String> {
     })
 }
 
-fn compute_one(operation: u32, a: u32) -> Option<u32> {
-    match operation {
-        op::S_NEGATE => Some(a.wrapping_neg()),
-        op::NOT => Some(!a),
-        op::LOGICAL_NOT => Some(u32::from(a == 0)),
-        op::U_CONVERT | op::S_CONVERT | op::BITCAST => Some(a),
-        _ => None,
-    }
-}
-
-/// Computes an operation on two numbers; none for one that is unknown, or that divides by zero.
-fn compute_two(operation: u32, a: u32, b: u32) -> Option<u32> {
-    let (signed_a, signed_b) = (a as i32, b as i32);
+/// Computes an operation on numbers of 32 bits; none for one that is unknown, or that divides by zero.
+fn compute(operation: Op, operands: &[u32]) -> Option<u32> {
     let truth = |is: bool| Some(u32::from(is));
+    let (a, b) = match *operands {
+        [a] => {
+            return match operation {
+                Op::SNegate => Some(a.wrapping_neg()),
+                Op::Not => Some(!a),
+                Op::LogicalNot => truth(a == 0),
+                Op::UConvert | Op::SConvert | Op::Bitcast => Some(a),
+                _ => None,
+            };
+        }
+        [a, b] => (a, b),
+        [condition, yes, no] if operation == Op::Select => {
+            return Some(if condition != 0 { yes } else { no });
+        }
+        _ => return None,
+    };
+    let (signed_a, signed_b) = (a as i32, b as i32);
     match operation {
-        op::I_ADD => Some(a.wrapping_add(b)),
-        op::I_SUB => Some(a.wrapping_sub(b)),
-        op::I_MUL => Some(a.wrapping_mul(b)),
-        op::U_DIV => a.checked_div(b),
-        op::S_DIV => signed_a.checked_div(signed_b).map(|it| it as u32),
-        op::U_MOD => a.checked_rem(b),
-        op::S_REM => signed_a.checked_rem(signed_b).map(|it| it as u32),
+        Op::IAdd => Some(a.wrapping_add(b)),
+        Op::ISub => Some(a.wrapping_sub(b)),
+        Op::IMul => Some(a.wrapping_mul(b)),
+        Op::UDiv => a.checked_div(b),
+        Op::SDiv => signed_a.checked_div(signed_b).map(|it| it as u32),
+        Op::UMod => a.checked_rem(b),
+        Op::SRem => signed_a.checked_rem(signed_b).map(|it| it as u32),
         // The result has the sign of the divisor.
-        op::S_MOD => {
+        Op::SMod => {
             let rest = signed_a.checked_rem(signed_b)?;
             let is_other = rest != 0 && (rest < 0) != (signed_b < 0);
             Some(rest.wrapping_add(if is_other { signed_b } else { 0 }) as u32)
         }
-        op::SHIFT_RIGHT_LOGICAL => a.checked_shr(b),
-        op::SHIFT_RIGHT_ARITHMETIC => signed_a.checked_shr(b).map(|it| it as u32),
-        op::SHIFT_LEFT_LOGICAL => a.checked_shl(b),
-        op::BITWISE_OR => Some(a | b),
-        op::BITWISE_XOR => Some(a ^ b),
-        op::BITWISE_AND => Some(a & b),
-        op::LOGICAL_OR => truth(a != 0 || b != 0),
-        op::LOGICAL_AND => truth(a != 0 && b != 0),
-        op::LOGICAL_EQUAL | op::I_EQUAL => truth(a == b),
-        op::LOGICAL_NOT_EQUAL | op::I_NOT_EQUAL => truth(a != b),
-        op::U_GREATER_THAN => truth(a > b),
-        op::S_GREATER_THAN => truth(signed_a > signed_b),
-        op::U_GREATER_THAN_EQUAL => truth(a >= b),
-        op::S_GREATER_THAN_EQUAL => truth(signed_a >= signed_b),
-        op::U_LESS_THAN => truth(a < b),
-        op::S_LESS_THAN => truth(signed_a < signed_b),
-        op::U_LESS_THAN_EQUAL => truth(a <= b),
-        op::S_LESS_THAN_EQUAL => truth(signed_a <= signed_b),
+        Op::ShiftRightLogical => a.checked_shr(b),
+        Op::ShiftRightArithmetic => signed_a.checked_shr(b).map(|it| it as u32),
+        Op::ShiftLeftLogical => a.checked_shl(b),
+        Op::BitwiseOr => Some(a | b),
+        Op::BitwiseXor => Some(a ^ b),
+        Op::BitwiseAnd => Some(a & b),
+        Op::LogicalOr => truth(a != 0 || b != 0),
+        Op::LogicalAnd => truth(a != 0 && b != 0),
+        Op::LogicalEqual | Op::IEqual => truth(a == b),
+        Op::LogicalNotEqual | Op::INotEqual => truth(a != b),
+        Op::UGreaterThan => truth(a > b),
+        Op::SGreaterThan => truth(signed_a > signed_b),
+        Op::UGreaterThanEqual => truth(a >= b),
+        Op::SGreaterThanEqual => truth(signed_a >= signed_b),
+        Op::ULessThan => truth(a < b),
+        Op::SLessThan => truth(signed_a < signed_b),
+        Op::ULessThanEqual => truth(a <= b),
+        Op::SLessThanEqual => truth(signed_a <= signed_b),
         _ => None,
     }
 }
@@ -326,26 +311,27 @@ mod tests {
     fn whole_numbers_are_computed_as_spir_v_says() {
         let minus = |value: i32| value as u32;
         for (operation, a, b, expected) in [
-            (op::I_SUB, 2, 5, Some(minus(-3))),
-            (op::S_DIV, minus(-7), 2, Some(minus(-3))),
-            (op::U_DIV, 7, 0, None),
-            (op::S_DIV, minus(i32::MIN), minus(-1), None),
-            (op::S_REM, minus(-7), 3, Some(minus(-1))),
-            (op::S_MOD, minus(-7), 3, Some(2)),
-            (op::S_MOD, 7, minus(-3), Some(minus(-2))),
-            (op::SHIFT_RIGHT_ARITHMETIC, minus(-8), 1, Some(minus(-4))),
-            (op::SHIFT_LEFT_LOGICAL, 1, 32, None),
-            (op::S_LESS_THAN, minus(-1), 1, Some(1)),
-            (op::U_LESS_THAN, minus(-1), 1, Some(0)),
-            (op::LOGICAL_AND, 1, 0, Some(0)),
-            (op::SELECT, 1, 0, None),
+            (Op::ISub, 2, 5, Some(minus(-3))),
+            (Op::SDiv, minus(-7), 2, Some(minus(-3))),
+            (Op::UDiv, 7, 0, None),
+            (Op::SDiv, minus(i32::MIN), minus(-1), None),
+            (Op::SRem, minus(-7), 3, Some(minus(-1))),
+            (Op::SMod, minus(-7), 3, Some(2)),
+            (Op::SMod, 7, minus(-3), Some(minus(-2))),
+            (Op::ShiftRightArithmetic, minus(-8), 1, Some(minus(-4))),
+            (Op::ShiftLeftLogical, 1, 32, None),
+            (Op::SLessThan, minus(-1), 1, Some(1)),
+            (Op::ULessThan, minus(-1), 1, Some(0)),
+            (Op::LogicalAnd, 1, 0, Some(0)),
+            (Op::Select, 1, 0, None),
         ] {
             assert_eq!(
-                compute_two(operation, a, b),
+                compute(operation, &[a, b]),
                 expected,
-                "{operation}: {a}, {b}"
+                "{operation:?}: {a}, {b}"
             );
         }
-        assert_eq!(compute_one(op::S_NEGATE, 3), Some(minus(-3)));
+        assert_eq!(compute(Op::SNegate, &[3]), Some(minus(-3)));
+        assert_eq!(compute(Op::Select, &[0, 5, 7]), Some(7));
     }
 }

@@ -8,9 +8,11 @@ use wgpu::naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use wgpu::naga::{Module, ScalarKind, ShaderStage};
 
 use super::constants::refuse_missing;
-use super::{Language, explain, refuse};
+use super::language::Language;
+use super::module::find_language;
 use crate::FilterError;
 use crate::filter::{PassShader, Stage};
+use crate::printable::explain;
 use crate::shader::CAPABILITIES;
 
 /// Validates a module.
@@ -19,12 +21,11 @@ pub(super) fn validate(path: &Path, module: &Module) -> Result<ModuleInfo, Filte
     Validator::new(ValidationFlags::all(), capabilities)
         .validate(module)
         .map_err(|error| {
-            refuse(
+            let reason = explain(error.as_inner());
+            FilterError::in_file(
                 path,
-                format!(
-                    "is not valid once translated: {}",
-                    explain(error.as_inner())
-                ),
+                None,
+                format!("is not valid once translated: {reason}"),
             )
         })
 }
@@ -48,8 +49,9 @@ pub(super) fn keep_entry_point(
         .retain(|entry| entry.name == shader.entry && entry.stage == stage);
     match module.entry_points.len() {
         1 => Ok(()),
-        _ => Err(refuse(
+        _ => Err(FilterError::in_file(
             path,
+            None,
             format!(
                 "has no {} entry point \"{}\"; it has: {}; filter.toml names it with {}",
                 name_stage(stage),
@@ -75,8 +77,10 @@ pub(super) fn set_constants(
     module: &mut Module,
     given: &[(String, f64)],
 ) -> Result<(), FilterError> {
-    let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
-    if !matches!(language, Language::Wgsl | Language::Wesl) {
+    if !matches!(
+        find_language(shader, path)?,
+        Language::Wgsl | Language::Wesl
+    ) {
         // SPIR-V got them before it was read.
         return Ok(());
     }
@@ -95,7 +99,8 @@ pub(super) fn set_constants(
             let constants = module.overrides.iter().map(|(_, constant)| constant);
             let known = constants.filter_map(|it| it.name.clone().or(numbered(it.id)));
             let known: Vec<String> = known.collect();
-            return Err(refuse(path, refuse_missing(name, &known)));
+            let reason = refuse_missing(name, &known);
+            return Err(FilterError::in_file(path, None, reason));
         };
         let scalar = module.types[constant.ty].inner.scalar();
         let value = match scalar.is_some_and(|scalar| scalar.kind != ScalarKind::Float) {
@@ -108,8 +113,9 @@ pub(super) fn set_constants(
     let info = validate(path, module)?;
     let set = process_overrides(module, &info, None, &set);
     let set = set.map_err(|error| {
-        refuse(
+        FilterError::in_file(
             path,
+            None,
             format!(
                 "specialisation constants: {}; `constants` of the pass sets them",
                 explain(&error)

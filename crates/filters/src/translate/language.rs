@@ -28,7 +28,7 @@ const ENDINGS: [(&str, Language); 10] = [
 ];
 
 impl Language {
-    /// Tells the language of a file; fails with what is allowed.
+    /// Finds the language of a file; fails with what is allowed.
     pub fn of(file: &Path) -> Result<Self, String> {
         let ending = file.extension().and_then(|ending| ending.to_str());
         let known = ENDINGS.iter().find(|(known, _)| Some(*known) == ending);
@@ -43,17 +43,6 @@ impl Language {
                 allowed.join(", ")
             )
         })
-    }
-
-    /// Names the programs that compile it, the best first; none for a language that needs no compiler.
-    pub fn compilers(self) -> &'static [&'static str] {
-        match self {
-            Self::Glsl => &["glslangValidator"],
-            Self::Slang => &["slangc"],
-            Self::Hlsl => &["slangc", "dxc", "glslangValidator"],
-            Self::Wesl => &["wesl"],
-            Self::Spirv | Self::Wgsl => &[],
-        }
     }
 
     /// Names the language in messages.

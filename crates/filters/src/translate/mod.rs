@@ -12,11 +12,8 @@ mod constants;
 #[cfg(test)]
 mod deep;
 mod entry;
-mod fallback;
-mod formats;
 mod includes;
 mod language;
-mod levels;
 mod matrices;
 mod members;
 mod module;
@@ -30,94 +27,77 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::filter::PassShader;
-use crate::shader::{Shader, run_on_large_stack};
+use crate::printable::escape_controls;
+use crate::shader::{Shader, run_on_large_stack, try_each};
 use crate::{Filter, FilterError, Settings};
 use bind::{bind, check_places};
 use compile::list_installed;
-use fallback::try_each;
-use module::{OpenModule, compile_shader, read};
+use compiler::Compiler;
+use module::{OpenModule, compile_shader, find_language, read};
 
-pub(crate) use fallback::CompiledBy;
 pub(crate) use language::Language;
-pub(crate) use sources::stays_below;
-
-/// Largest shader that is read, in bytes.
-pub(crate) const MAX_SHADER_BYTES: u64 = compiler::MAX_MODULE_BYTES;
+pub(crate) use sources::{MAX_MODULE_BYTES, stays_below};
+pub(crate) use textures::check_texture;
 
 /// Function that reads a file of the filter's folder: its path, and its bytes.
 pub(crate) type ReadFile<'a> = dyn Fn(&Path) -> Result<(PathBuf, Vec<u8>), FilterError> + 'a;
 
-/// Shaders of a pass: its own, and that of its vertex stage if it names one.
-pub(crate) struct Translated {
-    pub shader: Shader,
-    pub vertex: Option<Shader>,
-}
-
-/// Translates the shaders of a pass with the specialisation constants of its first preset.
+/// Translates the stages of a pass with the specialisation constants of its first preset.
 pub(crate) fn translate(
     filter: &Filter,
     shader: &PassShader,
     read_file: &ReadFile,
-) -> Result<Translated, FilterError> {
-    let (path, bytes) = read_file(&shader.file)?;
-    let vertex = shader.vertex_stage();
-    let vertex = vertex.map(|stage| Ok::<_, FilterError>((read_file(&stage.file)?, stage)));
-    let vertex = vertex.transpose()?;
-    let own = (path.as_path(), &bytes[..]);
-    let vertex = vertex.as_ref();
-    let vertex = vertex.map(|((path, bytes), stage)| ((path.as_path(), &bytes[..]), stage));
-    let attempt = |compiler| {
-        guard(&path, || {
-            translate_with(filter, (shader, own), vertex, compiler)
-        })
-    };
-    let language = Language::of(&shader.file).map_err(|reason| refuse(&path, reason))?;
+) -> Result<Vec<Shader>, FilterError> {
+    let stages = shader.stages().into_iter().map(|stage| {
+        let (path, bytes) = read_file(&stage.file)?;
+        Ok(Stage { stage, path, bytes })
+    });
+    let stages = stages.collect::<Result<Vec<_>, FilterError>>()?;
+    let path = &stages[0].path;
+    let attempt = |compiler| guard(path, || translate_with(filter, &stages, compiler));
+    let language = find_language(shader, path)?;
     if language.compilers().is_empty() {
         return attempt(None);
     }
-    let installed = list_installed(language, shader, &path)?;
-    let (mut made, compiled_by) = try_each(&installed, |program| attempt(Some(program)))?;
-    made.shader.compiled_by = Some(compiled_by);
+    let installed = list_installed(language, shader, path)?;
+    let installed = installed.into_iter().map(|it| (it.program, it));
+    let (mut made, by) = try_each(installed, |compiler| attempt(Some(compiler)))?;
+    made[0].compiled_by = Some(by);
     Ok(made)
 }
 
-/// Path and bytes of a shader.
-type File<'f> = (&'f Path, &'f [u8]);
+/// A stage of a pass, and the file of its shader.
+struct Stage {
+    stage: PassShader,
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
 
-/// Translates the shaders of a pass by one compiler, if their language needs one.
+/// Translates the stages of a pass by one compiler, if their language needs one.
 fn translate_with(
     filter: &Filter,
-    (shader, (path, bytes)): (&PassShader, File),
-    vertex: Option<(File, &PassShader)>,
-    compiler: Option<&str>,
-) -> Result<Translated, FilterError> {
+    stages: &[Stage],
+    compiler: Option<&Compiler>,
+) -> Result<Vec<Shader>, FilterError> {
+    let shader = &stages[0].stage;
     let constants = list_constants(filter, shader, &filter.settings(None)?);
-    let compile = |stage: &PassShader, (path, bytes): File| {
+    let compile = |Stage { stage, path, bytes }: &Stage| {
         let compiled = compile_shader(filter, stage, path, bytes, compiler)?;
         let open = read(filter, stage, path, &compiled, &constants)?;
-        Ok::<_, FilterError>((compiled, open))
+        Ok((compiled, open))
     };
-    let own = compile(shader, (path, bytes))?;
-    let vertex = vertex
-        .map(|(file, stage)| Ok((compile(stage, file)?, file.0, stage)))
-        .transpose()?;
-    let corners = vertex.as_ref().map(|((_, open), ..)| open);
-    let stages: Vec<&OpenModule> = [&own.1].into_iter().chain(corners).collect();
-    check_places(filter, shader, path, &stages)?;
+    let made = (stages.iter().map(compile)).collect::<Result<Vec<_>, FilterError>>()?;
+    let modules: Vec<&OpenModule> = made.iter().map(|(_, open)| open).collect();
+    check_places(filter, shader, &stages[0].path, &modules)?;
     // Kept where a parameter changes the module.
     let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
-    let bind_stage = |(compiled, open), path: &Path, stage: &PassShader| {
-        let bound = bind(filter, stage, path, open, &constants)?;
-        Ok::<_, FilterError>(Shader {
+    let bound = stages.iter().zip(made).map(|(stage, (compiled, open))| {
+        Ok(Shader {
             compiled: is_open.then(|| Arc::new(compiled)),
-            ..bound
+            ..bind(filter, &stage.stage, &stage.path, open, &constants)?
         })
-    };
-    let vertex = vertex.map(|(made, path, stage)| bind_stage(made, path, stage));
-    Ok(Translated {
-        vertex: vertex.transpose()?,
-        shader: bind_stage(own, path, shader)?,
-    })
+    });
+    bound.collect()
 }
 
 /// Makes a translated shader again, with the specialisation constants of settings.
@@ -134,9 +114,9 @@ pub(crate) fn specialise(
         let constants = list_constants(filter, shader, settings);
         let open = read(filter, shader, &made.path, compiled, &constants)?;
         let bound = bind(filter, shader, &made.path, open, &constants)?;
-        let kept = |name: &str, format| made.stored_format(name).unwrap_or(format);
+        let format_of = |name: &str, format| made.stored_format(name).unwrap_or(format);
         Ok(bound
-            .store_as(&kept)
+            .store_as(&format_of)
             .expect("it stored so with other constants"))
     })?;
     Ok(Shader {
@@ -165,32 +145,13 @@ fn guard<T: Send>(
     work: impl FnOnce() -> Result<T, FilterError> + Send,
 ) -> Result<T, FilterError> {
     run_on_large_stack(work).unwrap_or_else(|panic| {
-        Err(refuse(
+        let panic = escape_controls(&panic);
+        Err(FilterError::in_file(
             path,
+            None,
             format!(
-                "naga, which translates it, fails on it: {}; write it otherwise, or make it smaller",
-                crate::printable::escape_controls(&panic)
+                "naga, which translates it, fails on it: {panic}; write it otherwise, or make it smaller"
             ),
         ))
     })
-}
-
-/// Makes an error that names a shader.
-fn refuse(path: &Path, reason: String) -> FilterError {
-    FilterError::Folder {
-        path: path.to_owned(),
-        line: None,
-        reason,
-    }
-}
-
-/// Joins the messages of an error and of its causes.
-fn explain(error: &dyn std::error::Error) -> String {
-    let mut said = error.to_string();
-    let mut cause = error.source();
-    while let Some(inner) = cause {
-        said += &format!(": {inner}");
-        cause = inner.source();
-    }
-    crate::printable::escape_controls(&said.replace('\n', " "))
 }

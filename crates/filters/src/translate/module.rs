@@ -7,14 +7,14 @@ use wgpu::naga::{AddressSpace, Module, ResourceBinding, front};
 
 use super::combined::split_combined_samplers;
 use super::compile::{compile, list_installed};
+use super::compiler::Compiler;
 use super::constants::set_constants;
-use super::formats::give_formats;
-use super::levels::name_levels;
+use super::language::Language;
 use super::matrices::find_by_rows;
-use super::storage::{narrow_storage_access, split_images};
+use super::storage::StorageImages;
 use super::words::{Place, Words};
-use super::{Language, explain, refuse};
 use crate::filter::{BindingPlace, PassShader, Stage};
+use crate::printable::explain;
 use crate::shader::{parse_wgsl, tidy, written_texture};
 use crate::{Filter, FilterError, Format};
 
@@ -22,9 +22,19 @@ use crate::{Filter, FilterError, Format};
 pub(super) struct OpenModule {
     pub module: Module,
     /// Places of variables that were split from others, each with the place of the other.
-    pub owners: BTreeMap<Place, Place>,
+    pub owners: BTreeMap<BindingPlace, BindingPlace>,
     /// Names and offsets of members that hold the rows of a matrix one after the other.
     pub by_rows: BTreeSet<(String, u32)>,
+}
+
+impl From<Module> for OpenModule {
+    fn from(module: Module) -> Self {
+        Self {
+            module,
+            owners: BTreeMap::new(),
+            by_rows: BTreeSet::new(),
+        }
+    }
 }
 
 /// Place of the block of push constants. It is a uniform block here, and naga knows push constants only up to 256 bytes.
@@ -40,28 +50,27 @@ pub(super) fn compile_shader(
     shader: &PassShader,
     path: &Path,
     bytes: &[u8],
-    compiler: Option<&str>,
+    compiler: Option<&Compiler>,
 ) -> Result<Vec<u8>, FilterError> {
-    let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
+    let language = find_language(shader, path)?;
     if language == Language::Spirv {
         return Ok(bytes.to_vec());
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let place = error.valid_up_to();
-        refuse(
-            path,
-            format!("is not UTF-8 from byte {place} on; save it as UTF-8"),
-        )
+        let reason = format!("is not UTF-8 from byte {place} on; save it as UTF-8");
+        FilterError::in_file(path, None, reason)
     })?;
+    if language == Language::Wgsl {
+        return Ok(bytes.to_vec());
+    }
     let folder = match filter.lines.path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
-    if language == Language::Wgsl {
-        return Ok(bytes.to_vec());
-    }
     let installed = list_installed(language, shader, path)?;
-    let compiler = compiler.filter(|compiler| installed.contains(compiler));
+    let is_known = |known: &&Compiler| compiler.is_some_and(|it| it.program == known.program);
+    let compiler = installed.iter().copied().find(is_known);
     let compiler = compiler.unwrap_or(installed[0]);
     let text = match language {
         Language::Glsl => without_stage_line(text),
@@ -78,36 +87,17 @@ pub(super) fn read(
     compiled: &[u8],
     constants: &[(String, f64)],
 ) -> Result<OpenModule, FilterError> {
-    let language = Language::of(&shader.file).map_err(|reason| refuse(path, reason))?;
-    let from_wgsl = |module| OpenModule {
-        module,
-        owners: BTreeMap::new(),
-        by_rows: BTreeSet::new(),
-    };
-    let wgsl = || String::from_utf8_lossy(compiled);
-    let mut open = match language {
-        Language::Wgsl => parse_wgsl(path, &wgsl()).map(from_wgsl),
-        Language::Wesl => parse_wgsl(path, &wgsl())
-            .map(from_wgsl)
-            .map_err(|error| in_compiled(path, &error)),
-        Language::Spirv | Language::Glsl | Language::Slang | Language::Hlsl => {
-            let mut words = Words::read(compiled).map_err(|reason| refuse(path, reason))?;
+    let wgsl = || parse_wgsl(path, &String::from_utf8_lossy(compiled));
+    let mut open = match find_language(shader, path)? {
+        Language::Wgsl => OpenModule::from(wgsl()?),
+        Language::Wesl => OpenModule::from(wgsl().map_err(|error| in_compiled(path, &error))?),
+        language => {
+            let choose = |place, name: &str| find_stored_format(filter, shader, place, name);
             let is_vertex = shader.stage == Stage::Vertex;
-            set_constants(&mut words, constants, is_vertex)
-                .map_err(|reason| refuse(path, reason))?;
-            let unsaid = matches!(language, Language::Hlsl | Language::Slang);
-            let stored = |place, name: &str| find_stored_format(filter, shader, place, name);
-            let by_rows = find_by_rows(&words, language);
-            let give = |words: &mut Words| give_formats(words, unsaid, &stored);
-            // Clip space of Vulkan has +y down, that of HLSL and of Slang up.
-            let (module, owners) = read_spirv(path, words, is_vertex && !unsaid, &give)?;
-            Ok(OpenModule {
-                module,
-                owners,
-                by_rows,
-            })
+            read_spirv(compiled, language, is_vertex, constants, choose)
+                .map_err(|reason| FilterError::in_file(path, None, reason))?
         }
-    }?;
+    };
     for (_, variable) in open.module.global_variables.iter_mut() {
         if variable.space == AddressSpace::Immediate {
             variable.space = AddressSpace::Uniform;
@@ -115,6 +105,11 @@ pub(super) fn read(
         }
     }
     Ok(open)
+}
+
+/// Finds the language of a shader.
+pub(super) fn find_language(shader: &PassShader, path: &Path) -> Result<Language, FilterError> {
+    Language::of(&shader.file).map_err(|reason| FilterError::in_file(path, None, reason))
 }
 
 /// Finds the format in which filter.toml has the texture that a shader stores to; none for a texture that it does not name.
@@ -132,15 +127,9 @@ fn find_stored_format(
     });
     let texture = explained.and_then(|binding| binding.texture.as_deref());
     let texture = texture.unwrap_or_else(|| written_texture(name));
-    let declared = filter.textures.iter().find(|it| it.name == texture);
-    match (declared, texture) {
+    match (filter.texture(texture), texture) {
         (Some(declared), _) => Some(declared.format),
-        (None, "output") => Some(
-            filter
-                .convention
-                .output_format
-                .unwrap_or(Format::Rgba32Float),
-        ),
+        (None, "output") => Some(filter.convention.format_of("output")),
         _ => None,
     }
 }
@@ -148,10 +137,11 @@ fn find_stored_format(
 /// Explains an error in the WGSL that WESL became, whose lines are not those of the file.
 fn in_compiled(path: &Path, error: &FilterError) -> FilterError {
     let reason = match error {
-        FilterError::Kernels { reason, .. } | FilterError::Folder { reason, .. } => reason.clone(),
+        FilterError::Folder { reason, .. } => reason.clone(),
         other => other.to_string(),
     };
-    refuse(path, format!("after its imports and conditions: {reason}"))
+    let reason = format!("after its imports and conditions: {reason}");
+    FilterError::in_file(path, None, reason)
 }
 
 /// Blanks the line `#[compute]` that Godot puts before its shaders; the numbers of lines hold.
@@ -166,29 +156,41 @@ fn without_stage_line(text: &str) -> String {
     }
 }
 
+/// Reads SPIR-V. `choose` finds the format that filter.toml has for the image at a place and with a name.
 fn read_spirv(
-    path: &Path,
-    mut words: Words,
-    is_flipped: bool,
-    give_formats: &dyn Fn(&mut Words),
-) -> Result<(Module, BTreeMap<Place, Place>), FilterError> {
-    let mut owners = split_combined_samplers(&mut words).map_err(|reason| refuse(path, reason))?;
-    owners.extend(split_images(&mut words));
-    narrow_storage_access(&mut words);
-    name_levels(&mut words);
-    give_formats(&mut words);
+    compiled: &[u8],
+    language: Language,
+    is_vertex: bool,
+    constants: &[(String, f64)],
+    choose: impl Fn(Place, &str) -> Option<Format>,
+) -> Result<OpenModule, String> {
+    let mut words = Words::read(compiled)?;
+    set_constants(&mut words, constants, is_vertex)?;
+    let by_rows = find_by_rows(&words, language);
+    let mut owners = split_combined_samplers(&mut words)?;
+    let images = StorageImages::prepare(&mut words);
+    let is_hlsl = matches!(language, Language::Hlsl | Language::Slang);
     let options = front::spv::Options {
-        adjust_coordinate_space: is_flipped,
+        // Clip space of Vulkan has +y down, that of HLSL and of Slang up.
+        adjust_coordinate_space: is_vertex && !is_hlsl,
         ..front::spv::Options::default()
     };
-    let module = front::spv::parse_u8_slice(&words.write(), &options).map_err(|error| {
-        refuse(
-            path,
-            format!(
-                "its SPIR-V cannot be read: {}; allowed: the SPIR-V of Vulkan 1.1 shaders without extensions",
-                tidy(&explain(&error))
-            ),
+    let module = front::spv::parse_u8_slice(&words.write(), &options);
+    let mut module = module.map_err(|error| {
+        format!(
+            "its SPIR-V cannot be read: {}; allowed: the SPIR-V of Vulkan 1.1 shaders without extensions",
+            tidy(&explain(&error))
         )
     })?;
-    Ok((module, owners))
+    images.narrow(&mut module, |place, name, is_open| {
+        choose(place, name).filter(|_| is_hlsl || is_open)
+    });
+    owners.extend(images.owners);
+    let bound = |(group, binding): Place| BindingPlace::Bound { group, binding };
+    let owners = owners.into_iter();
+    Ok(OpenModule {
+        module,
+        owners: (owners.map(|(split, owner)| (bound(split), bound(owner)))).collect(),
+        by_rows,
+    })
 }

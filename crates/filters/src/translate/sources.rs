@@ -5,12 +5,14 @@ use std::path::{Component, Path, PathBuf};
 
 use frame::read_bounded;
 
-use super::Language;
 use super::closed::check_closed;
-use super::compiler::MAX_MODULE_BYTES;
 use super::includes::{list_includes, make_plain};
+use super::language::Language;
 use super::packages::name_packages;
 use crate::FilterError;
+
+/// Largest shader or module that is read, in bytes.
+pub(crate) const MAX_MODULE_BYTES: u64 = 4 << 20;
 
 /// Upper limit on files of one shader.
 const MAX_FILES: usize = 256;
@@ -18,45 +20,48 @@ const MAX_FILES: usize = 256;
 /// Upper limit on folders within one another that modules are looked for in.
 const MAX_DEPTH: usize = 8;
 
-/// Texts by their paths in the filter's folder.
-pub(super) struct Sources {
+/// Texts of a shader and of what it needs.
+pub(super) struct Sources<'a> {
+    /// The filter's folder.
+    folder: &'a Path,
+    language: Language,
     /// The shader itself.
     pub shader: PathBuf,
+    /// Texts by their paths in the folder.
     pub texts: BTreeMap<PathBuf, String>,
 }
 
-impl Sources {
+impl<'a> Sources<'a> {
     /// Reads what the shader in `file` of a filter's folder needs. `text` is its own.
     pub fn collect(
-        folder: &Path,
+        folder: &'a Path,
         file: &Path,
         text: &str,
         language: Language,
     ) -> Result<Self, FilterError> {
-        let mut collector = Collector {
+        let is_name = |part: &Component| matches!(part, Component::Normal(_));
+        let shader: PathBuf = file.components().filter(is_name).collect();
+        let base = folder_of(&shader).to_owned();
+        let mut sources = Sources {
             folder,
             language,
             texts: BTreeMap::new(),
+            shader: shader.clone(),
         };
-        let file: PathBuf = file.components().filter(is_name).collect();
-        let base = file.parent().unwrap_or(Path::new("")).to_owned();
         let endings: &[&str] = match language {
             Language::Slang => &["slang"],
             Language::Wesl => &["wesl", "wgsl"],
             _ => &[],
         };
         if !endings.is_empty() {
-            collector.add_modules(&base, endings, 0)?;
+            sources.add_modules(&base, endings, 0)?;
         }
-        collector.texts.insert(file.clone(), text.to_owned());
+        sources.texts.insert(shader, text.to_owned());
         match language {
-            Language::Wesl => name_packages(&base, &mut collector.texts),
-            _ => collector.resolve_all(&base)?,
+            Language::Wesl => name_packages(&base, &mut sources.texts),
+            _ => sources.resolve_all(&base)?,
         }
-        Ok(Self {
-            shader: file,
-            texts: collector.texts,
-        })
+        Ok(sources)
     }
 
     /// Writes all files below a folder.
@@ -67,19 +72,7 @@ impl Sources {
             std::fs::write(path, text)
         })
     }
-}
 
-fn is_name(part: &Component) -> bool {
-    matches!(part, Component::Normal(_))
-}
-
-struct Collector<'a> {
-    folder: &'a Path,
-    language: Language,
-    texts: BTreeMap<PathBuf, String>,
-}
-
-impl Collector<'_> {
     /// Resolves what each file names, and adds what is new, until there is nothing new.
     fn resolve_all(&mut self, base: &Path) -> Result<(), FilterError> {
         let mut waiting: Vec<PathBuf> = self.texts.keys().cloned().collect();
@@ -108,7 +101,7 @@ impl Collector<'_> {
         let mut lines: Vec<String> = text.split('\n').map(str::to_owned).collect();
         let (mut resolved, mut places) = (Vec::new(), Vec::new());
         for include in list_includes(text) {
-            let refuse = |reason: String| self.refuse_line(file, include.line, reason);
+            let refuse = |reason: String| self.refuse(file, include.line, reason);
             let Some(path) = include.path.as_deref() else {
                 return Err(refuse(
                     "#include names its file by a macro; allowed: the path itself, in quotes"
@@ -155,7 +148,7 @@ impl Collector<'_> {
         }
         let text = lines.join("\n");
         check_closed(&text, self.language, &resolved)
-            .map_err(|(line, reason)| self.refuse_line(file, line, reason))?;
+            .map_err(|(line, reason)| self.refuse(file, line, reason))?;
         Ok((text, places))
     }
 
@@ -166,12 +159,13 @@ impl Collector<'_> {
         )
     }
 
-    fn refuse_line(&self, file: &Path, line: usize, reason: String) -> FilterError {
-        FilterError::Folder {
-            path: self.folder.join(file),
-            line: Some(line),
-            reason,
-        }
+    fn refuse(
+        &self,
+        place: &Path,
+        line: impl Into<Option<usize>>,
+        reason: impl Into<String>,
+    ) -> FilterError {
+        FilterError::in_file(&self.folder.join(place), line, reason)
     }
 
     /// Finds a file beside the one that names it, or beside the shader; none where neither is there. A module may go without its
@@ -209,7 +203,7 @@ impl Collector<'_> {
         let path = self.folder.join(below);
         let listed = std::fs::read_dir(&path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
         let mut entries =
-            listed.map_err(|error| self.refuse(below, format!("cannot be read: {error}")))?;
+            listed.map_err(|error| self.refuse(below, None, format!("cannot be read: {error}")))?;
         entries.sort_by_key(std::fs::DirEntry::file_name);
         for entry in entries {
             let name = below.join(entry.file_name());
@@ -219,7 +213,8 @@ impl Collector<'_> {
                 if !stays_below(self.folder, &path) {
                     return Err(self.refuse(
                         &name,
-                        "is a link to a file outside of the filter's folder; copy the file in its place".into(),
+                        None,
+                        "is a link to a file outside of the filter's folder; copy the file in its place",
                     ));
                 }
                 self.read(&name)?;
@@ -232,27 +227,20 @@ impl Collector<'_> {
 
     fn read(&mut self, place: &Path) -> Result<(), FilterError> {
         let bytes = read_bounded(&self.folder.join(place), MAX_MODULE_BYTES)
-            .map_err(|error| self.refuse(place, error.to_string()))?;
+            .map_err(|error| self.refuse(place, None, error.to_string()))?;
         let text = String::from_utf8(bytes)
-            .map_err(|_| self.refuse(place, "is not UTF-8; save it as UTF-8".into()))?;
+            .map_err(|_| self.refuse(place, None, "is not UTF-8; save it as UTF-8"))?;
         self.texts.insert(place.to_owned(), text);
         match self.texts.len() > MAX_FILES {
             true => Err(self.refuse(
                 place,
+                None,
                 format!(
                     "is one of more than {MAX_FILES} files of a shader in {}; leave files out that it does not need",
                     self.language.name()
                 ),
             )),
             false => Ok(()),
-        }
-    }
-
-    fn refuse(&self, place: &Path, reason: String) -> FilterError {
-        FilterError::Folder {
-            path: self.folder.join(place),
-            line: None,
-            reason,
         }
     }
 }

@@ -2,12 +2,20 @@
 //!
 //! GLSL often leaves `readonly` and `writeonly` out, and WebGPU lets few formats be read and written at once. An image that is only
 //! written is declared so. One that is only read becomes a sampled texture, which every format can be. One that is both becomes two
-//! variables first: what is read is what it held before the pass.
+//! variables first: what is read is what it held before the pass. HLSL and Slang do not say in which format an image is stored, and
+//! their compilers leave it out or guess; filter.toml knows.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::levels::LOD;
-use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words, decoration, op};
+use spirv::{Capability, Decoration, ImageFormat, ImageOperands, Op};
+use wgpu::naga::{ImageClass, Module, Scalar, Span, StorageAccess, Type, TypeInner};
+
+use super::words::{Instruction, Place, UNIFORM_CONSTANT, Words};
+use crate::Format;
+
+/// Operand of an image type that is 2 for storage images, and that of its format.
+const SAMPLED: usize = 6;
+const FORMAT: usize = 7;
 
 /// Uses of one storage image.
 #[derive(Clone, Copy, Default)]
@@ -16,55 +24,134 @@ struct Uses {
     writes: bool,
     /// Uses that the narrowing does not understand, such as passing it to a function.
     others: bool,
+    /// True if the shader leaves its format open.
+    is_open: bool,
 }
 
-/// Narrows the access to every storage image.
-pub(super) fn narrow_storage_access(words: &mut Words) {
-    let (storage_types, variables) = find_images(words);
-    let uses = find_uses(words, &variables);
-    let written = |uses: &Uses| uses.writes && !uses.reads && !uses.others;
-    let read = |uses: &Uses| uses.reads && !uses.writes && !uses.others;
-    let only = |is: &dyn Fn(&Uses) -> bool| -> BTreeSet<u32> {
-        let chosen = uses.iter().filter(|(_, uses)| is(uses));
-        chosen.map(|(variable, _)| *variable).collect()
-    };
-    declare_written(words, &only(&written));
-    sample_read(words, &only(&read), &variables, &storage_types);
+/// Storage images of a module, and what it does with them.
+pub(super) struct StorageImages {
+    uses: BTreeMap<Place, Uses>,
+    /// Places of images that were split from others, each with the place of the other.
+    pub owners: BTreeMap<Place, Place>,
 }
 
-/// Finds the types of storage images, and the variables of these types.
-fn find_images(words: &Words) -> (BTreeMap<u32, Instruction>, BTreeMap<u32, u32>) {
-    let storage_types: BTreeMap<u32, Instruction> = (words.instructions.iter())
-        .filter(|it| it.opcode == op::TYPE_IMAGE && it.operands.get(6) == Some(&2))
-        .map(|it| (it.operands[0], it.clone()))
+impl StorageImages {
+    /// Splits images that are read and written, and makes naga accept those that are only read and those without a format.
+    pub fn prepare(words: &mut Words) -> Self {
+        let owners = split_images(words);
+        let open = fill_formats(words);
+        let variables = find_variables(words);
+        let (mut uses, loaded) = find_uses(words, &variables);
+        for (variable, image) in &variables {
+            uses.entry(*variable).or_default().is_open = open.contains(image);
+        }
+        let is_read = |variable: &u32| uses[variable].reads && !uses[variable].writes;
+        let read = loaded.iter().filter(|(_, variable)| is_read(variable));
+        name_levels(words, &read.map(|(image, _)| *image).collect());
+        let places = words.find_places();
+        let placed = uses.into_iter();
+        Self {
+            uses: (placed.filter_map(|(variable, uses)| Some((*places.get(&variable)?, uses))))
+                .collect(),
+            owners,
+        }
+    }
+
+    /// Narrows the variables of the module that naga made. `choose` finds the format of the image at a place and with a name, whose
+    /// own may be open.
+    pub fn narrow(
+        &self,
+        module: &mut Module,
+        choose: impl Fn(Place, &str, bool) -> Option<Format>,
+    ) {
+        for (_, variable) in module.global_variables.iter_mut() {
+            let place = variable.binding.map(|it| (it.group, it.binding));
+            let Some((place, uses)) = place.and_then(|place| Some((place, self.uses.get(&place)?)))
+            else {
+                continue;
+            };
+            let Type { name, mut inner } = module.types[variable.ty].clone();
+            let TypeInner::Image { class, .. } = &mut inner else {
+                continue;
+            };
+            let ImageClass::Storage { format, access } = *class else {
+                continue;
+            };
+            let is_only = [uses.reads, uses.writes, uses.others];
+            let called = variable.name.as_deref().unwrap_or_default();
+            *class = match is_only {
+                [true, false, false] => ImageClass::Sampled {
+                    kind: Scalar::from(format).kind,
+                    multi: false,
+                },
+                [.., others] => ImageClass::Storage {
+                    format: choose(place, called, uses.is_open).map_or(format, Format::stored),
+                    access: match (uses.reads, others) {
+                        (false, false) => StorageAccess::STORE,
+                        _ => access,
+                    },
+                },
+            };
+            variable.ty = module.types.insert(Type { name, inner }, Span::UNDEFINED);
+        }
+    }
+}
+
+/// Finds the variables that are storage images, each with its image type.
+fn find_variables(words: &Words) -> BTreeMap<u32, u32> {
+    let images: BTreeSet<u32> = (words.instructions.iter())
+        .filter(|it| it.op == Op::TypeImage && it.operands.get(SAMPLED) == Some(&2))
+        .map(|it| it.operands[0])
         .collect();
-    let pointers: BTreeMap<u32, u32> = (words.all(op::TYPE_POINTER))
-        .filter(|[_, class, image]| *class == UNIFORM_CONSTANT && storage_types.contains_key(image))
+    let pointers: BTreeMap<u32, u32> = (words.all(Op::TypePointer))
+        .filter(|[_, class, image]| *class == UNIFORM_CONSTANT && images.contains(image))
         .map(|[pointer, _, image]| (pointer, image))
         .collect();
-    // Image types of the variables.
-    let variables: BTreeMap<u32, u32> = (words.all(op::VARIABLE))
+    (words.all(Op::Variable))
         .filter_map(|[pointer, variable]| Some((variable, *pointers.get(&pointer)?)))
+        .collect()
+}
+
+/// Gives image types without a format one of the same numbers; returns their ids.
+fn fill_formats(words: &mut Words) -> BTreeSet<u32> {
+    // Nothing needs these once all have a format.
+    let without = [
+        Capability::StorageImageReadWithoutFormat as u32,
+        Capability::StorageImageWriteWithoutFormat as u32,
+    ];
+    (words.instructions).retain(|it| {
+        it.op != Op::Capability || !it.operands.iter().any(|needed| without.contains(needed))
+    });
+    let integers: BTreeMap<u32, ImageFormat> = (words.all(Op::TypeInt))
+        .map(|[id, _, signed]| match signed {
+            0 => (id, ImageFormat::R32ui),
+            _ => (id, ImageFormat::R32i),
+        })
         .collect();
-    (storage_types, variables)
+    let mut open = BTreeSet::new();
+    for instruction in &mut words.instructions {
+        if let (Op::TypeImage, [id, texel, .., format @ 0]) = (
+            instruction.op,
+            instruction.operands.get_mut(..=FORMAT).unwrap_or_default(),
+        ) {
+            *format = *integers.get(texel).unwrap_or(&ImageFormat::Rgba32f) as u32;
+            open.insert(*id);
+        }
+    }
+    open
 }
 
 /// Splits images that a kernel both reads and writes in two variables. Returns the places of those that are read, each with the
 /// place of the one that is written.
-pub(super) fn split_images(words: &mut Words) -> BTreeMap<Place, Place> {
-    let (_, variables) = find_images(words);
-    let uses = find_uses(words, &variables);
-    let read: BTreeSet<u32> = (words.all(op::IMAGE_READ))
+fn split_images(words: &mut Words) -> BTreeMap<Place, Place> {
+    let (uses, loaded) = find_uses(words, &find_variables(words));
+    let read: BTreeSet<u32> = (words.all(Op::ImageRead))
         .map(|[_, _, image]| image)
         .collect();
     // A load that serves both stays whole.
-    let shared: BTreeSet<u32> = (words.all(op::IMAGE_WRITE))
-        .map(|[image]| image)
-        .filter(|image| read.contains(image))
-        .collect();
-    let shared: BTreeSet<u32> = (words.all(op::LOAD))
-        .filter(|[_, image, _]| shared.contains(image))
-        .map(|[_, _, variable]| variable)
+    let shared: BTreeSet<u32> = (words.all(Op::ImageWrite))
+        .filter(|[image]| read.contains(image))
+        .filter_map(|[image]| loaded.get(&image).copied())
         .collect();
     let both: Vec<u32> = (uses.into_iter())
         .filter(|(_, uses)| uses.reads && uses.writes && !uses.others)
@@ -77,64 +164,53 @@ pub(super) fn split_images(words: &mut Words) -> BTreeMap<Place, Place> {
         .keys()
         .map(|variable| (*variable, words.new_id()))
         .collect();
-    let mut instructions = Vec::with_capacity(words.instructions.len());
-    for mut instruction in std::mem::take(&mut words.instructions) {
-        let twin = (instruction.operands.first()).and_then(|named| twins.get(named));
-        if let (op::NAME, Some(twin)) = (instruction.opcode, twin) {
-            let mut copy = instruction.clone();
-            copy.operands[0] = *twin;
-            instructions.push(copy);
+    words.rewrite(|_, instruction| {
+        let mut copy = instruction.clone();
+        let (place, is_copied) = match (instruction.op, &instruction.operands[..]) {
+            (Op::Name | Op::Decorate, [..]) => (0, true),
+            (Op::Variable, _) => (1, true),
+            (Op::Load, [_, image, ..]) if read.contains(image) => (2, false),
+            _ => return None,
+        };
+        let variable = copy.operands.get_mut(place)?;
+        let binding = free.get(variable)?.1;
+        *variable = twins[variable];
+        if let (Op::Decorate, [_, kind, value]) = (copy.op, &mut copy.operands[..])
+            && *kind == Decoration::Binding as u32
+        {
+            *value = binding;
         }
-        match (instruction.opcode, instruction.first::<3>()) {
-            (op::VARIABLE, Some([pointer, variable, class])) if twins.contains_key(&variable) => {
-                let twin = [pointer, twins[&variable], class];
-                instructions.push(Instruction::new(op::VARIABLE, twin));
-            }
-            (op::DECORATE, Some([variable, kind, value])) if twins.contains_key(&variable) => {
-                let value = match kind {
-                    decoration::BINDING => free[&variable].1,
-                    _ => value,
-                };
-                instructions.push(Instruction::new(
-                    op::DECORATE,
-                    [twins[&variable], kind, value],
-                ));
-            }
-            (op::LOAD, Some([_, image, variable]))
-                if twins.contains_key(&variable) && read.contains(&image) =>
-            {
-                instruction.operands[2] = twins[&variable];
-            }
-            _ => {}
-        }
-        instructions.push(instruction);
-    }
-    words.instructions = instructions;
+        Some(match is_copied {
+            true => vec![copy, instruction.clone()],
+            false => vec![copy],
+        })
+    });
     (free.into_iter())
         .map(|(variable, read)| (read, written[&variable]))
         .collect()
 }
 
-/// Finds what a module does with each variable.
-fn find_uses(words: &Words, variables: &BTreeMap<u32, u32>) -> BTreeMap<u32, Uses> {
+/// Finds what a module does with each variable, and the variable of each image that it loads.
+fn find_uses(
+    words: &Words,
+    variables: &BTreeMap<u32, u32>,
+) -> (BTreeMap<u32, Uses>, BTreeMap<u32, u32>) {
     let mut uses: BTreeMap<u32, Uses> = variables.keys().map(|id| (*id, Uses::default())).collect();
-    // Variable of each loaded image.
     let mut loaded = BTreeMap::new();
     for instruction in &words.instructions {
-        let operands = &instruction.operands;
-        match (instruction.opcode, &operands[..]) {
-            (op::LOAD, [_, result, pointer, ..]) if variables.contains_key(pointer) => {
+        match (instruction.op, &instruction.operands[..]) {
+            (Op::Load, [_, result, pointer, ..]) if variables.contains_key(pointer) => {
                 loaded.insert(*result, *pointer);
             }
-            (op::IMAGE_READ, [_, _, image, _, rest @ ..]) if loaded.contains_key(image) => {
+            (Op::ImageRead, [_, _, image, _, rest @ ..]) if loaded.contains_key(image) => {
                 let found = uses.entry(loaded[image]).or_default();
                 found.reads = true;
                 found.others |= !rest.is_empty();
             }
-            (op::IMAGE_WRITE, [image, ..]) if loaded.contains_key(image) => {
+            (Op::ImageWrite, [image, ..]) if loaded.contains_key(image) => {
                 uses.entry(loaded[image]).or_default().writes = true;
             }
-            (op::IMAGE_QUERY_SIZE, [_, _, image]) if loaded.contains_key(image) => {}
+            (Op::ImageQuerySize, [_, _, image]) if loaded.contains_key(image) => {}
             _ => {
                 for id in list_images(instruction) {
                     let variable = loaded.get(id).unwrap_or(id);
@@ -145,109 +221,56 @@ fn find_uses(words: &Words, variables: &BTreeMap<u32, u32>) -> BTreeMap<u32, Use
             }
         }
     }
-    uses
+    (uses, loaded)
 }
 
 /// Lists the operands of an instruction that may be images or pointers to them, and no numbers.
 fn list_images(instruction: &Instruction) -> &[u32] {
     let operands = &instruction.operands[..];
-    let places = match instruction.opcode {
-        op::STORE | op::COPY_MEMORY => 0..2,
-        op::RETURN_VALUE => 0..1,
-        op::IMAGE_TEXEL_POINTER | op::COPY_OBJECT | op::ARRAY_LENGTH => 2..3,
-        op::ACCESS_CHAIN..=op::PTR_ACCESS_CHAIN | op::IN_BOUNDS_PTR_ACCESS_CHAIN => 2..3,
-        op::SAMPLED_IMAGE..=op::IMAGE_QUERY_SAMPLES => 2..3,
-        op::SELECT | op::PHI => 2..operands.len(),
-        op::FUNCTION_CALL => 3..operands.len(),
+    let places = match instruction.op {
+        Op::Store | Op::CopyMemory => 0..2,
+        Op::ReturnValue => 0..1,
+        Op::Select | Op::Phi => 2..operands.len(),
+        Op::FunctionCall => 3..operands.len(),
+        Op::ImageTexelPointer | Op::CopyObject | Op::ArrayLength => 2..3,
+        Op::AccessChain | Op::InBoundsAccessChain => 2..3,
+        Op::PtrAccessChain | Op::InBoundsPtrAccessChain => 2..3,
+        op if (Op::SampledImage..=Op::ImageQuerySamples).contains(&op) => 2..3,
         _ => 0..0,
     };
     operands.get(places).unwrap_or_default()
 }
 
-/// Declares images that are only written.
-fn declare_written(words: &mut Words, written: &BTreeSet<u32>) {
-    let is_access =
-        |kind: u32| [decoration::NON_READABLE, decoration::NON_WRITABLE].contains(&kind);
-    let mut instructions = Vec::with_capacity(words.instructions.len());
-    for instruction in std::mem::take(&mut words.instructions) {
-        match (instruction.opcode, &instruction.operands[..]) {
-            (op::DECORATE, [target, kind, ..]) if written.contains(target) && is_access(*kind) => {}
-            (op::DECORATE, [target, decoration::BINDING, ..]) if written.contains(target) => {
-                let access = [*target, decoration::NON_READABLE];
-                instructions.push(Instruction::new(op::DECORATE, access));
-                instructions.push(instruction);
-            }
-            _ => instructions.push(instruction),
-        }
-    }
-    words.instructions = instructions;
-}
-
-/// Makes sampled textures of images that are only read.
-fn sample_read(
-    words: &mut Words,
-    read: &BTreeSet<u32>,
-    variables: &BTreeMap<u32, u32>,
-    storage_types: &BTreeMap<u32, Instruction>,
-) {
-    if read.is_empty() {
+/// Fetches texels from level 0 where a module names none: `texture[pixel]` of Slang, and reads of the storage images in `read`. naga
+/// wants a level of what becomes a sampled texture.
+fn name_levels(words: &mut Words, read: &BTreeSet<u32>) {
+    let is_bare = |it: &Instruction| match (it.op, &it.operands[..]) {
+        (Op::ImageFetch, [_, _, _, _]) => true,
+        (Op::ImageRead, [_, _, image, _]) => read.contains(image),
+        _ => false,
+    };
+    if !words.instructions.iter().any(is_bare) {
         return;
     }
-    let signed = (words.all(op::TYPE_INT)).find(|[_, width, signed]| [*width, *signed] == [32, 1]);
+    let signed = (words.all(Op::TypeInt)).find(|[_, width, signed]| [*width, *signed] == [32, 1]);
     let integer = signed.map_or_else(|| words.new_id(), |[id, ..]| id);
     let zero = words.new_id();
-    // Sampled type, and pointer to it, of each storage type.
-    let types: BTreeMap<u32, [u32; 2]> = (read.iter())
-        .map(|variable| variables[variable])
-        .collect::<BTreeSet<u32>>()
-        .into_iter()
-        .map(|storage| (storage, [words.new_id(), words.new_id()]))
-        .collect();
     let mut declared = false;
-    // Storage type of each image that was loaded.
-    let mut loaded = BTreeSet::new();
-    let mut instructions = Vec::with_capacity(words.instructions.len());
-    for instruction in std::mem::take(&mut words.instructions) {
-        match (instruction.opcode, &instruction.operands[..]) {
-            (op::VARIABLE, [_, variable, ..]) if read.contains(variable) => {
-                if !std::mem::replace(&mut declared, true) {
-                    if signed.is_none() {
-                        instructions.push(Instruction::new(op::TYPE_INT, [integer, 32, 1]));
-                    }
-                    instructions.push(Instruction::new(op::CONSTANT, [integer, zero, 0]));
-                    for (storage, [sampled, pointer]) in &types {
-                        let mut operands = storage_types[storage].operands.clone();
-                        operands[0] = *sampled;
-                        operands[6] = 1;
-                        operands.truncate(8);
-                        if let Some(format) = operands.get_mut(7) {
-                            *format = 0;
-                        }
-                        instructions.push(Instruction::new(op::TYPE_IMAGE, operands));
-                        let pointer = [*pointer, UNIFORM_CONSTANT, *sampled];
-                        instructions.push(Instruction::new(op::TYPE_POINTER, pointer));
-                    }
-                }
-                let [_, pointer] = types[&variables[variable]];
-                let operands = [pointer, *variable, UNIFORM_CONSTANT];
-                instructions.push(Instruction::new(op::VARIABLE, operands));
-            }
-            (op::DECORATE, [target, decoration::NON_WRITABLE, ..]) if read.contains(target) => {}
-            (op::LOAD, [_, result, pointer, ..]) if read.contains(pointer) => {
-                loaded.insert(*result);
-                let [sampled, _] = types[&variables[pointer]];
-                instructions.push(Instruction::new(op::LOAD, [sampled, *result, *pointer]));
-            }
-            (op::IMAGE_READ, [ty, result, image, at]) if loaded.contains(image) => {
-                let operands = [*ty, *result, *image, *at, LOD, zero];
-                instructions.push(Instruction::new(op::IMAGE_FETCH, operands));
-            }
-            (op::IMAGE_QUERY_SIZE, [ty, result, image]) if loaded.contains(image) => {
-                let operands = [*ty, *result, *image, zero];
-                instructions.push(Instruction::new(op::IMAGE_QUERY_SIZE_LOD, operands));
-            }
-            _ => instructions.push(instruction),
+    words.rewrite(|_, instruction| {
+        if instruction.op == Op::Function && !std::mem::replace(&mut declared, true) {
+            let ty = Instruction::new(Op::TypeInt, [integer, 32, 1]);
+            let constant = Instruction::new(Op::Constant, [integer, zero, 0]);
+            let ty = signed.is_none().then_some(ty);
+            return Some(
+                ty.into_iter()
+                    .chain([constant, instruction.clone()])
+                    .collect(),
+            );
         }
-    }
-    words.instructions = instructions;
+        is_bare(instruction).then(|| {
+            let mut fetch = instruction.clone();
+            fetch.operands.extend([ImageOperands::LOD.bits(), zero]);
+            vec![fetch]
+        })
+    });
 }

@@ -2,11 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use spirv::{Decoration, MAGIC_NUMBER, Op, StorageClass};
+
 /// Group and binding of a resource.
 pub(super) type Place = (u32, u32);
-
-/// The first word of every module.
-const MAGIC: u32 = 0x0723_0203;
 
 /// Upper limit on ids. The largest shaders of engines have a hundredth of it.
 const MAX_IDS: u32 = 1 << 20;
@@ -14,125 +13,21 @@ const MAX_IDS: u32 = 1 << 20;
 /// Upper limit on branches, on types and on composite constants of a module, each: naga recurses where they lie within one another.
 const MAX_NESTABLE: usize = 10_000;
 
-/// Opcodes that the passes over a module look at.
-pub(super) mod op {
-    pub const NAME: u32 = 5;
-    pub const MEMBER_NAME: u32 = 6;
-    pub const EXECUTION_MODE: u32 = 16;
-    pub const CAPABILITY: u32 = 17;
-    pub const TYPE_BOOL: u32 = 20;
-    pub const TYPE_INT: u32 = 21;
-    pub const TYPE_FLOAT: u32 = 22;
-    pub const TYPE_IMAGE: u32 = 25;
-    pub const TYPE_SAMPLER: u32 = 26;
-    pub const TYPE_SAMPLED_IMAGE: u32 = 27;
-    pub const TYPE_ARRAY: u32 = 28;
-    pub const TYPE_RUNTIME_ARRAY: u32 = 29;
-    pub const TYPE_STRUCT: u32 = 30;
-    pub const TYPE_POINTER: u32 = 32;
-    pub const TYPE_FUNCTION: u32 = 33;
-    pub const CONSTANT_TRUE: u32 = 41;
-    pub const CONSTANT_FALSE: u32 = 42;
-    pub const CONSTANT: u32 = 43;
-    pub const CONSTANT_COMPOSITE: u32 = 44;
-    pub const SPEC_CONSTANT_TRUE: u32 = 48;
-    pub const SPEC_CONSTANT_FALSE: u32 = 49;
-    pub const SPEC_CONSTANT: u32 = 50;
-    pub const SPEC_CONSTANT_COMPOSITE: u32 = 51;
-    pub const SPEC_CONSTANT_OP: u32 = 52;
-    pub const FUNCTION: u32 = 54;
-    pub const FUNCTION_PARAMETER: u32 = 55;
-    pub const FUNCTION_CALL: u32 = 57;
-    pub const VARIABLE: u32 = 59;
-    pub const IMAGE_TEXEL_POINTER: u32 = 60;
-    pub const LOAD: u32 = 61;
-    pub const STORE: u32 = 62;
-    pub const COPY_MEMORY: u32 = 63;
-    pub const ACCESS_CHAIN: u32 = 65;
-    pub const PTR_ACCESS_CHAIN: u32 = 67;
-    pub const ARRAY_LENGTH: u32 = 68;
-    pub const IN_BOUNDS_PTR_ACCESS_CHAIN: u32 = 70;
-    pub const DECORATE: u32 = 71;
-    pub const MEMBER_DECORATE: u32 = 72;
-    pub const COMPOSITE_EXTRACT: u32 = 81;
-    pub const COPY_OBJECT: u32 = 83;
-    pub const SAMPLED_IMAGE: u32 = 86;
-    pub const IMAGE_FETCH: u32 = 95;
-    pub const IMAGE_READ: u32 = 98;
-    pub const IMAGE_WRITE: u32 = 99;
-    pub const IMAGE_QUERY_SIZE_LOD: u32 = 103;
-    pub const IMAGE_QUERY_SIZE: u32 = 104;
-    pub const IMAGE_QUERY_SAMPLES: u32 = 107;
-    pub const U_CONVERT: u32 = 113;
-    pub const S_CONVERT: u32 = 114;
-    pub const BITCAST: u32 = 124;
-    pub const S_NEGATE: u32 = 126;
-    pub const I_ADD: u32 = 128;
-    pub const I_SUB: u32 = 130;
-    pub const I_MUL: u32 = 132;
-    pub const U_DIV: u32 = 134;
-    pub const S_DIV: u32 = 135;
-    pub const U_MOD: u32 = 137;
-    pub const S_REM: u32 = 138;
-    pub const S_MOD: u32 = 139;
-    pub const LOGICAL_EQUAL: u32 = 164;
-    pub const LOGICAL_NOT_EQUAL: u32 = 165;
-    pub const LOGICAL_OR: u32 = 166;
-    pub const LOGICAL_AND: u32 = 167;
-    pub const LOGICAL_NOT: u32 = 168;
-    pub const SELECT: u32 = 169;
-    pub const I_EQUAL: u32 = 170;
-    pub const I_NOT_EQUAL: u32 = 171;
-    pub const U_GREATER_THAN: u32 = 172;
-    pub const S_GREATER_THAN: u32 = 173;
-    pub const U_GREATER_THAN_EQUAL: u32 = 174;
-    pub const S_GREATER_THAN_EQUAL: u32 = 175;
-    pub const U_LESS_THAN: u32 = 176;
-    pub const S_LESS_THAN: u32 = 177;
-    pub const U_LESS_THAN_EQUAL: u32 = 178;
-    pub const S_LESS_THAN_EQUAL: u32 = 179;
-    pub const SHIFT_RIGHT_LOGICAL: u32 = 194;
-    pub const SHIFT_RIGHT_ARITHMETIC: u32 = 195;
-    pub const SHIFT_LEFT_LOGICAL: u32 = 196;
-    pub const BITWISE_OR: u32 = 197;
-    pub const BITWISE_XOR: u32 = 198;
-    pub const BITWISE_AND: u32 = 199;
-    pub const NOT: u32 = 200;
-    pub const PHI: u32 = 245;
-    pub const LOOP_MERGE: u32 = 246;
-    pub const SELECTION_MERGE: u32 = 247;
-    pub const SWITCH: u32 = 251;
-    pub const RETURN_VALUE: u32 = 254;
-}
-
-/// Decorations that the passes look at.
-pub(super) mod decoration {
-    pub const SPEC_ID: u32 = 1;
-    pub const ROW_MAJOR: u32 = 4;
-    pub const COL_MAJOR: u32 = 5;
-    pub const BUILT_IN: u32 = 11;
-    pub const NON_WRITABLE: u32 = 24;
-    pub const NON_READABLE: u32 = 25;
-    pub const BINDING: u32 = 33;
-    pub const DESCRIPTOR_SET: u32 = 34;
-    pub const OFFSET: u32 = 35;
-}
-
 /// Storage class of textures and samplers.
-pub(super) const UNIFORM_CONSTANT: u32 = 0;
+pub(super) const UNIFORM_CONSTANT: u32 = StorageClass::UniformConstant as u32;
 
 /// One instruction.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Instruction {
-    pub opcode: u32,
+    pub op: Op,
     /// The words after the first.
     pub operands: Vec<u32>,
 }
 
 impl Instruction {
-    pub fn new(opcode: u32, operands: impl Into<Vec<u32>>) -> Self {
+    pub fn new(op: Op, operands: impl Into<Vec<u32>>) -> Self {
         Self {
-            opcode,
+            op,
             operands: operands.into(),
         }
     }
@@ -165,12 +60,12 @@ impl Words {
         let words: Vec<u32> = (bytes.chunks_exact(4))
             .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
             .collect();
-        if words[0] == MAGIC.swap_bytes() {
+        if words[0] == MAGIC_NUMBER.swap_bytes() {
             return Err("the module is big-endian; allowed: little-endian SPIR-V".into());
         }
-        if words[0] != MAGIC {
+        if words[0] != MAGIC_NUMBER {
             return Err(format!(
-                "begins with {:#010x}; allowed: SPIR-V, which begins with {MAGIC:#010x}",
+                "begins with {:#010x}; allowed: SPIR-V, which begins with {MAGIC_NUMBER:#010x}",
                 words[0]
             ));
         }
@@ -192,7 +87,10 @@ impl Words {
                 ));
             }
             let opcode = words[at] & 0xffff;
-            instructions.push(Instruction::new(opcode, &words[at + 1..end]));
+            let op = Op::from_u32(opcode).ok_or_else(|| {
+                format!("word {at}: {opcode} is no instruction of SPIR-V; the module is damaged")
+            })?;
+            instructions.push(Instruction::new(op, &words[at + 1..end]));
             at = end;
         }
         let read = Self {
@@ -207,23 +105,20 @@ impl Words {
 
     /// Refuses a module that may be nested deeper than a stack.
     fn check_nesting(&self) -> Result<(), String> {
-        for (what, opcodes) in [
-            (
-                "branches",
-                [op::LOOP_MERGE, op::SELECTION_MERGE, op::SWITCH],
-            ),
-            ("types", [op::TYPE_ARRAY, op::TYPE_STRUCT, op::TYPE_POINTER]),
+        for (what, ops) in [
+            ("branches", [Op::LoopMerge, Op::SelectionMerge, Op::Switch]),
+            ("types", [Op::TypeArray, Op::TypeStruct, Op::TypePointer]),
             (
                 "composite constants",
                 [
-                    op::CONSTANT_COMPOSITE,
-                    op::SPEC_CONSTANT_COMPOSITE,
-                    op::SPEC_CONSTANT_OP,
+                    Op::ConstantComposite,
+                    Op::SpecConstantComposite,
+                    Op::SpecConstantOp,
                 ],
             ),
         ] {
-            let opcodes = |instruction: &&Instruction| opcodes.contains(&instruction.opcode);
-            let found = self.instructions.iter().filter(opcodes).count();
+            let found = self.instructions.iter().filter(|it| ops.contains(&it.op));
+            let found = found.count();
             if found > MAX_NESTABLE {
                 return Err(format!(
                     "has {found} {what}; allowed: at most {MAX_NESTABLE}; divide the pass"
@@ -240,39 +135,53 @@ impl Words {
     }
 
     /// Lists the operands of all instructions of one kind that have at least `COUNT`.
-    pub fn all<const COUNT: usize>(&self, opcode: u32) -> impl Iterator<Item = [u32; COUNT]> {
+    pub fn all<const COUNT: usize>(&self, op: Op) -> impl Iterator<Item = [u32; COUNT]> {
         (self.instructions.iter())
-            .filter(move |instruction| instruction.opcode == opcode)
+            .filter(move |instruction| instruction.op == op)
             .filter_map(Instruction::first)
+    }
+
+    /// Lists the ids with a decoration that has a value, each with the value.
+    pub fn decorated(&self, decoration: Decoration) -> impl Iterator<Item = (u32, u32)> {
+        (self.all(Op::Decorate))
+            .filter(move |[_, kind, _]| *kind == decoration as u32)
+            .map(|[id, _, value]| (id, value))
+    }
+
+    /// Replaces each instruction for which `replace` returns others.
+    pub fn rewrite(
+        &mut self,
+        mut replace: impl FnMut(&mut Self, &Instruction) -> Option<Vec<Instruction>>,
+    ) {
+        let old = std::mem::take(&mut self.instructions);
+        let mut rewritten = Vec::with_capacity(old.len());
+        for instruction in old {
+            match replace(self, &instruction) {
+                Some(replaced) => rewritten.extend(replaced),
+                None => rewritten.push(instruction),
+            }
+        }
+        self.instructions = rewritten;
     }
 
     /// Finds the groups and bindings of variables.
     pub fn find_places(&self) -> BTreeMap<u32, Place> {
         let mut places = BTreeMap::<u32, Place>::new();
-        for [target, kind, value] in self.all(op::DECORATE) {
-            match kind {
-                decoration::DESCRIPTOR_SET => places.entry(target).or_default().0 = value,
-                decoration::BINDING => places.entry(target).or_default().1 = value,
-                _ => {}
-            }
+        for (variable, group) in self.decorated(Decoration::DescriptorSet) {
+            places.entry(variable).or_default().0 = group;
+        }
+        for (variable, binding) in self.decorated(Decoration::Binding) {
+            places.entry(variable).or_default().1 = binding;
         }
         places
     }
 
-    /// Finds the names of ids.
-    pub fn find_names(&self) -> BTreeMap<u32, String> {
-        let named = self.instructions.iter().filter(|it| it.opcode == op::NAME);
-        let named = named.filter_map(|it| it.operands.split_first());
-        named.map(|(id, name)| (*id, read_text(name))).collect()
-    }
-
-    /// Finds the names of members, by struct and index.
-    pub fn find_member_names(&self) -> BTreeMap<[u32; 2], String> {
-        let named = (self.instructions.iter()).filter(|it| it.opcode == op::MEMBER_NAME);
+    /// Finds the names of ids (`Op::Name`, one word), or of members by struct and index (`Op::MemberName`, two words).
+    pub fn find_names<const COUNT: usize>(&self, op: Op) -> BTreeMap<[u32; COUNT], String> {
+        let named = self.instructions.iter().filter(|it| it.op == op);
         let named = named.filter_map(|it| it.operands.split_first_chunk());
-        named
-            .map(|(member, name)| (*member, read_text(name)))
-            .collect()
+        let named = named.map(|(id, name)| (*id, read_text(name)));
+        named.filter(|(_, name)| !name.is_empty()).collect()
     }
 
     /// Finds a binding for each of these variables that no other has, in the same group.
@@ -294,16 +203,12 @@ impl Words {
 
     /// Writes the module.
     pub fn write(&self) -> Vec<u8> {
-        let header = [MAGIC, self.version, self.generator, self.bound, 0];
-        let instructions = self.instructions.iter().flat_map(|instruction| {
-            let count = instruction.operands.len() as u32 + 1;
-            let first = count << 16 | instruction.opcode;
-            [first]
-                .into_iter()
-                .chain(instruction.operands.iter().copied())
-        });
-        let words = header.into_iter().chain(instructions);
-        words.flat_map(u32::to_le_bytes).collect()
+        let mut words = vec![MAGIC_NUMBER, self.version, self.generator, self.bound, 0];
+        for Instruction { op, operands } in &self.instructions {
+            words.push((operands.len() as u32 + 1) << 16 | *op as u32);
+            words.extend(operands);
+        }
+        words.into_iter().flat_map(u32::to_le_bytes).collect()
     }
 }
 
@@ -320,7 +225,16 @@ mod tests {
 
     #[test]
     fn a_module_is_written_as_it_was_read() {
-        let words = [MAGIC, 0x1_0300, 7, 9, 0, 2 << 16 | 17, 1, 1 << 16 | 56];
+        let words = [
+            MAGIC_NUMBER,
+            0x1_0300,
+            7,
+            9,
+            0,
+            2 << 16 | 17,
+            1,
+            1 << 16 | 56,
+        ];
         let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
         let read = Words::read(&bytes).unwrap();
         assert_eq!(read.instructions.len(), 2);
@@ -335,10 +249,17 @@ mod tests {
         for (bytes, says) in [
             (vec![3, 2, 35], "cut short"),
             (module(&[1, 2, 3, 4, 5]), "begins with"),
-            (module(&[MAGIC.swap_bytes(), 2, 3, 4, 5]), "big-endian"),
-            (module(&[MAGIC, 2, 3, 4, 5, 3 << 16, 1]), "word 5"),
-            (module(&[MAGIC, 2, 3, 4, 5, 17]), "of 0 words"),
-            (module(&[MAGIC, 2, 3, u32::MAX, 5]), "has ids up to"),
+            (
+                module(&[MAGIC_NUMBER.swap_bytes(), 2, 3, 4, 5]),
+                "big-endian",
+            ),
+            (module(&[MAGIC_NUMBER, 2, 3, 4, 5, 3 << 16, 1]), "word 5"),
+            (module(&[MAGIC_NUMBER, 2, 3, 4, 5, 17]), "of 0 words"),
+            (
+                module(&[MAGIC_NUMBER, 2, 3, 4, 5, 1 << 16 | 999]),
+                "999 is no instruction",
+            ),
+            (module(&[MAGIC_NUMBER, 2, 3, u32::MAX, 5]), "has ids up to"),
         ] {
             let refusal = Words::read(&bytes).unwrap_err();
             assert!(refusal.contains(says), "{refusal}");

@@ -144,11 +144,11 @@ fn check_truth(case: &Case, baseline: &Baseline) -> Result<(), String> {
         Some(hash) if *hash == case.truth_hash => Ok(()),
         Some(_) => Err(format!(
             "its truth of {} ({}) is another: scene, size, samples, seed or tracer have changed; measure with the settings of \
-             the baseline, or accept a run with the new truth: shuttertruth accept",
+             the baseline, or accept a run with the new truth: shuttertruth limits accept",
             case.scene, case.alignment
         )),
         None => Err(format!(
-            "knows no truth of {} ({}); accept a run with it: shuttertruth accept",
+            "knows no truth of {} ({}); accept a run with it: shuttertruth limits accept",
             case.scene, case.alignment
         )),
     }
@@ -159,10 +159,10 @@ fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option
     let filters = baseline.scores.get(&case.scene);
     let Some(scores) = filters.and_then(|filters| {
         // A parameter with a value of its own is judged by its preset.
-        (filters.get(&case.name())).or_else(|| filters.get(&case.preset_name()))
+        (filters.get(&case.name())).or_else(|| filters.get(&case.of_preset().name()))
     }) else {
         return Err(format!(
-            "has no scores of {} on {}; accept a run with them: shuttertruth accept",
+            "has no scores of {} on {}; accept a run with them: shuttertruth limits accept",
             case.name(),
             case.scene
         ));

@@ -92,7 +92,7 @@ pub fn check_lengths<'a>(
                 };
                 return Err(Error::Usage(format!(
                     "{place}: the limit on {metric} holds for sequences of {}, and they are to have {}; measure as many as it \
-                     holds for, or measure a limit for the others with `shuttertruth calibrate`",
+                     holds for, or measure a limit for the others with `shuttertruth limits calibrate`",
                     length.text(),
                     asked.text()
                 )));

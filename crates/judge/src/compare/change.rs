@@ -2,14 +2,15 @@
 
 use metrics::{Ideal, Measured, Metric};
 use serde::Serialize;
+use tracer::SceneId;
 
-use crate::compare::pairing::{Pair, filter_label};
+use crate::compare::pairing::Pair;
 
 /// A score that both runs have.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// Scene, with its variant.
-    pub scene: String,
+    /// Scene.
+    pub scene: SceneId,
     /// `jump_flood:paper`; a reference picture with its alignment.
     pub filter: String,
     /// True for a reference picture, false for a filter.
@@ -114,7 +115,7 @@ impl Change {
         let interval = uncertainty.map_or([worse - floor, worse + floor], |own| own.interval);
         Some(Self {
             scene: pair.first.scene.clone(),
-            filter: filter_label(pair.first),
+            filter: pair.first.filter_id().to_string(),
             is_reference: pair.first.is_reference,
             metric,
             first: first.value,
@@ -166,10 +167,10 @@ pub fn score_change(metric: Metric, worse: f64) -> f64 {
 }
 
 /// Ranks the cases that changed by more than noise by their largest relative change; returns scene and filter.
-pub fn rank_changes(changes: &[Change]) -> Vec<(&str, &str)> {
-    let mut ranked: Vec<(f64, (&str, &str))> = Vec::new();
+pub fn rank_changes(changes: &[Change]) -> Vec<(&SceneId, &str)> {
+    let mut ranked: Vec<(f64, (&SceneId, &str))> = Vec::new();
     for change in changes.iter().filter(|change| change.is_beyond_noise()) {
-        let key = (change.scene.as_str(), change.filter.as_str());
+        let key = (&change.scene, change.filter.as_str());
         match ranked.iter_mut().find(|(_, own)| *own == key) {
             Some((size, _)) => *size = size.max(change.size()),
             None => ranked.push((change.size(), key)),
@@ -199,7 +200,7 @@ pub(super) mod tests {
     /// Makes a change from 0.5 of one filter.
     pub fn change(scene: &str, metric: Metric, worse: f64, kind: ChangeKind) -> Change {
         Change {
-            scene: scene.to_owned(),
+            scene: SceneId::new(scene, None),
             filter: "one:paper".to_owned(),
             is_reference: false,
             metric,

@@ -5,7 +5,6 @@ use std::cmp::Ordering;
 use metrics::Metric;
 use serde::Serialize;
 use suite::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
-use tracer::FrameRate;
 
 use crate::compare::change::{Change, ChangeKind};
 
@@ -82,7 +81,7 @@ pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
 
 /// Names filter and frame rate of a change, and its metric.
 fn key(change: &Change) -> (String, Metric) {
-    let filter = match FrameRate::of_name(&change.scene) {
+    let filter = match change.scene.rate {
         Some(rate) => format!("{} {}", change.filter, rate.word()),
         None => change.filter.clone(),
     };
@@ -178,7 +177,7 @@ mod tests {
     fn frame_rates_have_means_of_their_own() {
         let mut all = changes(&[0.1, 0.1, 0.3, 0.3]);
         for change in &mut all[2..] {
-            change.scene += "@24fps";
+            change.scene.rate = tracer::FrameRate::in_word("24fps");
         }
         let means = average_changes(&all);
         let found: Vec<(&str, usize)> = (means.iter())

@@ -16,7 +16,7 @@ use suite::{Error, PROGRAM};
 
 pub use change::{Basis, Change, ChangeKind, rank_changes, score_change};
 pub use mean::{MeanChange, MeanKind};
-pub use pairing::{Pair, filter_label, pair_cases};
+pub use pairing::{Pair, pair_cases};
 pub use settings::SettingChange;
 pub use side::Side;
 pub use sizes::{

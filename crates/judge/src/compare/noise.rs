@@ -81,7 +81,7 @@ impl TruthParts {
     /// Reads the parts from the first run that still has all files of the truth; none if neither has.
     fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
         for side in sides {
-            let folder = side.folder().join(&pair.first.scene);
+            let folder = side.folder().join(pair.first.scene.folder());
             if let Some(parts) = Self::read_below(&folder, pair, side.run.render.replicates)? {
                 return Ok(Some(parts));
             }

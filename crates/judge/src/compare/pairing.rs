@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-use frame::Alignment;
-use suite::{Case, Error, Run};
+use suite::{Case, CaseId, Error, Run};
 
 use crate::compare::side::Side;
 
@@ -40,16 +39,8 @@ pub fn pair_cases<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
 pub fn cases_missing_from(run: &Run, other: &Run) -> Vec<String> {
     let partners = Partners::new(other, run);
     let missing = (other.cases.iter()).filter(|case| partners.find(case).is_none());
-    let label = |case: &Case| format!("{} / {}", case.scene, filter_label(case));
+    let label = |case: &Case| format!("{} / {}", case.scene, case.filter_id());
     missing.map(label).collect()
-}
-
-/// Formats a case's filter: `jump_flood:paper`; a reference picture with its alignment, as each alignment has its own.
-pub fn filter_label(case: &Case) -> String {
-    match case.is_reference {
-        true => format!("{} ({})", case.name(), case.alignment),
-        false => case.name(),
-    }
 }
 
 /// Refuses runs whose scores do not compare.
@@ -65,10 +56,10 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
         ));
     }
     if pairs.is_empty() {
-        let scenes = |side: &Side| names(side.run.cases.iter().map(|case| case.scene.as_str()));
+        let scenes = |side: &Side| names(side.run.cases.iter().map(|case| case.scene.to_string()));
         let filters = |side: &Side| {
             let cases = side.run.cases.iter().filter(|case| !case.is_reference);
-            names(cases.map(|case| case.filter.as_str()))
+            names(cases.map(|case| case.filter.clone()))
         };
         return refuse(format!(
             "it has no case in common with {there}: scenes {} there and {} here, filters {} there and {} here; run the same \
@@ -91,36 +82,21 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
     }
 }
 
-/// Key that is unique among the cases of one run.
-type Key<'a> = (&'a str, String, Alignment, bool);
-
-fn key(case: &Case) -> Key<'_> {
-    (&case.scene, case.name(), case.alignment, case.is_reference)
-}
-
-/// Key of a case within a run, whatever values `--set` gave to its parameters.
-fn preset_key(case: &Case) -> Key<'_> {
-    (
-        &case.scene,
-        case.preset_name(),
-        case.alignment,
-        case.is_reference,
-    )
-}
-
 /// The cases of one run that belong to those of another: the same case, or else the only one of its preset, with parameters of
 /// its own.
 struct Partners<'a> {
-    exact: HashMap<Key<'a>, &'a Case>,
+    exact: HashMap<&'a CaseId, &'a Case>,
     /// By preset, the cases that are in one run alone; none where there are several.
-    own: HashMap<Key<'a>, Option<&'a Case>>,
-    other: HashMap<Key<'a>, Option<&'a Case>>,
+    own: HashMap<CaseId, Option<&'a Case>>,
+    other: HashMap<CaseId, Option<&'a Case>>,
 }
 
 impl<'a> Partners<'a> {
     fn new(run: &'a Run, other: &'a Run) -> Self {
-        let exact = index(&other.cases);
-        let known = index(&run.cases);
+        let [known, exact] = [run, other].map(|run| {
+            let cases = run.cases.iter().rev();
+            cases.map(|case| (&case.id, case)).collect()
+        });
         Self {
             own: single_presets(&run.cases, &exact),
             other: single_presets(&other.cases, &known),
@@ -130,33 +106,24 @@ impl<'a> Partners<'a> {
 
     /// Finds the partner of a case of the first run.
     fn find(&self, case: &'a Case) -> Option<&'a Case> {
-        if let Some(exact) = self.exact.get(&key(case)) {
+        if let Some(exact) = self.exact.get(&case.id) {
             return Some(exact);
         }
-        let preset = preset_key(case);
+        let preset = case.of_preset();
         let is_single = self.own.get(&preset).is_some_and(Option::is_some);
         let other = self.other.get(&preset).copied().flatten();
         other.filter(|_| is_single)
     }
 }
 
-/// Indexes cases by their keys.
-fn index(cases: &[Case]) -> HashMap<Key<'_>, &Case> {
-    let mut index = HashMap::new();
-    for case in cases {
-        index.entry(key(case)).or_insert(case);
-    }
-    index
-}
-
 /// Finds the only case of each preset among those that are not in an index; none where there are several.
 fn single_presets<'a>(
     cases: &'a [Case],
-    index: &HashMap<Key, &Case>,
-) -> HashMap<Key<'a>, Option<&'a Case>> {
+    index: &HashMap<&CaseId, &Case>,
+) -> HashMap<CaseId, Option<&'a Case>> {
     let mut single = HashMap::new();
-    for case in cases.iter().filter(|case| !index.contains_key(&key(case))) {
-        (single.entry(preset_key(case)))
+    for case in cases.iter().filter(|case| !index.contains_key(&case.id)) {
+        (single.entry(case.of_preset()))
             .and_modify(|known| *known = None)
             .or_insert(Some(case));
     }
@@ -164,9 +131,9 @@ fn single_presets<'a>(
 }
 
 /// Lists names, each once and six at most.
-fn names<'a>(all: impl Iterator<Item = &'a str>) -> String {
+fn names(all: impl Iterator<Item = String>) -> String {
     const MOST: usize = 6;
-    let mut once: Vec<&str> = Vec::new();
+    let mut once: Vec<String> = Vec::new();
     for name in all {
         if !once.contains(&name) {
             once.push(name);

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use frame::Alignment;
 use metrics::Metric;
 use suite::{Error, Random, SceneMean, TWO_SIDED, plain_mean};
+use tracer::SceneId;
 
 use crate::results::Results;
 
@@ -18,7 +19,7 @@ pub struct SizeComparison {
     /// Shutter alignment of the filters.
     pub alignment: Alignment,
     /// Scenes that every mean is over.
-    pub scenes: Vec<String>,
+    pub scenes: Vec<SceneId>,
     /// Columns and rows of each file of results.
     pub sizes: Vec<(u32, u32)>,
     /// Filters, the best at the largest size first.
@@ -102,9 +103,9 @@ fn compare_group(
     let own = || (last.scores.iter()).filter(|own| own.alignment == alignment);
     let names: BTreeSet<&str> = own().map(|own| own.name.as_str()).collect();
     // A still scene orders no filters, and has no score where nothing moves.
-    let scenes: BTreeSet<&str> = (own())
+    let scenes: BTreeSet<&SceneId> = (own())
         .filter(|own| own.score(metric).is_some())
-        .map(|own| own.scene.as_str())
+        .map(|own| &own.scene)
         .collect();
     let read = |results: &&Results| -> Result<Badness, Error> {
         let filter = |name: &&str| {
@@ -130,7 +131,7 @@ fn compare_group(
     filters.sort_by_key(|filter| filter.ranks.last().copied());
     Ok(SizeComparison {
         alignment,
-        scenes: scenes.into_iter().map(str::to_owned).collect(),
+        scenes: scenes.into_iter().cloned().collect(),
         sizes: results.iter().map(|own| own.size.into()).collect(),
         filters,
         agreement: (badness.iter())
@@ -140,8 +141,8 @@ fn compare_group(
 }
 
 /// Finds how bad a filter is on a scene.
-fn find(results: &Results, scene: &str, name: &str, metric: Metric) -> Result<f64, Error> {
-    let found = (results.scores.iter()).find(|own| own.scene == scene && own.name == name);
+fn find(results: &Results, scene: &SceneId, name: &str, metric: Metric) -> Result<f64, Error> {
+    let found = (results.scores.iter()).find(|own| own.scene == *scene && own.name == name);
     let value = found.and_then(|own| own.score(metric)).ok_or_else(|| {
         Error::Usage(format!(
             "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",

@@ -2,7 +2,7 @@
 
 mod cost;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use frame::Alignment;
@@ -10,7 +10,7 @@ use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use store::{read_text, to_lines};
 use suite::{Case, Error, InputFormat, Run, refuse_failures};
-use tracer::{Family, Seal};
+use tracer::{Family, SceneId};
 
 pub use self::cost::ResultCost;
 use crate::ranking::ranking::{RankedFilter, RankedScore, rank_by_score};
@@ -49,7 +49,7 @@ pub struct Results {
 #[serde(deny_unknown_fields)]
 pub struct ResultScores {
     /// Name of the scene, without the seal.
-    pub scene: String,
+    pub scene: SceneId,
     /// Family of the scene.
     pub family: Option<Family>,
     /// Name of the filter alone.
@@ -80,11 +80,11 @@ impl Results {
             adapter: adapter_of(first),
             size: [first.render.width, first.render.height],
             samples_per_pixel: first.render.samples_per_pixel,
-            seal: (first.cases.first()).and_then(|case| Seal::split_name(&case.scene).1),
+            seal: first.cases.first().and_then(|case| case.scene.seal),
             costs: BTreeMap::new(),
             scores: Vec::new(),
         };
-        let mut known = BTreeSet::new();
+        let mut known = HashSet::new();
         for run in runs {
             refuse_failures(&run.failures)?;
             for case in &run.cases {
@@ -93,11 +93,10 @@ impl Results {
                 if case.is_reference || !is_plain {
                     continue;
                 }
-                if !known.insert((case.scene.clone(), case.name())) {
+                if !known.insert(&case.id) {
                     return Err(Error::Usage(format!(
-                        "{} / {} is in two runs; allowed: each case once",
-                        case.scene,
-                        case.name()
+                        "{} is in two runs; allowed: each case once",
+                        case.id
                     )));
                 }
                 results.scores.push(ResultScores::of(case));
@@ -119,7 +118,7 @@ impl Results {
             ]
         };
         let render = &run.render;
-        let seal = Seal::split_name(&case.scene).1;
+        let seal = case.scene.seal;
         let size = [render.width, render.height];
         let own = texts(size, render.samples_per_pixel, &adapter_of(run), seal);
         let first = texts(self.size, self.samples_per_pixel, &self.adapter, self.seal);
@@ -206,11 +205,11 @@ impl Results {
     }
 
     /// Lists the scenes in their order.
-    pub fn scenes(&self) -> Vec<&str> {
+    pub fn scenes(&self) -> Vec<&SceneId> {
         let mut scenes = Vec::new();
         for own in &self.scores {
-            if !scenes.contains(&own.scene.as_str()) {
-                scenes.push(own.scene.as_str());
+            if !scenes.contains(&&own.scene) {
+                scenes.push(&own.scene);
             }
         }
         scenes
@@ -245,7 +244,10 @@ impl ResultScores {
         let scores = (Metric::OF_MEANS.into_iter())
             .filter_map(|metric| Some((metric, rounded(case.estimate(metric)?))));
         Self {
-            scene: Seal::split_name(&case.scene).0.to_owned(),
+            scene: SceneId {
+                seal: None,
+                ..case.scene.clone()
+            },
             family: case.family,
             filter: case.filter.clone(),
             name: case.name(),

@@ -1,8 +1,7 @@
 //! Page of a comparison.
 
 use judge::{
-    Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison, Side, filter_label, pair_cases,
-    rank_changes,
+    Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison, Side, pair_cases, rank_changes,
 };
 use maud::{Markup, html};
 use metrics::Metric;
@@ -29,9 +28,9 @@ pub fn compare_page(
     let both = pair_cases(&first.run, &second.run);
     let mut shown = Vec::new();
     for (scene, filter) in ranked.iter().take(SHOWN) {
-        let pair = both
-            .iter()
-            .find(|pair| pair.first.scene == *scene && filter_label(pair.first) == *filter);
+        let pair = both.iter().find(|pair| {
+            pair.first.scene == **scene && pair.first.filter_id().to_string() == *filter
+        });
         let pair = pair.expect("a change is of a pair");
         shown.push(case(compared, pair, Pictures::read([first, second], pair)?));
     }
@@ -180,7 +179,7 @@ fn mean_class(kind: MeanKind) -> &'static str {
 
 /// Shows both pictures under a divider, the truth, the change of the error, and the scores.
 fn case(compared: &RunComparison, pair: &Pair, pictures: Option<Pictures>) -> Markup {
-    let filter = filter_label(pair.first);
+    let filter = pair.first.filter_id().to_string();
     let changes = (compared.changes.iter())
         .filter(|change| change.scene == pair.first.scene && change.filter == filter);
     let title = format!("{} / {filter}", pair.first.scene);

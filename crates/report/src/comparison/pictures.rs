@@ -29,7 +29,12 @@ impl Pictures {
         Ok(Some(Self {
             first,
             second,
-            truth: embed_file(&sides[0].folder().join(&pair.first.scene).join(truth))?,
+            truth: embed_file(
+                &sides[0]
+                    .folder()
+                    .join(pair.first.scene.folder())
+                    .join(truth),
+            )?,
             change: change(sides, pair)?,
         }))
     }

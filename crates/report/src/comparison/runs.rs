@@ -2,9 +2,11 @@
 
 use std::collections::HashSet;
 
+use frame::Alignment;
 use judge::Side;
 use maud::{Markup, html};
 use suite::{Case, Run};
+use tracer::SceneId;
 
 use crate::run_facts::facts;
 use crate::table::Column::{Plain, Text};
@@ -24,7 +26,7 @@ pub fn both_runs(first: &Side, second: &Side) -> Markup {
         }
     };
     let hashes = html! {
-        @for [scene, alignment, hash] in truths(&first.run, &second.run) {
+        @for (scene, alignment, hash) in truths(&first.run, &second.run) {
             tr { th scope="row" { (scene) } td.text { (alignment) } td.text { code { (hash) } } }
         }
     };
@@ -42,12 +44,12 @@ pub fn both_runs(first: &Side, second: &Side) -> Markup {
 }
 
 /// Lists scene, alignment and hash of the truths that both have, each once.
-fn truths<'a>(first: &'a Run, second: &'a Run) -> Vec<[&'a str; 3]> {
+fn truths<'a>(first: &'a Run, second: &'a Run) -> Vec<(&'a SceneId, Alignment, &'a str)> {
     let list = |run: &'a Run| {
-        let truth = |own: &'a Case| [own.scene.as_str(), own.alignment.name(), &own.truth_hash];
+        let truth = |own: &'a Case| (&own.scene, own.alignment, own.truth_hash.as_str());
         run.cases.iter().map(truth)
     };
-    let others: HashSet<[&str; 3]> = list(second).collect();
+    let others: HashSet<(&SceneId, Alignment, &str)> = list(second).collect();
     let mut seen = HashSet::new();
     list(first)
         .filter(|truth| others.contains(truth) && seen.insert(*truth))

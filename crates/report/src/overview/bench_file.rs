@@ -4,10 +4,9 @@ use std::path::Path;
 
 use filters::Value;
 use store::read_text;
-use suite::{BENCH_FORMAT, Bench, CaseCost, Error, REACHES, SIDES};
+use suite::{BENCH_FORMAT, Bench, CaseCost, Error, FilterId, REACHES, SIDES};
 
 use crate::case_table::CaseTable;
-use crate::filter_id::FilterId;
 
 /// Name of the file that `shuttertruth bench` writes.
 const BENCH_FILE: &str = "bench.json";

@@ -3,12 +3,12 @@
 use filters::Clock;
 use maud::{Markup, html};
 use metrics::Metric;
-use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
+use suite::{BASELINE, Bench, CaseCost, FilterId, GROWTH_FROM, REACHES, Spread};
 
 use super::bench_file::cost_of;
 use super::pareto::{Point, pareto_section};
 use crate::case_table::CaseTable;
-use crate::filter_id::{FilterId, mean};
+use crate::filter_id::mean;
 use crate::run_facts::adapter_text;
 use crate::table::Column::{self, Plain};
 use crate::table::{grouped_table, scroll_table};
@@ -69,7 +69,7 @@ fn points(table: &CaseTable, timed: &[(&FilterId, &CaseCost)]) -> Vec<Point> {
     let point = |(filter, cost): &(&FilterId, &CaseCost)| {
         let seconds = &cost.seconds;
         Some(Point {
-            title: filter.title(),
+            title: filter.to_string(),
             milliseconds: 1e3 * seconds.median,
             quartiles: [1e3 * seconds.lower_quartile, 1e3 * seconds.upper_quartile],
             error: mean_error(table, filter)?,
@@ -82,7 +82,7 @@ fn points(table: &CaseTable, timed: &[(&FilterId, &CaseCost)]) -> Vec<Point> {
 fn references(table: &CaseTable) -> Vec<(String, f64)> {
     let all = table.filters.iter();
     all.filter(|filter| filter.is_reference)
-        .filter_map(|own| Some((own.title(), mean_error(table, own)?)))
+        .filter_map(|own| Some((own.to_string(), mean_error(table, own)?)))
         .collect()
 }
 
@@ -97,7 +97,7 @@ fn passes(timed: &[(&FilterId, &CaseCost)]) -> Markup {
         @for (filter, cost) in timed {
             tbody {
                 tr.group {
-                    th scope="row" { (filter.title()) }
+                    th scope="row" { (filter.to_string()) }
                     (spread(&cost.seconds))
                     td { (format!("{:.2}", cost.ratio.median)) }
                     td { (format!("{:.0}", cost.bytes_per_pixel)) }

@@ -14,6 +14,7 @@ use judge::{Level, lag_text};
 use maud::{Markup, html};
 use metrics::Metric;
 use score_table::score_table;
+use tracer::SceneId;
 use winners::{sequence_winners, winners};
 
 use crate::case::bounds::broken_bounds;
@@ -96,7 +97,7 @@ fn counts(table: &CaseTable, targets: &Tally) -> Markup {
 
 /// Says which scenes an engine drew, and whose truth is whose.
 fn engines(table: &CaseTable) -> Markup {
-    let first = |scene: &&str| table.cases_on(scene).next();
+    let first = |scene: &&SceneId| table.cases_on(scene).next();
     let cases = table.scenes.iter().filter_map(first);
     html! {
         @for (case, drawn) in cases.filter_map(|(_, case)| Some((case, case.drawn.as_ref()?))) {

@@ -3,7 +3,7 @@
 use judge::{Level, list_summarized};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
-use suite::{Case, Overall};
+use suite::{Case, FilterId, Overall};
 use tracer::FrameRate;
 
 use super::bench_file::cost_of;
@@ -12,7 +12,7 @@ use super::costs::cost_text;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
-use crate::filter_id::{FilterId, mean};
+use crate::filter_id::{mean, section_anchor};
 use crate::finding_text::Tally;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
@@ -41,7 +41,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
         .filter(|own| own.metric == metric && Some(own.rate) == rate)
         .collect();
     let row = |filter: &FilterId| {
-        let overall = means.iter().find(|own| filter.is_of(own)).copied();
+        let overall = means.iter().find(|own| own.filter_id() == *filter).copied();
         let of_rate = |case: &Case| rate.is_none_or(|rate| case.rate == rate);
         let scores = (table.cases_of(filter)).filter(|(_, case)| of_rate(case));
         let only = mean(scores.filter_map(|(_, case)| case.estimate(metric)));
@@ -138,7 +138,7 @@ fn heading(table: &CaseTable, thumbnails: &[String], ends: Option<Markup>) -> Ma
             @for (index, scene) in table.scenes.iter().enumerate() {
                 th.scene scope="col" {
                     img src=[thumbnails.get(index)] alt="";
-                    button { (breakable(scene)) }
+                    button { (breakable(&scene.to_string())) }
                 }
             }
             @if table.bench.is_some() { th scope="col" { button { "cost, ms" } } }
@@ -183,7 +183,7 @@ fn is_failing(table: &CaseTable, views: &[CaseView], filter: &FilterId) -> bool 
 fn name(metric: Metric, filter: &FilterId) -> Markup {
     html! {
         @if filter.is_reference { (filter.name) }
-        @else { a href=(format!("#{}", filter.section_anchor())) { (breakable(&filter.name)) } }
+        @else { a href=(format!("#{}", section_anchor(filter))) { (breakable(&filter.name)) } }
         @if metric.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
     }
 }

@@ -6,6 +6,7 @@ use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
 use serde_json::{Value, json};
 use suite::{CHANGE_PICTURE, Run, Sequence, SequenceFrame};
+use tracer::SceneId;
 
 use super::ranking::ranking_tables;
 use super::scores::score_tables;
@@ -31,7 +32,7 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     }
     let played: Vec<Value> = run.sequences.iter().map(play).collect();
     let data = Value::from(played).to_string();
-    let mut scenes: Vec<&str> = run.sequences.iter().map(|own| own.scene.as_str()).collect();
+    let mut scenes: Vec<&SceneId> = run.sequences.iter().map(|own| &own.scene).collect();
     scenes.dedup();
     let frames = run.frames;
     let document = Document {

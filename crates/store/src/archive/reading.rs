@@ -215,7 +215,7 @@ fn broken(path: &Path, error: &std::io::Error) -> Error {
 
 fn refuse(path: &Path, reason: &str) -> Error {
     Error::Refused(format!(
-        "{}: {reason}; allowed: a pack as `shuttertruth pack` writes it; make or fetch it again",
+        "{}: {reason}; allowed: a pack as `shuttertruth truths pack` writes it; make or fetch it again",
         path.display()
     ))
 }

@@ -86,7 +86,7 @@ impl VelocityDefect {
         let names: Vec<&str> = known.map(|defect| defect.name()).collect();
         let refuse = |reason: &str| {
             Err(Error::Usage(format!(
-                "--velocity-defect {}: {reason}; allowed there: {}",
+                "defect={}: {reason}; allowed there: {}",
                 self.name(),
                 names.join(", ")
             )))
@@ -95,9 +95,9 @@ impl VelocityDefect {
             (false, _) => {
                 refuse("needs the scene's own motion, which an engine's capture does not have")
             }
-            (true, VelocityKind::CameraOnly) => {
-                refuse("needs the motion of objects, which --velocity camera_only does not have")
-            }
+            (true, VelocityKind::CameraOnly) => refuse(
+                "needs the motion of objects, which a velocity of the camera alone does not have",
+            ),
             (true, _) => Ok(()),
         }
     }

@@ -3,20 +3,17 @@
 use std::convert::Infallible;
 
 use filters::Gpu;
+use frame::Alignment;
 use store::LADDER;
-use tracer::{Progress, RenderSettings, Scene};
+use tracer::RenderSettings;
 
-use super::first_slice::{RenderCosts, count_small_pixels, measure_first_cases};
 use super::frames::visit_frames;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
-use super::scene::SceneContext;
 use crate::render::ladders::needed_rungs;
 use crate::render::settings::frame_settings;
 
-/// Time in seconds from which a first slice is measured; shorter work is over before that pays.
-const WORTH_A_SLICE: f64 = 3.0;
 /// Time of a ladder, relative to its truth's samples: the mean of five scenes. It is about the pixels near motion alone.
 const WHOLE_LADDER: f64 = 0.4;
 /// Time to run a filter and measure its picture, whatever its size, in seconds. This number and the next ones were measured with
@@ -47,64 +44,38 @@ pub struct RunEstimate {
     pub cases: usize,
     /// Number of cases that were measured before, with the same inputs.
     pub kept: usize,
-    /// Seconds of every step of each scene: its frame; per truth its replicates and its ladder; its cases.
-    pub steps: Vec<Vec<f64>>,
 }
 
-/// Costs of a scene's pictures and cases, in seconds on the threads of this process.
-#[derive(Clone)]
-struct SceneCosts {
-    render: RenderCosts,
-    case: f64,
+/// Costs of rendering, in seconds on the threads of this process: means over the shipped scenes, as two cores of a server take them.
+/// Scenes differ by a factor of six.
+struct RenderCosts {
+    /// Preparing the scene for rays.
+    scene: f64,
+    /// A pixel of a truth's support and pilot.
+    support: f64,
+    /// A sample of a frame.
+    frame: f64,
+    /// A sample of a truth.
+    truth: f64,
 }
 
-/// Estimates a run: cases and truths that lie in the folder take no time. Does not read their pictures. A run that takes long is
-/// estimated from a measured first slice: a few samples of a small picture of every scene, and the first cases of one.
-pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
-    let rough = estimate_run_roughly(plan, gpu);
-    if rough.seconds < WORTH_A_SLICE {
-        return rough;
+impl RenderCosts {
+    fn usual() -> Self {
+        let threads = rayon::current_num_threads() as f64;
+        Self {
+            scene: 0.1,
+            support: 20e-6 / threads,
+            frame: 0.5e-6 / threads,
+            truth: 0.9e-6 / threads,
+        }
     }
-    let mut speed = None;
-    let mut done = 0;
-    let label = "first slices, to estimate the time";
-    plan.monitor.watch(label, |watch| {
-        estimate_with(plan, gpu, |scene, renders| {
-            let total = plan.all_scenes().len() as u64;
-            // What is interrupted here ends in the first scene.
-            let _ = watch(Progress { done, total });
-            done += 1;
-            let slice = match (renders, scene.scene) {
-                (true, RunScene::Traced(scene)) => RenderCosts::measure(scene, &plan.render),
-                _ => None,
-            };
-            let speed = *speed.get_or_insert_with(|| measure_case_speed(scene).unwrap_or(1.0));
-            SceneCosts {
-                render: slice.unwrap_or_else(RenderCosts::usual),
-                case: speed * usual_case_seconds(count_pixels(&plan.render)),
-            }
-        })
-    })
 }
 
-/// Estimates a run without measuring anything; off by a factor of two or three.
-pub fn estimate_run_roughly(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
-    estimate_with(plan, gpu, |_, _| SceneCosts {
-        render: RenderCosts::usual(),
-        case: usual_case_seconds(count_pixels(&plan.render)),
-    })
-}
-
-/// Estimates a run with the costs of each scene that has work to do, and has pictures to render or none.
-fn estimate_with(
-    plan: &RunPlan,
-    gpu: Option<&Gpu>,
-    mut costs: impl FnMut(&SceneContext, bool) -> SceneCosts,
-) -> RunEstimate {
+/// Estimates a run: cases and truths that lie in the folder take no time. Does not read their pictures, measures nothing, and is off by
+/// a factor of two or three.
+pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     let filters = plan.scaled_filters();
     let mut estimate = RunEstimate::default();
-    let pixels = count_pixels(&plan.render);
-    let mut last: Option<SceneCosts> = None;
     let visited = visit_frames(plan, &filters, gpu, |scene| {
         let planned = PlannedCase::all(plan, &filters, scene.scene);
         let kept = match plan.no_cache {
@@ -116,100 +87,78 @@ fn estimate_with(
         estimate.cases += planned.len();
         estimate.kept += kept;
         let due = planned.len() - kept;
-        let is_drawn = matches!(scene.scene, RunScene::Drawn(_));
-        let (frame, truths) = match (due, plan.no_cache) {
+        if due == 0 {
+            return Ok::<(), Infallible>(());
+        }
+        let alignments = plan.alignments();
+        let (frame, truths) = match (scene.scene, plan.no_cache) {
             // What an engine drew is copied in no time.
-            _ if is_drawn => (false, vec![false; plan.alignments().len()]),
-            (0, _) => (false, vec![false; plan.alignments().len()]),
-            (_, true) => (true, vec![true; plan.alignments().len()]),
+            (RunScene::Drawn(_), _) => (false, vec![false; alignments.len()]),
+            (_, true) => (true, vec![true; alignments.len()]),
             (_, false) => scene.find_missing(),
         };
-        let renders = frame || truths.contains(&true);
-        let costs = match (due, &last) {
-            (0, _) => None,
-            // Frames of one scene cost about the same.
-            (_, Some(last)) if scene.scene.frame_index() > 0 => Some(last.clone()),
-            _ => Some(costs(scene, renders)),
-        };
-        last.clone_from(&costs);
-        let rungs: Vec<usize> = (plan.alignments().into_iter())
-            .map(|alignment| needed_rungs(alignment, plan.ladders).len())
+        let missing: Vec<_> = (alignments.iter().zip(&truths))
+            .filter_map(|(alignment, missing)| missing.then_some(*alignment))
             .collect();
-        let missing = (frame, &truths[..], &rungs[..]);
-        estimate
-            .steps
-            .push(step_seconds(plan, costs.as_ref(), missing, due));
-        if due > 0 {
-            let truths = truths.iter().filter(|missing| **missing).count();
-            estimate.disk += count_bytes(&plan.render, (frame, truths), due);
-            let truths = plan.alignments().len();
-            let memory = (scene.scene).memory(&plan.render, truths, plan.inputs.len());
-            estimate.memory = estimate.memory.max(memory);
-        }
-        Ok::<(), Infallible>(())
+        estimate.seconds += scene_seconds(plan, frame, &missing, due);
+        estimate.disk += count_bytes(&plan.render, (frame, missing.len()), due);
+        let memory = (scene.scene).memory(&plan.render, truths.len(), plan.inputs.len());
+        estimate.memory = estimate.memory.max(memory);
+        Ok(())
     });
     let Ok(()) = visited;
-    let report = estimate.cases as f64 * pixels;
-    let steps: f64 = estimate.steps.iter().flatten().sum();
-    estimate.seconds = steps + report * SECONDS_PER_REPORT_PIXEL;
+    let report = estimate.cases as f64 * count_pixels(&plan.render);
+    estimate.seconds += report * SECONDS_PER_REPORT_PIXEL;
     estimate
 }
 
-/// Estimates the seconds that it takes to render frames of scenes and some truths of each, where nothing is kept; measures a first
-/// slice where that is long.
-pub fn estimate_render_seconds(renders: &[(&Scene, RenderSettings)], truths: usize) -> f64 {
-    let estimate = |find_costs: &dyn Fn(&Scene, &RenderSettings) -> RenderCosts| -> f64 {
-        let seconds = renders.iter().map(|(scene, render)| {
-            let costs = find_costs(scene, render);
-            let each = truth_seconds(render, &costs);
-            frame_seconds(render, &costs) + shared_truths(truths) * each
-        });
-        seconds.sum()
-    };
-    let rough = estimate(&|_, _| RenderCosts::usual());
-    match rough < WORTH_A_SLICE {
-        true => rough,
-        false => estimate(&|scene, render| {
-            RenderCosts::measure(scene, render).unwrap_or_else(RenderCosts::usual)
-        }),
-    }
+/// Estimates the seconds that it takes to render a scene's frame and missing truths, and to measure the cases that are due.
+fn scene_seconds(plan: &RunPlan, frame: bool, missing: &[Alignment], due: usize) -> f64 {
+    let render = &plan.render;
+    let frame = if frame { frame_seconds(render) } else { 0.0 };
+    let ladders = missing.iter().map(|alignment| {
+        let rungs = needed_rungs(*alignment, plan.ladders).len();
+        ladder_seconds(render, rungs)
+    });
+    let intervals = if plan.intervals { INTERVALS } else { 1.0 };
+    frame
+        + shared_truths(missing.len()) * truth_seconds(render)
+        + ladders.sum::<f64>()
+        + due as f64 * intervals * estimate_case_seconds(render)
+}
+
+/// Estimates the seconds that it takes to render a scene's frame and some truths, where nothing is kept.
+pub fn estimate_render_seconds(render: &RenderSettings, truths: usize) -> f64 {
+    frame_seconds(render) + shared_truths(truths) * truth_seconds(render)
 }
 
 /// Estimates the seconds that it takes to run a filter once and to measure its picture.
 pub fn estimate_case_seconds(render: &RenderSettings) -> f64 {
-    usual_case_seconds(count_pixels(render))
-}
-
-pub(super) fn usual_case_seconds(pixels: f64) -> f64 {
-    SECONDS_PER_CASE + pixels * SECONDS_PER_CASE_PIXEL
-}
-
-/// Measures the first cases of a scene, relative to the usual time.
-fn measure_case_speed(scene: &SceneContext) -> Option<f64> {
-    let (seconds, cases) = measure_first_cases(scene)?;
-    let usual = usual_case_seconds(count_small_pixels(&scene.plan.render));
-    Some(seconds / (cases as f64 * usual))
+    SECONDS_PER_CASE + count_pixels(render) * SECONDS_PER_CASE_PIXEL
 }
 
 pub(super) fn count_pixels(render: &RenderSettings) -> f64 {
     f64::from(render.width) * f64::from(render.height)
 }
 
-pub(super) fn count_samples(render: &RenderSettings) -> f64 {
+fn count_samples(render: &RenderSettings) -> f64 {
     count_pixels(render) * f64::from(render.samples_per_pixel)
 }
 
-pub(super) fn frame_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
-    costs.scene
-        + count_pixels(render) * f64::from(frame_settings(render).samples_per_pixel) * costs.frame
+pub(super) fn frame_seconds(render: &RenderSettings) -> f64 {
+    let costs = RenderCosts::usual();
+    let samples = f64::from(frame_settings(render).samples_per_pixel);
+    costs.scene + count_pixels(render) * samples * costs.frame
 }
 
-pub(super) fn truth_seconds(render: &RenderSettings, costs: &RenderCosts) -> f64 {
+pub(super) fn truth_seconds(render: &RenderSettings) -> f64 {
+    let costs = RenderCosts::usual();
     costs.scene + count_pixels(render) * costs.support + count_samples(render) * costs.truth
 }
 
 /// Estimates the seconds that it takes to render some rungs of a ladder.
-pub(super) fn ladder_seconds(render: &RenderSettings, costs: &RenderCosts, rungs: usize) -> f64 {
+pub(super) fn ladder_seconds(render: &RenderSettings, rungs: usize) -> f64 {
+    let costs = RenderCosts::usual();
     let part = WHOLE_LADDER * rungs as f64 / LADDER.len() as f64;
     match rungs {
         0 => 0.0,
@@ -223,36 +172,6 @@ pub(super) fn shared_truths(truths: usize) -> f64 {
         0 | 1 => truths as f64,
         _ => truths as f64 - 0.5,
     }
-}
-
-/// Estimates every step of a scene, in the order of [`SceneContext::measure_cases`]; no time for those that are not due. `rungs` are
-/// the numbers of rungs that the ladders of the truths need.
-fn step_seconds(
-    plan: &RunPlan,
-    costs: Option<&SceneCosts>,
-    (frame, truths, rungs): (bool, &[bool], &[usize]),
-    due: usize,
-) -> Vec<f64> {
-    let render = &plan.render;
-    let of_costs = |is_due: bool, seconds: &dyn Fn(&RenderSettings, &RenderCosts) -> f64| {
-        let costs = costs.filter(|_| is_due);
-        costs.map_or(0.0, |costs| seconds(render, &costs.render))
-    };
-    let mut steps = vec![of_costs(frame, &frame_seconds)];
-    let missing = truths.iter().filter(|missing| **missing).count();
-    let share = shared_truths(missing) / missing.max(1) as f64;
-    for (missing, rungs) in truths.iter().zip(rungs) {
-        let replicate = share * of_costs(*missing, &truth_seconds) / f64::from(render.replicates);
-        steps.extend((0..render.replicates).map(|_| replicate));
-        let ladder = |render: &_, costs: &_| ladder_seconds(render, costs, *rungs);
-        steps.push(of_costs(*missing, &ladder));
-    }
-    let intervals = match plan.intervals {
-        true => INTERVALS,
-        false => 1.0,
-    };
-    steps.push(costs.map_or(0.0, |costs| due as f64 * intervals * costs.case));
-    steps
 }
 
 /// Counts the bytes on disk of a scene's frame, some truths and some cases.

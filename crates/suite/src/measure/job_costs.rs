@@ -1,10 +1,9 @@
 //! Costs of the jobs that a run can be split into: the renders of a scene, and some of its cases.
 
 use super::estimate::{
-    INTERVALS, SECONDS_PER_REPORT_PIXEL, count_pixels, frame_seconds, ladder_seconds,
-    shared_truths, truth_seconds, usual_case_seconds,
+    INTERVALS, SECONDS_PER_REPORT_PIXEL, count_pixels, estimate_case_seconds, frame_seconds,
+    ladder_seconds, shared_truths, truth_seconds,
 };
-use super::first_slice::RenderCosts;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use crate::render::ladders::needed_rungs;
@@ -58,22 +57,21 @@ pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let frames = f64::from(plan.frames.count);
     let truths = plan.alignments().len();
     let threads = rayon::current_num_threads() as f64;
-    let usual = RenderCosts::usual();
     let ladders = plan.alignments().into_iter().map(|alignment| {
         let rungs = needed_rungs(alignment, plan.ladders).len();
-        ladder_seconds(render, &usual, rungs)
+        ladder_seconds(render, rungs)
     });
-    let renders = frame_seconds(render, &usual)
-        + shared_truths(truths) * truth_seconds(render, &usual)
+    let renders = frame_seconds(render)
+        + shared_truths(truths) * truth_seconds(render)
         + ladders.sum::<f64>();
-    let case = CASE_CORES * usual_case_seconds(count_pixels(render));
+    let case = CASE_CORES * estimate_case_seconds(render);
     let intervals = if plan.intervals { INTERVALS } else { 1.0 };
     let all = plan.all_scenes().into_iter();
     let jobs = all.map(|scene| {
         let memory = scene.memory(render, truths, plan.inputs.len());
         let cpu_seconds = frames * threads * renders;
         let planned = PlannedCase::all(plan, &plan.filters, scene);
-        let references = planned.iter().filter(|case| case.is_reference());
+        let references = planned.iter().filter(|case| case.id.is_reference);
         SceneJobs {
             render: (scene.traced()).map(|_| JobCost {
                 cpu_seconds,

@@ -6,7 +6,6 @@ pub mod dilated_velocity;
 mod due_cases;
 pub mod earlier;
 pub mod estimate;
-mod first_slice;
 mod frames;
 mod history;
 pub mod job_costs;

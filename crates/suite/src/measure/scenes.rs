@@ -3,7 +3,6 @@
 use filters::Gpu;
 use tracer::{Progress, Watch};
 
-use super::estimate::{RunEstimate, estimate_run_roughly};
 use super::frames::{count_frames, visit_frames};
 use super::plan::RunPlan;
 use super::sequence::{FrameCases, measure_sequences};
@@ -14,23 +13,12 @@ use crate::run::{FORMAT, Run};
 use crate::stats::overall::overall;
 use crate::{Error, PROGRAM};
 
-/// Measures as [`measure_scenes_as_expected`] does, without an estimate made before.
+/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back what an earlier run
+/// measured of the same inputs and left there. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's filters.
 pub fn measure_scenes(
     plan: &RunPlan,
     gpu: Option<&Gpu>,
     command: Vec<String>,
-) -> Result<Run, Error> {
-    measure_scenes_as_expected(plan, gpu, command, &estimate_run_roughly(plan, gpu))
-}
-
-/// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back what an earlier run
-/// measured of the same inputs and left there. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's filters. The progress
-/// of all scenes follows the estimate.
-pub fn measure_scenes_as_expected(
-    plan: &RunPlan,
-    gpu: Option<&Gpu>,
-    command: Vec<String>,
-    estimate: &RunEstimate,
 ) -> Result<Run, Error> {
     // The steps of a single scene show all of the progress.
     let count = count_frames(plan);
@@ -47,9 +35,7 @@ pub fn measure_scenes_as_expected(
         sequences,
         failures,
         read_back,
-    } = monitor.watch_steps(&label, &estimate.steps.concat(), |watch| {
-        measure_all(plan, gpu, watch)
-    })?;
+    } = monitor.watch(&label, |watch| measure_all(plan, gpu, watch))?;
     Ok(Run {
         format: FORMAT,
         program: PROGRAM.to_owned(),

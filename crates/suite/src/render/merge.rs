@@ -57,7 +57,7 @@ fn gather_renders(parts: &[PathBuf]) -> Result<Files, Error> {
         own.retain(|render| matches!(render.file, RenderFile::Frame | RenderFile::Replicate(..)));
         if own.is_empty() {
             return Err(Error::Usage(format!(
-                "{} holds no replicates; allowed: folders into which `shuttertruth render` wrote a part A..B of the replicates, or \
+                "{} holds no replicates; allowed: folders into which `shuttertruth truths render` wrote a part A..B of the replicates, or \
                  finished runs alone",
                 part.display()
             )));
@@ -111,7 +111,7 @@ fn check_replicates(truth: &RenderPath, replicates: &[Replicate]) -> Result<(), 
     let folder = truth.path().with_extension("");
     if let Some(pair) = (replicates.windows(2)).find(|pair| pair[0].index == pair[1].index) {
         return Err(Error::Usage(format!(
-            "{}: two files hold replicate {}; leave names as `shuttertruth render` made them",
+            "{}: two files hold replicate {}; leave names as `shuttertruth truths render` made them",
             folder.display(),
             pair[0].index
         )));
@@ -136,12 +136,12 @@ fn check_replicates(truth: &RenderPath, replicates: &[Replicate]) -> Result<(), 
     }
     let one = &replicates[0];
     let home = RenderPath {
-        folder: one.provenance.scene.clone(),
+        scene: one.provenance.scene.parse().map_err(Error::Usage)?,
         file: RenderFile::Truth(one.alignment),
     };
     if *truth != home {
         return Err(Error::Usage(format!(
-            "{} holds replicates that belong into {}; leave folders as `shuttertruth render` made them",
+            "{} holds replicates that belong into {}; leave folders as `shuttertruth truths render` made them",
             folder.display(),
             home.path().with_extension("").display()
         )));

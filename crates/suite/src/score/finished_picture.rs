@@ -114,7 +114,7 @@ fn read_display_referred(path: &Path, stops: f32, truth: &Truth) -> Result<Finis
     })
 }
 
-/// Refuses a file of `shuttertruth blur` that names another shutter than the truth's. In files of other programs these attributes
+/// Refuses a file of `shuttertruth engine blur` that names another shutter than the truth's. In files of other programs these attributes
 /// may mean something else.
 fn check_shutter(file: &ExrFile, truth: &Truth) -> Result<(), Error> {
     if !file.attributes.contains_key("kind") {

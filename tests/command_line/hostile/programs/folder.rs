@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::bench::{Bench, assert_done, assert_refused, files_below, split};
 
 const RUN: &str = "run --quiet --size 64x32 --samples-per-pixel 16 --filters identity --out out";
-const RENDER: &str = "render --quiet --samples-per-pixel 16 --out out";
+const RENDER: &str = "truths render --quiet --samples-per-pixel 16 --out out";
 
 /// Opens the lock file that another process would hold.
 fn lock_file(bench: &Bench) -> File {
@@ -33,9 +33,9 @@ fn two_runs_cannot_share_a_folder_at_the_same_time() {
         RUN,
         RENDER,
         "check --quiet --filters identity --out out",
-        "calibrate --quiet --filters identity --out out",
-        "tune --quiet --filter jump_flood --objective flip --out out",
-        "serve --quiet --filter jump_flood --out out",
+        "limits calibrate --quiet --filters identity --out out",
+        "tune search --quiet --filter jump_flood --objective flip --out out",
+        "tune serve --quiet --filter jump_flood --out out",
     ] {
         let words = split(words);
         assert_refused(&bench.shuttertruth(&words), 2, &parts);

@@ -28,7 +28,7 @@ fn set_up() -> Bench {
     bench
 }
 
-const BLUR: &str = "blur --allow-commands --filter ./mine --frame frame.exr --out b.exr";
+const BLUR: &str = "engine blur --allow-commands --filter ./mine --frame frame.exr --out b.exr";
 
 /// Makes the command `blur`; a timeout of a minute fails it.
 fn blur(bench: &Bench) -> Command {
@@ -45,11 +45,11 @@ fn no_command_runs_a_program_without_permission() {
     for words in [
         "run --out out --filter mine",
         "check --out out --filter mine",
-        "calibrate --out out --filter mine",
-        "blur --filter ./mine --frame frame.exr --out b.exr",
-        "tune --out out --filter ./mine",
-        "evaluate --out out --filter ./mine --params p.json",
-        "serve --out out --filter ./mine",
+        "limits calibrate --out out --filter mine",
+        "engine blur --filter ./mine --frame frame.exr --out b.exr",
+        "tune search --out out --filter ./mine",
+        "tune evaluate --out out --filter ./mine --params p.json",
+        "tune serve --out out --filter ./mine",
     ] {
         let parts = [
             "./mine/filter.toml:4: ",

@@ -163,7 +163,9 @@ fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
         for words in [
             &["report", "out", "--html", "page.html"][..],
             &["compare", "out", "out"],
-            &["accept", "--out", "out", "--reason", "a test", "--force"],
+            &[
+                "limits", "accept", "--out", "out", "--reason", "a test", "--force",
+            ],
         ] {
             let output = bench.command(words).env_remove("CI").output().unwrap();
             assert_refused(&output, 2, &["out/run.json", found]);

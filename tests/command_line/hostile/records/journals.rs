@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::bench::{Bench, assert_refused, make_fifo, split};
 
-const TUNE: &str = "tune --quiet --filter jump_flood --vary samples --objective flip --size 64x32 \
+const TUNE: &str = "tune search --quiet --filter jump_flood --vary samples --objective flip --size 64x32 \
                     --samples-per-pixel 16 --out tuned --budget 3";
 
 #[test]

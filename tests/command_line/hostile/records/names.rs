@@ -6,7 +6,8 @@ use frame::Frame;
 
 use crate::bench::{Bench, assert_done, assert_refused};
 
-const RENDER: [&str; 6] = [
+const RENDER: [&str; 7] = [
+    "truths",
     "render",
     "--quiet",
     "--out",

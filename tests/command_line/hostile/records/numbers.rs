@@ -18,11 +18,11 @@ fn numbers_out_of_range_are_refused_with_the_allowed_range() {
             &["--replicates 4000000000", "4096"],
         ),
         (
-            "render --replicates 0..4000000000",
+            "truths render --replicates 0..4000000000",
             &["0..4000000000", "up to 4096"],
         ),
         (
-            "render --noise 1e-9 --most-replicates 4000000000",
+            "truths render --noise 1e-9 --most-replicates 4000000000",
             &["--most-replicates 4000000000"],
         ),
         (
@@ -44,16 +44,16 @@ fn numbers_out_of_range_are_refused_with_the_allowed_range() {
             &["--jitter-frames", "0 to 1024"],
         ),
         (
-            "calibrate --seed 18446744073709551615",
+            "limits calibrate --seed 18446744073709551615",
             &["--seed 18446744073709551615", "allowed: up to"],
         ),
         ("run --seed 18446744073709551616", &["--seed"]),
         (
-            "tune --filter jump_flood --budget 10000000000000",
+            "tune search --filter jump_flood --budget 10000000000000",
             &["--budget", "0 to 1000000"],
         ),
         (
-            "sensitivity --filter jump_flood --rows 10000000000000",
+            "tune sensitivity --filter jump_flood --rows 10000000000000",
             &["--rows", "0 to 1000000"],
         ),
     ] {
@@ -63,7 +63,7 @@ fn numbers_out_of_range_are_refused_with_the_allowed_range() {
         assert_refused(&bench.shuttertruth(&line), 2, parts);
         assert!(!bench.path("out").exists(), "{words} left something behind");
     }
-    let import = split("import scenes/plate/plate.obj --out mine --spin 1e300deg/frame");
+    let import = split("engine import scenes/plate/plate.obj --out mine --spin 1e300deg/frame");
     assert_refused(
         &bench.shuttertruth(&import),
         2,

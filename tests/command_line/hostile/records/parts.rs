@@ -15,14 +15,14 @@ fn parts() -> Bench {
     let bench = Bench::new();
     for (out, part) in [("a", "0..1"), ("b", "1..2")] {
         let words =
-            format!("render --quiet --samples-per-pixel 16 --replicates {part} --out {out}");
+            format!("truths render --quiet --samples-per-pixel 16 --replicates {part} --out {out}");
         bench.execute(&split(&words));
     }
     bench
 }
 
 fn merge(bench: &Bench, parts: &[&str]) -> Output {
-    let output = bench.shuttertruth(&[&["merge"], parts, &["--out", "whole"]].concat());
+    let output = bench.shuttertruth(&[&["truths", "merge"], parts, &["--out", "whole"]].concat());
     if !output.status.success() {
         assert!(
             !bench.path("whole").exists(),

@@ -14,7 +14,8 @@ fn assert_render_refused(bench: &Bench, parts: &[&str]) {
 }
 
 fn render(bench: &Bench) -> std::process::Output {
-    let words = "render --quiet --scenes plate --size 16x16 --samples-per-pixel 16 --out out";
+    let words =
+        "truths render --quiet --scenes plate --size 16x16 --samples-per-pixel 16 --out out";
     bench.shuttertruth(&crate::bench::split(words))
 }
 

@@ -41,10 +41,10 @@ impl Job {
 pub fn path_word(path: &Path) -> Result<String, Error> {
     match path.to_str() {
         Some(text) => Ok(text.to_owned()),
-        None => Err(Error::Usage(format!(
+        None => refuse!(
             "{}: is not UTF-8, which the command line of a job must be; rename it",
             path.display()
-        ))),
+        ),
     }
 }
 

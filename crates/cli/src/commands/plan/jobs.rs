@@ -5,10 +5,13 @@ use std::path::{Path, PathBuf};
 use frame::Alignment;
 use suite::{Error, JobCost, RunPlan, SceneJobs, estimate_jobs, estimate_report};
 
+use super::PlanArgs;
 use super::filter_words::{FilterWords, list_filter_words};
+use super::given::{given_options, words_behind};
 use super::job::{Job, path_word};
 use super::scene_words::{SceneWords, list_scene_words};
-use crate::arguments::{PlanArgs, given_options, words_behind};
+use crate::commands::render::RenderArgs;
+use crate::commands::run::RunArgs;
 
 /// Options that every job of cases gets in words of its own, or that change no case.
 const OWN: [&str; 17] = [
@@ -91,8 +94,8 @@ pub fn list_jobs(args: &PlanArgs, plan: &RunPlan) -> Result<Vec<Job>, Error> {
 
 impl Planner<'_> {
     fn jobs_of_run(mut self) -> Result<Vec<Job>, Error> {
-        self.measuring = given_options("run", &OWN)?;
-        self.rendering = given_options("render", &OWN_OF_RENDERS)?;
+        self.measuring = given_options::<RunArgs>(&OWN)?;
+        self.rendering = given_options::<RenderArgs>(&OWN_OF_RENDERS)?;
         self.truths = self
             .plan
             .truths
@@ -100,7 +103,7 @@ impl Planner<'_> {
             .unwrap_or_else(|| self.parts.join("truths"));
         let but = [("json", false), ("parts", true)];
         let mut command = vec![program(), "run".to_owned()];
-        command.extend(words_behind("plan", &but)?);
+        command.extend(words_behind(&but)?);
         let mut jobs = self.jobs_of_parts(&self.plan.out, &command)?;
         let cases: usize = self.filters.iter().map(|filter| filter.words.len()).sum();
         let cost = estimate_report(self.plan, cases * self.scenes.len());
@@ -115,12 +118,12 @@ impl Planner<'_> {
 
     /// One run per seed, and the command itself, which reads all of them back.
     fn jobs_of_calibration(mut self, runs: u32) -> Result<Vec<Job>, Error> {
-        let measuring = given_options("run", &[&OWN[..], &OWN_OF_SEEDS].concat())?;
-        let rendering = given_options("render", &[&OWN_OF_RENDERS[..], &["seed"]].concat())?;
+        let measuring = given_options::<RunArgs>(&[&OWN[..], &OWN_OF_SEEDS].concat())?;
+        let rendering = given_options::<RenderArgs>(&[&OWN_OF_RENDERS[..], &["seed"]].concat())?;
         let parts = self.parts.clone();
         let but = [("json", false), ("parts", true)];
-        let mut command = vec!["calibrate".to_owned()];
-        command.extend(words_behind("plan", &but)?);
+        let mut command = words(["limits", "calibrate"]);
+        command.extend(words_behind(&but)?);
         let mut jobs = Vec::new();
         let mut merged = Vec::new();
         let first = self.plan.render.seed;
@@ -153,7 +156,7 @@ impl Planner<'_> {
         last.arguments = command;
         last.inputs = merged;
         for scene in self.scenes {
-            let bounds = format!("{}.bounds.toml", scene.name);
+            let bounds = format!("{}.bounds.toml", scene.id);
             last.outputs.push(path_word(&self.plan.out.join(bounds))?);
         }
         jobs.push(last);
@@ -191,7 +194,7 @@ impl Planner<'_> {
             memory: jobs.iter().map(|job| job.memory).max().unwrap_or(0),
         };
         let mut merge = Job::new(format!("{}merge", self.prefix), cost);
-        merge.arguments = words(["merge", "--quiet"]);
+        merge.arguments = words(["truths", "merge", "--quiet"]);
         let folder = |run: &String| Path::new(run).parent().map_or(Ok(String::new()), path_word);
         for run in &parts {
             merge.arguments.push(folder(run)?);
@@ -207,10 +210,10 @@ impl Planner<'_> {
     }
 
     fn truth_job(&self, scene: &SceneWords, cost: JobCost) -> Result<Job, Error> {
-        let mut job = Job::new(format!("{}truths/{}", self.prefix, scene.name), cost);
+        let mut job = Job::new(format!("{}truths/{}", self.prefix, scene.id), cost);
         let alignments = self.plan.alignments();
         let names: Vec<&str> = alignments.into_iter().map(Alignment::name).collect();
-        job.arguments = words(["render", "--quiet", "--scenes", &scene.word]);
+        job.arguments = words(["truths", "render", "--quiet", "--scenes", &scene.word]);
         job.arguments.extend(self.rendering.clone());
         job.arguments.extend(words([
             "--size",
@@ -222,12 +225,8 @@ impl Planner<'_> {
             &path_word(&self.truths)?,
         ]));
         job.inputs = scene.files.clone();
-        let folder = self.truths.join(&scene.name);
         for frame in 0..self.plan.frames.count {
-            let folder = match frame {
-                0 => folder.clone(),
-                later => folder.join(format!("{later:04}")),
-            };
+            let folder = self.truths.join(scene.id.at_frame(frame).folder());
             job.outputs.push(path_word(&folder.join("frame.exr"))?);
             for name in &names {
                 // The last file that a render writes of a truth.
@@ -248,8 +247,8 @@ impl Planner<'_> {
         cost: JobCost,
     ) -> Result<Job, Error> {
         let name = match (part, filters) {
-            ("filters", [filter]) => format!("filters/{}/{}", scene.name, filter.name),
-            _ => format!("references/{}", scene.name),
+            ("filters", [filter]) => format!("filters/{}/{}", scene.id, filter.name),
+            _ => format!("references/{}", scene.id),
         };
         let folder = self.parts.join(&name);
         let mut job = Job::new(format!("{}{name}", self.prefix), cost);

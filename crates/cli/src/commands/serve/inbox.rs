@@ -1,4 +1,4 @@
-//! Requests of `serve` that wait for an answer.
+//! Requests of `tune serve` that wait for an answer.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};

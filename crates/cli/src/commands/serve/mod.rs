@@ -1,4 +1,4 @@
-//! The command `serve`.
+//! The command `tune serve`.
 
 mod inbox;
 mod line_reader;
@@ -6,6 +6,7 @@ mod reply;
 
 use std::collections::BTreeSet;
 
+use clap::Args;
 use serde_json::json;
 use store::Sharing;
 use suite::Error;
@@ -17,8 +18,15 @@ use super::candidate::{
     claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,
 };
 use super::evaluate::change_settings;
-use crate::arguments::ServeArgs;
+use crate::arguments::candidate::CandidateArgs;
 use crate::output::progress::make_monitor;
+
+/// `shuttertruth tune serve`
+#[derive(Debug, Args)]
+pub struct ServeArgs {
+    #[command(flatten)]
+    pub candidate: CandidateArgs,
+}
 
 /// Answers until standard input ends and all is answered.
 pub fn execute(args: &ServeArgs) -> Result<(), Error> {
@@ -94,9 +102,7 @@ fn scene_indices(known: &[String], names: Option<Vec<String>>) -> Result<Vec<usi
     };
     let mut seen = BTreeSet::new();
     if let Some(twin) = names.iter().find(|name| !seen.insert(*name)) {
-        return Err(Error::Usage(format!(
-            "scenes: \"{twin}\" is named twice; allowed: each once"
-        )));
+        refuse!("scenes: \"{twin}\" is named twice; allowed: each once");
     }
     (names.iter())
         .map(|name| {

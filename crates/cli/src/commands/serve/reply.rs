@@ -1,4 +1,4 @@
-//! Replies of `serve`: lines of JSON on standard output.
+//! Replies of `tune serve`: lines of JSON on standard output.
 
 use suite::Error;
 

@@ -1,0 +1,267 @@
+//! The command line: its words, and the work behind each.
+
+use std::ffi::OsString;
+
+use clap::error::{ContextKind, ContextValue};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use suite::Error;
+
+use crate::commands::ending::Ending;
+use crate::commands::threads::work_on_threads;
+use crate::commands::*;
+use crate::output::verbosity::OutputArgs;
+
+/// Version, commit and target of the program.
+const VERSION: &str = env!("SHUTTERTRUTH_VERSION");
+
+/// Measures real-time motion blur against true shutter blur
+#[derive(Debug, Parser)]
+#[command(name = "shuttertruth", version = VERSION, max_term_width = 100)]
+pub struct Cli {
+    /// The command.
+    #[command(subcommand)]
+    pub command: Command,
+    #[command(flatten)]
+    pub output: OutputArgs,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render scenes, run filters, measure and rank them
+    ///
+    /// Prints a ranking; writes report.html, run.json, EXR and PNG.
+    Run(run::RunArgs),
+    /// Run, and hold every score to its bound: pass or fail
+    Check(check::CheckArgs),
+    /// Measure a finished picture from any source
+    Score(score::ScoreArgs),
+    /// Write a finished run or tuning as one HTML page
+    Report(report::ReportArgs),
+    /// Compare two finished runs: which scores changed by more than noise
+    Compare(compare::CompareArgs),
+    /// List scenes, filters, parameters, presets, inputs and adapters
+    List(list::ListArgs),
+    /// Time filters pass by pass, and against their blur length
+    ///
+    /// Prints tables; writes bench.json.
+    Bench(bench::BenchArgs),
+    /// Search, study and compare the parameters of a filter
+    #[command(subcommand, disable_help_subcommand = true)]
+    Tune(TuneCommand),
+    /// Exchange scenes and frames with engines
+    #[command(subcommand, disable_help_subcommand = true)]
+    Engine(EngineCommand),
+    /// Render, join, pack and verify truths; split a run into jobs
+    #[command(subcommand, disable_help_subcommand = true)]
+    Truths(TruthsCommand),
+    /// Accept scores as a baseline, or propose bounds
+    #[command(subcommand, disable_help_subcommand = true)]
+    Limits(LimitsCommand),
+    /// Ask people about pictures, and read their answers
+    #[command(subcommand, disable_help_subcommand = true)]
+    People(PeopleCommand),
+    /// Print completions for a shell
+    #[command(hide = true)]
+    Completions(completions::CompletionsArgs),
+    /// Write the pages of the manual
+    #[command(hide = true)]
+    Man(man::ManArgs),
+}
+
+/// The commands of `tune`.
+#[derive(Debug, Subcommand)]
+pub enum TuneCommand {
+    /// Search parameters that bring a filter nearer to the truth
+    ///
+    /// Writes journal.jsonl and tune.json.
+    Search(tune::TuneArgs),
+    /// Estimate which parameters of a filter matter, by Sobol indices
+    ///
+    /// Writes sensitivity.json.
+    Sensitivity(sensitivity::SensitivityArgs),
+    /// Compare two presets of a filter, scene by scene
+    ///
+    /// Writes compare.json.
+    #[command(alias = "compare-presets")]
+    Compare(compare_presets::ComparePresetsArgs),
+    /// Score one set of parameters; print JSON
+    Evaluate(evaluate::EvaluateArgs),
+    /// Score sets of parameters on request, by JSON lines on standard input and output
+    Serve(serve::ServeArgs),
+}
+
+/// The commands of `engine`.
+#[derive(Debug, Subcommand)]
+pub enum EngineCommand {
+    /// Make a scene of an OBJ file, with camera, floor, wall and motion
+    Import(import::ImportArgs),
+    /// Write scenes as glTF 2.0, so that an engine can draw them
+    Export(export::ExportArgs),
+    /// Make a frame, a truth and a picture of what an engine drew, so that `run` and `score` can measure them
+    Ingest(ingest::IngestArgs),
+    /// Compare an engine's velocity and depth with those of the scene that it drew, and name what is wrong
+    Audit(audit::AuditArgs),
+    /// Run a filter on a frame file
+    Blur(blur::BlurArgs),
+}
+
+/// The commands of `truths`.
+#[derive(Debug, Subcommand)]
+pub enum TruthsCommand {
+    /// Render frames and truths only, or some replicates of them
+    Render(render::RenderArgs),
+    /// Split a run into jobs for several machines
+    ///
+    /// Renders nothing; prints a table, or JSON.
+    Plan(plan::PlanArgs),
+    /// Join what several machines made: replicates of truths, or runs of some of the cases
+    Merge(merge::MergeArgs),
+    /// Put the truths of a finished run into one archive, from which other machines run
+    Pack(pack::PackArgs),
+    /// Trace random tiles of truths again, and compare them with the files byte for byte
+    Verify(verify::VerifyArgs),
+}
+
+/// The commands of `limits`.
+#[derive(Debug, Subcommand)]
+pub enum LimitsCommand {
+    /// Make the scores of a finished run the baseline of later checks
+    Accept(accept::AcceptArgs),
+    /// Run several times, measure how scores scatter, and propose bounds
+    Calibrate(calibrate::CalibrateArgs),
+}
+
+/// The commands of `people`.
+#[derive(Debug, Subcommand)]
+pub enum PeopleCommand {
+    /// Make a page that asks which pictures of a finished run look better, or more like the truth
+    Ask(ask::AskArgs),
+    /// Turn the answers into a scale of filters, and compare scores with it
+    Preferences(preferences::PreferencesArgs),
+}
+
+impl Cli {
+    /// Makes the command line, whose help lists the commands that people start with.
+    pub fn command_line() -> clap::Command {
+        let mut program = Self::command();
+        program.build();
+        // The commands have headings.
+        (program.mut_subcommand("help", |help| help.hide(true)))
+            .mut_args(|argument| argument.help_heading(None::<&str>))
+    }
+
+    /// Makes the command line with all commands, for completions and the manual.
+    fn all_visible() -> clap::Command {
+        Self::command().mut_subcommands(|command| command.hide(false))
+    }
+
+    /// Parses the words of a command line.
+    ///
+    /// # Errors
+    /// The words are wrong, or ask for help.
+    pub fn parse_words<W: Into<OsString> + Clone>(
+        words: impl IntoIterator<Item = W>,
+    ) -> Result<Self, clap::Error> {
+        let mut program = Self::command_line();
+        let matches = program.try_get_matches_from_mut(words)?;
+        Self::from_arg_matches(&matches).map_err(|error| error.format(&mut program))
+    }
+}
+
+/// Names the new place of a command that was moved into a group; none if the error is about something else.
+pub fn find_new_place(error: &clap::Error) -> Option<String> {
+    let program = Cli::command();
+    match error.get(ContextKind::InvalidSubcommand) {
+        Some(ContextValue::String(word)) => program.get_subcommands().find_map(|group| {
+            let command = group.find_subcommand(word)?.get_name();
+            Some(format!(
+                "{word}: use shuttertruth {} {command}",
+                group.get_name()
+            ))
+        }),
+        // An option in place of a command of `tune`.
+        _ if error.get(ContextKind::InvalidArg).is_some() => {
+            let mut words = std::env::args().skip_while(|word| word != "tune").skip(1);
+            let is_option = words.next()?.starts_with("--");
+            is_option.then(|| "tune: use shuttertruth tune search".to_owned())
+        }
+        _ => None,
+    }
+}
+
+/// Does the work of a command.
+pub fn execute(command: &Command) -> Result<Ending, Error> {
+    let done = match command {
+        Command::Run(args) => work_on_threads(args.measure.scenes.threads, || run::execute(args)),
+        Command::Check(args) => {
+            return work_on_threads(args.measure.scenes.threads, || check::execute(args));
+        }
+        Command::Score(args) => score::execute(args),
+        Command::Report(args) => report::execute(args),
+        Command::Compare(args) => compare::execute(args),
+        Command::List(args) => list::execute(args),
+        Command::Bench(args) => bench::execute(args),
+        Command::Tune(command) => work_on_threads(command.threads(), || execute_tune(command)),
+        Command::Engine(command) => return execute_engine(command),
+        Command::Truths(command) => return execute_truths(command),
+        Command::Limits(LimitsCommand::Accept(args)) => accept::execute(args),
+        Command::Limits(LimitsCommand::Calibrate(args)) => {
+            work_on_threads(args.measure.scenes.threads, || calibrate::execute(args))
+        }
+        Command::People(PeopleCommand::Ask(args)) => ask::execute(args),
+        Command::People(PeopleCommand::Preferences(args)) => preferences::execute(args),
+        Command::Completions(args) => completions::execute(args, Cli::all_visible()),
+        Command::Man(args) => man::execute(args, Cli::all_visible()),
+    };
+    done.map(|()| Ending::Done)
+}
+
+impl TuneCommand {
+    fn threads(&self) -> Option<usize> {
+        let candidate = match self {
+            Self::Search(args) => &args.candidate,
+            Self::Sensitivity(args) => &args.candidate,
+            Self::Compare(args) => &args.candidate,
+            Self::Evaluate(args) => &args.candidate,
+            Self::Serve(args) => &args.candidate,
+        };
+        candidate.scenes.threads
+    }
+}
+
+fn execute_tune(command: &TuneCommand) -> Result<(), Error> {
+    match command {
+        TuneCommand::Search(args) => tune::execute(args),
+        TuneCommand::Sensitivity(args) => sensitivity::execute(args),
+        TuneCommand::Compare(args) => compare_presets::execute(args),
+        TuneCommand::Evaluate(args) => evaluate::execute(args),
+        TuneCommand::Serve(args) => serve::execute(args),
+    }
+}
+
+fn execute_engine(command: &EngineCommand) -> Result<Ending, Error> {
+    let done = match command {
+        EngineCommand::Import(args) => import::execute(args),
+        EngineCommand::Export(args) => export::execute(args),
+        EngineCommand::Ingest(args) => ingest::execute(args),
+        EngineCommand::Audit(args) => return audit::execute(args),
+        EngineCommand::Blur(args) => blur::execute(args),
+    };
+    done.map(|()| Ending::Done)
+}
+
+fn execute_truths(command: &TruthsCommand) -> Result<Ending, Error> {
+    let done = match command {
+        TruthsCommand::Render(args) => {
+            work_on_threads(args.scenes.threads, || render::execute(args))
+        }
+        TruthsCommand::Plan(args) => plan::execute(args),
+        TruthsCommand::Merge(args) => merge::execute(args),
+        TruthsCommand::Pack(args) => pack::execute(args),
+        TruthsCommand::Verify(args) => {
+            return work_on_threads(args.threads, || verify::execute(args));
+        }
+    };
+    done.map(|()| Ending::Done)
+}

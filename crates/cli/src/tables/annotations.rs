@@ -1,0 +1,177 @@
+//! Text for GitHub Actions: annotations, and the summary of a step.
+
+use std::fmt::Write;
+
+use judge::{Check, Decision, Finding, number};
+use report::{finding_line, length_text, limit_text, way_out};
+use store::printable;
+
+use super::check::{comparison_line, count_lines, verdict_word};
+
+/// Upper limit that GitHub sets on the annotations of a step.
+const MOST_ANNOTATIONS: usize = 10;
+/// Upper limit on rows of a summary: it is to be read, and GitHub takes one mebibyte per step.
+const MOST_ROWS: usize = 500;
+
+/// Makes one workflow command per line for each thing that keeps the check from passing. The last of ten counts the rest.
+pub fn annotations(check: &Check) -> String {
+    let findings = (check.findings.iter())
+        .filter(|finding| finding.decision() != Decision::Pass)
+        .map(|finding| {
+            let title = format!("{} / {}", finding.scene, finding.filter);
+            let suffix = way_out(finding).map(|way_out| format!("; {way_out}"));
+            (title, finding_line(finding) + &suffix.unwrap_or_default())
+        });
+    let comparisons = (check.comparisons.iter())
+        .filter(|comparison| comparison.decision() != Decision::Pass)
+        .map(|comparison| (comparison.filter.clone(), comparison_line(comparison)));
+    let failures = check.failures.iter().map(|failure| {
+        let title = format!("{} / {}", failure.scene, failure.filter);
+        (title, format!("FAILED {}", failure.reason))
+    });
+    let mut all: Vec<(String, String)> = failures.chain(findings).chain(comparisons).collect();
+    if all.len() > MOST_ANNOTATIONS {
+        let more = all.len() - (MOST_ANNOTATIONS - 1);
+        all.truncate(MOST_ANNOTATIONS - 1);
+        all.push((
+            "shuttertruth".to_owned(),
+            format!("and {more} more: see the summary"),
+        ));
+    }
+    all.iter()
+        .map(|(title, message)| {
+            format!(
+                "::error title={}::{}\n",
+                escape_property(title),
+                escape_message(message)
+            )
+        })
+        .collect()
+}
+
+/// Makes the summary of the step, as Markdown.
+pub fn summary(check: &Check) -> String {
+    let mut text = format!("## Shuttertruth: {}\n\n", verdict_word(check.decision));
+    let notable: Vec<&Finding> = (check.findings.iter())
+        .filter(|finding| finding.outcome.is_notable())
+        .collect();
+    let _ = writeln!(text, "{}\n", count_lines(check).join("\n\n"));
+    for failure in &check.failures {
+        let (scene, filter) = (
+            escape_cell(&failure.scene.to_string()),
+            escape_cell(&failure.filter),
+        );
+        let _ = writeln!(
+            text,
+            "- **{scene} / {filter} failed**: {}\n",
+            escape_cell(&failure.reason)
+        );
+    }
+    if !notable.is_empty() {
+        text +=
+            "| scene | filter | metric | value | 95 % | limit | floor | worst at | most like | |\n";
+        text += "|---|---|---|---|---|---|---|---|---|---|\n";
+    }
+    for finding in notable.iter().take(MOST_ROWS) {
+        text += &summary_row(finding);
+    }
+    if notable.len() > MOST_ROWS {
+        let _ = writeln!(text, "\nand {} more", notable.len() - MOST_ROWS);
+    }
+    if !check.comparisons.is_empty() {
+        text += "\n### RunComparison with the baseline\n\n";
+        for comparison in &check.comparisons {
+            let _ = writeln!(text, "- {}", escape_cell(&comparison_line(comparison)));
+        }
+    }
+    text
+}
+
+fn summary_row(finding: &Finding) -> String {
+    let or_none = |text: Option<String>| text.unwrap_or_default();
+    let interval = (finding.interval.as_ref())
+        .map(|interval| format!("{} to {}", number(interval.low), number(interval.high)));
+    let cells = [
+        finding.scene.to_string(),
+        finding.filter.clone(),
+        metric_cell(finding),
+        or_none(finding.value.map(|value| finding.with_unit(value))),
+        or_none(interval),
+        limit_text(finding),
+        or_none(finding.floor.map(number)),
+        or_none(match (&finding.worst, finding.worst_frame) {
+            (Some(worst), _) => Some(format!("({}, {})", worst.x, worst.y)),
+            (None, frame) => frame.map(|frame| format!("frame {frame}")),
+        }),
+        or_none((finding.resembles.as_ref()).map(|alike| alike.decoy.clone())),
+        match finding.decision() {
+            Decision::Pass => "target".to_owned(),
+            decision => decision_word(decision).to_owned(),
+        },
+    ];
+    format!("| {} |\n", cells.map(|text| escape_cell(&text)).join(" | "))
+}
+
+/// Names the metric, and the length of the sequence.
+fn metric_cell(finding: &Finding) -> String {
+    match length_text(finding) {
+        None => finding.metric.name(),
+        Some(length) => format!("{} over {length}", finding.metric),
+    }
+}
+
+fn decision_word(decision: Decision) -> &'static str {
+    match decision {
+        Decision::Pass => "pass",
+        Decision::Inconclusive => "undecided",
+        Decision::Broken => "broken",
+        Decision::Misconfigured => "misconfigured",
+    }
+}
+
+/// Escapes the text of a cell: a vertical bar would end it, and other signs make links or pictures of names.
+fn escape_cell(text: &str) -> String {
+    let one_line = text.replace('\n', " ");
+    let mut cell = String::new();
+    for letter in printable(&one_line).chars() {
+        if MARKDOWN.contains(letter) {
+            cell.push('\\');
+        }
+        cell.push(letter);
+    }
+    cell
+}
+
+/// Characters with a meaning in Markdown: it would fetch an image in a name, and show HTML.
+const MARKDOWN: &str = "\\`|*<[&";
+
+/// Escapes the message of a workflow command.
+fn escape_message(text: &str) -> String {
+    let lines: Vec<_> = text.split('\n').map(printable).collect();
+    lines.join("\n").replace('%', "%25").replace('\n', "%0A")
+}
+
+/// Escapes a property of a workflow command.
+fn escape_property(text: &str) -> String {
+    escape_message(text).replace(':', "%3A").replace(',', "%2C")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_would_end_a_command_is_escaped() {
+        assert_eq!(escape_message("95 %\nof it: a, b"), "95 %25%0Aof it: a, b");
+        assert_eq!(escape_property("a:b, 5 %"), "a%3Ab%2C 5 %25");
+        assert_eq!(escape_message("a\r\u{1b}[2J"), "a\\r\\u001b[2J");
+    }
+
+    #[test]
+    fn names_make_no_pictures_in_a_summary() {
+        assert_eq!(
+            escape_cell("![a](b)<img src=c> `d`\ne|f"),
+            "!\\[a](b)\\<img src=c> \\`d\\` e\\|f"
+        );
+    }
+}
