@@ -22,30 +22,28 @@ mod tuning;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
-use frame::write_atomically;
-use judge::Finding;
-use maud::{Markup, PreEscaped};
-use suite::{Case, Error, Run};
-use tracer::SceneId;
-
+pub use ask::{ASK_PAGE, write_ask_folder};
 use case::case_view::CaseView;
 use case::{CaseTables, case_section};
 use case_table::CaseTable;
-use filter_page::filter_section;
-use overview::overview;
-use pixels::report_files::{Place, SceneTexts};
-use pixels::scene_files::SceneFiles;
-use run_page::{PageContent, run_page};
-
-pub use ask::{ASK_PAGE, write_ask_folder};
 pub use comparison::{ChangeCells, compare_page};
+use filter_page::filter_section;
 pub use finding_text::{
     finding_line, finding_score, finding_status, length_text, limit_text, way_out, worst_frame_text,
 };
+use frame::write_atomically;
 pub use gallery::{write_case_strip, write_gallery};
+use judge::Finding;
+use maud::{Markup, PreEscaped};
 pub use overview::bench_file::read_bench;
+use overview::overview;
 pub use pixels::report_files::LARGEST_PAGE;
+use pixels::report_files::{Place, SceneTexts};
+use pixels::scene_files::SceneFiles;
+use run_page::{PageContent, run_page};
 pub use sequence::{SEQUENCES_PAGE, sequences_page};
+use suite::{Case, Error, Run};
+use tracer::SceneId;
 pub use tuning::{TuneFolder, tuning_page};
 
 /// Writes the page of the run in `folder` to `html`; returns its path, then those of the files next to it.

@@ -170,7 +170,7 @@ fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
             right,
             ..
         } = answer;
-        let found = [scene.as_str(), alignment.name(), left, right];
+        let found = [scene, alignment.name(), left, right];
         if found != expected {
             return Err(format!(
                 "{} is about {}; the seed {} shows {} there; give the file as the page wrote it",

@@ -80,7 +80,7 @@ impl Results {
             adapter: adapter_of(first),
             size: [first.render.width, first.render.height],
             samples_per_pixel: first.render.samples_per_pixel,
-            seal: first.cases.first().and_then(|case| case.scene.seal),
+            seal: (first.cases.first()).and_then(|case| case.scene.seal),
             costs: BTreeMap::new(),
             scores: Vec::new(),
         };

@@ -49,7 +49,7 @@ fn truths<'a>(first: &'a Run, second: &'a Run) -> Vec<(&'a SceneId, Alignment, &
         let truth = |own: &'a Case| (&own.scene, own.alignment, own.truth_hash.as_str());
         run.cases.iter().map(truth)
     };
-    let others: HashSet<(&SceneId, Alignment, &str)> = list(second).collect();
+    let others: HashSet<_> = list(second).collect();
     let mut seen = HashSet::new();
     list(first)
         .filter(|truth| others.contains(truth) && seen.insert(*truth))
