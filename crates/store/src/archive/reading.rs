@@ -20,7 +20,7 @@ type Unpacked = zstd::Decoder<'static, BufReader<File>>;
 pub struct Pack {
     /// The archive.
     pub path: PathBuf,
-    /// What it says that it holds.
+    /// List of its files.
     pub manifest: Manifest,
 }
 
