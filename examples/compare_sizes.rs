@@ -35,7 +35,12 @@ fn print_tables(paths: &[String]) -> Result<(), Error> {
                 "## {}, {} shutter\n\nMean over {}, and place.\n",
                 metric.name(),
                 comparison.alignment,
-                comparison.scenes.join(", ")
+                comparison
+                    .scenes
+                    .iter()
+                    .map(|scene| scene.to_string())
+                    .collect::<Vec<_>>()
+                    .join(", ")
             );
             print_means(&comparison, metric);
             print_agreement(&comparison);

@@ -67,7 +67,7 @@ fn measure_scenes(settings: &RenderSettings, names: &[String]) -> Result<Vec<Row
         let truth = trace_truth(&scene, settings, Alignment::Centred, &unwatched)?;
         if truth.support.moving.pixels.contains(&true) {
             rows.push(measure(&scene, &frame, &truth)?);
-            eprintln!("{}", scene.name);
+            eprintln!("{}", scene.id);
         }
     }
     Ok(rows)
@@ -104,7 +104,7 @@ fn measure(scene: &Scene, frame: &Frame, truth: &Truth) -> Result<Row, MeasureEr
         Ok((name.clone(), flips))
     });
     Ok(Row {
-        scene: scene.name.clone(),
+        scene: scene.id.to_string(),
         errors: errors.collect::<Result<_, MeasureError>>()?,
     })
 }

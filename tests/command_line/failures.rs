@@ -43,8 +43,8 @@ fn a_run_names_the_failed_case_and_goes_on() {
         panic!("one case fails: {:?}", run.failures);
     };
     assert_eq!(
-        (&failure.scene[..], &failure.filter[..]),
-        ("dim", "torn:default")
+        (failure.scene.to_string(), &failure.filter[..]),
+        ("dim".to_owned(), "torn:default")
     );
     assert!(
         failure.reason.contains("pass work: writes ["),
@@ -57,7 +57,7 @@ fn a_run_names_the_failed_case_and_goes_on() {
         failure.reason
     );
     let measured: Vec<_> = (bench.read_filter_cases().iter())
-        .map(|case| (case.scene.clone(), case.name()))
+        .map(|case| (case.scene.to_string(), case.name()))
         .collect();
     let expected = [
         ("dim", "identity:default"),

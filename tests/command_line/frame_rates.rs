@@ -4,7 +4,7 @@ use frame::{Image, read_exr};
 use metrics::Metric;
 use suite::{Case, ShutterRule};
 use tests::filter_folder::{one_kernel_without_parameters, write_manifest, write_script};
-use tracer::FrameRate;
+use tracer::{FrameRate, SceneId};
 
 use crate::bench::{Bench, IDENTITY, assert_done, assert_refused, split, stdout};
 
@@ -50,7 +50,7 @@ fn a_run_takes_every_scene_at_every_rate() {
         "plate@144fps_1-120s",
         "slow@144fps_1-120s",
     ];
-    let scenes: Vec<&str> = cases.iter().map(|case| case.scene.as_str()).collect();
+    let scenes: Vec<String> = cases.iter().map(|case| case.scene.to_string()).collect();
     assert_eq!(scenes, expected);
     for (scene, exposure) in [
         ("plate", 0.5),
@@ -62,7 +62,8 @@ fn a_run_takes_every_scene_at_every_rate() {
     ] {
         let case = find(&cases, scene, "identity:default");
         assert_eq!(case.exposure, exposure, "{scene}");
-        assert_eq!(case.rate, FrameRate::of_name(scene));
+        let id: SceneId = scene.parse().unwrap();
+        assert_eq!(case.rate, id.rate);
         let json = serde_json::to_value(case).unwrap();
         let rate = case.rate.map(|rate| rate.per_second);
         assert_eq!(json["rate"]["per_second"].as_f64(), rate, "{scene}");
@@ -74,7 +75,11 @@ fn a_run_takes_every_scene_at_every_rate() {
     let whole = alone.read_run();
     let run = bench.read_run();
     for case in &whole.cases {
-        for scene in ["", "@60fps_1-120s"].map(|rate| case.scene.clone() + rate) {
+        for rate in [None, FrameRate::in_word("60fps_1-120s")] {
+            let scene = SceneId {
+                rate,
+                ..case.scene.clone()
+            };
             let mut own = run.cases.iter();
             let own = own.find(|own| {
                 (&own.scene, own.name(), own.is_reference)

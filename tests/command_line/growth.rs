@@ -37,7 +37,7 @@ fn a_run_of_copies_is_merged_judged_and_reported() {
     }
     let run = suite::Run::read(&bench.path("grown/merged/run.json")).unwrap();
     let names: Vec<(String, String)> = (run.cases.iter().filter(|case| !case.is_reference))
-        .map(|case| (case.scene.clone(), case.filter.clone()))
+        .map(|case| (case.scene.to_string(), case.filter.clone()))
         .collect();
     assert_eq!(names.len(), 12);
     assert_eq!(

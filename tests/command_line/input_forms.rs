@@ -8,7 +8,7 @@ use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stdout};
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
     found.unwrap_or_else(|| {
-        let names: Vec<String> = cases.iter().map(Case::name).collect();
+        let names: Vec<String> = cases.iter().map(|case| case.name()).collect();
         panic!("no {name} among {names:?}")
     })
 }

@@ -9,7 +9,7 @@ use judge::Results;
 use metrics::Metric;
 use suite::Run;
 use tests::filter_folder::copy_changed_filter;
-use tracer::Seal;
+use tracer::{SceneId, Seal};
 
 use crate::bench::{Bench, assert_done};
 
@@ -116,7 +116,8 @@ fn results_of_two_runs_are_those_of_one() {
     let whole = Results::from_runs(&[both]).unwrap();
     let joined = Results::from_runs(&[plate.clone(), slow]).unwrap();
     assert_eq!(joined, whole);
-    assert_eq!(whole.scenes(), ["plate", "slow"]);
+    let named = ["plate", "slow"].map(|name| SceneId::new(name, None));
+    assert_eq!(whole.scenes(), named.each_ref());
     assert_eq!(whole.scores.len(), 6);
 
     let case = plate.cases.iter().find(|case| !case.is_reference).unwrap();
@@ -137,7 +138,8 @@ fn results_of_two_runs_are_those_of_one() {
         "{mixed}"
     );
     let sealed = Results::from_runs(&[sealed]).unwrap();
-    assert_eq!((sealed.seal, sealed.scenes()), (Some(3), vec!["slow"]));
+    assert_eq!(sealed.seal, Some(3));
+    assert_eq!(sealed.scenes(), [&SceneId::new("slow", None)]);
     assert!(
         sealed.file_name().ends_with("_seal3.json"),
         "{}",
@@ -147,7 +149,7 @@ fn results_of_two_runs_are_those_of_one() {
     // A filter that was measured later joins those of its scene.
     let without = |scene: &str, name: &str| {
         let mut results = whole.clone();
-        (results.scores).retain(|own| (own.scene.as_str(), own.name.as_str()) != (scene, name));
+        (results.scores).retain(|own| own.scene != scene || own.name != name);
         results
     };
     let mut part = without("plate", "velocity_gather:coarse");

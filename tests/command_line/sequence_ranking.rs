@@ -4,7 +4,8 @@ use std::fs;
 
 use judge::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use suite::{Case, Run};
+use suite::Run;
+use tracer::SceneId;
 
 use crate::bench::{Bench, assert_done, stdout};
 
@@ -24,12 +25,11 @@ fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
         ..run.clone()
     };
     for scene in 0..6 {
-        let name = format!("scene{scene}");
+        let name = SceneId::new(format!("scene{scene}"), None);
         for case in run.cases.iter().filter(|case| case.scene == "plate") {
-            made.cases.push(Case {
-                scene: name.clone(),
-                ..case.clone()
-            });
+            let mut case = case.clone();
+            case.id.scene.clone_from(&name);
+            made.cases.push(case);
         }
         for own in run.sequences.iter().filter(|own| own.scene == "plate") {
             let mut own = own.clone();
@@ -125,7 +125,7 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     );
     // On one scene the floor decides.
     assert_eq!(
-        names(&rank_sequences_on(&far, "scene0")),
+        names(&rank_sequences_on(&far, &SceneId::new("scene0", None))),
         [
             "1 velocity_gather:fine",
             "2 identity:default",
@@ -135,7 +135,7 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     // The losses are 1.00, 1.10 and 1.15: the first and the last alone differ by more than the floor.
     let noisy = with_scores(&run, by, 0.12);
     assert_eq!(
-        names(&rank_sequences_on(&noisy, "scene0")),
+        names(&rank_sequences_on(&noisy, &SceneId::new("scene0", None))),
         [
             "1-2 velocity_gather:fine",
             "1-3 identity:default",

@@ -71,10 +71,10 @@ fn the_identity_breaks_a_bound_in_every_moving_scene_and_64_subframes_break_none
             |judged: &[JudgedScore]| judged.iter().any(|one| one.outcome == Outcome::Broken);
         let noisy =
             |judged: &[JudgedScore]| judged.iter().any(|one| one.outcome == Outcome::TooNoisy);
-        let name = &choice.scene.name;
+        let name = &choice.scene.id;
         println!("{name}, identity:\n{}", describe(&identity));
         println!("{name}, 64 sub-frames:\n{}", describe(&accumulation));
-        if HARDLY_MOVING.contains(&name.as_str()) {
+        if HARDLY_MOVING.contains(&name.name.as_str()) {
             assert!(!broken(&identity), "{name} is no exception");
         } else if !broken(&identity) {
             failures.push(format!("{name}: the identity keeps every bound"));

@@ -22,7 +22,8 @@ fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> 
     let check = || {
         let bounds = judge::read_bounds(folder.path(), &scene, None)?;
         judge::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
-        let scenes = std::iter::once(("fan", &bounds));
+        let fan = tracer::SceneId::new("fan", None);
+        let scenes = std::iter::once((&fan, &bounds));
         judge::require_bounds(folder.path(), scenes, &filters, Frames::default())?;
         Ok(bounds)
     };

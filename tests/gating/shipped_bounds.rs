@@ -4,9 +4,9 @@ use cli::{Programs, select_filters, select_scenes};
 use judge::{
     Check, Decision, Finding, Level, Outcome, RunBounds, check, judge, read_bounds, size_for_bounds,
 };
-use suite::{InputFormat, Monitor, RunPlan, measure_scenes};
+use suite::{RunPlan, measure_scenes};
 use tests::open_gpu;
-use tracer::RenderSettings;
+use tracer::{RenderSettings, SceneId};
 
 use crate::lock_truths;
 
@@ -29,18 +29,14 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
     let bounds: RunBounds = (choices.iter())
         .map(|choice| {
             let bounds = read_bounds(&root, &choice.folder, None).unwrap();
-            (choice.scene.name.clone(), bounds)
+            (choice.scene.id.clone(), bounds)
         })
         .collect();
     let (width, height) = (size_for_bounds(bounds.values(), &filters, None).unwrap()).unwrap();
     let (out, _own) = lock_truths();
     let plan = RunPlan {
         scenes: choices.into_iter().map(|choice| choice.scene).collect(),
-        engine_scenes: Vec::new(),
         filters,
-        inputs: vec![InputFormat::default()],
-        frames: suite::Frames::default(),
-        jitter_frames: 0,
         render: RenderSettings {
             width,
             height,
@@ -50,18 +46,14 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
         intervals: true,
         // No limit is on equivalent sub-frames; `check` renders none either.
         ladders: false,
-        no_cache: false,
-        common: None,
-        part: suite::Part::default(),
-        truths: None,
-        monitor: Monitor::SILENT,
+        ..RunPlan::default()
     };
     let finished = measure_scenes(&plan, Some(&gpu), Vec::new()).unwrap();
     let checked = check(&finished, judge(&finished, &bounds), Vec::new());
     for scene in &plan.scenes {
         for filter in GUARDED {
             for metric in ["flip_moving", "bleed_lateral"] {
-                assert_required(&checked, &scene.name, filter, metric);
+                assert_required(&checked, &scene.id, filter, metric);
             }
         }
     }
@@ -73,9 +65,9 @@ fn guarded_filters_keep_their_required_bounds_on_every_scene() {
     assert_eq!(checked.decision, Decision::Pass, "{}", not_kept.join("\n"));
 }
 
-fn assert_required(check: &Check, scene: &str, filter: &str, metric: &str) {
+fn assert_required(check: &Check, scene: &SceneId, filter: &str, metric: &str) {
     let required = (check.findings.iter()).any(|finding| {
-        (&finding.scene[..], &finding.filter[..]) == (scene, filter)
+        (&finding.scene, &finding.filter[..]) == (scene, filter)
             && finding.metric.name() == metric
             && finding.level == Level::Required
     });

@@ -17,7 +17,7 @@ const TUNED: [&str; 2] = ["jump_flood", "mcguire"];
 fn scenes_but(left_out: &[String]) -> Vec<(Scene, SceneBounds)> {
     let root = tests::scenes();
     let all = select_scenes(&root, &[]).unwrap().into_iter();
-    all.filter(|choice| !left_out.contains(&choice.scene.name))
+    all.filter(|choice| !left_out.contains(&choice.scene.id.to_string()))
         .map(|choice| {
             let bounds = read_bounds(&root, &choice.folder, None).unwrap();
             (choice.scene, bounds)

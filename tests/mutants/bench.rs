@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use cli::{SceneChoice, select_scenes};
 use filters::Gpu;
 use judge::{RunBounds, read_bounds, size_for_bounds};
-use suite::{Error, FilterChoice, InputFormat, Monitor, Run, RunPlan, measure_scenes};
+use suite::{Error, FilterChoice, Run, RunPlan, measure_scenes};
 use tests::scenes;
 use tracer::{RenderSettings, Scene};
 
@@ -38,7 +38,7 @@ impl Bench {
         let bounds = (scenes.iter())
             .map(|choice| {
                 let bounds = read_bounds(&tests::scenes(), &choice.folder, options.size)?;
-                Ok((choice.scene.name.clone(), bounds))
+                Ok((choice.scene.id.clone(), bounds))
             })
             .collect::<Result<RunBounds, Error>>()?;
         let size = match options.size {
@@ -90,11 +90,7 @@ impl Bench {
     ) -> Result<Run, Error> {
         let plan = RunPlan {
             scenes: vec![scene.clone()],
-            engine_scenes: Vec::new(),
             filters,
-            inputs: vec![InputFormat::default()],
-            frames: suite::Frames::default(),
-            jitter_frames: 0,
             render: RenderSettings {
                 seed,
                 ..self.render
@@ -103,11 +99,7 @@ impl Bench {
             intervals: true,
             // No limit is on equivalent sub-frames.
             ladders: false,
-            no_cache: false,
-            common: None,
-            part: suite::Part::default(),
-            truths: None,
-            monitor: Monitor::SILENT,
+            ..RunPlan::default()
         };
         measure_scenes(&plan, Some(&self.gpu), Vec::new())
     }

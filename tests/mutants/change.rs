@@ -37,7 +37,7 @@ pub fn measure_changes(
     };
     let missing: Vec<&MutantFilter> = (subject.mutants.iter())
         .filter(|mutant| {
-            (bench.scenes.iter()).any(|choice| is_new(journal, mutant, &choice.scene.name))
+            (bench.scenes.iter()).any(|choice| is_new(journal, mutant, &choice.scene.id))
         })
         .collect();
     if missing.is_empty() {
@@ -89,7 +89,7 @@ fn compare(
         if let Some(error) = &given_up {
             return Err(error.clone());
         }
-        let change = blur(&kernels, choice, &scene.frame).and_then(|picture| {
+        let change = blur(&kernels, choice, &scene.id.frame).and_then(|picture| {
             let change = scene.compare(&picture);
             change.ok_or(FilterError::Input {
                 filter: choice.filter.name.clone(),
@@ -128,7 +128,7 @@ impl SoundPicture {
         let truth = render_truth(scene, &bench.render, alignment, &out, Monitor::SILENT)?;
         let floors = truth.noise_floors();
         Ok(Self {
-            scene: scene.name.clone(),
+            scene: scene.id.clone(),
             regions: regions(&truth),
             floors: (floors.into_iter())
                 .filter(|(region, floor)| COMPARED.contains(region) && *floor > 0.0)

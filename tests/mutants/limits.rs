@@ -38,7 +38,7 @@ pub fn find_limits(
     let mut limits = Limits::new();
     for choice in &bench.scenes {
         let scene = &choice.scene;
-        let shipped = &bench.bounds[&scene.name];
+        let shipped = &bench.bounds[&scene.id];
         let bounded = shipped.of(&subject.sound.filter.name, &subject.sound.preset);
         let are_shipped = bounded.values().any(|bound| bound.level == Level::Required);
         let deciding = match are_shipped {
@@ -47,7 +47,7 @@ pub fn find_limits(
                 let sound = &subject.sound;
                 let metrics = default_metrics(shipped, &sound.filter.name, &sound.preset);
                 let runs = measure_sound_runs(bench, subject, scene, journal)?;
-                calibrate_scene(&runs, &metrics, &scene.name)
+                calibrate_scene(&runs, &metrics, &scene.id)
             }
         };
         let own = SceneLimits {
@@ -55,7 +55,7 @@ pub fn find_limits(
             are_shipped,
             widest: None,
         };
-        limits.insert(scene.name.clone(), own);
+        limits.insert(scene.id.clone(), own);
     }
     Ok(limits)
 }
@@ -76,14 +76,14 @@ pub fn widen_limits(
         let is_kept = |seed| {
             journal
                 .sound
-                .get(&sound_place(subject, &scene.name, seed))
+                .get(&sound_place(subject, &scene.id, seed))
                 .is_some()
         };
         if CALIBRATED_WITH.into_iter().all(is_kept) || due() {
             let runs = measure_sound_runs(bench, subject, scene, journal)?;
-            let widest = calibrate_scene(&runs, &metrics, &scene.name);
+            let widest = calibrate_scene(&runs, &metrics, &scene.id);
             limits
-                .get_mut(&scene.name)
+                .get_mut(&scene.id)
                 .expect("every scene has limits")
                 .widest = Some(widest);
         }
@@ -134,13 +134,13 @@ fn measure_sound(
     seed: u64,
     journal: &mut Journal,
 ) -> Result<Run, Error> {
-    let place = sound_place(subject, &scene.name, seed);
+    let place = sound_place(subject, &scene.id, seed);
     if let Some(run) = journal.sound.get(&place) {
         return Ok(run.clone());
     }
     eprintln!(
         "{}: {} without a change, seed {seed}",
-        scene.name, subject.name
+        scene.id, subject.name
     );
     let mut run = bench.measure(scene, vec![subject.sound.clone()], seed)?;
     run.cases.retain(|case| !case.is_reference);

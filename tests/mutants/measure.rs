@@ -77,7 +77,7 @@ fn find_alive<'s>(
 
 /// Tells whether the scores of a mutant on a scene are missing. Those of the same picture are known.
 fn is_missing(subject: &Subject, mutant: &MutantFilter, scene: &Scene, journal: &Journal) -> bool {
-    let place = mutant_place(subject, mutant, &scene.name);
+    let place = mutant_place(subject, mutant, &scene.id);
     journal.cases.get(&place).is_none() && !is_same_picture(journal, &place)
 }
 
@@ -93,13 +93,8 @@ fn measure_scene(
 ) -> Result<(), Error> {
     for batch in mutants.chunks(BATCH) {
         if due() {
-            eprintln!(
-                "{}: {} mutants of {}",
-                scene.name,
-                batch.len(),
-                subject.name
-            );
-            measure_batch(bench, subject, scene, &limits[&scene.name], batch, journal)?;
+            eprintln!("{}: {} mutants of {}", scene.id, batch.len(), subject.name);
+            measure_batch(bench, subject, scene, &limits[&scene.id], batch, journal)?;
         }
     }
     Ok(())
@@ -116,7 +111,7 @@ fn measure_batch(
 ) -> Result<(), Error> {
     // Cases and failures name filter and preset, which are the same in all mutants.
     let label = |at: usize| format!("mutant_{at}");
-    let sound = sound_place(subject, &scene.name, SEED);
+    let sound = sound_place(subject, &scene.id, SEED);
     let is_new = journal.sound.get(&sound).is_none();
     let mutants = batch.iter().map(|mutant| &mutant.choice);
     let filters = (mutants.enumerate())
@@ -131,7 +126,7 @@ fn measure_batch(
         Err(error @ Error::Filter(_)) => {
             bench.reopen_gpu();
             if let [mutant] = batch {
-                let place = mutant_place(subject, mutant, &scene.name);
+                let place = mutant_place(subject, mutant, &scene.id);
                 journal.cases.add(place, Err(error.to_string()));
                 return Ok(());
             }
@@ -151,7 +146,7 @@ fn measure_batch(
     }
     for (at, mutant) in batch.iter().enumerate() {
         let case = take_case(bench, subject, &run, &label(at)).map(Box::new);
-        let place = mutant_place(subject, mutant, &scene.name);
+        let place = mutant_place(subject, mutant, &scene.id);
         journal.cases.add(place, case);
     }
     Ok(())

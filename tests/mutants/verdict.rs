@@ -160,7 +160,7 @@ fn find_verdict<'s>(
     };
     let mut is_tried = true;
     for choice in &bench.scenes {
-        let scene = &choice.scene.name;
+        let scene = &choice.scene.id;
         let place = mutant_place(subject, mutant, scene);
         match journal.changes.get(&place) {
             None => is_tried = false,

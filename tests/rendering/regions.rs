@@ -94,7 +94,13 @@ fn replicates_with_different_supports_are_refused() {
     let pixel = &mut replicates[1].support.moving.pixels[0];
     *pixel = !*pixel;
     let refused = Truth::of(&replicates);
-    assert_eq!(refused, Err(TruthError::Support { index: 1 }));
+    assert_eq!(
+        refused,
+        Err(TruthError::Unlike {
+            index: 1,
+            what: "support"
+        })
+    );
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static s
 /// Reads the files of a case: truth, output, frame, errors.
 fn files_of(bench: &Bench, case: &Case) -> [ExrFile; 4] {
     let own = bench.path("out").join(&case.folder);
-    let scene = bench.path("out").join(&case.scene);
+    let scene = bench.path("out").join(case.scene.folder());
     [
         scene.join(format!("truth_{}.exr", case.alignment)),
         own.join("output.exr"),

@@ -81,7 +81,7 @@ fn assert_passes(scene: &Scene, capture: &Capture) {
     assert!(
         found.findings.is_empty(),
         "{}: {:#?}",
-        scene.name,
+        scene.id,
         found.findings
     );
     assert!(found.velocity.iter().all(|object| object.is_right));

@@ -24,7 +24,7 @@ fn project(scene: &Scene, point: DVec3) -> DVec2 {
 /// Returns the index of an object.
 fn object_index(scene: &Scene, name: &str) -> usize {
     let index = scene.objects.iter().position(|object| object.name == name);
-    index.unwrap_or_else(|| panic!("{} has no object {name}", scene.name))
+    index.unwrap_or_else(|| panic!("{} has no object {name}", scene.id))
 }
 
 /// Returns the least and largest pixel coordinates of an object at a time.
@@ -87,7 +87,10 @@ fn every_scene_loads_with_every_variant() {
         );
         for variant in &listing.variants {
             let changed = load(&listing.name, Some(variant));
-            assert_eq!(changed.name, format!("{}@{variant}", listing.name));
+            assert_eq!(
+                changed.id.to_string(),
+                format!("{}@{variant}", listing.name)
+            );
             assert_ne!(changed.hash, scene.hash);
         }
     }
@@ -148,7 +151,7 @@ fn the_panel_keeps_clear_of_the_border() {
             for time in [-scene.exposure, 0.0, scene.exposure] {
                 let [least, largest] = pixel_range(&scene, "panel", time);
                 let clear = least.min(DVec2::new(width, height) - largest).min_element();
-                assert!(clear >= 30.0, "{} at {time}: {clear} pixels", scene.name);
+                assert!(clear >= 30.0, "{} at {time}: {clear} pixels", scene.id);
                 // A square of 80 pixels; its sides show as less than a tenth of one.
                 assert!((largest - least).distance(DVec2::splat(80.0)) < 0.1);
             }
@@ -218,7 +221,7 @@ fn the_fan_turns_at_the_speed_of_its_variant() {
         let blade = |time| scene.object_to_world(fan, time).transform_vector3(DVec3::X);
         let turned = blade(0.0).angle_between(blade(1.0)).to_degrees();
         // 1e-6 degrees: an angle from a cosine keeps half of the digits.
-        assert!((turned - degrees).abs() < 1e-6, "{}: {turned}", scene.name);
+        assert!((turned - degrees).abs() < 1e-6, "{}: {turned}", scene.id);
         assert!(blade(0.01).y > 0.0, "anticlockwise");
     }
 }

@@ -123,7 +123,7 @@ fn at_60_frames_per_second_every_scene_is_as_its_file_says() {
         let frame = |scene: &Scene| trace_frame(scene, &settings, &unwatched).unwrap();
         let [plain, same] = [None, Some("60fps")].map(load);
         assert_ne!(plain.hash, same.hash);
-        assert_eq!(same.name, format!("{}@60fps", listing.name));
+        assert_eq!(same.id.to_string(), format!("{}@60fps", listing.name));
         assert_same_frame(&frame(&plain), &frame(&same), &listing.name);
     }
     let load = |variant| load_scene(scenes().join("fan"), variant).unwrap();
@@ -131,7 +131,7 @@ fn at_60_frames_per_second_every_scene_is_as_its_file_says() {
         let [plain, same] = [plain, Some(same)].map(load);
         let truth =
             |scene: &Scene| trace_truth(scene, &settings, Alignment::Trailing, &unwatched).unwrap();
-        assert_same_truth(&truth(&plain), &truth(&same), &same.name);
+        assert_same_truth(&truth(&plain), &truth(&same), &same.id.to_string());
     }
 }
 
@@ -219,7 +219,7 @@ fn frames_of_a_sequence_follow_at_the_rate() {
     write_paths(&folder, 1.0, 0.5);
     let [plain, fast] = [None, Some("120fps")].map(|it| load_scene(&folder.path, it).unwrap());
     let fast = fast.at_frame(2);
-    assert_eq!(fast.name, "square@120fps/0002");
+    assert_eq!(fast.id.to_string(), "square@120fps/0002");
     let [one, other] =
         [plain.at_frame(1), fast].map(|scene| render_frame(&scene, VelocityKind::Instantaneous));
     assert_eq!(one.depth, other.depth);
@@ -248,13 +248,10 @@ fn every_rate_has_a_name_and_a_hash_of_its_own() {
     for (index, scene) in scenes.iter().enumerate() {
         let others = scenes[..index].iter();
         assert!(others.clone().all(|other| other.hash != scene.hash));
-        assert_eq!(
-            FrameRate::of_name(&scene.name).unwrap_or_default(),
-            scene.rate
-        );
+        assert_eq!(scene.id.rate.unwrap_or_default(), scene.rate());
         assert_eq!(scene.written_exposure, 0.5);
     }
-    assert_eq!(scenes[5].name, "square@fast@24fps");
+    assert_eq!(scenes[5].id.to_string(), "square@fast@24fps");
     assert_eq!(
         [&scenes[1], &scenes[2]].map(|scene| scene.exposure),
         [0.5; 2]

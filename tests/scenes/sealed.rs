@@ -23,7 +23,7 @@ fn every_scene_has_sealed_variants_that_move_otherwise() {
     for listing in list_scenes(scenes()).unwrap() {
         let load = |variant| load_scene(&listing.folder, variant).unwrap();
         let [plain, sealed, other] = [None, Some("seal7"), Some("seal8")].map(load);
-        assert_eq!(sealed.name, format!("{}@seal7", listing.name));
+        assert_eq!(sealed.id.to_string(), format!("{}@seal7", listing.name));
         assert_ne!(sealed.hash, plain.hash);
         assert_ne!(sealed.hash, other.hash);
         let [plain, sealed, other] = [plain, sealed, other].map(|scene| render(&scene));

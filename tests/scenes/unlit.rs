@@ -28,10 +28,10 @@ fn no_scene_has_noise_when_unlit() {
     let mut differ = 0;
     for listing in list_scenes(scenes()).unwrap() {
         let scene = load_scene(&listing.folder, Some("unlit")).unwrap();
-        assert_eq!(scene.name, format!("{}@unlit", listing.name));
+        assert_eq!(scene.id.to_string(), format!("{}@unlit", listing.name));
         assert!(scene.sun.is_none());
         let color = render(&scene, 1);
-        assert_eq!(color, render(&scene, 2), "{}", scene.name);
+        assert_eq!(color, render(&scene, 2), "{}", scene.id);
         let lit = render(&load_scene(&listing.folder, None).unwrap(), 1);
         differ += usize::from(lit != color);
     }

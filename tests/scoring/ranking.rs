@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use cli::run_table;
 use frame::Alignment;
 use metrics::{ImageMetric, Measured, Metric, Reference, Region, Scores};
-use suite::{Case, FORMAT, InputFormat, Overall, Run, overall};
+use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
-use tracer::{Family, RenderSettings};
+use tracer::{Family, RenderSettings, SceneId};
 
 /// Difficulty of a run's scenes relative to one another.
 const SCENES: [f64; 5] = [0.6, 0.8, 1.0, 1.2, 1.4];
@@ -59,23 +59,25 @@ fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common)
     moving.flip = Measured::score(common * SCENES[scene], 0.0);
     let (filter, preset) = name.split_once(':').unwrap_or((name, ""));
     Case {
-        scene: format!("scene_{scene}"),
+        id: CaseId {
+            scene: SceneId::new(format!("scene_{scene}"), None),
+            filter: filter.to_owned(),
+            preset: preset.to_owned(),
+            is_reference: bar,
+            input: InputFormat::default(),
+            overrides: BTreeMap::new(),
+            alignment,
+        },
         family: Some(Family::Translation),
         drawn: None,
         exposes: "nothing".to_owned(),
         rate: None,
         exposure: 0.5,
-        filter: filter.to_owned(),
-        preset: preset.to_owned(),
-        is_reference: bar,
-        input: InputFormat::default(),
         parameters: BTreeMap::new(),
-        overrides: BTreeMap::new(),
         reference_width: None,
         command: None,
         convention: None,
         nonlinearity: None,
-        alignment,
         truth_hash: alignment.to_string(),
         scores,
         intervals: BTreeMap::new(),
@@ -228,7 +230,7 @@ fn skill_over_scenes_is_a_ratio_of_means() {
         .flat_map(|scene| ENTRIES.map(|entry| make_case(scene, &scores, entry)))
         .collect();
     // On the second scene nothing can be gained, and the filter's gain there is noise: ten times nearly nothing.
-    for case in cases.iter_mut().filter(|case| case.scene == "scene_1") {
+    for case in cases.iter_mut().filter(|case| case.scene.name == "scene_1") {
         let flip = match case.filter.as_str() {
             "identity" => 0.101,
             "scatter_oracle" => 0.100,
@@ -253,7 +255,7 @@ fn scenes_without_skill_are_counted() {
     assert!(!print_table(&run).contains("Scenes that skill applies to"));
     let centred = run.cases.iter_mut();
     for case in
-        centred.filter(|case| case.scene == "scene_2" && case.alignment == Alignment::Centred)
+        centred.filter(|case| case.scene.name == "scene_2" && case.alignment == Alignment::Centred)
     {
         case.scores.skill.flip = Measured::not_applicable("it serves a test");
     }

@@ -5,6 +5,7 @@ use std::fs;
 use judge::{SceneBounds, calibrate, read_bounds_file};
 use metrics::Metric;
 use suite::Run;
+use tracer::SceneId;
 
 /// Makes the bounds of a scene that `calibrate` proposes after several runs of sound filters.
 pub fn calibrate_scene(runs: &[Run], metrics: &[Metric], scene: &str) -> SceneBounds {
@@ -13,7 +14,7 @@ pub fn calibrate_scene(runs: &[Run], metrics: &[Metric], scene: &str) -> SceneBo
     let calibration = calibrate(runs, |_| &none, metrics);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("bounds.toml");
-    fs::write(&path, calibration.toml(scene)).unwrap();
+    fs::write(&path, calibration.toml(&SceneId::new(scene, None))).unwrap();
     SceneBounds {
         files: vec![read_bounds_file(&path).unwrap()],
     }

@@ -5,19 +5,17 @@ use std::path::PathBuf;
 use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
 use tracer::{
-    Background, Camera, Display, Family, Finish, FlipExposures, FrameRate, Key, Material, Mesh,
-    Motion, Object, Parent, Scene, Turn,
+    Background, Camera, Display, Family, Finish, FlipExposures, Key, Material, Mesh, Motion,
+    Object, Parent, Scene, SceneId, Turn,
 };
 
 /// Makes a scene without objects under a black sky. The camera at the origin looks along -Z, 90 degrees high.
 pub fn empty_scene(name: &str) -> Scene {
     Scene {
-        name: name.into(),
-        frame: 0,
+        id: SceneId::new(name, None),
         exposes: "a test".into(),
         family: Family::Translation,
         exposure: 1.0,
-        rate: FrameRate::WRITTEN,
         written_exposure: 1.0,
         shutter_profile: ShutterProfile::default(),
         width: 48,

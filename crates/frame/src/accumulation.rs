@@ -88,34 +88,21 @@ impl Ladder {
             return Self::read_file(path);
         }
         let mut ladder: Option<Self> = None;
-        for rung in Self::read_rungs(path)? {
-            let rung = rung?;
+        for (subframes, file) in list_rung_files(path)? {
+            let rung = Self::read_rung(&file, subframes)?;
+            let own_hash = &rung.provenance.content_hash;
             match &mut ladder {
                 None => ladder = Some(rung),
-                Some(ladder) => ladder.rungs.extend(rung.rungs),
+                Some(ladder) if ladder.provenance.content_hash == *own_hash => {
+                    ladder.rungs.extend(rung.rungs);
+                }
+                Some(_) => {
+                    let reason = "belongs to another ladder than the files beside it".to_owned();
+                    return Err(FileError::foreign(&file, reason));
+                }
             }
         }
         ladder.ok_or_else(|| FileError::foreign(path, "holds no rung n<N>.exr".to_owned()))
-    }
-
-    /// Reads the files of a folder that [`Ladder::write_rungs`] wrote one after another, each as a ladder of one rung, in rising
-    /// order of sub-frames. Refuses files of several ladders.
-    fn read_rungs(
-        folder: &Path,
-    ) -> Result<impl Iterator<Item = Result<Self, FileError>>, FileError> {
-        let mut hash: Option<String> = None;
-        let files = list_rung_files(folder)?.into_iter();
-        Ok(files.map(move |(subframes, file)| {
-            let rung = Self::read_rung(&file, subframes)?;
-            let own = &rung.provenance.content_hash;
-            match hash.get_or_insert_with(|| own.clone()) == own {
-                true => Ok(rung),
-                false => Err(FileError::foreign(
-                    &file,
-                    "belongs to another ladder than the files beside it".to_owned(),
-                )),
-            }
-        }))
     }
 
     /// Reads a file of one rung, and refuses another one than that of the number of `subframes`.

@@ -50,11 +50,8 @@ impl Camera {
     /// Sets the attributes `camera` and `camera_before`.
     pub fn set(&self, file: &mut ExrFile) {
         for (name, pose) in NAMES.into_iter().zip([self.now, self.before]) {
-            let numbers = [pose.focal]
-                .into_iter()
-                .chain(pose.to_world.as_flattened().iter().copied());
-            let words: Vec<String> = numbers.map(|number| number.to_string()).collect();
-            file.set(name, words.join(" "));
+            let rows = pose.to_world.as_flattened().iter().copied();
+            file.set_numbers(name, [pose.focal].into_iter().chain(rows));
         }
     }
 
@@ -72,13 +69,7 @@ impl Camera {
 }
 
 fn read_pose(file: &ExrFile, name: &str) -> Result<CameraPose, FileError> {
-    let words = file.words(name)?;
-    let numbers = words.iter().map(|word| word.parse().ok());
-    let numbers: Option<Vec<f64>> = numbers
-        .map(|number| number.filter(|number: &f64| number.is_finite()))
-        .collect();
-    let numbers: Option<[f64; 13]> = numbers.and_then(|numbers| numbers.try_into().ok());
-    match numbers {
+    match file.numbers::<13>(name)? {
         Some([focal, rows @ ..]) if focal > 0.0 => Ok(CameraPose {
             focal,
             to_world: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| rows[4 * row + column])),

@@ -37,21 +37,43 @@ impl Default for FlipExposures {
 /// Upper limit on the stops of a display or of FLIP, up or down. Radiance times `2^stops` stays a number.
 pub const MOST_STOPS: f32 = 32.0;
 
-impl Display {
+/// Upper limit on the exposures of HDR-FLIP.
+const MOST_FLIP_EXPOSURES: u32 = 128;
+
+/// Refuses more stops than can be shown or compared.
+fn check_stops(what: &str, stops: f32) -> Result<(), String> {
+    match stops.abs() <= MOST_STOPS {
+        true => Ok(()),
+        false => Err(format!(
+            "{what} = {stops}; allowed: stops from -{MOST_STOPS} to {MOST_STOPS}"
+        )),
+    }
+}
+
+impl FlipExposures {
     /// Refuses too many stops, an empty range, and a count that FLIP does not take.
-    fn check(&self) -> Result<(), String> {
-        let Self { stops, flip } = self;
-        let FlipExposures { start, stop, count } = flip;
-        let bounded = [stops, start, stop]
-            .iter()
-            .all(|value| value.abs() <= MOST_STOPS);
-        if bounded && start <= stop && (2..=128).contains(count) {
-            return Ok(());
+    pub fn check(&self) -> Result<(), String> {
+        let Self { start, stop, count } = self;
+        if !(2..=MOST_FLIP_EXPOSURES).contains(count) {
+            return Err(format!(
+                "flip has {count} exposures; allowed: 2 to {MOST_FLIP_EXPOSURES}"
+            ));
         }
-        Err(format!(
-            "attributes display_stops, flip_start, flip_stop and flip_count hold {stops}, {start}, {stop} and {count}; \
-             allowed: stops from -{MOST_STOPS} to {MOST_STOPS}, a start not above the stop, 2 to 128 exposures"
-        ))
+        check_stops("flip start", *start)?;
+        check_stops("flip stop", *stop)?;
+        match start < stop {
+            true => Ok(()),
+            false => Err(format!(
+                "flip starts at {start} and stops at {stop}; stop must be above start"
+            )),
+        }
+    }
+}
+
+impl Display {
+    /// Refuses more stops than can be shown or compared.
+    pub fn check_stops(&self) -> Result<(), String> {
+        check_stops("stops", self.stops)
     }
 
     pub(crate) fn set(&self, file: &mut ExrFile) {
@@ -70,7 +92,8 @@ impl Display {
                 count: file.get("flip_count")?,
             },
         };
-        display.check().map_err(|reason| file.foreign(reason))?;
+        let checked = display.check_stops().and(display.flip.check());
+        checked.map_err(|reason| file.foreign(format!("display: {reason}")))?;
         Ok(display)
     }
 }
@@ -90,20 +113,20 @@ pub fn display_srgb(image: &Image, stops: f32) -> Image {
     image.map(|pixel| pixel.map(|component| encode_srgb(component, stops)))
 }
 
-/// Decodes an sRGB value in [0, 1]: undoes [`encode_srgb`], except for its clamp.
-fn decode_srgb(srgb: f32, stops: f32) -> f32 {
-    let value = if srgb <= 0.040_45 {
+/// Decodes an sRGB value in [0, 1] (IEC 61966-2-1).
+pub fn decode_srgb(srgb: f32) -> f32 {
+    if srgb <= 0.040_45 {
         srgb / 12.92
     } else {
         ((srgb + 0.055) / 1.055).powf(2.4)
-    };
-    value * (-stops).exp2()
+    }
 }
 
 /// Converts display values in [0, 1] to a scene-linear image: decodes sRGB and undoes the photographic exposure of `stops`.
 /// Radiance above display white stays at display white.
 pub fn scene_linear(display: &Image, stops: f32) -> Image {
-    display.map(|pixel| pixel.map(|component| decode_srgb(component, stops)))
+    let factor = (-stops).exp2();
+    display.map(|pixel| pixel.map(|component| factor * decode_srgb(component)))
 }
 
 #[cfg(test)]
@@ -116,7 +139,7 @@ mod tests {
             let white = (-stops).exp2();
             for radiance in [0.0, 0.001, 0.0031308, 0.0032, 0.18, 0.999, 1.0, 3.0] {
                 let radiance = radiance * white;
-                let back = decode_srgb(encode_srgb(radiance, stops), stops);
+                let back = decode_srgb(encode_srgb(radiance, stops)) * white;
                 // A power and its inverse in 32-bit floats: a few roundings, relative to white.
                 let error = (back - radiance.min(white)).abs();
                 assert!(error < 1e-6 * white, "{radiance} at {stops}: {back}");

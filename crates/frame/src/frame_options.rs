@@ -95,12 +95,7 @@ impl FromStr for VelocityKind {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|kind| kind.to_string() == text)
-            .ok_or_else(|| {
-                format!("velocity \"{text}\" is unknown; allowed: instantaneous, previous_frame, camera_only")
-            })
+        parse_word("velocity", &Self::ALL, text)
     }
 }
 
@@ -118,9 +113,22 @@ impl FromStr for ColorSampling {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        [Self::Antialiased, Self::Point]
-            .into_iter()
-            .find(|kind| kind.to_string() == text)
-            .ok_or_else(|| format!("color \"{text}\" is unknown; allowed: antialiased, point"))
+        parse_word("color", &[Self::Antialiased, Self::Point], text)
     }
+}
+
+/// Finds the value of a word.
+pub(crate) fn parse_word<T: Copy + fmt::Display>(
+    what: &str,
+    all: &[T],
+    word: &str,
+) -> Result<T, String> {
+    let found = all.iter().find(|value| value.to_string() == word);
+    found.copied().ok_or_else(|| {
+        let words: Vec<String> = all.iter().map(T::to_string).collect();
+        format!(
+            "{what} \"{word}\" is unknown; allowed: {}",
+            words.join(", ")
+        )
+    })
 }

@@ -46,7 +46,7 @@ mod truth;
 pub use accumulation::{Accumulation, Ladder, rung_file};
 pub use at_instant::AtInstant;
 pub use camera::{Camera, CameraPose};
-pub use display::{Display, FlipExposures, MOST_STOPS, display_srgb, scene_linear};
+pub use display::{Display, FlipExposures, MOST_STOPS, decode_srgb, display_srgb, scene_linear};
 pub use exr::{
     Channel, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS,
     Samples, read_attribute, read_exr, read_exr_header, write_exr, write_half_exr,

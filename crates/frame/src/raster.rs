@@ -37,17 +37,12 @@ impl<T: Clone> Raster<T> {
             2 * border < self.width && 2 * border < self.height,
             "a border of {border} pixels leaves nothing"
         );
-        let (width, height) = (self.width - 2 * border, self.height - 2 * border);
-        let mut pixels = Vec::with_capacity(width as usize * height as usize);
-        let rows = self.pixels.chunks_exact(self.width as usize);
-        for row in rows.skip(border as usize).take(height as usize) {
-            pixels.extend_from_slice(&row[border as usize..][..width as usize]);
-        }
-        Raster {
-            width,
-            height,
-            pixels,
-        }
+        self.part(Tile {
+            x: border,
+            y: border,
+            width: self.width - 2 * border,
+            height: self.height - 2 * border,
+        })
     }
 
     /// Copies the pixels of a tile. Panics if it leaves the raster.

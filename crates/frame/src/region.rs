@@ -112,10 +112,11 @@ impl Regions {
 /// Marks every pixel whose centre lies within `radius` pixels of that of a pixel of `set`.
 fn dilate(set: &Raster<bool>, radius: u32) -> Raster<bool> {
     let mut disc = Raster::filled(set.width, set.height, false);
+    let rows: Vec<&[bool]> = set.pixels.chunks_exact(set.width as usize).collect();
     for y in 0..set.height {
         for row in y.saturating_sub(radius)..=(y + radius).min(set.height - 1) {
             let half_width = (radius * radius - y.abs_diff(row).pow(2)).isqrt();
-            widen(row_of(set, row), half_width, &mut disc, y);
+            widen(rows[row as usize], half_width, &mut disc, y);
         }
     }
     disc
@@ -131,11 +132,6 @@ fn widen(source: &[bool], half_width: u32, disc: &mut Raster<bool>, y: u32) {
         free = (column + half_width as usize + 1).min(source.len());
         target[from..free.max(from)].fill(true);
     }
-}
-
-fn row_of(set: &Raster<bool>, row: u32) -> &[bool] {
-    let width = set.width as usize;
-    &set.pixels[row as usize * width..][..width]
 }
 
 /// Estimates the root mean square error of the mean of two halves over a region; `None` if the region is empty. With independent

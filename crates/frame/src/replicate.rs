@@ -65,21 +65,24 @@ impl Replicate {
 
     /// Names a property that replicates of one truth share and these two do not; `None` if there is none.
     pub(crate) fn find_difference(&self, other: &Replicate) -> Option<&'static str> {
-        if !self.picture.color.same_size(&other.picture.color) {
-            Some("size")
-        } else if (&self.objects, &self.moving) != (&other.objects, &other.moving) {
-            Some("list of objects")
-        } else if (self.shutter, self.alignment) != (other.shutter, other.alignment)
-            || self.shutter_profile != other.shutter_profile
-        {
-            Some("shutter")
-        } else if self.provenance.samples_per_pixel != other.provenance.samples_per_pixel
-            || self.samples != other.samples
-        {
-            Some("number of samples")
-        } else {
-            None
-        }
+        let shutter = |own: &Replicate| (own.shutter, own.alignment, own.shutter_profile.clone());
+        let samples = |own: &Replicate| own.provenance.samples_per_pixel;
+        let same = [
+            ("size", self.picture.color.same_size(&other.picture.color)),
+            (
+                "list of objects",
+                self.objects == other.objects && self.moving == other.moving,
+            ),
+            ("shutter", shutter(self) == shutter(other)),
+            (
+                "number of samples",
+                samples(self) == samples(other) && self.samples == other.samples,
+            ),
+            ("support", self.support == other.support),
+        ];
+        same.into_iter()
+            .find(|(_, is_same)| !is_same)
+            .map(|(what, _)| what)
     }
 
     /// Reads a replicate that [`Replicate::write`] wrote, bit for bit.

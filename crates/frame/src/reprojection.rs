@@ -45,16 +45,12 @@ impl Reprojection {
 
     /// Sets the attribute `reprojection`.
     pub fn set(&self, file: &mut ExrFile) {
-        let numbers = self.rows.as_flattened().iter().map(f64::to_string);
-        file.set("reprojection", numbers.collect::<Vec<_>>().join(" "));
+        file.set_numbers("reprojection", self.rows.as_flattened().iter().copied());
     }
 
     /// Reads the attribute `reprojection`.
     pub fn from_exr(file: &ExrFile) -> Result<Self, FileError> {
-        let words = file.words("reprojection")?;
-        let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
-        let numbers: Option<[f64; 12]> = numbers.and_then(|numbers| numbers.try_into().ok());
-        let numbers = numbers.ok_or_else(|| {
+        let numbers: [f64; 12] = file.numbers("reprojection")?.ok_or_else(|| {
             file.foreign("attribute \"reprojection\" does not hold twelve numbers".to_owned())
         })?;
         Ok(Self {

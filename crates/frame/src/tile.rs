@@ -41,27 +41,3 @@ impl Tile {
         is_inside.then_some((y * self.width + x) as usize)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_tile_lists_its_pixels_and_finds_each() {
-        let tile = Tile {
-            x: 2,
-            y: 1,
-            width: 2,
-            height: 3,
-        };
-        let pixels = tile.pixels(5);
-        assert_eq!(pixels, [7, 8, 12, 13, 17, 18]);
-        let found: Vec<u32> = (0..25)
-            .filter(|pixel| tile.index_of(*pixel, 5).is_some())
-            .collect();
-        assert_eq!(found, pixels);
-        for (index, pixel) in pixels.into_iter().enumerate() {
-            assert_eq!(tile.index_of(pixel, 5), Some(index));
-        }
-    }
-}

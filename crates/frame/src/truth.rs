@@ -48,7 +48,7 @@ pub enum TruthError {
         "replicate {found} stands in the place of replicate {index}; each from 0 on is needed once"
     )]
     Index {
-        /// The index that is due.
+        /// The index that belongs there.
         index: u32,
         /// The index that was found.
         found: u32,
@@ -74,17 +74,8 @@ pub enum TruthError {
     Unlike {
         /// Index of the replicate.
         index: u32,
-        /// Difference: `size`, `list of objects`, `shutter`, `number of samples`.
+        /// Difference: `size`, `list of objects`, `shutter`, `number of samples`, `support`.
         what: &'static str,
-    },
-    /// Replicates that name one origin and were altered since.
-    #[error(
-        "replicate {index} has another support than replicate 0, though both name one content hash; replicates of one \
-         scene, size and shutter have one support: remove both files and render them anew"
-    )]
-    Support {
-        /// Index of the replicate.
-        index: u32,
     },
 }
 
@@ -113,17 +104,11 @@ impl Truth {
             if let Some(what) = first.find_difference(replicate) {
                 return Err(TruthError::Unlike { index, what });
             }
-            if replicate.support != first.support {
-                return Err(TruthError::Support { index });
-            }
         }
-        let half = |first: usize| {
-            Picture::mean(replicates.iter().skip(first).step_by(2).map(|r| &r.picture))
-        };
-        let halves = [half(0), half(1)];
-        let at_instant = [0, 1].map(|first| {
-            AtInstant::mean((replicates.iter().skip(first).step_by(2)).map(|r| &r.at_instant))
-        });
+        let half = |first: usize| replicates.iter().skip(first).step_by(2);
+        let halves = [0, 1].map(|first| Picture::mean(half(first).map(|own| &own.picture)));
+        let at_instant =
+            [0, 1].map(|first| AtInstant::mean(half(first).map(|own| &own.at_instant)));
         let count = replicates.len() as u32;
         Ok(Self {
             provenance: Provenance {

@@ -8,6 +8,7 @@ use metrics::{
     SequenceMetric,
 };
 use suite::{Case, Frames, Intervals, Run};
+use tracer::SceneId;
 
 use crate::bounds::SceneBounds;
 use crate::outcome::badness_within;
@@ -39,7 +40,7 @@ const JOD: Metric = Metric::Sequence(SequenceMetric::Jod);
 #[derive(Clone, Debug, Default)]
 pub struct Calibration {
     /// Score in every run to which it applies, per scene, `filter:preset` and metric.
-    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<Metric, Vec<Sample>>>>,
+    pub scores: BTreeMap<SceneId, BTreeMap<String, BTreeMap<Metric, Vec<Sample>>>>,
     /// Columns and rows of the pictures.
     pub size: (u32, u32),
     /// Frames of the sequences.
@@ -201,7 +202,7 @@ fn round_away(value: f64, rounding: fn(f64) -> f64) -> f64 {
 
 impl Calibration {
     /// Formats the proposed bounds of one scene as its bounds.toml.
-    pub fn toml(&self, scene: &str) -> String {
+    pub fn toml(&self, scene: &SceneId) -> String {
         let (width, height) = self.size;
         let mut text = String::new();
         for (filter, metrics) in self.scores.get(scene).into_iter().flatten() {

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use serde::Serialize;
 use suite::{Case, Error, Failure, Run, refuse_failures};
+use tracer::SceneId;
 
 use crate::baseline::BaselineComparison;
 use crate::decision::Decision;
@@ -36,10 +37,10 @@ pub fn check(run: &Run, findings: Vec<Finding>, comparisons: Vec<BaselineCompari
         |finding: &Finding| !matches!(finding.outcome, Outcome::NotApplicable | Outcome::NotJudged);
     let bounds = findings.iter().map(Finding::decision);
     let baseline = comparisons.iter().map(BaselineComparison::decision);
-    let judged: HashSet<(&str, &str)> = (findings.iter().filter(|finding| applies(finding)))
-        .map(|finding| (finding.scene.as_str(), finding.filter.as_str()))
+    let judged: HashSet<(&SceneId, &str)> = (findings.iter().filter(|finding| applies(finding)))
+        .map(|finding| (&finding.scene, finding.filter.as_str()))
         .collect();
-    let is_judged = |case: &Case| judged.contains(&(case.scene.as_str(), case.name().as_str()));
+    let is_judged = |case: &Case| judged.contains(&(&case.scene, case.name().as_str()));
     let unchecked = comparisons.is_empty()
         && (run.cases.iter()).any(|case| !case.is_reference && !is_judged(case));
     let unchecked = unchecked.then_some(Decision::Misconfigured);
@@ -85,8 +86,7 @@ impl Check {
                 counted("a required bound is", "required bounds are")
             ))),
             Decision::Misconfigured if count == 0 => Err(Error::Usage(
-                "a case has no bound that applies, and cannot pass; see above"
-                    .to_owned(),
+                "a case has no bound that applies, and cannot pass; see above".to_owned(),
             )),
             Decision::Misconfigured => Err(Error::Usage(format!(
                 "{} stricter than three noise floors; raise the limit, or the samples per pixel, as said above",

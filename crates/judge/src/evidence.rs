@@ -1,4 +1,4 @@
-//! Evidence of bounds that are not kept: the worst place of a picture, and the wrong blur that it resembles most.
+//! Evidence of bounds that are not met: the worst place of a picture, and the wrong blur that it resembles most.
 
 use std::path::Path;
 
@@ -41,7 +41,7 @@ fn add_evidence_of_truth(
     folder: &Path,
 ) -> Result<(), Error> {
     let (first, _) = &cases[0];
-    let own = folder.join(&first.scene);
+    let own = folder.join(first.scene.folder());
     let frame = Frame::read(&own.join("frame.exr"))?.cropped();
     let truth = Truth::read(&own.join(format!("truth_{}.exr", first.alignment)))?;
     let rung = own

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use metrics::{Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
 use suite::{Case, Run, Sequence};
+use tracer::SceneId;
 
 use crate::bounds::Level;
 use crate::decision::Decision;
@@ -21,8 +22,8 @@ pub struct Finding {
     pub outcome: Outcome,
     /// Consequence of breaking the bound.
     pub level: Level,
-    /// Scene, with its variant.
-    pub scene: String,
+    /// Scene.
+    pub scene: SceneId,
     /// `filter:preset`, and the form of its input if that is not the usual one.
     pub filter: String,
     /// Metric of the score.

@@ -18,9 +18,6 @@ mod worst;
 
 use std::collections::BTreeMap;
 
-use suite::Sequence;
-use suite::{Case, Run};
-
 pub use baseline::{
     Acceptance, BASELINE_FORMAT, Baseline, BaselineComparison, ComparisonKind, accept_scores,
     compare_with_baseline,
@@ -35,7 +32,7 @@ pub use check::{CHECK_FORMAT, Check, check};
 pub use compare::{
     Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
     Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
-    compare_sizes, compare_with_last, filter_label, pair_cases, rank_changes, score_change,
+    compare_sizes, compare_with_last, pair_cases, rank_changes, score_change,
 };
 pub use decision::Decision;
 pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
@@ -50,10 +47,12 @@ pub use ranking::ranking::{
 };
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use results::{RESULTS_FORMAT, ResultCost, ResultScores, Results};
+use suite::{Case, Run, Sequence};
+use tracer::SceneId;
 pub use worst::{BLOCK, CROP, Worst, worst_block};
 
-/// The bounds of a run's scenes, by the names that its cases give them.
-pub type RunBounds = BTreeMap<String, SceneBounds>;
+/// The bounds of a run's scenes.
+pub type RunBounds = BTreeMap<SceneId, SceneBounds>;
 
 /// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases, and
 /// behind those of a case the ones of its sequence.
@@ -81,9 +80,5 @@ pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
 
 /// Finds the sequence that a case is the first frame of.
 pub(crate) fn find_sequence<'a>(run: &'a Run, case: &Case) -> Option<&'a Sequence> {
-    let name = case.name();
-    run.sequences.iter().find(|own| {
-        !own.is_reference
-            && (own.scene == case.scene && own.filter == name && own.alignment == case.alignment)
-    })
+    run.sequences.iter().find(|own| own.is_of(case))
 }

@@ -2,30 +2,32 @@
 
 use std::collections::HashMap;
 
-use suite::{Case, Run};
-
-use crate::filter_id::FilterId;
+use suite::{Bench, Case, FilterId, Run};
+use tracer::SceneId;
 
 /// A run's cases with a row per filter and a column per scene: it finds a case without a walk over all.
 pub struct CaseTable<'a> {
     /// Run that holds the cases.
     pub run: &'a Run,
+    /// Costs of the filters; none where nothing was timed.
+    pub bench: Option<Bench>,
     /// Filters and references in the order they ran.
     pub filters: Vec<FilterId>,
     /// Scenes in the order they ran.
-    pub scenes: Vec<&'a str>,
+    pub scenes: Vec<&'a SceneId>,
     /// Numbers of the cases of each filter, one per scene.
     rows: HashMap<FilterId, Vec<usize>>,
     /// Numbers of the cases of each scene.
-    columns: HashMap<&'a str, Vec<usize>>,
-    places: HashMap<(FilterId, &'a str), usize>,
+    columns: HashMap<&'a SceneId, Vec<usize>>,
+    places: HashMap<(FilterId, &'a SceneId), usize>,
 }
 
 impl<'a> CaseTable<'a> {
     /// Sorts the cases of a run into a table.
-    pub fn new(run: &'a Run) -> Self {
+    pub fn new(run: &'a Run, bench: Option<Bench>) -> Self {
         let mut table = Self {
             run,
+            bench,
             filters: Vec::new(),
             scenes: Vec::new(),
             rows: HashMap::new(),
@@ -33,7 +35,7 @@ impl<'a> CaseTable<'a> {
             places: HashMap::new(),
         };
         for (index, case) in run.cases.iter().enumerate() {
-            let filter = FilterId::of(case);
+            let filter = case.filter_id();
             let row = table.rows.entry(filter.clone()).or_default();
             if row.is_empty() {
                 table.filters.push(filter.clone());
@@ -58,12 +60,15 @@ impl<'a> CaseTable<'a> {
     }
 
     /// Lists the cases of a scene with their numbers.
-    pub fn cases_on(&self, scene: &str) -> impl Iterator<Item = (usize, &'a Case)> + use<'a, '_> {
+    pub fn cases_on(
+        &self,
+        scene: &SceneId,
+    ) -> impl Iterator<Item = (usize, &'a Case)> + use<'a, '_> {
         self.numbered(self.columns.get(scene))
     }
 
     /// Finds the number of a filter's case of one scene.
-    pub fn case_on(&self, filter: &FilterId, scene: &str) -> Option<usize> {
+    pub fn case_on(&self, filter: &FilterId, scene: &SceneId) -> Option<usize> {
         self.places.get(&(filter.clone(), scene)).copied()
     }
 

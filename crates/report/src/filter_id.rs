@@ -1,60 +1,27 @@
-//! Identity of filters: what a row of every table stands for.
+//! Addresses of filters and cases in a page, and lists of filters.
 
-use frame::Alignment;
-use suite::{Case, Overall};
+use suite::{CaseId, FilterId};
 
-/// A filter preset with one form of its input, or a reference with one shutter.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct FilterId {
-    /// `jump_flood:paper`.
-    pub name: String,
-    /// True of a reference: `identity`, `scatter_oracle`, `accumulate:N`.
-    pub is_reference: bool,
-    /// The shutter alignment that it is scored against.
-    pub alignment: Alignment,
+/// Writes the name of a filter, which no other shares, as a part of an address: `bevy:high`, `identity@trailing`.
+pub fn anchor(filter: &FilterId) -> String {
+    match filter.is_reference {
+        true => format!("{}@{}", escape(&filter.name), filter.alignment),
+        false => escape(&filter.name),
+    }
 }
 
-impl FilterId {
-    /// Reads the filter of a case.
-    pub fn of(case: &Case) -> Self {
-        Self {
-            name: case.name(),
-            is_reference: case.is_reference,
-            alignment: case.alignment,
-        }
-    }
-
-    /// Writes a name that no other filter shares: references are made anew for every alignment.
-    pub fn title(&self) -> String {
-        match self.is_reference {
-            true => format!("{} ({})", self.name, self.alignment),
-            false => self.name.clone(),
-        }
-    }
-
-    /// Writes the title as a part of an address: `bevy:high`, `identity@trailing`.
-    pub fn anchor(&self) -> String {
-        match self.is_reference {
-            true => format!("{}@{}", escape(&self.name), self.alignment),
-            false => escape(&self.name),
-        }
-    }
-
-    /// Writes the address of the filter's own section: `filter:bevy:high`.
-    pub fn section_anchor(&self) -> String {
-        format!("filter:{}", self.anchor())
-    }
-
-    /// Tells whether a mean over scenes is this filter's.
-    pub fn is_of(&self, overall: &Overall) -> bool {
-        (self.is_reference, &self.name, &self.alignment)
-            == (overall.is_reference, &overall.filter, &overall.alignment)
-    }
+/// Writes the address of the filter's own section: `filter:bevy:high`.
+pub fn section_anchor(filter: &FilterId) -> String {
+    format!("filter:{}", anchor(filter))
 }
 
 /// Writes the address of a case: `railing/bevy:high`.
-pub fn case_anchor(case: &Case) -> String {
-    format!("{}/{}", escape(&case.scene), FilterId::of(case).anchor())
+pub fn case_anchor(case: &CaseId) -> String {
+    format!(
+        "{}/{}",
+        escape(&case.scene.to_string()),
+        anchor(&case.filter_id())
+    )
 }
 
 /// Replaces what an address may not hold, or what ends a name in it: a space becomes `~20`.

@@ -37,7 +37,7 @@ pub fn claim<'a>(
     sharing: Sharing,
 ) -> Result<Claim, Error> {
     let folders = (scenes.into_iter())
-        .map(|scene| refuse_long_names(Path::new(&scene.name)).map(|()| scene_folder(out, scene)))
+        .map(|scene| refuse_long_names(&scene.id.folder()).map(|()| scene_folder(out, scene)))
         .collect::<Result<Vec<_>, _>>()?;
     for folder in &folders {
         refuse_scene(folder)?;

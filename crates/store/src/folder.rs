@@ -14,7 +14,7 @@ const SHOWN: usize = 40;
 
 /// Names the folder of a scene's files below `out`.
 pub fn scene_folder(out: &Path, scene: &Scene) -> PathBuf {
-    out.join(&scene.name)
+    out.join(scene.id.folder())
 }
 
 /// Refuses a folder that holds a scene itself: our pictures may have the names of its textures.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{fmt, fs};
 
 use frame::{Alignment, FileError, read_attribute, rung_file};
+use tracer::SceneId;
 
 use crate::gather::place_file;
 
@@ -91,8 +92,8 @@ impl fmt::Display for RenderFile {
 /// A rendered file below the folder of a run.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RenderPath {
-    /// Folder of the scene, or of a later frame of it: `fan` or `fan/0003`.
-    pub folder: String,
+    /// The scene, whose text names its folder: `fan` or `fan/0003`.
+    pub scene: SceneId,
     /// The file.
     pub file: RenderFile,
 }
@@ -105,32 +106,25 @@ impl RenderPath {
         let file = parts.as_path();
         let number = parts.next()?.to_str()?;
         let (folder, file) = match number.parse::<u32>() {
-            Ok(frame) if frame > 0 && format!("{frame:04}") == number => {
-                (format!("{scene}/{number}"), parts.as_path())
-            }
-            _ => (scene.to_owned(), file),
+            Ok(_) => (format!("{scene}/{number}"), parts.as_path()),
+            Err(_) => (scene.to_owned(), file),
         };
-        RenderFile::parse(file).map(|file| Self { folder, file })
+        Some(Self {
+            scene: folder.parse().ok()?,
+            file: RenderFile::parse(file)?,
+        })
     }
 
     /// Names the file below the folder of the run.
     pub fn path(&self) -> PathBuf {
         PathBuf::from(self.to_string())
     }
-
-    /// Returns the name of the scene and the frame of its own clock.
-    pub fn scene(&self) -> (&str, u32) {
-        match self.folder.split_once('/') {
-            None => (&self.folder, 0),
-            Some((scene, frame)) => (scene, frame.parse().unwrap_or(0)),
-        }
-    }
 }
 
 /// `fan/0003/truth_trailing.exr`, with `/` on every system, as an archive names it.
 impl fmt::Display for RenderPath {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}/{}", self.folder, self.file)
+        write!(f, "{}/{}", self.scene, self.file)
     }
 }
 

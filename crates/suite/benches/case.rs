@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use filters::Filter;
-use suite::{FilterChoice, InputFormat, Monitor, RunPlan};
+use suite::{FilterChoice, Monitor, RunPlan};
 use tracer::RenderSettings;
 
 /// Scene, filter preset and size, where the command line names none.
@@ -58,10 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let plan = RunPlan {
         scenes: vec![tracer::load_scene(scenes.join(scene), None)?],
-        engine_scenes: Vec::new(),
         filters: vec![FilterChoice::new(Filter::builtin(filter)?, preset)?],
-        inputs: vec![InputFormat::default()],
-        frames: suite::Frames::default(),
         jitter_frames: NOISE_FRAMES,
         render: RenderSettings {
             width: width.parse()?,
@@ -71,16 +68,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             ..RenderSettings::default()
         },
         out: out.path().to_owned(),
-        intervals: false,
-        ladders: true,
-        no_cache: false,
-        common: None,
-        part: suite::Part::default(),
-        truths: None,
         monitor: Monitor {
             ended: note_end,
             ..Monitor::SILENT
         },
+        ..RunPlan::default()
     };
     let gpu = suite::open_gpu(&plan.filters, None, plan.monitor)?;
     suite::measure_scenes(&plan, gpu.as_ref(), Vec::new())?;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr, rung_file};
 use serde::{Deserialize, Serialize};
 use store::{ladder_folder, read_text};
+use tracer::SceneId;
 
 use crate::Error;
 
@@ -24,12 +25,13 @@ pub struct EngineScene {
     pub format: u32,
     /// Program that ingested the capture.
     pub program: String,
-    /// Name of the folder and of the engine: `railing@three.js_0.187.0`.
-    pub name: String,
+    /// Name of the folder, and the engine as its variant: `railing@three.js_0.187.0`.
+    #[serde(rename = "name")]
+    pub id: SceneId,
     /// Engine and version.
     pub engine: String,
     /// Scene of the suite that the engine drew.
-    pub scene: Option<String>,
+    pub scene: Option<SceneId>,
     /// Columns and rows of all pictures.
     pub size: [u32; 2],
     /// Time that the shutter is open, in frames.
@@ -76,10 +78,10 @@ impl EngineScene {
                 found.format
             ));
         }
-        if !is_engine_scene(&found.name) {
+        if !is_engine_scene(&found.id) {
             return refuse(format!(
                 "name \"{}\"; allowed: names of a folder and of an engine, such as railing@three.js_0.187.0",
-                found.name
+                found.id
             ));
         }
         Ok(Self {
@@ -95,8 +97,7 @@ impl EngineScene {
 
     /// Names the engine in one word, as filters are named: `three.js_0.187.0`.
     pub fn filter_name(&self) -> &str {
-        let at = self.name.rfind('@').map_or(0, |at| at + 1);
-        &self.name[at..]
+        self.id.variant.as_deref().unwrap_or_default()
     }
 
     /// Says what the pictures are.
@@ -222,11 +223,10 @@ pub fn name_in_one_word(text: &str) -> String {
 
 /// Tells whether a text can be the name of an engine's scene: the folder of the scene has this name, and the folder of the engine's picture
 /// in it that of the engine.
-fn is_engine_scene(name: &str) -> bool {
+fn is_engine_scene(id: &SceneId) -> bool {
     let is_word = |word: &str| !word.is_empty() && name_in_one_word(word) == word;
-    name.split_once('@').is_some_and(|(folder, engine)| {
-        is_word(folder) && is_word(engine) && !engine.starts_with('.')
-    })
+    let is_engine = |engine: &String| is_word(engine) && !engine.starts_with('.');
+    is_word(&id.name) && id.variant.as_ref().is_some_and(is_engine) && id.rate.is_none()
 }
 
 #[cfg(test)]
@@ -246,7 +246,8 @@ mod tests {
             ("plate/0001@engine", false),
             ("plate@a@b", false),
         ] {
-            assert_eq!(is_engine_scene(name), allowed, "{name}");
+            let found = name.parse().is_ok_and(|id| is_engine_scene(&id));
+            assert_eq!(found, allowed, "{name}");
         }
     }
 

@@ -6,6 +6,7 @@ mod colors;
 mod engine_scene;
 mod error;
 mod filter;
+mod identity;
 mod measure;
 mod merge;
 mod monitor;
@@ -38,6 +39,7 @@ pub use filter::render_scale::RenderScale;
 pub use filter::runner::{Runner, open_adapter, open_gpu};
 pub use filter::shutter_rule::ShutterRule;
 pub use filter::velocity_format::VelocityFormat;
+pub use identity::{CaseId, FilterId};
 pub use measure::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use measure::estimate::{
     RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,

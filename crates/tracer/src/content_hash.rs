@@ -80,7 +80,7 @@ pub(crate) fn provenance(
     content_hash: String,
 ) -> Provenance {
     Provenance {
-        scene: stage.scene.name.clone(),
+        scene: stage.scene.id.to_string(),
         program: PROGRAM.into(),
         seed,
         samples_per_pixel,

@@ -9,12 +9,12 @@ use crate::film::at_instant::InstantView;
 use crate::film::canvas::Canvas;
 use crate::film::eye::{Eye, EyeRay};
 use crate::film::render::PIXELS_PER_TASK;
-use crate::film::sampler::{Sampler, Stream, pixel_seed};
-use crate::light::integrator::Integrator;
-use crate::light::stops::Stop;
-use crate::material::sight::Sight;
+use crate::material::surface::Sight;
 use crate::motion::lens::LensPoint;
+use crate::path::integrator::Integrator;
+use crate::path::stops::Stop;
 use crate::progress::{Meter, Watch};
+use crate::sampler::{Sampler, Stream, pixel_seed};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
@@ -32,7 +32,7 @@ struct Found {
     times: u32,
 }
 
-/// What a pass makes of one pixel: the mean over its rays.
+/// Effect of a pass on one pixel: the mean over its rays.
 struct Recipe {
     /// Pixels of the picture that rays read.
     reads: Vec<Found>,
@@ -49,12 +49,7 @@ struct Recipe {
 /// the pass of the frame without motion is the lens' own picture of the instant, but for noise and for edges that are read with
 /// the width of a pixel. It knows nothing of motion: what a blur has smeared over a pixel is taken for a part of what the pixel
 /// showed at the instant.
-pub struct Defocus {
-    width: u32,
-    height: u32,
-    /// In the order of the pixels.
-    recipes: Vec<Recipe>,
-}
+pub struct Defocus(Raster<Recipe>);
 
 /// Prepares the pass of a scene, for pictures of the settings' size without a guard band.
 ///
@@ -85,11 +80,11 @@ pub fn trace_defocus(
         })
         .collect::<Result<Vec<Vec<Recipe>>, TraceError>>()?;
     meter.check()?;
-    Ok(Defocus {
+    Ok(Defocus(Raster {
         width: canvas.width,
         height: canvas.height,
-        recipes: tasks.into_iter().flatten().collect(),
-    })
+        pixels: tasks.into_iter().flatten().collect(),
+    }))
 }
 
 /// Sends a pixel's rays through the lens.
@@ -207,15 +202,14 @@ impl Defocus {
         raster: &Raster<T>,
         mean: impl Fn(&Recipe) -> T + Sync + Send,
     ) -> Raster<T> {
-        assert_eq!(
-            (raster.width, raster.height),
-            (self.width, self.height),
+        assert!(
+            self.0.same_size(raster),
             "the pass is for pictures of one size"
         );
         Raster {
-            width: self.width,
-            height: self.height,
-            pixels: self.recipes.par_iter().map(mean).collect(),
+            width: raster.width,
+            height: raster.height,
+            pixels: self.0.pixels.par_iter().map(mean).collect(),
         }
     }
 }

@@ -2,8 +2,7 @@
 
 use frame::ShutterError;
 
-use crate::film::sampler::MOST_SAMPLES;
-use crate::limits::{LARGEST_COORDINATE, LARGEST_SIDE, LARGEST_VALUE, MOST_PIXELS};
+use crate::limits::{LARGEST_COORDINATE, LARGEST_SIDE, LARGEST_VALUE, MOST_PIXELS, MOST_SAMPLES};
 
 /// A refusal to render, or the end of a render.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -86,36 +85,20 @@ pub enum TraceError {
         /// Time, in frames.
         time: f64,
     },
-    /// A time, at another frame rate than that of the scene's file, before its keys.
-    #[error(
-        "scene {scene}: needs {what} at frame {time}, and the keys begin at frame {first} of this frame rate; allowed: motions of \
-         two keys, which go on steadily, and others from their first key or shape on; take a higher frame rate or a shorter shutter, \
-         leave the scene out, or give it more keys"
-    )]
-    BeforeKeys {
-        /// The scene's name, with the frame rate.
-        scene: String,
-        /// What is not defined.
-        what: String,
-        /// Time of the first key, in frames.
-        first: f64,
-        /// Time that was asked for, in frames.
-        time: f64,
-    },
     /// A time of a later frame, or of a scene at another frame rate than that of its file, at which the scene is not defined.
     #[error(
-        "scene {scene}: needs {what} at frame {time}, and the keys end at frame {last}; allowed: motions of two keys, which go on \
-         steadily, and others up to their last key or shape; take fewer frames, a higher frame rate or a shorter shutter, or give the \
-         scene more keys"
+        "scene {scene}: needs {what} at frame {time}, and the keys {edge}; allowed: motions of two keys, which go on steadily, and \
+         others from their first key or shape to their last; take fewer frames, a higher frame rate or a shorter shutter, leave the \
+         scene out, or give it more keys"
     )]
     Undefined {
-        /// The scene's name, with the frame.
+        /// The scene's name, with the frame rate and the frame.
         scene: String,
         /// What is not defined.
         what: String,
-        /// Time of the last key, in frames of the scene's own clock.
-        last: f64,
-        /// Time that was asked for, in the same frames.
+        /// Where the keys begin or end: `end at frame 3`.
+        edge: String,
+        /// Time that was asked for, in frames.
         time: f64,
     },
 }

@@ -1,9 +1,10 @@
-//! Scenes at other frame rates than that of their files.
+//! Frame rates, as names of scenes state them.
+
+use std::hash::{Hash, Hasher};
 
 use serde::{Deserialize, Serialize};
 
 use crate::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
-use crate::scene::Scene;
 
 /// A frame rate, and the rule by which the shutter follows it. Names have it as the last word behind the scene and its variant:
 /// `fan@144fps`, `fan@unlit@24fps_1-48s`.
@@ -15,6 +16,15 @@ pub struct FrameRate {
     /// interval.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shutters_per_second: Option<f64>,
+}
+
+// No number of a rate is NaN.
+impl Eq for FrameRate {}
+
+impl Hash for FrameRate {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.word().hash(state);
+    }
 }
 
 impl Default for FrameRate {
@@ -60,25 +70,7 @@ impl FrameRate {
             shutters_per_second: shutter.map(str::parse).transpose().ok()?,
         };
         // One rate has one name.
-        (own.word() == word).then_some(own)
-    }
-
-    /// Takes the variant of a scene's name apart into the variant of its file and the rate: `unlit@24fps` into `unlit` and 24.
-    pub fn split_variant(variant: &str) -> (Option<&str>, Option<Self>) {
-        let (rest, word) = match variant.rsplit_once('@') {
-            Some((rest, word)) => (Some(rest), word),
-            None => (None, variant),
-        };
-        match Self::in_word(word) {
-            Some(rate) => (rest, Some(rate)),
-            None => (Some(variant), None),
-        }
-    }
-
-    /// Finds the rate in the name of a scene, which may be that of a later frame: `fan@24fps/0003`. None where the name has none.
-    pub fn of_name(scene: &str) -> Option<Self> {
-        let (_, variant) = scene.split_once('@')?;
-        Self::split_variant(variant.split('/').next()?).1
+        (own.per_second.is_finite() && own.word() == word).then_some(own)
     }
 
     /// Refuses numbers beyond the limits; the reason says what is allowed.
@@ -113,30 +105,6 @@ impl FrameRate {
     }
 }
 
-impl Scene {
-    /// Takes the scene at another frame rate. Whatever its file says about a time happens at the same time in seconds; so does the
-    /// delay of a rolling shutter. The instant stays. Name and hash stay the caller's to set.
-    pub(crate) fn at_rate(mut self, rate: FrameRate) -> Self {
-        let frames = rate.frames_per_written_frame();
-        let objects = self.objects.iter_mut().map(|object| &mut object.motion);
-        for motion in objects.chain([&mut self.camera.motion]) {
-            for key in &mut motion.keys {
-                key.time *= frames;
-            }
-        }
-        for (time, _) in &mut self.camera.vertical_fov {
-            *time *= frames;
-        }
-        for shape in self.meshes.iter_mut().flat_map(|mesh| &mut mesh.shapes) {
-            shape.time *= frames;
-        }
-        self.shutter_profile.rolling *= frames;
-        self.exposure = rate.exposure(self.exposure);
-        self.rate = rate;
-        self
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -168,21 +136,6 @@ mod tests {
                 assert_eq!(rate.word(), word);
             }
         }
-    }
-
-    #[test]
-    fn a_name_ends_with_its_rate() {
-        let rate = FrameRate::in_word("24fps_1-48s");
-        assert_eq!(
-            FrameRate::split_variant("unlit@24fps_1-48s"),
-            (Some("unlit"), rate)
-        );
-        assert_eq!(FrameRate::split_variant("24fps_1-48s"), (None, rate));
-        assert_eq!(FrameRate::split_variant("seal7"), (Some("seal7"), None));
-        assert_eq!(FrameRate::of_name("fan@unlit@24fps_1-48s/0003"), rate);
-        assert_eq!(FrameRate::of_name("fan@24fps_1-48s"), rate);
-        assert_eq!(FrameRate::of_name("fan@unlit/0003"), None);
-        assert_eq!(FrameRate::of_name("fan"), None);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The frame of the instant, as an engine would hand it to its motion blur.
 
-use frame::{ColorSampling, FAR_DEPTH, Frame, Plane, Raster, Tile, Vectors, VelocityKind};
+use frame::{FAR_DEPTH, Frame, Plane, Raster, Tile, Vectors, VelocityKind};
 use rayon::prelude::*;
 
 use crate::content_hash::{grid_hash, provenance};
@@ -8,15 +8,15 @@ use crate::error::TraceError;
 use crate::film::canvas::Canvas;
 use crate::film::finite::{check_layer, check_picture};
 use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
-use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
+use crate::film::render::{Film, PixelMean, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
-use crate::film::sampler::Stream;
 use crate::frame_rate::FrameRate;
-use crate::light::integrator::Integrator;
-use crate::material::sight::Sight;
+use crate::material::surface::Sight;
 use crate::motion::velocity::{PointMotion, TrackedPoint, camera, camera_velocity, reprojection};
+use crate::path::integrator::Integrator;
 use crate::pixel_grid::{PixelGrid, scale_camera, scale_reprojection};
 use crate::progress::{Meter, Watch};
+use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
@@ -38,6 +38,18 @@ struct PointSample {
     velocity: [f32; 2],
     depth: f32,
     object_id: u32,
+}
+
+impl PointLayers {
+    fn new(scene: &Scene, points: &Raster<PointSample>) -> Result<Self, TraceError> {
+        let velocity = points.map(|point| point.velocity);
+        check_layer(scene, "velocity", &velocity)?;
+        Ok(Self {
+            velocity,
+            depth: points.map(|point| point.depth),
+            object_id: points.map(|point| point.object_id),
+        })
+    }
 }
 
 /// Renders the instant `t = 0`. Colour and coverage are filtered over each pixel or sampled at its centre. Velocity, depth and
@@ -91,15 +103,11 @@ fn trace_part(
     settings.check_frame(scene)?;
     let canvas = check_canvas(settings, grid)?;
     let tile = tile.unwrap_or(canvas.whole());
-    let stage = Stage::try_new(scene, 0.0, 0.0)?;
-    let stage = &stage;
+    let stage = &Stage::try_new(scene, 0.0, 0.0)?;
     let make_film = |samples, replicates, stream| Film {
         integrator: Integrator::new(stage, 0.0),
         canvas,
-        places: match settings.options.color {
-            ColorSampling::Antialiased => Places::Area,
-            ColorSampling::Point => Places::Centre,
-        },
+        color: settings.options.color,
         times: &[Times::Instant],
         instant: None,
         shaded_again: 1,
@@ -117,10 +125,9 @@ fn trace_part(
     let meter = Meter::new(watch, film.work(&pixels));
     let pixel_means = film.render(&pixels, &meter, |estimates| PixelMean::of(&estimates[0]))?;
     let picture = assemble_picture(tile, &pixel_means);
-    let points = sample_points(stage, canvas, settings, &PointMotion::RIGHT).part(tile);
-    let velocity = points.map(|point| point.velocity);
     check_picture(scene, &picture)?;
-    check_layer(scene, "velocity", &velocity)?;
+    let points = sample_points(stage, canvas, settings, &PointMotion::RIGHT).part(tile);
+    let layers = PointLayers::new(scene, &points)?;
     Ok(Frame {
         provenance: provenance(
             stage,
@@ -130,7 +137,7 @@ fn trace_part(
             grid_hash(scene, settings, grid),
         ),
         exposure: settings.exposure(scene),
-        frames_per_second: Some(scene.rate.per_second)
+        frames_per_second: Some(scene.rate().per_second)
             .filter(|rate| *rate != FrameRate::WRITTEN.per_second),
         options: settings.options,
         guard_band: settings.guard_band,
@@ -140,9 +147,9 @@ fn trace_part(
         objects: scene.object_names(),
         color: picture.color,
         coverage: picture.coverage,
-        velocity,
-        depth: points.map(|point| point.depth),
-        object_id: points.map(|point| point.object_id),
+        velocity: layers.velocity,
+        depth: layers.depth,
+        object_id: layers.object_id,
         samples: Some(samples.to_plane(canvas).part(tile)),
     })
 }
@@ -173,14 +180,7 @@ pub fn trace_motion_on(
     settings.check_frame(scene)?;
     let canvas = check_canvas(settings, grid)?;
     let stage = Stage::try_new(scene, motion.seen_at, motion.seen_at)?;
-    let points = sample_points(&stage, canvas, settings, motion);
-    let velocity = points.map(|point| point.velocity);
-    check_layer(scene, "velocity", &velocity)?;
-    Ok(PointLayers {
-        velocity,
-        depth: points.map(|point| point.depth),
-        object_id: points.map(|point| point.object_id),
-    })
+    PointLayers::new(scene, &sample_points(&stage, canvas, settings, motion))
 }
 
 /// Makes the canvas of a grid; refuses a grid of a size that no picture has.

@@ -1,18 +1,21 @@
 //! Ladders: accumulations of a few sub-frames, for comparison with the truth of the same shutter.
 
-use frame::{Accumulation, Alignment, Ladder, Picture, Plane, Raster, Shutter, Tile, Truth};
+use frame::{
+    Accumulation, Alignment, ColorSampling, Ladder, Picture, Plane, Raster, Shutter, Tile, Truth,
+};
 
 use crate::content_hash::{ladder_hash, provenance};
 use crate::error::TraceError;
 use crate::film::canvas::Canvas;
 use crate::film::dilate::dilate_square;
 use crate::film::finite::check_picture;
-use crate::film::render::{Film, PixelMean, Places, Times};
+use crate::film::render::{Film, PixelMean, Times};
 use crate::film::sample_counts::SampleCounts;
-use crate::film::sampler::{MOST_SAMPLES, Stream};
 use crate::film::shutter_sampler::ShutterSampler;
-use crate::light::integrator::Integrator;
+use crate::limits::MOST_SAMPLES;
+use crate::path::integrator::Integrator;
 use crate::progress::{Meter, Progress, Watch};
+use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
@@ -32,7 +35,6 @@ const SAVED_BY_A_MISS: f64 = 0.875;
 /// in work. Their random numbers are their own, so that their noise is independent of the truth's.
 pub struct LadderTracer<'a> {
     stage: Stage<'a>,
-    scene: &'a Scene,
     seed: u64,
     shutter: Shutter,
     alignment: Alignment,
@@ -64,7 +66,6 @@ impl<'a> LadderTracer<'a> {
         let mean = truth.mean();
         Ok(Self {
             stage: Stage::try_new(scene, whole.open, whole.close)?,
-            scene,
             seed: settings.seed,
             shutter,
             alignment: truth.alignment,
@@ -100,11 +101,11 @@ impl<'a> LadderTracer<'a> {
             .unzip();
         let samples_per_pixel = REPLICATES * self.samples_per_replicate;
         let work = pixels.len() as u64 * u64::from(samples_per_pixel);
-        let shutter_sampler = ShutterSampler::new(self.shutter, &self.scene.shutter_profile);
+        let shutter_sampler = ShutterSampler::new(self.shutter, &self.stage.scene.shutter_profile);
         let film = Film {
             integrator: Integrator::new(&self.stage, 0.0),
             canvas: Canvas::bare(width, height),
-            places: Places::Area,
+            color: ColorSampling::Antialiased,
             times: &[Times::Midpoints(&shutter_sampler, subframes)],
             instant: None,
             shaded_again: 1,
@@ -124,7 +125,7 @@ impl<'a> LadderTracer<'a> {
             picture
         });
         for half in &halves {
-            check_picture(self.scene, half)?;
+            check_picture(self.stage.scene, half)?;
         }
         Ok(Ladder {
             provenance: provenance(
@@ -135,9 +136,9 @@ impl<'a> LadderTracer<'a> {
                 self.hash.clone(),
             ),
             shutter: self.shutter,
-            shutter_profile: self.scene.shutter_profile.clone(),
+            shutter_profile: self.stage.scene.shutter_profile.clone(),
             alignment: self.alignment,
-            objects: self.scene.object_names(),
+            objects: self.stage.scene.object_names(),
             rungs: vec![Accumulation { subframes, halves }],
         })
     }

@@ -18,9 +18,12 @@ mod load;
 mod location;
 mod material;
 mod motion;
+mod path;
 mod pixel_grid;
 mod progress;
+mod sampler;
 mod scene;
+mod scene_id;
 mod seal;
 mod sequence;
 mod settings;
@@ -32,30 +35,27 @@ mod truth;
 pub use content_hash::{frame_hash, ladder_hash, replicate_hash, truth_hash};
 pub use defocus::{Defocus, trace_defocus};
 pub use error::TraceError;
-pub use film::sampler::MOST_SAMPLES;
 pub use frame_rate::FrameRate;
-pub use geometry::hit::Hit;
-pub use geometry::ray::Ray;
+pub use geometry::ray::{Hit, Ray};
 pub use instant::{
     PointLayers, trace_frame, trace_frame_on, trace_frame_tile, trace_motion, trace_motion_on,
 };
 pub use ladder::{LadderTracer, trace_ladder};
+pub use limits::MOST_SAMPLES;
 pub use load::{
-    MOST_COINCIDENT, SceneError, SceneListing, list_scene, list_scenes, load_scene,
-    load_scene_and_files,
+    SceneError, SceneListing, list_scene, list_scenes, load_scene, load_scene_and_files,
 };
 pub use location::{Bundle, Location};
 pub use motion::camera::View;
-pub use motion::curve::Interpolation;
-pub use motion::keys::{Key, Motion, Turn};
 pub use motion::poses::Poses;
 pub use motion::velocity::{ObjectsBefore, PointMotion};
 pub use pixel_grid::PixelGrid;
 pub use progress::{Progress, Watch};
 pub use scene::{
-    Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Lens, Material,
-    Mesh, Object, Parent, Scene, Shape, Sun, Texture, Translucency,
+    Background, Camera, Display, EnvironmentMap, Family, Finish, FlipExposures, Interpolation, Key,
+    Lens, Material, Mesh, Motion, Object, Parent, Scene, Shape, Sun, Texture, Translucency, Turn,
 };
+pub use scene_id::SceneId;
 pub use seal::Seal;
 pub use settings::RenderSettings;
 pub use stage::Stage;

@@ -9,6 +9,9 @@ pub const LARGEST_SIDE: u32 = 16_384;
 /// Most pixels of a picture: 8192 x 8192.
 pub const MOST_PIXELS: u64 = 67_108_864;
 
+/// Most samples per pixel of one replicate, as many as the tables of the Sobol sequence hold.
+pub const MOST_SAMPLES: u32 = 65_536;
+
 /// Largest scene.toml, in bytes.
 pub const LARGEST_SCENE_FILE: u64 = 16_777_216;
 
@@ -98,9 +101,6 @@ pub const SMALLEST_SUN: f64 = 0.001;
 
 /// Brightest radiance.
 pub const BRIGHTEST: f32 = 1e12;
-
-/// Most exposures of HDR-FLIP.
-pub const MOST_FLIP_EXPOSURES: u32 = 128;
 
 /// Greatest coordinate of anything that is rendered, in metres: the areas of boxes must be 32-bit numbers, and positions
 /// exact to less than a metre.

@@ -110,10 +110,10 @@ impl Location {
         let bytes = found.ok_or_else(missing)?;
         match bytes.len() as u64 <= limit {
             true => Ok(bytes),
-            false => Err(FileError::Foreign {
-                path: self.path.clone(),
-                reason: format!("has {} bytes; allowed: up to {limit}", bytes.len()),
-            }),
+            false => {
+                let reason = format!("has {} bytes; allowed: up to {limit}", bytes.len());
+                Err(FileError::foreign(&self.path, reason))
+            }
         }
     }
 
@@ -146,21 +146,12 @@ impl fmt::Display for Location {
     }
 }
 
-impl From<PathBuf> for Location {
-    fn from(path: PathBuf) -> Self {
-        Self { path, bundle: None }
-    }
-}
-
-impl From<&PathBuf> for Location {
-    fn from(path: &PathBuf) -> Self {
-        path.clone().into()
-    }
-}
-
-impl From<&Path> for Location {
-    fn from(path: &Path) -> Self {
-        path.to_owned().into()
+impl<P: AsRef<Path>> From<P> for Location {
+    fn from(path: P) -> Self {
+        Self {
+            path: path.as_ref().to_owned(),
+            bundle: None,
+        }
     }
 }
 

@@ -1,89 +1,101 @@
-//! A scene at later frames of its own clock.
+//! A scene at later frames of its own clock, and at other frame rates than that of its file.
 
 use glam::DVec3;
 
 use crate::error::TraceError;
 use crate::frame_rate::FrameRate;
-use crate::motion::keys::Motion;
-use crate::scene::{Mesh, Scene};
+use crate::scene::{Motion, Scene};
 
 impl Scene {
     /// Makes the scene as it is `frame` frames later: what happens at that time happens at time 0 of the result, of which
     /// frame and truth are rendered. All keys and key shapes move; the settings, the seed and everything without keys stay.
-    /// The result has a name and a hash of its own. Frame 0 is the scene itself.
+    /// The result has an identity and a hash of its own. Frame 0 is the scene itself.
     ///
     /// Renders of a later frame refuse times at which the scene is not defined; see [`TraceError::Undefined`].
     pub fn at_frame(&self, frame: u32) -> Self {
-        assert_eq!(self.frame, 0, "frames are counted from the scene's own");
+        assert_eq!(self.id.frame, 0, "frames are counted from the scene's own");
         if frame == 0 {
             return self.clone();
         }
         let mut scene = self.clone().later_by(f64::from(frame));
-        scene.frame = frame;
-        scene.name = self.name_at_frame(frame);
+        scene.id.frame = frame;
         let text = format!("{} at frame {frame}", self.hash);
         scene.hash = blake3::hash(text.as_bytes()).to_hex().to_string();
         scene
     }
 
-    /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its name and its hash stay: nothing that is made
+    /// Makes the scene as it is some frames later, or earlier if `later` is negative. Its identity and its hash stay: nothing that is made
     /// of it may be kept in files.
     pub fn later_by(mut self, later: f64) -> Self {
-        let objects = self.objects.iter_mut().map(|object| &mut object.motion);
-        for motion in objects.chain([&mut self.camera.motion]) {
-            for key in &mut motion.keys {
-                key.time -= later;
-            }
-        }
-        for (time, _) in &mut self.camera.vertical_fov {
-            *time -= later;
-        }
-        for shape in self.meshes.iter_mut().flat_map(|mesh| &mut mesh.shapes) {
-            shape.time -= later;
-        }
+        self.change_times(|time| time - later);
         self
     }
 
-    /// Names a later frame: `fan/0003`. It is the path of its files as well.
-    pub fn name_at_frame(&self, frame: u32) -> String {
-        format!("{}/{frame:04}", self.name)
+    /// Takes the scene at another frame rate. Whatever its file says about a time happens at the same time in seconds; so does the
+    /// delay of a rolling shutter. The instant stays. Identity and hash stay the caller's to set.
+    pub(crate) fn at_rate(mut self, rate: FrameRate) -> Self {
+        let frames = rate.frames_per_written_frame();
+        self.change_times(|time| time * frames);
+        self.shutter_profile.rolling *= frames;
+        self.exposure = rate.exposure(self.exposure);
+        self
     }
 
     /// Refuses times at which the scene is not defined, `open` to `close` in frames after the instant: of a later frame those beyond
     /// the end of its keys, and at another frame rate those before their begin as well.
     pub(crate) fn check_defined(&self, open: f64, close: f64) -> Result<(), TraceError> {
-        if self.rate != FrameRate::WRITTEN {
-            self.check_begin(open)?;
-        } else if self.frame == 0 {
+        let is_own_rate = self.rate() == FrameRate::WRITTEN;
+        if is_own_rate && self.id.frame == 0 {
             return Ok(());
         }
-        self.check_end(close)
-    }
-
-    /// Refuses a time before the begin of a path or of key shapes.
-    fn check_begin(&self, time: f64) -> Result<(), TraceError> {
-        let paths = (self.named_motions().into_iter()).map(|(what, motion)| {
-            let first = begin_of_path(&motion.keys, |key| key.time);
-            (format!("the motion of {what}"), first)
-        });
-        let view = begin_of_path(&self.camera.vertical_fov, |(time, _)| *time);
-        let shapes = self.objects.iter().map(|object| {
-            let first = self.meshes[object.mesh].shapes.first();
-            let what = format!("the shapes of object {}", object.name);
-            (what, first.map(|shape| shape.time))
-        });
-        let view = ("the camera's field of view".to_owned(), view);
-        for (what, first) in paths.chain([view]).chain(shapes) {
-            if let Some(first) = first.filter(|first| *first > time) {
-                return Err(TraceError::BeforeKeys {
-                    scene: self.name.clone(),
+        let refuse = |what: String, time: f64, edge: String| {
+            Err(TraceError::Undefined {
+                scene: self.id.to_string(),
+                what,
+                edge,
+                time,
+            })
+        };
+        let frame = f64::from(self.id.frame);
+        let ends = |last: f64| format!("end at frame {}", last + frame);
+        for (what, first, last) in self.list_timelines() {
+            if !is_own_rate && first > open {
+                return refuse(
                     what,
-                    first,
-                    time,
-                });
+                    open,
+                    format!("begin at frame {first} of this frame rate"),
+                );
+            }
+            if last < close {
+                return refuse(what, close + frame, ends(last));
+            }
+        }
+        for (what, motion) in self.named_motions() {
+            if let Some(last) = end_of_scale(motion, close) {
+                return refuse(format!("the scale of {what}"), close + frame, ends(last));
             }
         }
         Ok(())
+    }
+
+    /// Lists what is defined from its first key or shape to its last, with the times of both: paths and key shapes. Steady motions
+    /// go on for ever.
+    fn list_timelines(&self) -> Vec<(String, f64, f64)> {
+        let motions = (self.named_motions().into_iter()).map(|(what, motion)| {
+            let times = motion.keys.iter().map(|key| key.time).collect();
+            (format!("the motion of {what}"), STEADY_KEYS, times)
+        });
+        let views = self.camera.vertical_fov.iter().map(|(time, _)| *time);
+        let view = "the camera's field of view".to_owned();
+        let shapes = self.objects.iter().map(|object| {
+            let what = format!("the shapes of object {}", object.name);
+            (what, 0, self.meshes[object.mesh].shape_times().collect())
+        });
+        (motions.chain([(view, STEADY_KEYS, views.collect())]))
+            .chain(shapes)
+            .filter(|(_, most, times): &(_, _, Vec<f64>)| times.len() > *most)
+            .map(|(what, _, times)| (what, times[0], times[times.len() - 1]))
+            .collect()
     }
 
     /// Lists all motions, each with its name for messages.
@@ -95,58 +107,10 @@ impl Scene {
         let camera = ("the camera".to_owned(), &self.camera.motion);
         objects.chain([camera]).collect()
     }
-
-    /// Refuses a time beyond the end of a path or of key shapes, or beyond the last at which a scale keeps its sign.
-    fn check_end(&self, time: f64) -> Result<(), TraceError> {
-        let refuse = |what: String, last: f64| TraceError::Undefined {
-            scene: self.name.clone(),
-            what,
-            last: last + f64::from(self.frame),
-            time: time + f64::from(self.frame),
-        };
-        for (what, motion) in self.named_motions() {
-            if let Some(last) = end_of_path(motion).filter(|last| *last < time) {
-                return Err(refuse(format!("the motion of {what}"), last));
-            }
-            if let Some(last) = end_of_scale(motion, time) {
-                return Err(refuse(format!("the scale of {what}"), last));
-            }
-        }
-        if let [.., (last, _)] = self.camera.vertical_fov[..]
-            && self.camera.vertical_fov.len() > STEADY_KEYS
-            && last < time
-        {
-            return Err(refuse("the camera's field of view".to_owned(), last));
-        }
-        for object in &self.objects {
-            if let Some(last) = end_of_shapes(&self.meshes[object.mesh])
-                && last < time
-            {
-                return Err(refuse(
-                    format!("the shapes of object {}", object.name),
-                    last,
-                ));
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Keys that make a steady motion, which goes on for ever. More of them make a path, which ends at the last.
 const STEADY_KEYS: usize = 2;
-
-/// Finds the time at which a motion's path ends; none where it stands still or is steady.
-fn end_of_path(motion: &Motion) -> Option<f64> {
-    let keys = &motion.keys;
-    let is_path = keys.len() > STEADY_KEYS;
-    keys.last().filter(|_| is_path).map(|key| key.time)
-}
-
-/// Finds the time at which a path begins; none of keys that are steady.
-fn begin_of_path<T>(keys: &[T], time: impl Fn(&T) -> f64) -> Option<f64> {
-    let is_path = keys.len() > STEADY_KEYS;
-    keys.first().filter(|_| is_path).map(time)
-}
 
 /// Finds the last key of a motion whose scale passes 0 between that key and `time`; none where it keeps its sign.
 fn end_of_scale(motion: &Motion, time: f64) -> Option<f64> {
@@ -154,11 +118,6 @@ fn end_of_scale(motion: &Motion, time: f64) -> Option<f64> {
     let segment = motion.segment(time.max(last.time));
     let scale: DVec3 = segment.scale.at(segment.since(time.max(last.time)));
     ((last.scale * scale).min_element() <= 0.0).then_some(last.time)
-}
-
-/// Finds the time of the last key shape; none of a rigid mesh.
-fn end_of_shapes(mesh: &Mesh) -> Option<f64> {
-    mesh.shapes.last().map(|shape| shape.time)
 }
 
 #[cfg(test)]
@@ -205,7 +164,7 @@ mod tests {
                     }
                 }
                 assert_ne!(later.hash, scene.hash);
-                assert_eq!(later.name, format!("{name}/{frame:04}"));
+                assert_eq!(later.id.to_string(), format!("{name}/{frame:04}"));
             }
         }
     }
@@ -217,38 +176,9 @@ mod tests {
         let hash = |scene: &Scene| crate::truth_hash(scene, &settings, Alignment::Trailing);
         let first = scene.at_frame(0);
         assert_eq!(hash(&first), hash(&scene));
-        assert_eq!(first.name, scene.name);
+        assert_eq!(first.id, scene.id);
         assert_ne!(hash(&scene.at_frame(1)), hash(&scene));
         assert_ne!(hash(&scene.at_frame(1)), hash(&scene.at_frame(2)));
-    }
-
-    #[test]
-    fn a_path_and_key_shapes_end_at_their_last_key() {
-        let check = |name: &str, frame: u32, alignment| {
-            let scene = load_test_scene(name).at_frame(frame);
-            RenderSettings::default().check_truth(&scene, alignment)
-        };
-        // The shapes of the flag go from -1 to 1.
-        assert_eq!(check("flag", 1, Alignment::Trailing).err(), None);
-        let text = check("flag", 1, Alignment::Leading)
-            .unwrap_err()
-            .to_string();
-        assert!(
-            text.contains("the shapes of object cloth at frame 1.5"),
-            "{text}"
-        );
-        assert!(text.contains("end at frame 1"), "{text}");
-        let text = check("reversal", 1, Alignment::Trailing)
-            .unwrap_err()
-            .to_string();
-        assert!(
-            text.contains("the motion of object lorry at frame 1"),
-            "{text}"
-        );
-        // Two keys make a steady motion.
-        assert_eq!(check("fan", 900, Alignment::Leading).err(), None);
-        // At their own instant all scenes are as they were.
-        assert_eq!(check("flag", 0, Alignment::Leading).err(), None);
     }
 
     #[test]
@@ -286,7 +216,7 @@ mod tests {
                 .check_truth(&scene.at_frame(24), Alignment::Centred)
                 .is_err()
             {
-                ending.push(scene.name);
+                ending.push(scene.id.name);
             }
         }
         assert_eq!(ending, ["flag", "reversal"]);

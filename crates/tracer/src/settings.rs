@@ -4,8 +4,7 @@ use frame::{Alignment, FrameOptions, Shutter};
 use serde::{Deserialize, Serialize};
 
 use crate::error::TraceError;
-use crate::film::sampler::MOST_SAMPLES;
-use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
+use crate::limits::{LARGEST_SIDE, MOST_PIXELS, MOST_SAMPLES};
 use crate::motion::velocity::earliest_time;
 use crate::scene::Scene;
 
@@ -104,7 +103,8 @@ impl RenderSettings {
     }
 }
 
-fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
+/// Refuses a size that no picture has.
+pub(crate) fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
     let allowed = 1..=LARGEST_SIDE;
     let pixels = u64::from(width) * u64::from(height);
     if allowed.contains(&width) && allowed.contains(&height) && pixels <= MOST_PIXELS {
@@ -134,7 +134,7 @@ fn check_field_of_view(scene: &Scene, from: f64, to: f64) -> Result<(), TraceErr
         let fov = scene.camera.vertical_fov_at(time);
         if !(fov > 0.0 && fov < std::f64::consts::PI) {
             return Err(TraceError::FieldOfView {
-                scene: scene.name.clone(),
+                scene: scene.id.to_string(),
                 degrees: fov.to_degrees(),
                 time,
             });

@@ -7,13 +7,11 @@ use crate::accel::lanes::Avx2;
 use crate::accel::lanes::{Lanes, Portable};
 use crate::accel::scene_tree::SceneTree;
 use crate::error::TraceError;
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::Ray;
+use crate::geometry::ray::{Hit, Ray};
 use crate::light::sky::Sky;
 use crate::material::glossy_material::GlossyMaterial;
 use crate::material::passage::Passage;
-use crate::material::sight::Sight;
-use crate::material::surface::Surface;
+use crate::material::surface::{Sight, Surface};
 use crate::motion::poses::Poses;
 use crate::scene::{Material, Scene};
 
@@ -24,11 +22,13 @@ pub struct Stage<'a> {
     pub(crate) scene: &'a Scene,
     tree: SceneTree<'a>,
     /// Glossy part of each material of the scene; none where it is diffuse.
-    glossy_materials: Vec<Option<GlossyMaterial>>,
-    sky: Sky<'a>,
+    pub(crate) glossy_materials: Vec<Option<GlossyMaterial>>,
+    /// Background as a light.
+    pub(crate) sky: Sky<'a>,
     poses: Poses<'a>,
     traversal: Traversal,
-    has_translucency: bool,
+    /// True if any surface is translucent.
+    pub(crate) has_translucency: bool,
 }
 
 /// The instructions that traverse the trees. All find the same hits.
@@ -36,6 +36,20 @@ enum Traversal {
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
     Portable,
+}
+
+/// Runs a query of the tree of a stage by its instructions.
+macro_rules! traverse {
+    ($stage:ident.$query:ident($($argument:ident),*)) => {
+        match $stage.traversal {
+            #[cfg(target_arch = "x86_64")]
+            Traversal::Avx2(lanes) => lanes.run(
+                #[inline(always)]
+                || $stage.tree.$query(lanes, $($argument),*),
+            ),
+            Traversal::Portable => $stage.tree.$query(Portable, $($argument),*),
+        }
+    };
 }
 
 impl<'a> Stage<'a> {
@@ -72,16 +86,6 @@ impl<'a> Stage<'a> {
             && !self.scene.materials.iter().any(is_glass)
     }
 
-    /// The glossy part of a material; none where it is diffuse.
-    pub(crate) fn glossy_material(&self, material: usize) -> Option<&GlossyMaterial> {
-        self.glossy_materials[material].as_ref()
-    }
-
-    /// The background as a light.
-    pub(crate) fn sky(&self) -> &Sky<'a> {
-        &self.sky
-    }
-
     /// A store of poses, for one path at a time.
     pub fn poses(&self) -> Poses<'a> {
         self.poses.clone()
@@ -100,31 +104,12 @@ impl<'a> Stage<'a> {
         ray: &Ray,
         sight: Sight,
     ) -> Option<Hit> {
-        match self.traversal {
-            #[cfg(target_arch = "x86_64")]
-            Traversal::Avx2(lanes) => lanes.run(
-                #[inline(always)]
-                || self.tree.closest(lanes, poses, ray, sight),
-            ),
-            Traversal::Portable => self.tree.closest(Portable, poses, ray, sight),
-        }
+        traverse!(self.closest(poses, ray, sight))
     }
 
     /// Finds the nearest surface behind a hit of the same ray.
     pub(crate) fn closest_behind(&self, poses: &mut Poses, ray: &Ray, last: &Hit) -> Option<Hit> {
-        match self.traversal {
-            #[cfg(target_arch = "x86_64")]
-            Traversal::Avx2(lanes) => lanes.run(
-                #[inline(always)]
-                || self.tree.closest_behind(lanes, poses, ray, last),
-            ),
-            Traversal::Portable => self.tree.closest_behind(Portable, poses, ray, last),
-        }
-    }
-
-    /// Returns true if any surface is translucent.
-    pub(crate) fn has_translucency(&self) -> bool {
-        self.has_translucency
+        traverse!(self.closest_behind(poses, ray, last))
     }
 
     /// The share of the light that passes along a ray at `0 < t < limit`: the product of what all surfaces let pass. It does
@@ -153,14 +138,7 @@ impl<'a> Stage<'a> {
 
     /// Returns true if anything opaque lies at `0 < t < limit`.
     pub fn is_blocked(&self, poses: &mut Poses, ray: &Ray, limit: f64) -> bool {
-        match self.traversal {
-            #[cfg(target_arch = "x86_64")]
-            Traversal::Avx2(lanes) => lanes.run(
-                #[inline(always)]
-                || self.tree.is_blocked(lanes, poses, ray, limit),
-            ),
-            Traversal::Portable => self.tree.is_blocked(Portable, poses, ray, limit),
-        }
+        traverse!(self.is_blocked(poses, ray, limit))
     }
 
     /// Returns true if anything opaque lies at `0 < t < limit`, for a ray that nothing blocks which stands still.
@@ -168,14 +146,7 @@ impl<'a> Stage<'a> {
         if !self.tree.has_few_movers() {
             return self.is_blocked(poses, ray, limit);
         }
-        match self.traversal {
-            #[cfg(target_arch = "x86_64")]
-            Traversal::Avx2(lanes) => lanes.run(
-                #[inline(always)]
-                || self.tree.is_blocked_by_mover(lanes, poses, ray, limit),
-            ),
-            Traversal::Portable => self.tree.is_blocked_by_mover(Portable, poses, ray, limit),
-        }
+        traverse!(self.is_blocked_by_mover(poses, ray, limit))
     }
 
     /// Returns true if an object keeps its place and its shape.

@@ -3,7 +3,9 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use frame::{Alignment, AtInstant, Raster, Replicate, Support, Tile, Truth, motion_margin};
+use frame::{
+    Alignment, AtInstant, ColorSampling, Raster, Replicate, Support, Tile, Truth, motion_margin,
+};
 
 use crate::aligned_shutter::{AlignedShutter, list_family};
 use crate::content_hash::{provenance, replicate_hash};
@@ -12,12 +14,12 @@ use crate::film::at_instant::{InstantMeans, InstantView};
 use crate::film::canvas::Canvas;
 use crate::film::finite::{check_at_instant, check_picture};
 use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
-use crate::film::render::{Film, PixelMean, Places, Times, assemble_picture};
+use crate::film::render::{Film, PixelMean, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
-use crate::film::sampler::Stream;
 use crate::film::support::trace_supports;
-use crate::light::integrator::Integrator;
+use crate::path::integrator::Integrator;
 use crate::progress::{Meter, Progress, Watch};
+use crate::sampler::Stream;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
@@ -95,18 +97,6 @@ impl<'a> TruthTracer<'a> {
         })
     }
 
-    /// Memory that a pixel takes while a replicate of every truth is traced, in bytes: its means, those at the instant, and
-    /// the support.
-    pub fn bytes_per_pixel(&self) -> usize {
-        let coverages = self.stage.scene.objects.len() + 1;
-        let masks = coverages + 2;
-        let each = size_of::<PixelMean>()
-            + coverages * size_of::<f32>()
-            + size_of::<InstantMeans>()
-            + masks * size_of::<bool>();
-        self.shutters.len() * each + size_of::<u32>()
-    }
-
     /// Renders one replicate of every truth, in the order of the alignments. The index seeds its random numbers and changes
     /// nothing else; it may exceed the number of replicates in the settings.
     pub fn trace(&self, index: u32, watch: Watch) -> Result<Vec<Replicate>, TraceError> {
@@ -157,7 +147,7 @@ impl<'a> TruthTracer<'a> {
             // Emitters are weighted at the instant, which belongs to every alignment.
             integrator: Integrator::new(&self.stage, 0.0),
             canvas,
-            places: Places::Area,
+            color: ColorSampling::Antialiased,
             times,
             instant: Some(InstantView::new(&self.stage, canvas)),
             shaded_again: SHADED_AGAIN,
@@ -208,7 +198,7 @@ impl<'a> TruthTracer<'a> {
 
     /// The samples of every pixel, which are the same for every replicate and every alignment of the family.
     fn samples(&self, watch: Watch) -> Result<&SampleCounts, TraceError> {
-        if self.samples.get().is_none() {
+        get_or_try_init(&self.samples, || {
             let times: Vec<Times> = self.family.iter().map(AlignedShutter::times).collect();
             let uniform = SampleCounts::Uniform(PILOT_SAMPLES);
             let pilot = Film {
@@ -220,24 +210,32 @@ impl<'a> TruthTracer<'a> {
                 .collect();
             let mean = self.settings.samples_per_replicate();
             let margin = motion_margin(self.settings.height);
-            let chosen = choose_samples(&pilot, &moving, margin, mean, watch)?;
-            // Another thread may have been faster, with the same result.
-            self.samples.get_or_init(|| chosen);
-        }
-        Ok(self.samples.get().expect("they were just chosen"))
+            choose_samples(&pilot, &moving, margin, mean, watch)
+        })
     }
 
     /// The supports of all truths, which are the same for every replicate.
     fn supports(&self, film: &Film, meter: &Meter) -> Result<&[Support], TraceError> {
-        if self.supports.get().is_none() {
-            let moving: Vec<&[bool]> = (self.shutters.iter())
-                .map(|shutter| shutter.moving.as_slice())
-                .collect();
-            let found = trace_supports(film, &moving, meter)?;
-            // Another thread may have been faster, with the same result.
-            self.supports.get_or_init(|| found);
+        let supports = get_or_try_init(&self.supports, || {
+            let shutters = self.shutters.iter();
+            let moving: Vec<&[bool]> = shutters.map(|shutter| &shutter.moving[..]).collect();
+            trace_supports(film, &moving, meter)
+        })?;
+        Ok(supports)
+    }
+}
+
+/// Returns the content of a cell; fills it first if it is empty. Another thread may be faster, with the same result.
+fn get_or_try_init<T>(
+    cell: &OnceLock<T>,
+    make: impl FnOnce() -> Result<T, TraceError>,
+) -> Result<&T, TraceError> {
+    match cell.get() {
+        Some(content) => Ok(content),
+        None => {
+            let made = make()?;
+            Ok(cell.get_or_init(|| made))
         }
-        Ok(self.supports.get().expect("they were just probed"))
     }
 }
 
@@ -266,30 +264,35 @@ mod tests {
 
     use super::*;
 
+    fn unwatched(_: Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn small_settings() -> RenderSettings {
+        RenderSettings {
+            width: 48,
+            height: 27,
+            samples_per_pixel: 32,
+            replicates: 2,
+            ..RenderSettings::default()
+        }
+    }
+
     #[test]
     fn every_instruction_set_renders_the_same_bytes() {
         for scene in ["two_spheres", "fan", "glasshouse"] {
             let scene = load_test_scene(scene);
-            let settings = RenderSettings {
-                width: 48,
-                height: 27,
-                samples_per_pixel: 32,
-                replicates: 2,
-                ..RenderSettings::default()
-            };
+            let settings = small_settings();
             let mut tracer = TruthTracer::new(&scene, &settings, &[Alignment::Trailing])
                 .expect("settings are allowed");
-            let unwatched = |_: Progress| ControlFlow::Continue(());
-            let fastest = tracer
-                .trace(0, &unwatched)
-                .expect("nothing cancels")
-                .remove(0);
+            let trace = |tracer: &TruthTracer| {
+                let mut traced = tracer.trace(0, &unwatched).expect("nothing cancels");
+                traced.remove(0)
+            };
+            let fastest = trace(&tracer);
             tracer.stage = tracer.stage.portable();
             assert_eq!(tracer.stage.traversal(), "portable");
-            let portable = tracer
-                .trace(0, &unwatched)
-                .expect("nothing cancels")
-                .remove(0);
+            let portable = trace(&tracer);
             assert_eq!(fastest.picture.color.pixels, portable.picture.color.pixels);
         }
     }
@@ -299,14 +302,9 @@ mod tests {
         for scene in ["fan", "railing"] {
             let scene = load_test_scene(scene);
             let settings = RenderSettings {
-                width: 48,
-                height: 27,
-                samples_per_pixel: 32,
-                replicates: 2,
                 exposure: Some(0.3),
-                ..RenderSettings::default()
+                ..small_settings()
             };
-            let unwatched = |_: Progress| ControlFlow::Continue(());
             let trace = |alignments: &[Alignment]| {
                 let tracer = TruthTracer::new(&scene, &settings, alignments).expect("allowed");
                 tracer.trace(1, &unwatched).expect("nothing cancels")
@@ -325,10 +323,8 @@ mod tests {
             width: 64,
             height: 36,
             samples_per_pixel: 64,
-            replicates: 2,
-            ..RenderSettings::default()
+            ..small_settings()
         };
-        let unwatched = |_: Progress| ControlFlow::Continue(());
         let truth = trace_truth(&scene, &settings, Alignment::Trailing, &unwatched)
             .expect("settings are allowed");
         let samples = &truth.samples.pixels;
@@ -359,12 +355,9 @@ mod tests {
             width: 4,
             height: 4,
             samples_per_pixel: 4,
-            replicates: 2,
-            ..RenderSettings::default()
+            ..small_settings()
         };
-        trace_truth(&scene, &settings, Alignment::Trailing, &|_| {
-            ControlFlow::Continue(())
-        })
+        trace_truth(&scene, &settings, Alignment::Trailing, &unwatched)
     }
 
     #[test]

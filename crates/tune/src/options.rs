@@ -91,14 +91,14 @@ impl TuneOptions {
                 "no scene is left to tune on; name at least one that is not held out".to_owned(),
             ));
         }
-        let tuned_on = |name: &str| {
-            (self.scenes.iter()).any(|(scene, _)| folder_name(&scene.name) == folder_name(name))
+        let is_tuned_on = |held_out: &Scene| {
+            (self.scenes.iter()).any(|(scene, _)| scene.id.name == held_out.id.name)
         };
         let mut held_out = self.held_out.iter();
-        match held_out.find(|(scene, _)| tuned_on(&scene.name)) {
+        match held_out.find(|(scene, _)| is_tuned_on(scene)) {
             Some((scene, _)) => Err(Error::Usage(format!(
                 "scene {}: it is tuned on, and so proves nothing as a held-out scene; name it in one of the two lists",
-                scene.name
+                scene.id
             ))),
             None => Ok(()),
         }
@@ -114,21 +114,16 @@ impl TuneOptions {
     }
 
     /// Groups the scenes to tune on by family.
-    pub fn families(&self) -> BTreeMap<&'static str, Vec<&str>> {
-        let mut families: BTreeMap<&'static str, Vec<&str>> = BTreeMap::new();
+    pub fn families(&self) -> BTreeMap<&'static str, Vec<String>> {
+        let mut families: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
         for (scene, _) in &self.scenes {
             families
                 .entry(scene.family.name())
                 .or_default()
-                .push(&scene.name);
+                .push(scene.id.to_string());
         }
         families
     }
-}
-
-/// Returns a scene's name without its variant.
-fn folder_name(name: &str) -> &str {
-    name.split('@').next().unwrap_or(name)
 }
 
 /// Orders scenes so that families take turns and the first few stand for all.

@@ -32,7 +32,7 @@ pub fn render_scenes(
 ) -> Result<Vec<RenderedScene>, Error> {
     let render_scene = |(scene, bounds): &(Scene, SceneBounds)| {
         Ok(RenderedScene {
-            name: scene.name.clone(),
+            name: scene.id.to_string(),
             frame: render_frame(scene, render, out, monitor)?,
             truth: render_truth(scene, render, alignment, out, monitor)?,
             viewing: scene_viewing(scene),

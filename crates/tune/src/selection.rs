@@ -114,13 +114,13 @@ pub fn cross_validate(
     trials: &[Trial],
     space: &Space,
     limits: ChoiceLimits,
-    families: &BTreeMap<&str, Vec<&str>>,
+    families: &BTreeMap<&str, Vec<String>>,
 ) -> Vec<Fold> {
     if families.len() < 2 {
         return Vec::new();
     }
-    let fold = |(family, scenes): (&&str, &Vec<&str>)| {
-        let held: BTreeSet<&str> = scenes.iter().copied().collect();
+    let fold = |(family, scenes): (&&str, &Vec<String>)| {
+        let held: BTreeSet<&str> = scenes.iter().map(String::as_str).collect();
         let choice = choose_trial(trials, space, limits, |scene| !held.contains(scene))?;
         let start = &trials[0].scenes;
         let chosen = &trials[choice.trial].scenes;

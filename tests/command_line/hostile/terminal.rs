@@ -9,6 +9,7 @@ use frame::{Alignment, Frame, Truth};
 use judge::{CHECK_FORMAT, Check, Decision};
 use store::printable_table;
 use suite::Failure;
+use tracer::SceneId;
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
 
@@ -126,7 +127,7 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
         program: suite::PROGRAM.to_owned(),
         decision: Decision::Broken,
         failures: vec![Failure {
-            scene: hostile.to_owned(),
+            scene: SceneId::new(hostile, None),
             filter: hostile.to_owned(),
             alignment: Alignment::Trailing,
             reason: hostile.to_owned(),

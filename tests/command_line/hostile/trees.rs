@@ -199,7 +199,7 @@ fn a_render_that_exceeds_memory_is_refused_before_it_begins() {
     };
     let began = Instant::now();
     let parts = [
-        "scene plate: needs about 14.",
+        "scene plate: needs about 16.",
         "GiB for 4096x4096",
         "are free",
         "smaller size",

@@ -133,7 +133,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
         (drawn.engine.as_str(), drawn.subframes),
         ("Test Engine 1.2", 32)
     );
-    assert_eq!(drawn.scene.as_deref(), Some("plate"));
+    assert_eq!(drawn.scene, Some("plate".parse().unwrap()));
     assert!(case("plate", "identity").drawn.is_none());
     // What an engine's pictures do not tell is absent, and not zero.
     for metric in [

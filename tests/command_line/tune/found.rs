@@ -116,7 +116,7 @@ fn a_trial_scores_like_a_run() {
     assert_done(&bench.run(&["--filters", "jump_flood:paper", "--scenes", "a,b,c,d,e,f,g"]));
     let trial = &parse_trials(&read_journal(&bench, "out"))[0];
     for case in bench.read_filter_cases() {
-        let score = trial.scenes[&case.scene];
+        let score = trial.scenes[&case.scene.to_string()];
         assert_eq!(
             Some(score.flip),
             case.scores.moving.flip.value(),

@@ -11,10 +11,10 @@ use defects::{DEFECTS, Defect};
 use filters::Gpu;
 use judge::{Check, Decision, RunBounds, check, judge};
 use metrics::Metric;
-use suite::{Case, FilterChoice, InputFormat, Monitor, Run, RunPlan, measure_scenes, open_gpu};
+use suite::{Case, FilterChoice, Monitor, Run, RunPlan, measure_scenes, open_gpu};
 use tests::filter_folder::copy_changed_filter;
 use tests::limits::calibrate_scene;
-use tracer::{RenderSettings, Scene};
+use tracer::{RenderSettings, Scene, SceneId};
 
 /// Scenes: one thing that slides, far and at an angle; two that pass one another; many that turn, fly and hide one
 /// another; many that cross; some that leave the picture; thin ones.
@@ -83,7 +83,7 @@ impl Bench {
         let metrics = METRICS.map(|name| name.parse::<Metric>().unwrap());
         for name in NAMES {
             let bounds = calibrate_scene(&runs, &metrics, name);
-            bench.bounds.insert(name.to_owned(), bounds);
+            bench.bounds.insert(SceneId::new(name, None), bounds);
         }
         bench
     }
@@ -96,11 +96,7 @@ impl Bench {
             .collect();
         let plan = RunPlan {
             scenes,
-            engine_scenes: Vec::new(),
             filters,
-            inputs: vec![InputFormat::default()],
-            frames: suite::Frames::default(),
-            jitter_frames: 0,
             render: RenderSettings {
                 width: 128,
                 height: 72,
@@ -113,11 +109,7 @@ impl Bench {
             intervals: true,
             // No limit is on equivalent sub-frames.
             ladders: false,
-            no_cache: false,
-            common: None,
-            part: suite::Part::default(),
-            truths: None,
-            monitor: Monitor::SILENT,
+            ..RunPlan::default()
         };
         measure_scenes(&plan, self.gpu.as_ref(), Vec::new()).unwrap()
     }

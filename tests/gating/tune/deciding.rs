@@ -171,9 +171,13 @@ fn limits_and_failures_keep_trials_out_of_the_choice() {
     assert_eq!(chosen(&trials, ChoiceLimits::default()), 3);
 }
 
+fn names(all: &[&str]) -> Vec<String> {
+    all.iter().map(|name| (*name).to_owned()).collect()
+}
+
 #[test]
 fn a_choice_that_suits_only_one_family_shows_its_gap() {
-    let families = BTreeMap::from([("camera", vec!["a", "b"]), ("thin", vec!["c", "d"])]);
+    let families = BTreeMap::from([("camera", names(&["a", "b"])), ("thin", names(&["c", "d"]))]);
     // One trial suits the camera, the other suits thin things; each doubles the other's error.
     let rows = [
         (8, [0.1; 4]),
@@ -197,7 +201,7 @@ fn a_choice_that_suits_only_one_family_shows_its_gap() {
         assert!((fold.gap - 2.0 * two).abs() < 1e-12, "{}", fold.gap);
     }
     assert_eq!(folds.len(), 2);
-    let alone = BTreeMap::from([("camera", vec!["a", "b", "c", "d"])]);
+    let alone = BTreeMap::from([("camera", names(&["a", "b", "c", "d"]))]);
     assert!(
         cross_validate(
             &make_trials(&rows),

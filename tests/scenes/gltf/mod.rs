@@ -182,7 +182,7 @@ fn assert_close(scene: &Scene, what: &str, time: f64, own: DAffine3, played: DAf
         assert!(
             error < TOLERANCE,
             "{}: {what} at frame {time}: {own} in the tracer, {played} in glTF",
-            scene.name
+            scene.id
         );
     }
 }
@@ -200,16 +200,16 @@ fn assert_vertices(scene: &Scene, index: usize, played: &Played, timeline: &Time
         };
         let own = (mesh.triangles.iter().flatten()).map(|corner| vertex(mesh, *corner, time));
         let found = played.corners(index + 1, timeline.seconds(time));
-        assert_eq!(found.len(), 3 * mesh.triangles.len(), "{}", scene.name);
+        assert_eq!(found.len(), 3 * mesh.triangles.len(), "{}", scene.id);
         if mesh.shapes.is_empty() {
-            assert_eq!(sorted(found), sorted(own.collect()), "{}", scene.name);
+            assert_eq!(sorted(found), sorted(own.collect()), "{}", scene.id);
             continue;
         }
         // Rounding may change the order of moved vertices: sums over all of them tell.
         let sum = |corners: &[DVec3]| corners.iter().map(|own| *own * own.length()).sum::<DVec3>();
         let own: Vec<DVec3> = own.collect();
         let error = (sum(&own) - sum(&found)).length() / own.len() as f64;
-        assert!(error < TOLERANCE, "{} at frame {time}: {error}", scene.name);
+        assert!(error < TOLERANCE, "{} at frame {time}: {error}", scene.id);
     }
 }
 

@@ -27,7 +27,7 @@ fn the_documented_example_loads() {
     }
     let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
 
-    assert_eq!(scene.name, "square");
+    assert_eq!(scene.id.to_string(), "square");
     assert_eq!(scene.family, Family::Overlap);
     assert_eq!((scene.exposure, scene.width, scene.height), (0.5, 640, 360));
     assert_eq!(scene.display.stops, 0.5);
@@ -64,7 +64,10 @@ fn the_documented_example_loads() {
     assert_eq!(scene.objects[0].motion.interpolation, Interpolation::Linear);
 
     let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!((fast.name.as_str(), fast.exposure), ("square@fast", 1.0));
+    assert_eq!(
+        (fast.id.to_string().as_str(), fast.exposure),
+        ("square@fast", 1.0)
+    );
     let table = Efficiency::Table(vec![0.0, 1.0, 1.0, 0.4]);
     let expected = ShutterProfile {
         efficiency: table,

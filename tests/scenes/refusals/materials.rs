@@ -29,9 +29,9 @@ fn slips_in_translucency_are_refused() {
 #[rustfmt::skip]
 const TRANSLUCENCY_SLIPS: &[Slip] = &[
     ("unknown alpha", "parent = \"body\"", "alpha = \"blend\"",
-        "scene.toml:28: alpha is \"blend\"; allowed: \"cutout\", \"blended\""),
+        "scene.toml:28: unknown word `blend`; allowed: `cutout` or `blended`"),
     ("unknown buffers", "parent = \"body\"", "alpha = \"blended\"\nbuffers = \"both\"",
-        "scene.toml:29: buffers is \"both\"; allowed: \"behind\", \"own\""),
+        "scene.toml:29: unknown word `both`; allowed: `behind` or `own`"),
     ("buffers of holes", "parent = \"body\"", "buffers = \"own\"",
         "scene.toml:28: buffers tells what velocity and depth are where an object is translucent; give it alpha = \"blended\""),
     ("filter of holes", "diffuse = [0.1, 0.2, 0.3]", "filter = [1, 1, 1]",

@@ -60,9 +60,9 @@ const POSE_SLIPS: &[Slip] = &[
 #[rustfmt::skip]
 const INTERPOLATION_SLIPS: &[Slip] = &[
     ("unknown interpolation", "[object.part]\n", "interpolation = \"smooth\"\n[object.part]\n", 
-        "scene.toml:25: interpolation of object \"body\" is \"smooth\"; allowed: linear, cubic"),
+        "scene.toml:25: unknown word `smooth`; allowed: `linear` or `cubic`"),
     ("unknown interpolation of the camera", "position = [0, 0, 5]\nlook_at = [0, 0, 0]", "keys = [{ time = 0, position = [0, 0, 5], look_at = [0, 0, 0] }]\ninterpolation = \"Cubic\"", 
-        "scene.toml:8: interpolation of the camera is \"Cubic\"; allowed: linear, cubic"),
+        "scene.toml:8: unknown word `Cubic`; allowed: `linear` or `cubic`"),
     ("interpolation of nothing", "scale = 2", "interpolation = \"cubic\"", 
         "scene.toml:29: object \"part\" has an interpolation but no keys; give it keys, or leave it out"),
     ("interpolation of a still camera", "vertical_fov = 40", "vertical_fov = 40\ninterpolation = \"cubic\"", 

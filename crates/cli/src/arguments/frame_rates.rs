@@ -5,7 +5,7 @@ use suite::Error;
 use tracer::FrameRate;
 use tracer::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
 
-use crate::selection::split_variant;
+use crate::selection::split_scene;
 
 /// Frame rates and shutter times to try on every scene.
 #[derive(Clone, Debug, Args)]
@@ -54,8 +54,7 @@ impl FrameRateArgs {
         let mut all = Vec::new();
         for name in names {
             let own = name.trim_end_matches(['/', '\\']);
-            let variant = split_variant(own).1;
-            if variant.is_some_and(|variant| FrameRate::split_variant(variant).1.is_some()) {
+            if split_scene(own).1.rate.is_some() {
                 refuse!(
                     "--frame-rate: {name} has a frame rate of its own; allowed: scenes and variants without one"
                 );

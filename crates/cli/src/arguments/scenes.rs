@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
 use suite::Error;
-use tracer::{FrameRate, RenderSettings};
+use tracer::{RenderSettings, SceneId};
 
 use super::{FrameRateArgs, RootArgs};
-use crate::selection::split_variant;
+use crate::selection::split_scene;
 
 /// On or off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -87,12 +87,12 @@ impl SceneArgs {
             return Ok(self.scenes.clone());
         };
         if self.scenes.is_empty() {
-            return Ok(vec![format!("*@seal{seed}")]);
+            return Ok(vec![sealed("*", seed)]);
         }
         (self.scenes.iter())
-            .map(|name| match split_variant(name).1 {
-                None => Ok(format!("{}@seal{seed}", name.trim_end_matches(['/', '\\']))),
-                Some(_) => refuse!(
+            .map(|name| match split_scene(name).1.choice().as_str() {
+                "" => Ok(sealed(name, seed)),
+                _ => refuse!(
                     "--seal: {name} is a variant; allowed: scenes in their default variant, which sealed ones are made of"
                 ),
             })
@@ -109,9 +109,17 @@ impl SceneArgs {
     }
 }
 
+/// Names the sealed variant of a scene.
+fn sealed(scene: &str, seed: u64) -> String {
+    let id = SceneId {
+        seal: Some(seed),
+        ..SceneId::default()
+    };
+    scene.trim_end_matches(['/', '\\']).to_owned() + &id.choice()
+}
+
 /// Tells whether a scene's name gives the time that its shutter is open.
 fn has_shutter_time(name: &str) -> bool {
-    let (_, variant) = split_variant(name);
-    let rate = variant.and_then(|variant| FrameRate::split_variant(variant).1);
+    let rate = split_scene(name).1.rate;
     rate.is_some_and(|rate| rate.shutters_per_second.is_some())
 }

@@ -6,6 +6,7 @@ use clap::Args;
 use engine::{Capture, CaptureAudit, audit_capture, write_audit_picture};
 use store::{Sharing, claim, printable_path};
 use suite::Error;
+use tracer::SceneId;
 
 use super::capture::{load_drawn_scene, name_folder};
 use super::ending::Ending;
@@ -40,13 +41,14 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     for note in &capture.notes {
         print_note(note);
     }
-    let Some(name) = args.scene.as_ref().or(capture.description.scene.as_ref()) else {
+    let described = capture.description.scene.as_ref().map(SceneId::to_string);
+    let Some(name) = args.scene.clone().or(described) else {
         refuse!(
             "{}: names no scene; an audit needs the scene that the engine drew: add scene = \"railing\", or give --scene",
             args.capture.join("capture.toml").display()
         );
     };
-    let scene = load_drawn_scene(&args.root.scenes_dir, name)?;
+    let scene = load_drawn_scene(&args.root.scenes_dir, &name)?;
     let (audit, expected) = audit_capture(&capture, &scene)?;
     let out = name_folder(&args.capture, args.out.as_ref(), "out/audit")?;
     let _claim = claim(&out, [], Sharing::Alone)?;

@@ -43,7 +43,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     if let Some(scene) = plan.engine_scenes.first() {
         refuse!(
             "--scenes: {} was drawn by an engine, and does not change from run to run; write its bounds by hand into {}",
-            scene.name,
+            scene.id,
             scene.folder.join(BOUNDS_FILE).display()
         );
     }
@@ -70,7 +70,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     let runs = monitor.watch("runs in all", |watch| run_all(args, &mut plan, watch))?;
     let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
     for scene in calibration.scores.keys() {
-        let path = out.join(scene).with_extension("bounds.toml");
+        let path = out.join(format!("{scene}.bounds.toml"));
         let text = calibration.toml(scene);
         frame::write_atomically(&path, text.as_bytes())?;
         print(&format!("# {}\n\n{text}", printable_path(&path)))?;

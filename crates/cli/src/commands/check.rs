@@ -19,9 +19,7 @@ use super::margins::{Margins, read_margins};
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, page_path, refuse_folder, write_run_page};
 use super::run_files::write_judged_run;
-use super::run_plan::{
-    check_replicates_for_intervals, make_plan, read_case_bounds, scene_folder_below,
-};
+use super::run_plan::{check_replicates_for_intervals, make_plan, read_case_bounds};
 use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
 use crate::output::{is_verbose, print, print_json, print_note};
 use crate::tables::{adapter_text, annotations, check_text, junit, summary, verdict_text};
@@ -163,8 +161,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     check_names(root, bounds.values(), &plan.filters)?;
     // With a baseline, nothing else need be bounded.
     if !compared {
-        let scenes = bounds.iter().map(|(name, bounds)| (name.as_str(), bounds));
-        require_bounds(root, scenes, &plan.filters, plan.frames)?;
+        require_bounds(root, bounds.iter(), &plan.filters, plan.frames)?;
     }
     if let Some(truths) = &plan.truths {
         refuse_tracked(
@@ -252,7 +249,7 @@ fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
                     root
                 ));
             }
-            let folder = scene_folder_below(root, &case.scene);
+            let folder = root.join(&case.scene.name);
             Error::Usage(format!(
                 "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",
                 folder

@@ -69,8 +69,8 @@ fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
 
 /// Loads the scene that the capture names; none where it names none, or there is no such scene.
 fn find_scene(capture: &Capture, scenes: &Location) -> Option<Scene> {
-    let name = capture.description.scene.as_deref()?;
-    let found = load_drawn_scene(scenes, name).ok();
+    let name = capture.description.scene.as_ref()?.to_string();
+    let found = load_drawn_scene(scenes, &name).ok();
     if found.is_none() {
         print_note(&format!(
             "{} has no scene {name}, whose display exposure the pictures would have; name the folder of scenes with \
@@ -96,7 +96,7 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let folder = printable_path(out);
     let mut text = format!(
         "{}: {width}x{height}, drawn by {}\n",
-        scene.name, scene.engine
+        scene.id, scene.engine
     );
     if let Some(truth) = &ingested.truth {
         text += &describe_truth(scene);
@@ -158,7 +158,7 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let dot = if out.is_relative() { "./" } else { "" };
     match scene.check_truth() {
         Ok(()) => {
-            let ours = traced.map_or(String::new(), |scene| format!("{},", scene.name));
+            let ours = traced.map_or(String::new(), |scene| format!("{},", scene.id));
             let _ = writeln!(text, "next: shuttertruth run --scenes {ours}{dot}{folder}");
         }
         Err(_) => {

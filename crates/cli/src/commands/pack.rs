@@ -33,7 +33,11 @@ pub struct PackArgs {
 /// Packs the kept frames, truths and ladders of a finished run into one archive.
 pub fn execute(args: &PackArgs) -> Result<(), Error> {
     let run = Run::read(&args.run.join("run.json"))?;
-    let mut known: Vec<String> = run.cases.iter().map(|case| case.scene.clone()).collect();
+    let mut known: Vec<String> = run
+        .cases
+        .iter()
+        .map(|case| case.scene.to_string())
+        .collect();
     known.sort();
     known.dedup();
     let scenes = choose_names("--scenes", &args.scenes, &known)?;

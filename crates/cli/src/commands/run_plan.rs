@@ -8,10 +8,8 @@ use judge::{
     read_bounds_file,
 };
 use store::{Claim, Sharing, claim};
-use suite::{
-    Case, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, Frames, RunPlan, engine_name,
-};
-use tracer::{FrameRate, Location, RenderSettings, Scene, Seal};
+use suite::{Case, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, RunPlan, engine_name};
+use tracer::{Location, RenderSettings, Scene, SceneId};
 
 use super::kept_truths::check_truths;
 use super::render_settings::make_render_settings;
@@ -31,10 +29,10 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         false => Vec::new(),
     };
     let mut bounds: RunBounds = (scenes.iter())
-        .map(|(scene, bounds)| (scene.name.clone(), bounds.clone()))
+        .map(|(scene, bounds)| (scene.id.clone(), bounds.clone()))
         .collect();
     for scene in &engine_scenes {
-        bounds.insert(scene.name.clone(), read_engine_bounds(&scene.folder)?);
+        bounds.insert(scene.id.clone(), read_engine_bounds(&scene.folder)?);
     }
     let filters = load_filters(args)?;
     let filters = leave_out_filters(filters, &engine_scenes, scenes.is_empty())?;
@@ -47,16 +45,12 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         filters,
         inputs: args.forms.one_by_one(),
         jitter_frames: args.jitter_frames,
-        frames: Frames::default(),
         render: make_render_settings(&args.scenes, size, args.replicates)?,
         out,
-        intervals: false,
-        ladders: true,
         no_cache: args.no_cache,
-        common: None,
-        part: suite::Part::default(),
         truths: args.truths.clone(),
         monitor: make_monitor(),
+        ..RunPlan::default()
     };
     if let Some(truths) = &plan.truths {
         check_truths(truths)?;
@@ -104,7 +98,7 @@ fn leave_out_filters(
         for (count, reason) in left_out.into_iter().zip(reasons) {
             if count > 0 {
                 let presets = count_text(count, "preset", "presets");
-                print_note(&format!("{}: leaves out {presets} {reason}", scene.name));
+                print_note(&format!("{}: leaves out {presets} {reason}", scene.id));
             }
         }
     }
@@ -119,7 +113,7 @@ fn leave_out_filters(
         true => refuse!(
             "--filter: no filter is left that {} can be measured with; allowed: filters with a {} shutter that need no \
              camera motion",
-            engine_scenes[0].name,
+            engine_scenes[0].id,
             engine_scenes[0].alignment
         ),
     }
@@ -144,7 +138,7 @@ fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Er
         None => Ok(()),
         Some((option, _)) => refuse!(
             "{option}: {} is as {} drew it, and is not rendered; leave the option out, or leave out the scene",
-            scene.name,
+            scene.id,
             engine_name(&scene.engine)
         ),
     }
@@ -181,7 +175,7 @@ pub fn read_case_bounds(
     case: &Case,
     size: (u32, u32),
 ) -> Result<Option<SceneBounds>, Error> {
-    let folder = scene_folder_below(root, &case.scene);
+    let folder = root.join(&case.scene.name);
     let drawn = (folder.on_disk()).filter(|folder| EngineScene::is_in(folder));
     match (case.drawn.is_some(), drawn) {
         (true, Some(folder)) => Ok(Some(read_engine_bounds(folder)?.at(size))),
@@ -208,15 +202,10 @@ pub fn load_scenes(
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
     (choices.into_iter())
         .map(|choice| {
-            let bounds = read_scene_bounds(root, &choice.folder, &choice.scene.name, size)?;
+            let bounds = read_scene_bounds(root, &choice.folder, &choice.scene.id, size)?;
             Ok((choice.scene, bounds))
         })
         .collect()
-}
-
-/// Names the folder of a scene, which may be a variant, below the folder of scenes.
-pub fn scene_folder_below(root: &Location, scene: &str) -> Location {
-    root.join(scene.split_once('@').map_or(scene, |(name, _)| name))
 }
 
 /// Reads the bounds of a scene, which may be a variant. A sealed one, and one at another frame rate, have those beside the scenes alone:
@@ -224,10 +213,10 @@ pub fn scene_folder_below(root: &Location, scene: &str) -> Location {
 fn read_scene_bounds(
     root: &Location,
     folder: &Location,
-    name: &str,
+    id: &SceneId,
     size: Option<(u32, u32)>,
 ) -> Result<SceneBounds, Error> {
-    match Seal::split_name(name).1.is_some() || FrameRate::of_name(name).is_some() {
+    match id.seal.is_some() || id.rate.is_some() {
         true => read_bounds_beside_scenes(root, size),
         false => read_bounds(root, folder, size),
     }

@@ -34,9 +34,14 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     }
     notes.sort();
     notes.dedup();
-    let scored = score_sequence(&pictures, &scene, &truths, per_second(args, &scene.name))?;
+    let frames = Frames {
+        count: args.frames,
+        per_second: args.fps,
+    };
+    let per_second = frames.shown(&scene.id);
+    let scored = score_sequence(&pictures, &scene, &truths, per_second)?;
     if args.json {
-        print_json(&scores_json(args, &truths, &scored, &notes))
+        print_json(&scores_json(args, per_second, &truths, &scored, &notes))
     } else {
         print(&scores_text(args, &truths[0].truth, &scored, &notes))
     }
@@ -118,17 +123,9 @@ fn scores_text(
     text
 }
 
-/// Returns the rate at which the sequence is shown.
-fn per_second(args: &ScoreArgs, scene: &str) -> f64 {
-    let frames = Frames {
-        count: args.frames,
-        per_second: args.fps,
-    };
-    frames.shown(scene)
-}
-
 fn scores_json(
     args: &ScoreArgs,
+    per_second: f64,
     truths: &[SequenceTruth],
     scored: &ScoredSequence,
     notes: &[String],
@@ -143,7 +140,7 @@ fn scores_json(
         })
     });
     let mut json = scored_json(args, first, notes, &scored.scores);
-    json["per_second"] = per_second(args, &first.provenance.scene).into();
+    json["per_second"] = per_second.into();
     json["worst_frames"] = serde_json::json!(scored.worst_frames);
     json["frames"] = frames.collect();
     json

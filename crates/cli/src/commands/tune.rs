@@ -120,7 +120,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     let mut open = load_candidate_scenes(candidate)?;
     if scene_args.scenes.is_empty() {
         // Every scene means every one that is not held out.
-        open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.name != scene.name));
+        open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.id != scene.id));
     }
     let mut held_out_args = scene_args.clone();
     held_out_args.samples_per_pixel = args.held_out_samples_per_pixel;

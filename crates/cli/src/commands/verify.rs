@@ -49,7 +49,9 @@ pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
     let unpacked = unpack(&args.truths)?;
     let folder = (unpacked.as_ref()).map_or(args.truths.as_path(), tempfile::TempDir::path);
     let kept = list_kept_scenes(folder, &args.truths)?;
-    let known: BTreeSet<String> = kept.iter().map(|kept| kept.scene.clone()).collect();
+    let known: BTreeSet<String> = (kept.iter())
+        .map(|kept| kept.scene.at_frame(0).to_string())
+        .collect();
     let known: Vec<String> = known.into_iter().collect();
     let chosen = choose_names("--scenes", &args.scenes, &known)?;
     let verification = Verification {
@@ -104,7 +106,6 @@ fn verify_named(
     verification: &Verification,
 ) -> Result<Verified, Error> {
     let mut verified = Verified::default();
-    let own: Vec<&KeptScene> = kept.iter().filter(|kept| kept.scene == name).collect();
     let choices = select_scenes(&args.root.scenes_dir, &[name.to_owned()]).map_err(|error| {
         Error::Usage(format!(
             "{}: cannot be traced again: {error}; truths of an engine only that engine can draw again: name the scenes to verify with \
@@ -112,8 +113,8 @@ fn verify_named(
             args.truths.join(name).display()
         ))
     })?;
-    for kept in own {
-        let scene = choices[0].scene.at_frame(kept.frame);
+    for kept in (kept.iter()).filter(|kept| kept.scene.at_frame(0) == name) {
+        let scene = choices[0].scene.at_frame(kept.scene.frame);
         let found = verify_scene(&scene, kept, verification, make_monitor())?;
         verified.add(found);
     }

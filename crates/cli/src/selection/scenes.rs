@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use suite::{EngineScene, Error};
-use tracer::{FrameRate, Location, Scene, list_scene, list_scenes, load_scene};
+use tracer::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 
 use super::names::{is_path, is_pattern, match_names, refuse_empty_names, suggest_names};
 
@@ -39,7 +39,7 @@ pub fn select_scenes(
     if names.is_empty() {
         return listings
             .iter()
-            .map(|listing| load_choice(&listing.folder, None))
+            .map(|listing| load_choice(&listing.folder, &SceneId::default()))
             .collect();
     }
     let known: Vec<String> = listings
@@ -48,11 +48,11 @@ pub fn select_scenes(
         .collect();
     let mut scenes: Vec<SceneChoice> = Vec::new();
     for text in names {
-        let (name, variant) = split_variant(text);
+        let (name, id) = split_scene(text);
         for folder in find_folders(root, name, &known)? {
-            match variant {
-                Some(all) if is_of_all(all) => scenes.extend(load_all_variants(&folder, all)?),
-                _ => scenes.push(load_choice(&folder, variant)?),
+            match id.variant.as_deref() {
+                Some(ALL) => scenes.extend(load_all_variants(&folder, &id)?),
+                _ => scenes.push(load_choice(&folder, &id)?),
             }
         }
     }
@@ -74,9 +74,9 @@ pub fn select_engine_scenes(
         .map(|name| EngineScene::read(Path::new(name)))
         .collect::<Result<_, _>>()?;
     for (index, scene) in scenes.iter().enumerate() {
-        if let Some(other) = scenes[..index].iter().find(|it| it.name == scene.name) {
+        if let Some(other) = scenes[..index].iter().find(|it| it.id == scene.id) {
             let folders = [&other.folder, &scene.folder].map(Location::from);
-            return refuse_twins(&scene.name, folders.each_ref());
+            return refuse_twins(&scene.id, folders.each_ref());
         }
     }
     Ok((scenes, others.into_iter().cloned().collect()))
@@ -116,26 +116,24 @@ fn suggest_built_in(root: &Location, name: &str) -> &'static str {
     }
 }
 
-/// Splits a text into a scene and its variant. Folders above the scene's own may have an @ in their names.
-pub fn split_variant(text: &str) -> (&str, Option<&str>) {
+/// Splits a text into the name or path of a scene, and its identity. Folders above the scene's own may have an @ in their names.
+pub fn split_scene(text: &str) -> (&str, SceneId) {
     let name = text.trim_end_matches(['/', '\\']);
     let own = name.rfind(['/', '\\']).map_or(0, |separator| separator + 1);
     match name[own..].split_once('@') {
-        Some((folder, variant)) => (&name[..own + folder.len()], Some(variant)),
-        None => (text, None),
+        Some((folder, choice)) => (
+            &name[..own + folder.len()],
+            SceneId::new(folder, Some(choice)),
+        ),
+        None => (text, SceneId::new(&name[own..], None)),
     }
 }
 
 /// Word for all variants of a scene.
 const ALL: &str = "all";
 
-/// Tells whether a variant is `all`, or `all` at a frame rate.
-fn is_of_all(variant: &str) -> bool {
-    FrameRate::split_variant(variant).0 == Some(ALL)
-}
-
-/// Loads every variant of the scene in a folder, at the frame rate behind `all` in the text if there is one.
-fn load_all_variants(folder: &Location, all: &str) -> Result<Vec<SceneChoice>, Error> {
+/// Loads every variant of the scene in a folder, at the frame rate of `all` if it has one.
+fn load_all_variants(folder: &Location, all: &SceneId) -> Result<Vec<SceneChoice>, Error> {
     let variants = list_scene(folder)?.variants;
     if variants.is_empty() {
         refuse!(
@@ -143,24 +141,33 @@ fn load_all_variants(folder: &Location, all: &str) -> Result<Vec<SceneChoice>, E
             folder
         );
     }
-    (variants.iter())
-        .map(|variant| load_choice(folder, Some(&all.replacen(ALL, variant, 1))))
+    (variants.into_iter())
+        .map(|variant| {
+            let variant = Some(variant);
+            load_choice(
+                folder,
+                &SceneId {
+                    variant,
+                    ..all.clone()
+                },
+            )
+        })
         .collect()
 }
 
 /// Refuses two scenes of one name: both would be written to one folder and counted as two.
 fn refuse_duplicates(scenes: &[SceneChoice]) -> Result<(), Error> {
     for (index, scene) in scenes.iter().enumerate() {
-        let name = &scene.scene.name;
+        let name = &scene.scene.id;
         let mut before = scenes[..index].iter();
-        if let Some(other) = before.find(|other| other.scene.name == *name) {
+        if let Some(other) = before.find(|other| other.scene.id == *name) {
             return refuse_twins(name, [&other.folder, &scene.folder]);
         }
     }
     Ok(())
 }
 
-fn refuse_twins<T>(name: &str, [one, other]: [&Location; 2]) -> Result<T, Error> {
+fn refuse_twins<T>(name: &SceneId, [one, other]: [&Location; 2]) -> Result<T, Error> {
     refuse!(
         "--scenes: {name} is named twice, as {} and {}; allowed: each name once; rename one of the folders, or \
          run them into two --out folders",
@@ -169,7 +176,7 @@ fn refuse_twins<T>(name: &str, [one, other]: [&Location; 2]) -> Result<T, Error>
     )
 }
 
-fn load_choice(folder: &Location, variant: Option<&str>) -> Result<SceneChoice, Error> {
+fn load_choice(folder: &Location, id: &SceneId) -> Result<SceneChoice, Error> {
     let own = folder
         .path
         .file_name()
@@ -189,7 +196,7 @@ fn load_choice(folder: &Location, variant: Option<&str>) -> Result<SceneChoice, 
     }
     Ok(SceneChoice {
         folder: folder.clone(),
-        scene: load_scene(folder, variant)?,
+        scene: load_scene(folder, id.choice().strip_prefix('@'))?,
     })
 }
 
@@ -206,7 +213,8 @@ mod tests {
             ("./me@home/fan@fast", "./me@home/fan", Some("fast")),
             ("me@home/fan@fast/", "me@home/fan", Some("fast")),
         ] {
-            assert_eq!(split_variant(text), (name, variant), "{text}");
+            let (found, id) = split_scene(text);
+            assert_eq!((found, id.variant.as_deref()), (name, variant), "{text}");
         }
     }
 }

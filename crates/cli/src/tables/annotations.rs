@@ -57,7 +57,10 @@ pub fn summary(check: &Check) -> String {
         .collect();
     let _ = writeln!(text, "{}\n", count_lines(check).join("\n\n"));
     for failure in &check.failures {
-        let (scene, filter) = (escape_cell(&failure.scene), escape_cell(&failure.filter));
+        let (scene, filter) = (
+            escape_cell(&failure.scene.to_string()),
+            escape_cell(&failure.filter),
+        );
         let _ = writeln!(
             text,
             "- **{scene} / {filter} failed**: {}\n",
@@ -89,7 +92,7 @@ fn summary_row(finding: &Finding) -> String {
     let interval = (finding.interval.as_ref())
         .map(|interval| format!("{} to {}", number(interval.low), number(interval.high)));
     let cells = [
-        finding.scene.clone(),
+        finding.scene.to_string(),
         finding.filter.clone(),
         metric_cell(finding),
         or_none(finding.value.map(|value| finding.with_unit(value))),

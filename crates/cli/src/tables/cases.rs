@@ -25,8 +25,9 @@ const COMMON_FLIP: &str = "FLIP*";
 pub fn run_table(run: &Run) -> String {
     let mut table = case_table("scene / filter", &["noise", COMMON_FLIP]);
     let mut missing = Missing::default();
-    for scene in list_once(run.cases.iter().map(|case| case.scene.as_str())) {
-        let of_scene = || run.cases.iter().filter(|case| case.scene == scene);
+    for scene in list_once(run.cases.iter().map(|case| &case.scene)) {
+        let name = scene.to_string();
+        let of_scene = || run.cases.iter().filter(|case| case.scene == *scene);
         for alignment in list_once(of_scene().map(|case| case.alignment)) {
             table.push_text(heading(&format!("{scene}, {alignment} shutter")));
             for case in of_scene().filter(|case| case.alignment == alignment) {
@@ -34,7 +35,7 @@ pub fn run_table(run: &Run) -> String {
                 let more = [noise_cell(case), case.score_text(Metric::CommonFlip)];
                 let columns = CASE_COLUMNS.into_iter();
                 for (title, metric) in columns.chain([(COMMON_FLIP, Metric::CommonFlip)]) {
-                    missing.note(title, &case.measured(metric), [scene, &row]);
+                    missing.note(title, &case.measured(metric), [&name, &row]);
                 }
                 table.push_row(case.is_reference, row, case_cells(&case.scores).chain(more));
             }

@@ -14,16 +14,16 @@ use crate::output::{bad, count_text, doubtful, good, heading, push_wrapped};
 /// fail nothing, are listed where `targets` asks for them. `out` is the folder of the run's pictures.
 pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
     let mut text = failures_text(&check.failures);
-    let mut case = (String::new(), String::new());
+    let mut case = None;
     for finding in &check.findings {
         let is_listed = targets || finding.decision() != Decision::Pass;
         if !finding.outcome.is_notable() || !is_listed {
             continue;
         }
-        let own = (finding.scene.clone(), finding.filter.clone());
-        if case != own {
-            let _ = writeln!(text, "{}", heading(&format!("{} / {}", own.0, own.1)));
-            case = own;
+        let own = format!("{} / {}", finding.scene, finding.filter);
+        if case.as_ref() != Some(&own) {
+            let _ = writeln!(text, "{}", heading(&own));
+            case = Some(own);
         }
         for (indent, line) in finding_lines(finding, out) {
             push_wrapped(&mut text, indent, &line);
@@ -176,7 +176,7 @@ pub fn count_lines(check: &Check) -> Vec<String> {
                 "required bound",
                 "required bounds"
             ),
-            counts(Level::Required, "kept", "broken")
+            counts(Level::Required, "met", "broken")
         ));
     }
     if of_level(Level::Report).next().is_some() {

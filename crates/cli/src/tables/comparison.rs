@@ -102,7 +102,7 @@ fn changes_table(changes: &[Change]) -> String {
         table.push_text(format!("{scene} / {filter}"));
         let own = changes
             .iter()
-            .filter(|change| change.scene == *scene && change.filter == *filter);
+            .filter(|change| change.scene == **scene && change.filter == *filter);
         for change in own.filter(|change| change.is_beyond_noise()) {
             let style = match change.kind {
                 ChangeKind::Better => good,

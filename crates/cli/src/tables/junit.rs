@@ -27,14 +27,14 @@ pub fn junit(check: &Check) -> String {
             status(finding),
         );
         case.set_classname(format!("{}.{}", finding.scene, finding.filter));
-        add(&finding.scene, case);
+        add(&finding.scene.to_string(), case);
     }
     for failure in &check.failures {
         let reason = failure.reason.clone();
         let status = with_message(NonSuccessKind::Failure, "failed", reason);
         let mut case = TestCase::new(format!("{} runs", failure.filter), status);
         case.set_classname(format!("{}.{}", failure.scene, failure.filter));
-        add(&failure.scene, case);
+        add(&failure.scene.to_string(), case);
     }
     for comparison in &check.comparisons {
         let line = comparison_line(comparison);

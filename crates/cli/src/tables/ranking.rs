@@ -3,7 +3,6 @@
 use frame::Alignment;
 use judge::{MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, rank_for_summary};
 use metrics::Metric;
-use store::printable;
 use suite::Case;
 use tracer::FrameRate;
 
@@ -63,9 +62,9 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     let first = groups[0][0].rate;
     let cases = list_summarized(cases).into_iter();
     let cases = cases.filter(|case| case.rate == first);
-    let scenes = list_once(cases.map(|case| case.scene.as_str()));
+    let scenes = list_once(cases.map(|case| &case.scene));
     let (title, columns) = match scenes.as_slice() {
-        [scene] => ((*scene).to_owned(), 1),
+        [scene] => (scene.to_string(), 1),
         scenes => (format!("mean over {} scenes", scenes.len()), 3),
     };
     let titles = ["FLIP", "95 % CI", "worst scene"];
@@ -96,7 +95,7 @@ pub fn ranking_cells(
         None => "-".to_owned(),
     };
     let (scene, worst) = &ranked.worst;
-    let mut worst = format!("{} {}", printable(scene), number(*worst));
+    let mut worst = format!("{scene} {}", number(*worst));
     if ranked.scenes < scenes {
         worst += &format!(" ({} of {scenes} scenes)", ranked.scenes);
     }
@@ -110,7 +109,7 @@ const LAG: &str = "lag behind the frame";
 /// the frame.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
-    let names: Vec<String> = references().map(Case::name).collect();
+    let names: Vec<String> = references().map(|case| case.name()).collect();
     let names = list_once(names.iter().map(String::as_str));
     if names.is_empty() {
         return String::new();

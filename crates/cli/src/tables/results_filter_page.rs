@@ -6,7 +6,7 @@ use std::fmt::Write;
 use filters::Filter;
 use judge::{RankedFilter, ResultScores, Results};
 use metrics::Metric;
-use tracer::{Location, SceneListing, list_scenes};
+use tracer::{Location, SceneId, SceneListing, list_scenes};
 
 use super::{cost_text, list_filters, main_results, mean, sealed_of};
 
@@ -96,8 +96,8 @@ fn push_scores(page: &mut String, name: &str, results: &Results, sealed: Option<
 /// `fan 0.136, wires 0.110`
 fn worst_scenes(name: &str, results: &Results) -> String {
     let own = results.scores.iter().filter(|own| own.name == name);
-    let mut errors: Vec<(&str, f64)> = own
-        .filter_map(|own| Some((own.scene.as_str(), own.score(Metric::FLIP)?)))
+    let mut errors: Vec<(&SceneId, f64)> = own
+        .filter_map(|own| Some((&own.scene, own.score(Metric::FLIP)?)))
         .collect();
     errors.sort_by(|a, b| b.1.total_cmp(&a.1));
     let texts: Vec<String> = (errors.iter().take(WORST))
@@ -122,10 +122,10 @@ fn push_picture(page: &mut String, name: &str, results: &Results) {
 }
 
 /// What a scene of the program's exposes, as the end of a sentence.
-fn exposes(scene: &str) -> String {
+fn exposes(scene: &SceneId) -> String {
     let listed: Vec<SceneListing> = list_scenes(Location::of_bundle(&catalogue::SCENES))
         .expect("the program's own scenes can be listed");
-    match listed.into_iter().find(|own| own.name == scene) {
+    match listed.into_iter().find(|own| *scene == own.name.as_str()) {
         Some(own) => format!(". {}", own.exposes),
         None => ".".to_owned(),
     }

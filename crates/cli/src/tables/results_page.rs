@@ -7,7 +7,7 @@ use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_with_last};
 use metrics::Metric;
 use suite::{Error, FEWEST_SCENES};
-use tracer::{Family, Location, list_scenes};
+use tracer::{Family, Location, SceneId, list_scenes};
 
 use super::list_once;
 
@@ -111,7 +111,7 @@ fn push_size(
 }
 
 /// The command that makes the run.
-fn command(results: &Results, scenes: &[&str]) -> String {
+fn command(results: &Results, scenes: &[&SceneId]) -> String {
     let [width, height] = results.size;
     let filters = list_filters(results);
     let (seal, of_seal) = match results.seal {
@@ -122,10 +122,17 @@ fn command(results: &Results, scenes: &[&str]) -> String {
         .expect("the program's own scenes can be listed");
     let is_all = shipped
         .iter()
-        .all(|listing| scenes.contains(&listing.name.as_str()));
+        .all(|listing| scenes.iter().any(|scene| **scene == listing.name.as_str()));
     let scenes = match is_all {
         true => String::new(),
-        false => format!(" --scenes {}", scenes.join(",")),
+        false => format!(
+            " --scenes {}",
+            scenes
+                .iter()
+                .map(|scene| scene.to_string())
+                .collect::<Vec<_>>()
+                .join(",")
+        ),
     };
     format!(
         "shuttertruth run{scenes}{seal} --size {width}x{height} --samples-per-pixel {} --jitter-frames 0 --filter {} --out out/results_{width}x{height}{of_seal}",

@@ -4,6 +4,7 @@ use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences, rank_sequences
 use metrics::{SequenceMetric, SequenceScores};
 use store::printable;
 use suite::{Run, Sequence};
+use tracer::SceneId;
 
 use super::{Table, bracket_name, group_text, legend_text, list_once, ranked_name, ranking_cells};
 use crate::output::heading;
@@ -29,7 +30,7 @@ const KEY: &str = "roots of squared errors, in thousandths of display white. Fli
 /// Makes the text about a run's sequences; empty where there is none. One scene has the table of its scores, several have a ranking of
 /// means over the scenes, and behind it with `all` the tables of the scenes.
 pub fn sequences_text(run: &Run, all: bool) -> String {
-    let scenes = list_once(run.sequences.iter().map(|own| own.scene.as_str()));
+    let scenes = list_once(run.sequences.iter().map(|own| &own.scene));
     match scenes.len() {
         0 => String::new(),
         1 => sequence_table(run, &scenes),
@@ -78,13 +79,13 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
 }
 
 /// Makes the tables of scenes: per shutter the references, then the filters by their ranks, then those without a rank.
-fn sequence_table(run: &Run, scenes: &[&str]) -> String {
+fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
     let mut table = score_columns(run.sequences[0].frames.len());
     for scene in scenes {
-        let of_scene = || run.sequences.iter().filter(|own| own.scene == *scene);
+        let of_scene = || run.sequences.iter().filter(|own| own.scene == **scene);
         let groups = rank_sequences_on(run, scene);
         for alignment in list_once(of_scene().map(|own| own.alignment)) {
-            let title = format!("{}, {alignment} shutter", printable(scene));
+            let title = format!("{scene}, {alignment} shutter");
             table.push_text(heading(&title));
             let of_shutter: Vec<&Sequence> = of_scene()
                 .filter(|own| own.alignment == alignment)

@@ -123,7 +123,7 @@ pub fn audit_capture(
         }
     }
     let audit = CaptureAudit {
-        scene: scene.name.clone(),
+        scene: scene.id.to_string(),
         engine: capture.description.engine.clone(),
         size,
         has_ids: ids.is_some(),

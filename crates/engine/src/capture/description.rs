@@ -6,7 +6,7 @@ use frame::{Alignment, MOST_STOPS, is_hidden};
 use serde::Deserialize;
 use store::read_text;
 use suite::Error;
-use tracer::FrameRate;
+use tracer::SceneId;
 
 use crate::files::refuse;
 
@@ -21,9 +21,9 @@ const LONGEST_ENGINE: usize = 160;
 pub struct CaptureDescription {
     /// Engine and version, such as `three.js 0.187.0`, and after it in brackets what else matters.
     pub engine: String,
-    /// Scene of the suite that the engine drew, with its variant.
+    /// Scene of the suite that the engine drew.
     #[serde(default)]
-    pub scene: Option<String>,
+    pub scene: Option<SceneId>,
     /// Exposure of the blurred picture and of the sub-frames, in frames.
     #[serde(default)]
     pub exposure: Option<f64>,
@@ -80,11 +80,6 @@ impl CaptureDescription {
                 self.engine
             ));
         }
-        if let Some(scene) = (self.scene.as_ref()).filter(|scene| !is_scene_name(scene)) {
-            return Err(format!(
-                "scene = {scene:?}; allowed: the name of a scene of the suite, such as railing or railing@fast"
-            ));
-        }
         if let Some(exposure) = self.exposure {
             (Alignment::Trailing.shutter(exposure))
                 .map_err(|error| format!("exposure = {exposure}: {error}"))?;
@@ -102,40 +97,5 @@ impl CaptureDescription {
             ));
         }
         Ok(())
-    }
-}
-
-/// Tells whether a text can be the name of a scene, with an optional variant and frame rate: it becomes the name of a folder.
-fn is_scene_name(text: &str) -> bool {
-    let is_word = |word: &str| {
-        let is_allowed = |letter: char| letter.is_alphanumeric() || "_-.".contains(letter);
-        !word.is_empty() && !word.starts_with('.') && word.chars().all(is_allowed)
-    };
-    let most = match FrameRate::of_name(text) {
-        Some(_) => 3,
-        None => 2,
-    };
-    text.split('@').count() <= most && text.split('@').all(is_word)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_that_leave_the_folder_are_no_scenes() {
-        for (name, allowed) in [
-            ("railing", true),
-            ("railing@64px_45deg", true),
-            ("railing@unlit@24fps", true),
-            ("a@b@c@24fps", false),
-            ("../railing", false),
-            ("a@b@c", false),
-            ("..", false),
-            ("a@", false),
-            ("", false),
-        ] {
-            assert_eq!(is_scene_name(name), allowed, "{name}");
-        }
     }
 }

@@ -85,7 +85,7 @@ impl Manifest {
         Self {
             format: MANIFEST_FORMAT,
             program: program.to_owned(),
-            scene: scene.name.clone(),
+            scene: scene.id.to_string(),
             exposes: scene.exposes.clone(),
             size: [scene.width, scene.height],
             seconds_per_frame: 1.0 / FRAMES_PER_SECOND,

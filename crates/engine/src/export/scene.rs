@@ -50,7 +50,7 @@ pub fn export_gltf(
         "extensions": lights,
         "extensionsUsed": list_extensions(&document, scene),
         "scene": 0,
-        "scenes": [{ "name": scene.name, "nodes": roots }],
+        "scenes": [{ "name": scene.id.to_string(), "nodes": roots }],
     });
     document.write(fields, folder)?;
     write_sky(&scene.background, &folder.join(SKY))?;
@@ -68,7 +68,7 @@ fn refuse_zoom(scene: &Scene, timeline: &Timeline) -> Result<(), Error> {
         true => Err(Error::Usage(format!(
             "scene {}: the camera's field of view changes between frames {} and {}, which glTF 2.0 cannot animate; \
              export a scene or variant with one field of view",
-            scene.name, -timeline.reach, timeline.reach
+            scene.id, -timeline.reach, timeline.reach
         ))),
         false => Ok(()),
     }

@@ -11,7 +11,7 @@ use suite::{
     BLURRED, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM, engine_name,
     name_in_one_word, velocity_wheel,
 };
-use tracer::Watch;
+use tracer::{SceneId, Watch};
 
 use crate::capture::folder::Capture;
 use crate::files::write_json;
@@ -48,7 +48,7 @@ pub fn ingest(
     refuse_other_files(out)?;
     let mut scene = describe_scene(capture, out)?;
     let provenance = Provenance {
-        scene: scene.name.clone(),
+        scene: scene.id.to_string(),
         program: PROGRAM.to_owned(),
         seed: 0,
         samples_per_pixel: 1,
@@ -155,7 +155,7 @@ fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
     Ok(EngineScene {
         format: INGESTED_FORMAT,
         program: PROGRAM.to_owned(),
-        name: name_scene(capture, out)?,
+        id: name_scene(capture, out)?,
         engine: capture.description.engine.clone(),
         scene: capture.description.scene.clone(),
         size: [capture.color.width, capture.color.height],
@@ -171,15 +171,15 @@ fn describe_scene(capture: &Capture, out: &Path) -> Result<EngineScene, Error> {
 }
 
 /// Names the scene by the folder and the engine, as a variant of a scene is named.
-fn name_scene(capture: &Capture, out: &Path) -> Result<String, Error> {
+fn name_scene(capture: &Capture, out: &Path) -> Result<SceneId, Error> {
     let folder = out.file_name().and_then(|name| name.to_str());
     let is_plain = |name: &&str| !name.contains('@') && name_in_one_word(name) == **name;
     match folder.filter(is_plain) {
         Some(folder) => {
             let engine = name_in_one_word(engine_name(&capture.description.engine));
-            let name = format!("{folder}@{engine}");
-            refuse_long_names(Path::new(&name))?;
-            Ok(name)
+            let id = SceneId::new(folder, Some(&engine));
+            refuse_long_names(&id.folder())?;
+            Ok(id)
         }
         None => Err(Error::Usage(format!(
             "{}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",

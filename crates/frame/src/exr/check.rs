@@ -1,7 +1,12 @@
-//! Checks of OpenEXR files that this program wrote.
+//! Checks of OpenEXR files that this program wrote, and the checksum of their content, which shows a bit that flipped on a disk.
 
-use super::file::{ExrFile, Samples};
+use std::collections::BTreeMap;
+
+use super::file::{Channel, ExrFile, Samples};
 use crate::FileError;
+
+/// Name of the attribute that holds the checksum.
+pub(crate) const CHECKSUM: &str = "checksum";
 
 impl ExrFile {
     /// Refuses a file of another kind, or whose content is not what was written.
@@ -45,5 +50,66 @@ impl ExrFile {
             }
         }
         Ok(())
+    }
+
+    /// Computes the BLAKE3 hash of size, attributes and channels in any order, without the attribute that holds it.
+    pub(crate) fn compute_checksum(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(&self.width.to_le_bytes());
+        hasher.update(&self.height.to_le_bytes());
+        let attributes = self.attributes.iter();
+        for (name, value) in attributes.filter(|(name, _)| *name != CHECKSUM) {
+            update_with_text(&mut hasher, name);
+            update_with_text(&mut hasher, value);
+        }
+        let channels: BTreeMap<&str, &Channel> = (self.channels.iter())
+            .map(|channel| (channel.name.as_str(), channel))
+            .collect();
+        for (name, channel) in channels {
+            update_with_text(&mut hasher, name);
+            update_with_samples(&mut hasher, &channel.samples);
+        }
+        hasher.finalize().to_hex().to_string()
+    }
+
+    /// Refuses content that is not what was written.
+    fn expect_checksum(&self) -> Result<(), FileError> {
+        let found: String = self.get(CHECKSUM)?;
+        if found == self.compute_checksum() {
+            return Ok(());
+        }
+        Err(self.foreign(
+            "its checksum is not that of its content: the file was altered or damaged; delete it and render it again"
+                .to_owned(),
+        ))
+    }
+}
+
+/// Adds a text with its length, so that two texts never read as one.
+fn update_with_text(hasher: &mut blake3::Hasher, text: &str) {
+    hasher.update(&(text.len() as u64).to_le_bytes());
+    hasher.update(text.as_bytes());
+}
+
+fn update_with_samples(hasher: &mut blake3::Hasher, samples: &Samples) {
+    // Rows at a time: one call per sample would take as long as encoding the file.
+    const CHUNK: usize = 4096;
+    let mut bytes = Vec::with_capacity(4 * CHUNK);
+    let mut update = |words: &mut dyn Iterator<Item = u32>| {
+        bytes.clear();
+        bytes.extend(words.flat_map(u32::to_le_bytes));
+        hasher.update(&bytes);
+    };
+    match samples {
+        Samples::F32(samples) => {
+            for chunk in samples.chunks(CHUNK) {
+                update(&mut chunk.iter().map(|sample| sample.to_bits()));
+            }
+        }
+        Samples::U32(samples) => {
+            for chunk in samples.chunks(CHUNK) {
+                update(&mut chunk.iter().copied());
+            }
+        }
     }
 }

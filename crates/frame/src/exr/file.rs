@@ -100,6 +100,28 @@ impl ExrFile {
             .collect())
     }
 
+    /// Sets a text attribute to numbers.
+    pub(crate) fn set_numbers(&mut self, name: &str, numbers: impl IntoIterator<Item = f64>) {
+        let words: Vec<String> = numbers
+            .into_iter()
+            .map(|number| number.to_string())
+            .collect();
+        self.set(name, words.join(" "));
+    }
+
+    /// Reads a text attribute as finite numbers; none where it does not hold as many.
+    pub(crate) fn numbers<const N: usize>(
+        &self,
+        name: &str,
+    ) -> Result<Option<[f64; N]>, FileError> {
+        let words = self.words(name)?;
+        let numbers = words
+            .iter()
+            .map(|word| word.parse().ok().filter(|n: &f64| n.is_finite()));
+        let numbers: Option<Vec<f64>> = numbers.collect();
+        Ok(numbers.and_then(|numbers| numbers.try_into().ok()))
+    }
+
     /// Returns true if there is a channel of this name.
     pub fn has_channel(&self, name: &str) -> bool {
         self.channels.iter().any(|channel| channel.name == name)
@@ -120,11 +142,7 @@ impl ExrFile {
     /// Reads a channel of floats.
     pub fn plane(&self, name: &str) -> Result<Plane, FileError> {
         match self.samples(name)? {
-            Samples::F32(pixels) => Ok(Raster {
-                width: self.width,
-                height: self.height,
-                pixels: pixels.clone(),
-            }),
+            Samples::F32(pixels) => Ok(self.raster(pixels.clone())),
             Samples::U32(_) => Err(self.foreign(format!(
                 "channel \"{name}\" holds integers; 32-bit floats are needed"
             ))),
@@ -133,14 +151,12 @@ impl ExrFile {
 
     /// Takes a channel of floats out of the file, which leaves it without samples.
     pub(crate) fn take_plane(&mut self, name: &str) -> Result<Plane, FileError> {
-        let (width, height) = (self.width, self.height);
         let channel = (self.channels.iter_mut()).find(|channel| channel.name == name);
         match channel.map(|channel| &mut channel.samples) {
-            Some(Samples::F32(pixels)) => Ok(Raster {
-                width,
-                height,
-                pixels: std::mem::take(pixels),
-            }),
+            Some(Samples::F32(pixels)) => {
+                let pixels = std::mem::take(pixels);
+                Ok(self.raster(pixels))
+            }
             _ => self.plane(name),
         }
     }
@@ -148,11 +164,7 @@ impl ExrFile {
     /// Reads a channel of unsigned integers.
     pub fn u32s(&self, name: &str) -> Result<Raster<u32>, FileError> {
         match self.samples(name)? {
-            Samples::U32(pixels) => Ok(Raster {
-                width: self.width,
-                height: self.height,
-                pixels: pixels.clone(),
-            }),
+            Samples::U32(pixels) => Ok(self.raster(pixels.clone())),
             Samples::F32(_) => Err(self.foreign(format!(
                 "channel \"{name}\" holds floats; 32-bit integers are needed"
             ))),
@@ -162,19 +174,8 @@ impl ExrFile {
     /// Reads `R G B`, of a named layer or at the top.
     pub fn color(&self, layer: &str) -> Result<Image, FileError> {
         let [r, g, b] = ["R", "G", "B"].map(|name| self.plane(&in_layer(layer, name)));
-        let (r, g, b) = (r?, g?, b?);
-        let pixels = r
-            .pixels
-            .iter()
-            .zip(&g.pixels)
-            .zip(&b.pixels)
-            .map(|((r, g), b)| [*r, *g, *b])
-            .collect();
-        Ok(Raster {
-            width: self.width,
-            height: self.height,
-            pixels,
-        })
+        let red_green = r?.zip(&g?, |r, g| [*r, *g]);
+        Ok(red_green.zip(&b?, |[r, g], b| [*r, *g, *b]))
     }
 
     /// Reads the object names, the background's first: the attribute "objects".
@@ -196,6 +197,14 @@ impl ExrFile {
     /// Makes an error that names this file.
     pub(crate) fn foreign(&self, reason: String) -> FileError {
         FileError::foreign(&self.path, reason)
+    }
+
+    fn raster<T>(&self, pixels: Vec<T>) -> Raster<T> {
+        Raster {
+            width: self.width,
+            height: self.height,
+            pixels,
+        }
     }
 
     fn text(&self, name: &str) -> Result<&str, FileError> {

@@ -1,11 +1,9 @@
 //! OpenEXR files.
 
 mod check;
-mod checksum;
 mod file;
 mod header;
 mod reading;
-mod text;
 mod writing;
 
 pub(crate) use file::in_layer;

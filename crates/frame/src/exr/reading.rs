@@ -3,12 +3,11 @@
 use std::io::BufReader;
 use std::path::Path;
 
-use exr::meta::attribute::AttributeValue;
+use exr::meta::attribute::{AttributeValue, Text};
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 
 use super::file::{Channel, ExrFile, Samples};
-use super::header::{check_header, describe_padding};
-use super::text::from_exr;
+use super::header::{check_header, describe_padding, from_exr};
 use crate::FileError;
 use crate::file::open_regular;
 
@@ -53,16 +52,8 @@ pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
         };
         file.channels.push(Channel { name, samples });
     }
-    for (name, value) in image
-        .attributes
-        .other
-        .into_iter()
-        .chain(layer.attributes.other)
-    {
-        if let AttributeValue::Text(text) = value {
-            file.attributes.insert(from_exr(&name), from_exr(&text));
-        }
-    }
+    let attributes = image.attributes.other.iter();
+    set_texts(&mut file, attributes.chain(&layer.attributes.other));
     Ok(file)
 }
 
@@ -75,13 +66,20 @@ pub fn read_exr_header(path: &Path) -> Option<ExrFile> {
     let size = header.layer_size;
     let mut file = ExrFile::new(size.width() as u32, size.height() as u32);
     file.path = path.to_owned();
-    let attributes = (header.own_attributes.other.iter()).chain(&header.shared_attributes.other);
+    let attributes = header.own_attributes.other.iter();
+    set_texts(&mut file, attributes.chain(&header.shared_attributes.other));
+    Some(file)
+}
+
+fn set_texts<'a>(
+    file: &mut ExrFile,
+    attributes: impl Iterator<Item = (&'a Text, &'a AttributeValue)>,
+) {
     for (name, value) in attributes {
         if let AttributeValue::Text(text) = value {
             file.attributes.insert(from_exr(name), from_exr(text));
         }
     }
-    Some(file)
 }
 
 /// Reads one text attribute of an OpenEXR file without its pixels; none where the file or the attribute is missing or broken.

@@ -9,9 +9,9 @@ use exr::prelude::{
     WritableImage, f16,
 };
 
-use super::checksum::CHECKSUM;
+use super::check::CHECKSUM;
 use super::file::{ExrFile, Samples};
-use super::text::to_exr;
+use super::header::to_exr;
 use crate::FileError;
 use crate::file::write_atomically;
 

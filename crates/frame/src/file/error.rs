@@ -44,7 +44,7 @@ impl FileError {
     }
 
     /// Makes an error of a file that is another than was asked for.
-    pub(crate) fn foreign(path: &Path, reason: String) -> Self {
+    pub fn foreign(path: &Path, reason: String) -> Self {
         Self::Foreign {
             path: path.to_owned(),
             reason,

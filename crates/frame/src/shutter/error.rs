@@ -1,6 +1,9 @@
 //! Errors of shutters.
 
-use super::limits::{LONGEST_EXPOSURE, SHORTEST_EXPOSURE};
+/// The shortest exposure, in frames.
+pub const SHORTEST_EXPOSURE: f64 = 1e-9;
+/// The longest exposure, in frames.
+pub const LONGEST_EXPOSURE: f64 = 1e4;
 
 /// A shutter that cannot be: what was asked for, and what is allowed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

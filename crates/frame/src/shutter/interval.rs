@@ -5,10 +5,10 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::error::ShutterError;
-use super::limits::{LONGEST_EXPOSURE, SHORTEST_EXPOSURE};
+use super::error::{LONGEST_EXPOSURE, SHORTEST_EXPOSURE, ShutterError};
 use crate::FileError;
 use crate::exr::ExrFile;
+use crate::frame_options::parse_word;
 
 /// The interval during which the shutter is open, in frames relative to the frame's instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,14 +91,7 @@ impl FromStr for Alignment {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|alignment| alignment.name() == text)
-            .ok_or_else(|| {
-                format!(
-                    "shutter alignment \"{text}\" is unknown; allowed: trailing, centred, leading"
-                )
-            })
+        parse_word("shutter alignment", &Self::ALL, text)
     }
 }
 

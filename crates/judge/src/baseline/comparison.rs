@@ -105,7 +105,8 @@ pub fn compare_with_baseline(
     }
     match comparisons.is_empty() {
         true => Err(refuse(
-            "no score with a margin applies to any scene, and there is nothing to compare".to_owned(),
+            "no score with a margin applies to any scene, and there is nothing to compare"
+                .to_owned(),
         )),
         false => Ok(comparisons),
     }
@@ -159,7 +160,7 @@ fn difference(case: &Case, metric: Metric, baseline: &Baseline) -> Result<Option
     let filters = baseline.scores.get(&case.scene);
     let Some(scores) = filters.and_then(|filters| {
         // A parameter with a value of its own is judged by its preset.
-        (filters.get(&case.name())).or_else(|| filters.get(&case.preset_name()))
+        (filters.get(&case.name())).or_else(|| filters.get(&case.of_preset().name()))
     }) else {
         return Err(format!(
             "has no scores of {} on {}; accept a run with them: shuttertruth limits accept",

@@ -11,6 +11,7 @@ use frame::Alignment;
 use frame::write_atomically;
 use metrics::Metric;
 use serde::{Deserialize, Serialize};
+use tracer::SceneId;
 
 use store::{check_strings, read_text};
 use suite::Error;
@@ -34,9 +35,9 @@ pub struct Baseline {
     /// Reasons for accepting the scores: the last time all were accepted, and every time some were since.
     pub reasons: Vec<String>,
     /// Hash of the truth's inputs, per scene and alignment.
-    pub truths: BTreeMap<String, BTreeMap<Alignment, String>>,
+    pub truths: BTreeMap<SceneId, BTreeMap<Alignment, String>>,
     /// Score to six digits, per scene, filter (`jump_flood:paper`) and metric.
-    pub scores: BTreeMap<String, BTreeMap<String, BTreeMap<Metric, f64>>>,
+    pub scores: BTreeMap<SceneId, BTreeMap<String, BTreeMap<Metric, f64>>>,
 }
 
 impl Baseline {

@@ -2,7 +2,7 @@
 
 use filters::Filter;
 use suite::{Error, FilterChoice, Frames};
-use tracer::Location;
+use tracer::{Location, SceneId};
 
 use crate::bounds::sized::read_all_bounds;
 use crate::bounds::{BOUNDS_FILE, BoundsFile, Length, Level, SceneBounds};
@@ -23,12 +23,12 @@ pub fn check_names<'a>(
     Ok(())
 }
 
-/// Refuses a case without a bound, and bounds of which none is required: such a check cannot fail. `scenes` are the names and the
+/// Refuses a case without a bound, and bounds of which none is required: such a check cannot fail. `scenes` are the scenes and the
 /// bounds of scenes in the folder `root`, and `frames` those that each scene is measured at: limits on sequences of another length
 /// judge nothing.
 pub fn require_bounds<'a>(
     root: impl Into<Location>,
-    scenes: impl Iterator<Item = (&'a str, &'a SceneBounds)>,
+    scenes: impl Iterator<Item = (&'a SceneId, &'a SceneBounds)>,
     filters: &[FilterChoice],
     frames: Frames,
 ) -> Result<(), Error> {

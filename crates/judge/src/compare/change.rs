@@ -2,18 +2,20 @@
 
 use metrics::{Ideal, Measured, Metric};
 use serde::Serialize;
+use tracer::SceneId;
 
-use crate::compare::pairing::{Pair, filter_label};
+use crate::compare::pairing::Pair;
 
 /// A score that both runs have.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// Scene, with its variant.
-    pub scene: String,
-    /// `jump_flood:paper`; a bar with its alignment.
+    /// Scene.
+    pub scene: SceneId,
+    /// `jump_flood:paper`; a reference picture with its alignment.
     pub filter: String,
-    /// True for a bar, false for a filter.
-    pub bar: bool,
+    /// True for a reference picture, false for a filter.
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
     /// Score.
     pub metric: Metric,
     /// Score in the first run, in the metric's unit.
@@ -52,7 +54,7 @@ pub enum Basis {
 pub enum ChangeKind {
     /// Equal to the last bit.
     Same,
-    /// No more than the truth's noise could make.
+    /// No more than the truth's noise can explain.
     WithinNoise,
     /// More than noise, and less than the margin.
     BelowMargin,
@@ -103,10 +105,8 @@ impl Change {
         weight: f64,
         uncertainty: Option<Uncertainty>,
     ) -> Option<Self> {
-        let (Measured::Score(first), Measured::Score(second)) = (
-            pair.first.scores.get(metric),
-            pair.second.scores.get(metric),
-        ) else {
+        let [first, second] = [pair.first, pair.second].map(|case| case.scores.get(metric));
+        let (Measured::Score(first), Measured::Score(second)) = (first, second) else {
             return None;
         };
         let badness = |value: f64| metric.ideal().badness(value);
@@ -115,8 +115,8 @@ impl Change {
         let interval = uncertainty.map_or([worse - floor, worse + floor], |own| own.interval);
         Some(Self {
             scene: pair.first.scene.clone(),
-            filter: filter_label(pair.first),
-            bar: pair.first.is_reference,
+            filter: pair.first.filter_id().to_string(),
+            is_reference: pair.first.is_reference,
             metric,
             first: first.value,
             second: second.value,
@@ -167,10 +167,10 @@ pub fn score_change(metric: Metric, worse: f64) -> f64 {
 }
 
 /// Ranks the cases that changed by more than noise by their largest relative change; returns scene and filter.
-pub fn rank_changes(changes: &[Change]) -> Vec<(&str, &str)> {
-    let mut ranked: Vec<(f64, (&str, &str))> = Vec::new();
+pub fn rank_changes(changes: &[Change]) -> Vec<(&SceneId, &str)> {
+    let mut ranked: Vec<(f64, (&SceneId, &str))> = Vec::new();
     for change in changes.iter().filter(|change| change.is_beyond_noise()) {
-        let key = (change.scene.as_str(), change.filter.as_str());
+        let key = (&change.scene, change.filter.as_str());
         match ranked.iter_mut().find(|(_, own)| *own == key) {
             Some((size, _)) => *size = size.max(change.size()),
             None => ranked.push((change.size(), key)),
@@ -194,8 +194,27 @@ fn classify(worse: f64, [low, high]: [f64; 2]) -> ChangeKind {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// Makes a change from 0.5 of one filter.
+    pub fn change(scene: &str, metric: Metric, worse: f64, kind: ChangeKind) -> Change {
+        Change {
+            scene: SceneId::new(scene, None),
+            filter: "one:paper".to_owned(),
+            is_reference: false,
+            metric,
+            first: 0.5,
+            second: 0.5 + worse,
+            worse,
+            estimates: [0.5, 0.5 + worse],
+            weight: 1.0,
+            interval: None,
+            standard_error: None,
+            basis: Basis::Floor,
+            kind,
+        }
+    }
 
     #[test]
     fn a_change_is_what_its_interval_leaves_no_doubt_of() {

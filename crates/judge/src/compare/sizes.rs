@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use frame::Alignment;
 use metrics::Metric;
 use suite::{Error, Random, SceneMean, TWO_SIDED, plain_mean};
+use tracer::SceneId;
 
 use crate::results::Results;
 
@@ -18,7 +19,7 @@ pub struct SizeComparison {
     /// Shutter alignment of the filters.
     pub alignment: Alignment,
     /// Scenes that every mean is over.
-    pub scenes: Vec<String>,
+    pub scenes: Vec<SceneId>,
     /// Columns and rows of each file of results.
     pub sizes: Vec<(u32, u32)>,
     /// Filters, the best at the largest size first.
@@ -102,21 +103,20 @@ fn compare_group(
     let own = || (last.scores.iter()).filter(|own| own.alignment == alignment);
     let names: BTreeSet<&str> = own().map(|own| own.name.as_str()).collect();
     // A still scene orders no filters, and has no score where nothing moves.
-    let scenes: BTreeSet<&str> = (own())
+    let scenes: BTreeSet<&SceneId> = (own())
         .filter(|own| own.score(metric).is_some())
-        .map(|own| own.scene.as_str())
+        .map(|own| &own.scene)
         .collect();
-    let badness: Vec<Badness> = (results.iter())
-        .map(|results| {
-            (names.iter())
-                .map(|name| {
-                    (scenes.iter())
-                        .map(|scene| find(results, scene, name, metric))
-                        .collect()
-                })
+    let read = |results: &&Results| -> Result<Badness, Error> {
+        let filter = |name: &&str| {
+            let scenes = scenes.iter();
+            scenes
+                .map(|scene| find(results, scene, name, metric))
                 .collect()
-        })
-        .collect::<Result<_, Error>>()?;
+        };
+        names.iter().map(filter).collect()
+    };
+    let badness: Vec<Badness> = results.iter().map(read).collect::<Result<_, Error>>()?;
     let at_largest = badness.last().expect("there are results");
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let mut filters: Vec<FilterAtSizes> = (names.iter().enumerate())
@@ -131,7 +131,7 @@ fn compare_group(
     filters.sort_by_key(|filter| filter.ranks.last().copied());
     Ok(SizeComparison {
         alignment,
-        scenes: scenes.into_iter().map(str::to_owned).collect(),
+        scenes: scenes.into_iter().cloned().collect(),
         sizes: results.iter().map(|own| own.size.into()).collect(),
         filters,
         agreement: (badness.iter())
@@ -141,18 +141,16 @@ fn compare_group(
 }
 
 /// Finds how bad a filter is on a scene.
-fn find(results: &Results, scene: &str, name: &str, metric: Metric) -> Result<f64, Error> {
-    let found = (results.scores.iter()).find(|own| own.scene == scene && own.name == name);
-    let value = found.and_then(|own| own.score(metric));
-    value
-        .map(|value| metric.ideal().badness(value))
-        .ok_or_else(|| {
-            Error::Usage(format!(
-                "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
-                results.file_name(),
-                metric.name()
-            ))
-        })
+fn find(results: &Results, scene: &SceneId, name: &str, metric: Metric) -> Result<f64, Error> {
+    let found = (results.scores.iter()).find(|own| own.scene == *scene && own.name == name);
+    let value = found.and_then(|own| own.score(metric)).ok_or_else(|| {
+        Error::Usage(format!(
+            "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
+            results.file_name(),
+            metric.name()
+        ))
+    })?;
+    Ok(metric.ideal().badness(value))
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -191,11 +189,10 @@ fn compare_order(names: &[String], here: &Badness, largest: &Badness) -> Agreeme
                 (None, Some(_)) => agreement.only_at_largest += 1,
                 (Some(own), Some(others)) if own == others => agreement.alike += 1,
                 (Some(side), Some(_)) => {
-                    let (better, worse) = match side {
-                        Ordering::Greater => (first, second),
-                        _ => (second, first),
+                    let (better, worse, sign) = match side {
+                        Ordering::Greater => (first, second, 1.0),
+                        _ => (second, first, -1.0),
                     };
-                    let sign = if better == first { 1.0 } else { -1.0 };
                     agreement.reversed.push(Reversal {
                         better_here: names[better].clone(),
                         better_at_largest: names[worse].clone(),

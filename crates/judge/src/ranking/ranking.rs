@@ -3,7 +3,7 @@
 use frame::Alignment;
 use metrics::Metric;
 use suite::{Case, InputFormat, TWO_SIDED, plain_mean};
-use tracer::FrameRate;
+use tracer::{FrameRate, SceneId};
 
 /// A filter preset in the ranking of its shutter.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub struct RankedFilter {
     /// Number of scenes that have a score.
     pub scenes: usize,
     /// Scene with the largest score, and that score.
-    pub worst: (String, f64),
+    pub worst: (SceneId, f64),
     /// Number of ranked presets of the filter, this one included.
     pub presets: usize,
 }
@@ -35,7 +35,7 @@ pub struct RankedFilter {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankedScore {
     /// Name of the scene.
-    pub scene: String,
+    pub scene: SceneId,
     /// Name of the filter alone.
     pub filter: String,
     /// `jump_flood:paper`, followed by what is not as usual.
@@ -106,7 +106,7 @@ impl RankedScore {
 pub(crate) fn rank_by_score(scores: &[RankedScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for score in scores {
-        let rate = FrameRate::of_name(&score.scene);
+        let rate = score.scene.rate;
         let group = (groups.iter()).position(|group| {
             let ranked = &group[0].ranked;
             ranked.alignment == score.alignment && ranked.rate == rate
@@ -132,12 +132,12 @@ fn new_entry(score: &RankedScore) -> Entry {
             name: score.name.clone(),
             filter: score.filter.clone(),
             alignment: score.alignment,
-            rate: FrameRate::of_name(&score.scene),
+            rate: score.scene.rate,
             ranks: [1, 1],
             mean: 0.0,
             interval: None,
             scenes: 0,
-            worst: (String::new(), 0.0),
+            worst: (SceneId::default(), 0.0),
             presets: 1,
         },
         scores: vec![score.clone()],
@@ -243,7 +243,7 @@ mod tests {
         .flat_map(|(name, values)| {
             (["fan", "flag", "creep"].into_iter().zip(values)).map(move |(scene, value)| {
                 RankedScore {
-                    scene: scene.to_owned(),
+                    scene: SceneId::new(scene, None),
                     ..score(name, value)
                 }
             })
@@ -260,7 +260,7 @@ mod tests {
 
     fn score(name: &str, value: f64) -> RankedScore {
         RankedScore {
-            scene: "fan".to_owned(),
+            scene: SceneId::new("fan", None),
             filter: name.to_owned(),
             name: format!("{name}:default"),
             alignment: Alignment::Centred,

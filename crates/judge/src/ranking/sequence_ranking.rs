@@ -2,10 +2,9 @@
 
 use std::collections::HashMap;
 
-use frame::Alignment;
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use suite::{Case, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
-use tracer::FrameRate;
+use suite::{Case, FilterId, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
+use tracer::SceneId;
 
 use crate::ranking::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};
 
@@ -38,9 +37,9 @@ pub fn rank_sequences(run: &Run) -> Vec<Vec<RankedSequence>> {
 }
 
 /// Ranks the sequences of one scene alone, every preset in every form of the input.
-pub fn rank_sequences_on(run: &Run, scene: &str) -> Vec<Vec<RankedSequence>> {
+pub fn rank_sequences_on(run: &Run, scene: &SceneId) -> Vec<Vec<RankedSequence>> {
     let own: Vec<(&Sequence, &Case)> = (list_filters(run).into_iter())
-        .filter(|(sequence, _)| sequence.scene == scene)
+        .filter(|(sequence, _)| sequence.scene == *scene)
         .collect();
     rank(&own, false)
 }
@@ -48,17 +47,12 @@ pub fn rank_sequences_on(run: &Run, scene: &str) -> Vec<Vec<RankedSequence>> {
 /// Lists the sequences of filters, each with the case of its first frame.
 fn list_filters(run: &Run) -> Vec<(&Sequence, &Case)> {
     let filters = run.cases.iter().filter(|case| !case.is_reference);
-    let cases: HashMap<(&str, Alignment, String), &Case> = filters
-        .map(|case| {
-            let key = (case.scene.as_str(), case.alignment, case.name());
-            (key, case)
-        })
+    let cases: HashMap<(&SceneId, FilterId), &Case> = filters
+        .map(|case| ((&case.scene, case.filter_id()), case))
         .collect();
     let sequences = run.sequences.iter().filter(|own| !own.is_reference);
-    let with_case = sequences.filter_map(|own| {
-        let key = (own.scene.as_str(), own.alignment, own.filter.clone());
-        Some((own, *cases.get(&key)?))
-    });
+    let with_case =
+        sequences.filter_map(|own| Some((own, *cases.get(&(&own.scene, own.filter_id()))?)));
     with_case.collect()
 }
 
@@ -67,7 +61,7 @@ fn rank(own: &[(&Sequence, &Case)], best_presets: bool) -> Vec<Vec<RankedSequenc
     let with_means = |lost: RankedFilter| {
         let sequences: Vec<&Sequence> = (own.iter().map(|(sequence, _)| *sequence))
             .filter(|own| own.filter == lost.name && own.alignment == lost.alignment)
-            .filter(|own| FrameRate::of_name(&own.scene) == lost.rate)
+            .filter(|own| own.scene.rate == lost.rate)
             .collect();
         RankedSequence {
             means: SequenceMetric::ALL

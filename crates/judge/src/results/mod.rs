@@ -1,8 +1,8 @@
-//! Results: the scores of runs in short, to be kept beside the code and compared.
+//! Results: the scores of runs in short, as a file for version control.
 
 mod cost;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use frame::Alignment;
@@ -10,7 +10,7 @@ use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use store::{read_text, to_lines};
 use suite::{Case, Error, InputFormat, Run, refuse_failures};
-use tracer::{Family, Seal};
+use tracer::{Family, SceneId};
 
 pub use self::cost::ResultCost;
 use crate::ranking::ranking::{RankedFilter, RankedScore, rank_by_score};
@@ -18,7 +18,7 @@ use crate::ranking::ranking::{RankedFilter, RankedScore, rank_by_score};
 /// Version of the layout of a file of results.
 pub const RESULTS_FORMAT: u32 = 2;
 
-/// Significant digits of a kept score.
+/// Significant digits of a score.
 const DIGITS: usize = 5;
 
 /// The scores of all filters on some scenes, at one picture size.
@@ -49,7 +49,7 @@ pub struct Results {
 #[serde(deny_unknown_fields)]
 pub struct ResultScores {
     /// Name of the scene, without the seal.
-    pub scene: String,
+    pub scene: SceneId,
     /// Family of the scene.
     pub family: Option<Family>,
     /// Name of the filter alone.
@@ -80,14 +80,11 @@ impl Results {
             adapter: adapter_of(first),
             size: [first.render.width, first.render.height],
             samples_per_pixel: first.render.samples_per_pixel,
-            seal: first
-                .cases
-                .first()
-                .and_then(|case| Seal::split_name(&case.scene).1),
+            seal: (first.cases.first()).and_then(|case| case.scene.seal),
             costs: BTreeMap::new(),
             scores: Vec::new(),
         };
-        let mut known = BTreeSet::new();
+        let mut known = HashSet::new();
         for run in runs {
             refuse_failures(&run.failures)?;
             for case in &run.cases {
@@ -96,11 +93,10 @@ impl Results {
                 if case.is_reference || !is_plain {
                     continue;
                 }
-                if !known.insert((case.scene.clone(), case.name())) {
+                if !known.insert(&case.id) {
                     return Err(Error::Usage(format!(
-                        "{} / {} is in two runs; allowed: each case once",
-                        case.scene,
-                        case.name()
+                        "{} is in two runs; allowed: each case once",
+                        case.id
                     )));
                 }
                 results.scores.push(ResultScores::of(case));
@@ -122,7 +118,7 @@ impl Results {
             ]
         };
         let render = &run.render;
-        let seal = Seal::split_name(&case.scene).1;
+        let seal = case.scene.seal;
         let size = [render.width, render.height];
         let own = texts(size, render.samples_per_pixel, &adapter_of(run), seal);
         let first = texts(self.size, self.samples_per_pixel, &self.adapter, self.seal);
@@ -185,10 +181,7 @@ impl Results {
         let mut files = Vec::new();
         for entry in std::fs::read_dir(folder).map_err(refuse)? {
             let path = entry.map_err(refuse)?.path();
-            if path
-                .extension()
-                .is_some_and(|extension| extension == "json")
-            {
+            if path.extension().is_some_and(|own| own == "json") {
                 files.push(path);
             }
         }
@@ -205,23 +198,18 @@ impl Results {
     pub fn file_name(&self) -> String {
         let adapter = self.adapter.as_deref().unwrap_or("none");
         let word = adapter.split_whitespace().next().unwrap_or("none");
-        let word: String = word
-            .chars()
-            .filter(|letter| letter.is_ascii_alphanumeric())
-            .collect();
-        let seal = self
-            .seal
-            .map_or(String::new(), |seed| format!("_seal{seed}"));
+        let word = word.replace(|letter: char| !letter.is_ascii_alphanumeric(), "");
+        let seal = (self.seal).map_or(String::new(), |seed| format!("_seal{seed}"));
         let [width, height] = self.size;
         format!("{width}x{height}_{}{seal}.json", word.to_lowercase())
     }
 
     /// Lists the scenes in their order.
-    pub fn scenes(&self) -> Vec<&str> {
+    pub fn scenes(&self) -> Vec<&SceneId> {
         let mut scenes = Vec::new();
         for own in &self.scores {
-            if !scenes.contains(&own.scene.as_str()) {
-                scenes.push(own.scene.as_str());
+            if !scenes.contains(&&own.scene) {
+                scenes.push(&own.scene);
             }
         }
         scenes
@@ -233,7 +221,8 @@ impl Results {
         let mut ranked = self.ranking(None).into_iter().flatten();
         let best = ranked.find(|own| own.filter == filter)?;
         let error = |own: &&ResultScores| {
-            Some((own.score(Metric::SKILL).is_some(), own.score(Metric::FLIP)?))
+            let has_skill = own.score(Metric::SKILL).is_some();
+            Some((has_skill, own.score(Metric::FLIP)?))
         };
         (self.scores.iter())
             .filter(|own| own.name == best.name && error(own).is_some())
@@ -255,7 +244,10 @@ impl ResultScores {
         let scores = (Metric::OF_MEANS.into_iter())
             .filter_map(|metric| Some((metric, rounded(case.estimate(metric)?))));
         Self {
-            scene: Seal::split_name(&case.scene).0.to_owned(),
+            scene: SceneId {
+                seal: None,
+                ..case.scene.clone()
+            },
             family: case.family,
             filter: case.filter.clone(),
             name: case.name(),

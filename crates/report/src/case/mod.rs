@@ -20,7 +20,7 @@ use scores::score_rows;
 use suite::{Case, Drawn};
 
 use crate::case_table::CaseTable;
-use crate::filter_id::{FilterId, case_anchor};
+use crate::filter_id::{anchor, case_anchor, section_anchor};
 use crate::finding_text::Tally;
 use crate::numbers::{counted, value_text};
 use crate::pixels::scene_files::find_traced;
@@ -36,13 +36,13 @@ impl CaseTables {
     /// Writes the tables.
     pub fn new(view: &CaseView, table: &CaseTable) -> Self {
         let case = view.case;
-        let filter = FilterId::of(case);
+        let filter = case.filter_id();
         let head = html! {
             div.case_head {
                 h2 tabindex="-1" {
                     (case.scene) " / "
-                    @if filter.is_reference { (filter.title()) }
-                    @else { a href=(format!("#{}", filter.section_anchor())) { (filter.title()) } }
+                    @if filter.is_reference { (filter) }
+                    @else { a href=(format!("#{}", section_anchor(&filter))) { (filter) } }
                 }
                 (neighbours(view, table))
             }
@@ -77,12 +77,12 @@ impl CaseTables {
 /// a browser takes seconds for those of all cases. Without `tables` the script loads them from a file beside the page.
 pub fn case_section(view: &CaseView, tables: Option<&CaseTables>) -> Markup {
     let case = view.case;
-    let filter = FilterId::of(case);
-    let title = format!("{} / {}", case.scene, filter.title());
+    let filter = case.filter_id();
+    let title = format!("{} / {}", case.scene, filter);
     let [x, y] = view.profile.place;
     html! {
-        article.case id=(case_anchor(case)) data-title=(title) data-name=(filter.anchor())
-            data-filter=(filter.title()) data-reference[filter.is_reference]
+        article.case id=(case_anchor(case)) data-title=(title) data-name=(anchor(&filter))
+            data-filter=(filter) data-reference[filter.is_reference]
             data-score=(format!("FLIP {}", case.score_text(Metric::FLIP))) {
             (part(tables.map(|own| &own.head)))
             div.viewer_place data-truth=[case.drawn.as_ref().map(truth_words)] data-scene=(view.scene) data-layers=(layers(view)) data-stops=(view.stops)
@@ -157,27 +157,19 @@ fn layers(view: &CaseView) -> String {
     words.join(" ")
 }
 
-/// The profile's line as a path over the picture, with a ring around its place.
+/// Writes the profile's line as a path over the picture, with a ring around its place.
 fn line(profile: &Profile) -> String {
     let [x, y] = profile.place.map(|axis| axis as f32 + 0.5);
-    let end = |distance: Option<&f32>| {
-        let distance = distance.copied().unwrap_or(0.0);
-        let [right, down] = profile.direction.map(|axis| axis * distance);
-        format!("{:.1} {:.1}", x + right, y + down)
-    };
-    format!(
-        "M{} L{} M{:.1} {y:.1} a3 3 0 1 0 6 0 a3 3 0 1 0 -6 0",
-        end(profile.distances.first()),
-        end(profile.distances.last()),
-        x - 3.0
-    )
+    let [first, last] = profile.ends.map(|[x, y]| format!("{x:.1} {y:.1}"));
+    let left = x - 3.0;
+    format!("M{first} L{last} M{left:.1} {y:.1} a3 3 0 1 0 6 0 a3 3 0 1 0 -6 0")
 }
 
-/// The ways to the overview, to other filters of the scene, and to the same filter in other scenes.
+/// Links to the overview, to other filters of the scene, and to the same filter in other scenes.
 fn neighbours(view: &CaseView, table: &CaseTable) -> Markup {
     let (run, index) = (view.run, view.index);
-    let scene = |index: usize| run.cases[index].scene.as_str();
-    let filter = FilterId::of(view.case);
+    let scene = |index: usize| &run.cases[index].scene;
+    let filter = view.case.filter_id();
     let in_scene = |at: Option<usize>| table.case_on(&filter, table.scenes.get(at?)?);
     let of_scene =
         |at: Option<usize>| at.filter(|at| *at < run.cases.len() && scene(*at) == scene(index));

@@ -3,8 +3,8 @@
 use judge::{Level, list_summarized};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
-use suite::{Bench, Case, Overall};
-use tracer::FrameRate;
+use suite::{Case, FilterId, Overall};
+use tracer::{FrameRate, SceneId};
 
 use super::bench_file::cost_of;
 use super::cell::{Colors, cell};
@@ -12,7 +12,7 @@ use super::costs::cost_text;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
-use crate::filter_id::{FilterId, mean};
+use crate::filter_id::{mean, section_anchor};
 use crate::finding_text::Tally;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
@@ -41,7 +41,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
         .filter(|own| own.metric == metric && Some(own.rate) == rate)
         .collect();
     let row = |filter: &FilterId| {
-        let overall = means.iter().find(|own| filter.is_of(own)).copied();
+        let overall = means.iter().find(|own| own.filter_id() == *filter).copied();
         let of_rate = |case: &Case| rate.is_none_or(|rate| case.rate == rate);
         let scores = (table.cases_of(filter)).filter(|(_, case)| of_rate(case));
         let only = mean(scores.filter_map(|(_, case)| case.estimate(metric)));
@@ -77,7 +77,6 @@ pub fn score_table(
     views: &[CaseView],
     thumbnails: &[String],
     (metric, title): (Metric, &str),
-    bench: Option<&Bench>,
 ) -> Markup {
     let scenes = &table.scenes;
     let ideal = metric.ideal();
@@ -87,7 +86,8 @@ pub fn score_table(
     let colors = Colors::over(ideal, own.filter_map(|view| view.case.estimate(metric)));
     let has_means = rows().any(|row| row.overall.is_some());
     let strip = strip_over(rows().filter(|row| !row.filter.is_reference), ideal);
-    let columns = 1 + scenes.len() + 3 * usize::from(has_means) + usize::from(bench.is_some());
+    let columns =
+        1 + scenes.len() + 3 * usize::from(has_means) + usize::from(table.bench.is_some());
     // What a reader looks for comes first.
     let order = match ideal {
         Ideal::Highest => "descending",
@@ -97,7 +97,7 @@ pub fn score_table(
         div.scroll tabindex="0" role="region" aria-label=(format!("{title} of every case")) {
             table.sortable.many[scenes.len() > MANY] data-first=(order) {
                 caption { (caption(metric, has_means, scenes.len())) }
-                thead { (heading(scenes, thumbnails, has_means.then(|| ends(metric, &strip)), bench)) }
+                thead { (heading(table, thumbnails, has_means.then(|| ends(metric, &strip)))) }
                 @for group in &groups {
                     @if !metric.spans_alignments() {
                         tbody.group {
@@ -115,7 +115,7 @@ pub fn score_table(
                                         None => td { "-" },
                                     }
                                 }
-                                @if bench.is_some() { (cost(table, bench, &row.filter)) }
+                                @if table.bench.is_some() { (cost(table, &row.filter)) }
                             }
                         }
                     }
@@ -126,12 +126,7 @@ pub fn score_table(
 }
 
 /// Writes the headings of the columns; `ends` of the means' scale are none where there are no means.
-fn heading(
-    scenes: &[&str],
-    thumbnails: &[String],
-    ends: Option<Markup>,
-    bench: Option<&Bench>,
-) -> Markup {
+fn heading(table: &CaseTable, thumbnails: &[String], ends: Option<Markup>) -> Markup {
     html! {
         tr {
             th scope="col" { button { "filter" } }
@@ -140,13 +135,13 @@ fn heading(
                 th.note scope="col" { "95 % CI" }
                 th.chart scope="col" { (ends) }
             }
-            @for (index, scene) in scenes.iter().enumerate() {
+            @for (index, scene) in table.scenes.iter().enumerate() {
                 th.scene scope="col" {
                     img src=[thumbnails.get(index)] alt="";
-                    button { (breakable(scene)) }
+                    button { (breakable(&scene.to_string())) }
                 }
             }
-            @if bench.is_some() { th scope="col" { button { "cost, ms" } } }
+            @if table.bench.is_some() { th scope="col" { button { "cost, ms" } } }
         }
     }
 }
@@ -188,7 +183,7 @@ fn is_failing(table: &CaseTable, views: &[CaseView], filter: &FilterId) -> bool 
 fn name(metric: Metric, filter: &FilterId) -> Markup {
     html! {
         @if filter.is_reference { (filter.name) }
-        @else { a href=(format!("#{}", filter.section_anchor())) { (breakable(&filter.name)) } }
+        @else { a href=(format!("#{}", section_anchor(filter))) { (breakable(&filter.name)) } }
         @if metric.spans_alignments() { " " span.note { "(" (filter.alignment) ")" } }
     }
 }
@@ -250,7 +245,7 @@ fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Stri
 }
 
 /// Writes the cost of a filter, which sorts as the scores do.
-fn cost(table: &CaseTable, bench: Option<&Bench>, filter: &FilterId) -> Markup {
-    let cost = cost_of(table, bench, filter);
+fn cost(table: &CaseTable, filter: &FilterId) -> Markup {
+    let cost = cost_of(table, filter);
     html! { td.cost data-value=[cost.map(|own| own.seconds.median)] { (cost_text(cost)) } }
 }

@@ -3,10 +3,10 @@
 use judge::{RANKED_BY, RankedFilter, rank_for_summary, rank_sequences};
 use maud::{Markup, html};
 use metrics::Metric;
-use suite::Run;
+use suite::{FilterId, Run};
 
 use crate::case_table::CaseTable;
-use crate::filter_id::{FilterId, case_anchor};
+use crate::filter_id::{case_anchor, section_anchor};
 use crate::sequence::SEQUENCES_PAGE;
 
 /// Names the best filters of every shutter, the scene that the first is weakest on, and the last filter of the ranking.
@@ -18,7 +18,7 @@ pub fn winners(table: &CaseTable) -> Markup {
         alignment: ranked.alignment,
     };
     let link = |ranked: &RankedFilter| {
-        html! { a href=(format!("#{}", id(ranked).section_anchor())) { (ranked.name) } }
+        html! { a href=(format!("#{}", section_anchor(&id(ranked)))) { (ranked.name) } }
     };
     let weakest = |ranked: &RankedFilter| {
         let (scene, _) = &ranked.worst;

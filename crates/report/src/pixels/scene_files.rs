@@ -61,7 +61,7 @@ pub struct CaseFiles<'a> {
 impl SceneFiles {
     /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the scene, `folder` is the run's.
     pub fn read(run: &Run, cases: &[&Case], folder: &Path) -> Result<Self, Error> {
-        let path = folder.join(&cases[0].scene).join("frame.exr");
+        let path = folder.join(cases[0].scene.folder()).join("frame.exr");
         let frame = Frame::read(&path)?.cropped();
         check_size(&path, frame.size(), (run.render.width, run.render.height))?;
         let mut accumulations = BTreeMap::new();
@@ -86,7 +86,7 @@ impl SceneFiles {
             objects: planes.add(&ids),
             truths: BTreeMap::new(),
             accumulations,
-            traced: find_traced(run, cases[0]).map(|case| folder.join(&case.scene)),
+            traced: find_traced(run, cases[0]).map(|case| folder.join(case.scene.folder())),
             folder: folder.to_owned(),
             frame,
             planes,
@@ -103,7 +103,7 @@ impl SceneFiles {
     /// Reads the truth that a case is scored against.
     fn read_truth(&mut self, case: &Case) -> Result<TruthFile, Error> {
         let alignment = case.alignment;
-        let path = (self.folder.join(&case.scene)).join(format!("truth_{alignment}.exr"));
+        let path = (self.folder.join(case.scene.folder())).join(format!("truth_{alignment}.exr"));
         let truth = Truth::read(&path)?;
         check_size(&path, truth.size(), self.frame.size())?;
         if truth.objects != self.frame.objects {

@@ -5,15 +5,16 @@ use judge::{Finding, RankedSequence, rank_sequences_on};
 use maud::{Markup, html};
 use metrics::{Measured, Metric, SequenceMetric};
 use suite::{Run, Sequence};
+use tracer::SceneId;
 
 use super::ranking::metric_table;
 use crate::finding_text::{Status, limit_text};
 
 /// Makes a table per scene and shutter: references, then filters by their ranks, then those without a rank.
 pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
-    let mut groups: Vec<(&str, Alignment)> = Vec::new();
+    let mut groups: Vec<(&SceneId, Alignment)> = Vec::new();
     for own in &run.sequences {
-        let group = (own.scene.as_str(), own.alignment);
+        let group = (&own.scene, own.alignment);
         if !groups.contains(&group) {
             groups.push(group);
         }
@@ -36,24 +37,20 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
 /// Orders the sequences of one scene and shutter, each with its number in the run and the text of its rank.
 fn order_rows<'a>(
     run: &'a Run,
-    scene: &str,
+    scene: &SceneId,
     alignment: Alignment,
 ) -> Vec<(usize, String, &'a Sequence)> {
-    let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene)
-        .into_iter()
-        .flatten()
-        .collect();
+    let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene).concat();
     let place = |own: &Sequence| {
         let mut ranked = ranked.iter().map(|own| &own.ranked);
         ranked.position(|it| it.name == own.filter && it.alignment == own.alignment)
     };
     let all = run.sequences.iter().enumerate();
-    let mut rows: Vec<(usize, &Sequence)> = all
-        .filter(|(_, own)| own.scene == scene && own.alignment == alignment)
-        .collect();
-    rows.sort_by_key(|(_, own)| (!own.is_reference, place(own).unwrap_or(usize::MAX)));
-    let with_rank = rows.into_iter().map(|(index, own)| {
-        let place = place(own).filter(|_| !own.is_reference);
+    let rows = all.filter(|(_, own)| own.scene == *scene && own.alignment == alignment);
+    let mut rows: Vec<_> = rows.map(|(index, own)| (place(own), index, own)).collect();
+    rows.sort_by_key(|(place, _, own)| (!own.is_reference, place.unwrap_or(usize::MAX)));
+    let with_rank = rows.into_iter().map(|(place, index, own)| {
+        let place = place.filter(|_| !own.is_reference);
         let rank = place.map(|at| ranked[at].ranked.rank_text() + " ");
         (index, rank.unwrap_or_default(), own)
     });
@@ -95,10 +92,8 @@ fn finding_about<'a>(
     findings: &'a [Finding],
 ) -> Option<&'a Finding> {
     findings.iter().find(|finding| {
-        !own.is_reference
-            && (finding.metric == Metric::Sequence(metric)
-                && finding.scene == own.scene
-                && finding.filter == own.filter)
+        let key = (finding.metric, &finding.scene, &finding.filter);
+        !own.is_reference && key == (Metric::Sequence(metric), &own.scene, &own.filter)
     })
 }
 

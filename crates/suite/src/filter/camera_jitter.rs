@@ -37,7 +37,7 @@ impl CameraJitter {
         if self == Self::None {
             return Ok(frame.clone());
         }
-        let [before, now] = jitters(scene.frame);
+        let [before, now] = jitters(scene.id.frame);
         let settings = settings_of(frame);
         let grid = PixelGrid {
             size: [settings.width, settings.height],
@@ -53,7 +53,7 @@ impl CameraJitter {
                 ..frame.clone()
             });
         }
-        let label = format!("{} jittered frame", scene.name);
+        let label = format!("{} jittered frame", scene.id);
         let jittered = monitor.watch(&label, |watch| {
             trace_frame_on(scene, &settings, &grid, watch)
         })?;

@@ -25,7 +25,7 @@ impl DepthOfField {
             (Self::After, None) => Err(Error::Usage(format!(
                 "depth_of_field={}: the camera of {} has no lens; give it aperture and focus, or leave out the form or the scene",
                 self.name(),
-                scene.name
+                scene.id
             ))),
             _ => Ok(()),
         }
@@ -53,7 +53,7 @@ impl DepthOfField {
             return Ok(frame.clone());
         }
         let settings = settings_of(frame);
-        let label = format!("{} frame of a pinhole", seen.name);
+        let label = format!("{} frame of a pinhole", seen.id);
         Ok(monitor.watch(&label, |watch| trace_frame(seen, &settings, watch))?)
     }
 
@@ -71,7 +71,7 @@ impl DepthOfField {
             return Ok(None);
         }
         let settings = settings_of(frame);
-        let label = format!("{} depth of field", scene.name);
+        let label = format!("{} depth of field", scene.id);
         let pass = monitor.watch(&label, |watch| trace_defocus(scene, &settings, watch))?;
         Ok(Some(pass))
     }

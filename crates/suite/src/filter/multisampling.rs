@@ -42,7 +42,7 @@ impl Multisampling {
         if self == Self::None {
             return Ok(frame.clone());
         }
-        let label = format!("{} frame with 4 samples per pixel", scene.name);
+        let label = format!("{} frame with 4 samples per pixel", scene.id);
         let samples = monitor.watch(&label, |watch| {
             (SAMPLES.into_iter().zip(sample_settings(frame)))
                 .map(|(offset, settings)| {

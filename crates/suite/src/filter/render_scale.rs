@@ -91,7 +91,7 @@ impl RenderScale {
             size: from.picture,
             offset: [0.0; 2],
         };
-        let label = format!("{} frame at {} %", scene.name, self.percent());
+        let label = format!("{} frame at {} %", scene.id, self.percent());
         let small = monitor.watch(&label, |watch| {
             trace_frame_on(scene, &settings, &grid, watch)
         })?;

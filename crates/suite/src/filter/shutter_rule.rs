@@ -24,18 +24,18 @@ named! {
 impl ShutterRule {
     /// Returns the frame with the exposure that the filter blurs by.
     pub(crate) fn apply(self, frame: Frame, scene: &Scene) -> Frame {
-        let written = match scene.rate.shutters_per_second {
+        let written = match scene.rate().shutters_per_second {
             // The settings of the render may have another exposure than the file.
             None => frame.exposure,
             Some(_) => scene.written_exposure,
         };
-        let in_time = written * scene.rate.frames_per_written_frame();
+        let in_time = written * scene.rate().frames_per_written_frame();
         let exposure = match self {
             Self::Right => frame.exposure,
             Self::InFrames => written,
             Self::InTime => in_time,
             Self::InTimeCapped => in_time.min(written),
-            Self::ShareFalls => written / scene.rate.frames_per_written_frame(),
+            Self::ShareFalls => written / scene.rate().frames_per_written_frame(),
         };
         Frame { exposure, ..frame }
     }

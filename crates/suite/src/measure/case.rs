@@ -7,7 +7,7 @@ use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
 };
-use tracer::{Defocus, FrameRate};
+use tracer::Defocus;
 
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
@@ -255,7 +255,7 @@ impl CaseContext<'_> {
         };
         let ended = self.plan.monitor.ended;
         ended("common truth");
-        let folder = planned.folder(self.scene);
+        let folder = planned.id.folder();
         let files = write_case(
             &self.plan.out.join(&folder),
             self.frame,
@@ -273,23 +273,17 @@ impl CaseContext<'_> {
         let convention = convention.filter(|it| *it != Convention::default());
         let truth = self.references.truth;
         let case = Case {
-            scene: self.scene.name().to_owned(),
+            id: planned.id.clone(),
             family: self.scene.family(),
             exposes: self.scene.exposes(),
             drawn: self.scene.drawn(),
-            rate: FrameRate::of_name(self.scene.name()),
+            rate: self.scene.id().rate,
             exposure: self.frame.exposure,
-            filter: planned.filter().to_owned(),
-            preset: planned.preset(),
-            is_reference: planned.is_reference(),
-            input: planned.input(),
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
-            overrides: choice.map_or_else(BTreeMap::new, |choice| choice.overrides.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),
             command: command.map(Command::words),
             convention: convention.map(Convention::resolved),
             nonlinearity: measured.nonlinearity,
-            alignment: truth.alignment,
             truth_hash: truth.provenance.content_hash.clone(),
             common,
             jitter: measured.jitter,
@@ -339,7 +333,7 @@ fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Me
 fn name_scene(error: FilterError, scene: RunScene) -> FilterError {
     match error {
         FilterError::Command { filter, reason } => FilterError::Command {
-            filter: format!("{filter} on {}", scene.name()),
+            filter: format!("{filter} on {}", scene.id()),
             reason,
         },
         other => other,

@@ -15,7 +15,7 @@ impl RunPlan {
         self.check_frames()?;
         for scene in self.all_scenes() {
             for case in PlannedCase::all(self, &self.filters, scene) {
-                refuse_long_names(&case.folder(scene))?;
+                refuse_long_names(&case.id.folder())?;
             }
         }
         for scene in &self.scenes {
@@ -68,7 +68,7 @@ impl RunPlan {
         match self.engine_scenes.first() {
             Some(scene) if count > 1 => Err(Error::Usage(format!(
                 "{}: an engine drew one frame, and {count} are asked for; leave it out of a sequence",
-                scene.name
+                scene.id
             ))),
             _ => Ok(()),
         }

@@ -40,13 +40,13 @@ impl SceneContext<'_> {
         let monitor = self.plan.monitor;
         (monitor.ended)("frame and truths");
         let viewing = frame.display.into();
-        let is_due = |input: &&InputFormat| due.iter().any(|case| case.input() == **input);
+        let is_due = |input: &&InputFormat| due.iter().any(|case| case.id.input == **input);
         let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_due).copied().collect();
         let stored_frames = store_frame(&inputs, frame, self.scene.traced(), monitor)?;
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
         let frames_before = frames_before(self.plan, self.filters, self.scene, &inputs)?;
         let common_alignment = self.plan.common_alignment();
-        let has_others = (due.iter()).any(|case| case.alignment != common_alignment);
+        let has_others = (due.iter()).any(|case| case.id.alignment != common_alignment);
         // Truths take turns in memory. The common one comes first, since its colours stay.
         let mut alignments = self.scene.alignments(self.plan.alignments());
         alignments.sort_by_key(|alignment| *alignment != common_alignment);
@@ -55,7 +55,7 @@ impl SceneContext<'_> {
         for alignment in alignments {
             let is_common = alignment == common_alignment;
             let own: Vec<(usize, &&PlannedCase)> = (due.iter().enumerate())
-                .filter(|(_, case)| case.alignment == alignment)
+                .filter(|(_, case)| case.id.alignment == alignment)
                 .collect();
             if own.is_empty() && !is_common {
                 continue;
@@ -66,7 +66,7 @@ impl SceneContext<'_> {
                 common = Some(Reference::new(&frame.cropped(), &truth, None, &viewing)?.into());
                 continue;
             }
-            let has_filters = own.iter().any(|(_, case)| !case.is_reference());
+            let has_filters = own.iter().any(|(_, case)| !case.id.is_reference);
             let without_pairs = match has_filters && self.plan.intervals {
                 true => self.truths_without_pairs(alignment)?,
                 false => Vec::new(),
@@ -150,9 +150,9 @@ impl SceneContext<'_> {
         match &error {
             Error::Filter(FilterError::Gpu { .. } | FilterError::Command { .. })
             | Error::Measure(_) => Ok(Failure {
-                scene: self.scene.name().to_owned(),
-                filter: planned.name(),
-                alignment: planned.alignment,
+                scene: planned.id.scene.clone(),
+                filter: planned.id.name(),
+                alignment: planned.id.alignment,
                 reason: error.to_string(),
             }),
             _ => Err(error),

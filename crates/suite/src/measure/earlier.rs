@@ -5,14 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use filters::AdapterDescription;
+use tracer::SceneId;
 
+use crate::identity::CaseId;
 use crate::measure::plan::RunPlan;
 use crate::measure::planned_case::PlannedCase;
-use crate::measure::run_scene::RunScene;
 use crate::render::settings::list_settings;
 use crate::run::Run;
 use crate::run::case::Case;
-use crate::run::case_key::{CaseKey, key};
 use crate::run::failure::Failure;
 use crate::run::sequence::{Frames, Sequence};
 use crate::stats::overall::overall;
@@ -44,11 +44,14 @@ impl EarlierCases {
         let Some(run) = read_earlier_run(&path)? else {
             return Ok(None);
         };
-        let planned = planned_names(plan);
-        let is_left_out =
-            |scene: &str, name: &str| !planned.contains(&(scene.to_owned(), name.to_owned()));
+        let planned = list_planned(plan);
+        let names: HashSet<(&SceneId, String)> = (planned.iter())
+            .filter(|id| !id.is_reference)
+            .map(|id| (&id.scene, id.name()))
+            .collect();
+        let is_left_out = |scene: &SceneId, name: &str| !names.contains(&(scene, name.to_owned()));
         let left_out = (run.cases.iter())
-            .filter(|case| !case.is_reference && is_left_out(&case.scene, &case.preset_name()))
+            .filter(|case| !case.is_reference && is_left_out(&case.scene, &case.of_preset().name()))
             .count();
         if left_out == 0 {
             return Ok(None);
@@ -65,8 +68,8 @@ impl EarlierCases {
             )));
         }
         plan.common = Some(run.common_alignment);
-        let planned = planned_keys(plan);
-        let kept = (run.cases.into_iter()).filter(|case| !planned.contains(&key(case)));
+        let planned = list_planned(plan);
+        let kept = (run.cases.into_iter()).filter(|case| !planned.contains(&case.of_preset()));
         let (cases, outdated): (Vec<Case>, Vec<Case>) =
             kept.partition(|case| !is_outdated(plan, case));
         let failures = (run.failures.into_iter())
@@ -95,9 +98,9 @@ impl EarlierCases {
 
     /// Adds the kept cases to a finished run: behind its own cases of each scene, references first.
     pub fn add_to(self, run: &Run) -> Run {
-        let mut scenes: Vec<&str> = Vec::new();
+        let mut scenes: Vec<&SceneId> = Vec::new();
         for case in run.cases.iter().chain(&self.cases) {
-            if !scenes.contains(&case.scene.as_str()) {
+            if !scenes.contains(&&case.scene) {
                 scenes.push(&case.scene);
             }
         }
@@ -106,7 +109,7 @@ impl EarlierCases {
             .flat_map(|scene| {
                 let of_scene = move |is_reference| {
                     all().filter(move |case| {
-                        case.scene == *scene && case.is_reference == is_reference
+                        case.scene == **scene && case.is_reference == is_reference
                     })
                 };
                 of_scene(true).chain(of_scene(false)).cloned()
@@ -174,32 +177,17 @@ fn read_earlier_run(path: &Path) -> Result<Option<Run>, Error> {
     })
 }
 
-/// Names the filters of the plan on each of its scenes.
-fn planned_names(plan: &RunPlan) -> HashSet<(String, String)> {
-    let keys = planned_keys(plan).into_iter().filter(|key| !key.3);
-    keys.map(|(scene, name, ..)| (scene, name)).collect()
-}
-
-fn planned_keys(plan: &RunPlan) -> HashSet<CaseKey> {
-    let of_scene = |scene: RunScene| {
-        let planned = PlannedCase::all(plan, &plan.filters, scene);
-        let keys = planned.iter().map(|case| {
-            (
-                scene.name().to_owned(),
-                case.preset_name(),
-                case.alignment,
-                case.is_reference(),
-            )
-        });
-        keys.collect::<Vec<_>>()
-    };
-    plan.all_scenes().into_iter().flat_map(of_scene).collect()
+/// Lists the presets of the plan on each of its scenes.
+fn list_planned(plan: &RunPlan) -> HashSet<CaseId> {
+    let of_scene = |scene| PlannedCase::all(plan, &plan.filters, scene);
+    let planned = plan.all_scenes().into_iter().flat_map(of_scene);
+    planned.map(|case| case.id.of_preset()).collect()
 }
 
 /// Tells whether a scene of the plan has changed since the case was measured.
 fn is_outdated(plan: &RunPlan, case: &Case) -> bool {
     let mut scenes = plan.all_scenes().into_iter();
-    let scene = scenes.find(|scene| scene.name() == case.scene);
+    let scene = scenes.find(|scene| *scene.id() == case.scene);
     scene.is_some_and(|scene| scene.truth_hash(&plan.render, case.alignment) != case.truth_hash)
 }
 

@@ -36,13 +36,15 @@ pub(super) fn frames_before(
         .any(|choice| !choice.filter.history.is_empty());
     let Some(later) = scene
         .traced()
-        .filter(|scene| has_history && scene.frame > 0)
+        .filter(|scene| has_history && scene.id.frame > 0)
     else {
         return Ok(Vec::new());
     };
-    let is_own = |scene: &&Scene| scene.name_at_frame(later.frame) == later.name;
+    let is_own = |scene: &&Scene| scene.id == later.id.at_frame(0);
     let first = plan.scenes.iter().find(is_own);
-    let before = first.expect("it is in the plan").at_frame(later.frame - 1);
+    let before = first
+        .expect("it is in the plan")
+        .at_frame(later.id.frame - 1);
     let frame = render_frame(&before, &plan.render, &plan.out, plan.monitor)?;
     store_frame(inputs, &frame, Some(&before), plan.monitor)
 }

@@ -71,7 +71,7 @@ pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
         let memory = scene.memory(render, truths, plan.inputs.len());
         let cpu_seconds = frames * threads * renders;
         let planned = PlannedCase::all(plan, &plan.filters, scene);
-        let references = planned.iter().filter(|case| case.is_reference());
+        let references = planned.iter().filter(|case| case.id.is_reference);
         SceneJobs {
             render: (scene.traced()).map(|_| JobCost {
                 cpu_seconds,

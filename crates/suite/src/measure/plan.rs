@@ -51,6 +51,29 @@ pub struct RunPlan {
     pub monitor: Monitor,
 }
 
+/// Nothing to measure: single frames in their full form, with ladders and without intervals, shown to nobody.
+impl Default for RunPlan {
+    fn default() -> Self {
+        Self {
+            scenes: Vec::new(),
+            engine_scenes: Vec::new(),
+            filters: Vec::new(),
+            inputs: vec![InputFormat::default()],
+            jitter_frames: 0,
+            frames: Frames::default(),
+            render: RenderSettings::default(),
+            out: "out".into(),
+            intervals: false,
+            ladders: true,
+            no_cache: false,
+            common: None,
+            part: Part::default(),
+            truths: None,
+            monitor: Monitor::SILENT,
+        }
+    }
+}
+
 impl RunPlan {
     /// Scales the filters to the plan's pictures.
     pub(super) fn scaled_filters(&self) -> Vec<FilterChoice> {

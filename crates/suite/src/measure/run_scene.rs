@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use frame::Alignment;
 use store::LADDER;
-use tracer::{Family, RenderSettings, Scene};
+use tracer::{Family, RenderSettings, Scene, SceneId};
 
 use crate::Error;
 use crate::engine_scene::EngineScene;
@@ -23,11 +23,11 @@ pub(crate) enum RunScene<'a> {
 }
 
 impl<'a> RunScene<'a> {
-    /// Returns the scene's name, with its variant or engine.
-    pub fn name(self) -> &'a str {
+    /// Returns the scene's identity.
+    pub fn id(self) -> &'a SceneId {
         match self {
-            Self::Traced(scene) => &scene.name,
-            Self::Drawn(scene) => &scene.name,
+            Self::Traced(scene) => &scene.id,
+            Self::Drawn(scene) => &scene.id,
         }
     }
 
@@ -41,7 +41,7 @@ impl<'a> RunScene<'a> {
 
     /// Returns the frame of the scene's own clock, by which the noise of filters changes.
     pub fn frame_index(self) -> u32 {
-        self.traced().map_or(0, |scene| scene.frame)
+        self.traced().map_or(0, |scene| scene.id.frame)
     }
 
     /// Returns the family; none of an engine's scene.
@@ -75,7 +75,7 @@ impl<'a> RunScene<'a> {
 
     /// Names the folder of the scene's files below `out`.
     pub fn folder(self, out: &Path) -> PathBuf {
-        out.join(self.name())
+        out.join(self.id().folder())
     }
 
     /// Lists the shutter alignments that there are truths of, among those of a plan.

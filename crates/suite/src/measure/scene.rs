@@ -76,7 +76,7 @@ impl SceneContext<'_> {
         let frame = self.render(advance)?;
         let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
         let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();
-        let label = format!("{} blurs and scores", self.scene.name());
+        let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
         let measured = monitor.watch(&label, |watch| self.measure(&due, &frame, advance, watch))?;
         let mut measured = measured.into_iter();
@@ -240,13 +240,13 @@ impl SceneContext<'_> {
         let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
             return Vec::new();
         };
-        let alignments = [planned.alignment, self.plan.common_alignment()];
+        let alignments = [planned.id.alignment, self.plan.common_alignment()];
         let key = |ladder: &bool| keys.case(&own, alignments, *ladder);
         ladders.iter().map(key).collect()
     }
 
     pub(super) fn case_record(&self, planned: &PlannedCase) -> PathBuf {
-        let folder = self.plan.out.join(planned.folder(self.scene));
+        let folder = self.plan.out.join(planned.id.folder());
         folder.join(CASE_RECORD)
     }
 

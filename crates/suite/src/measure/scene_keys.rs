@@ -41,7 +41,7 @@ impl SceneKeys {
             RunScene::Drawn(scene) => scene.hash.clone(),
         };
         Self {
-            scene: hash_inputs(&(program, scene.name(), own)),
+            scene: hash_inputs(&(program, scene.id(), own)),
             frame,
             truths: (alignments.into_iter())
                 .map(|alignment| {

@@ -1,6 +1,6 @@
 //! Scores of sequences, from the pictures that the frames' cases left.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use frame::{Alignment, Image, Raster, Truth, read_exr, read_png, write_animated_png, write_png};
 use metrics::{Instant, Metric, SequenceReference, SequenceScores};
@@ -38,7 +38,7 @@ pub(super) fn measure_sequences(
     let Some(scene) = plan
         .scenes
         .iter()
-        .find(|scene| Some(&scene.name) == name.as_ref())
+        .find(|scene| Some(&scene.id) == name.as_ref())
     else {
         // No case of the first frame was measured.
         return Ok(sequences);
@@ -70,11 +70,7 @@ pub(super) fn measure_sequences(
 impl FrameCases {
     /// Lists the cases of all frames that are like one of the first; none where a frame lacks it.
     fn all_of<'a>(&'a self, first: &'a Case) -> Option<Vec<&'a Case>> {
-        let like = |case: &&Case| {
-            case.is_reference == first.is_reference
-                && case.name() == first.name()
-                && case.alignment == first.alignment
-        };
+        let like = |case: &&Case| case.filter_id() == first.filter_id();
         (self.cases.iter())
             .map(|cases| cases.iter().find(like))
             .collect()
@@ -131,7 +127,7 @@ impl SequenceTruths<'_> {
     /// Reads the truths of all frames.
     fn whole(&self) -> Result<SequenceReference, Error> {
         self.reference(|scene| {
-            let folder = self.plan.out.join(&scene.name);
+            let folder = self.plan.out.join(scene.id.folder());
             Ok(Truth::read(
                 &folder.join(format!("truth_{}.exr", self.alignment)),
             )?)
@@ -163,7 +159,7 @@ impl SequenceTruths<'_> {
         Ok(SequenceReference::new(
             instants.collect::<Result<Vec<Instant>, Error>>()?,
             &self.scene.display.into(),
-            self.plan.frames.shown(&self.scene.name),
+            self.plan.frames.shown(&self.scene.id),
         ))
     }
 }
@@ -191,7 +187,7 @@ fn measure_sequence(
     }
     let frames = (all.iter().zip(&measured.errors).zip(&measured.flickers)).map(
         |((case, error), flicker)| SequenceFrame {
-            scene: PathBuf::from(&case.scene),
+            scene: case.scene.folder(),
             folder: case.folder.clone(),
             truth_hash: case.truth_hash.clone(),
             error: *error,
@@ -222,7 +218,10 @@ fn write_animation(
 ) -> Result<(), Error> {
     let truth = format!("truth_{}.png", first.alignment);
     let strips = all.iter().map(|case| {
-        let [scene, own] = [plan.out.join(&case.scene), plan.out.join(&case.folder)];
+        let [scene, own] = [
+            plan.out.join(case.scene.folder()),
+            plan.out.join(&case.folder),
+        ];
         let pictures = [
             scene.join("frame.png"),
             scene.join(&truth),

@@ -1,6 +1,6 @@
 //! Order of the cases of a run that is joined of parts.
 
-use std::path::Path;
+use tracer::SceneId;
 
 use crate::merge::order::merge_order;
 use crate::merge::run_part::RunPart;
@@ -12,7 +12,7 @@ use crate::run::sequence::Sequence;
 /// Order in which one process measures scenes and filters.
 pub(super) struct CaseOrder {
     /// Scenes that are rendered, then those that engines drew.
-    scenes: Vec<(bool, String)>,
+    scenes: Vec<(bool, SceneId)>,
     /// Cases apart from their scenes.
     names: Vec<(bool, String)>,
 }
@@ -20,8 +20,8 @@ pub(super) struct CaseOrder {
 impl CaseOrder {
     /// Orders scenes and filters as the parts name them first.
     pub(super) fn new(parts: &[RunPart]) -> Self {
-        let scenes = |run: &Run| -> Vec<(bool, String)> {
-            let mut scenes: Vec<(bool, String)> = (run.cases.iter())
+        let scenes = |run: &Run| -> Vec<(bool, SceneId)> {
+            let mut scenes: Vec<(bool, SceneId)> = (run.cases.iter())
                 .map(|case| (case.drawn.is_some(), case.scene.clone()))
                 .collect();
             scenes.dedup();
@@ -29,8 +29,8 @@ impl CaseOrder {
         };
         let mut order = merge_order(parts.iter().map(|part| scenes(&part.run)));
         order.sort_by_key(|(is_drawn, _)| *is_drawn);
-        let of_scene = |run: &Run, scene: &str| -> Vec<(bool, String)> {
-            let own = run.cases.iter().filter(|case| case.scene == scene);
+        let of_scene = |run: &Run, scene: &SceneId| -> Vec<(bool, String)> {
+            let own = run.cases.iter().filter(|case| case.scene == *scene);
             own.map(|case| (case.is_reference, case.name())).collect()
         };
         let lists = parts.iter().flat_map(|part| {
@@ -45,7 +45,7 @@ impl CaseOrder {
         }
     }
 
-    fn of_scene(&self, scene: &str) -> usize {
+    fn of_scene(&self, scene: &SceneId) -> usize {
         let found = self.scenes.iter().position(|(_, name)| name == scene);
         found.unwrap_or(self.scenes.len())
     }
@@ -73,9 +73,7 @@ impl CaseOrder {
     /// Frame after frame, and of each its filters.
     pub(super) fn of_failure(&self, failure: &Failure) -> impl Ord + use<> {
         let name = self.of_name(false, &failure.filter);
-        // A later frame is called after its scene: `fan/0001`.
-        let scene = Path::new(&failure.scene).iter().next().unwrap_or_default();
-        let scene = self.of_scene(&scene.to_string_lossy());
+        let scene = self.of_scene(&failure.scene.at_frame(0));
         (scene, failure.scene.clone(), name)
     }
 

@@ -3,16 +3,18 @@
 use std::collections::{BTreeSet, HashMap};
 
 use frame::Alignment;
+use tracer::SceneId;
 
 use crate::Error;
+use crate::identity::FilterId;
 use crate::merge::run_part::RunPart;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 
 /// Refuses two cases of one scene and shutter that were measured against different truths, or with different exposures.
 pub(super) fn check_truths(cases: &[(Case, &RunPart)]) -> Result<(), Error> {
-    let mut truths: HashMap<(&str, Alignment), &(Case, &RunPart)> = HashMap::new();
-    let mut exposures: HashMap<&str, &(Case, &RunPart)> = HashMap::new();
+    let mut truths: HashMap<(&SceneId, Alignment), &(Case, &RunPart)> = HashMap::new();
+    let mut exposures: HashMap<&SceneId, &(Case, &RunPart)> = HashMap::new();
     for found in cases {
         let (case, part) = found;
         let (first, first_part) = truths.entry((&case.scene, case.alignment)).or_insert(found);
@@ -46,44 +48,35 @@ pub(super) fn check_complete(
             .map(|(case, _)| case)
             .filter(|case| case.drawn.is_none())
     };
-    let scenes: BTreeSet<&str> = rendered().map(|case| case.scene.as_str()).collect();
-    let mut names: BTreeSet<(bool, String, Alignment)> = BTreeSet::new();
-    let mut found: BTreeSet<(&str, bool, String, Alignment)> = BTreeSet::new();
-    for case in rendered() {
-        names.insert((case.is_reference, case.name(), case.alignment));
-        found.insert((&case.scene, case.is_reference, case.name(), case.alignment));
-    }
-    for (failure, _) in failures {
-        found.insert((
-            &failure.scene,
-            false,
-            failure.filter.clone(),
-            failure.alignment,
-        ));
-    }
-    let has_references =
-        |alignment: Alignment| names.iter().any(|name| name.0 && name.2 == alignment);
-    let shutters = names.iter().filter(|name| !name.0).map(|name| name.2);
-    let shutters: BTreeSet<Alignment> = shutters
+    let scenes: BTreeSet<&SceneId> = rendered().map(|case| &case.scene).collect();
+    let names: BTreeSet<FilterId> = rendered().map(|case| case.filter_id()).collect();
+    let found: BTreeSet<(&SceneId, FilterId)> = rendered()
+        .map(|case| (&case.scene, case.filter_id()))
+        .chain(
+            failures
+                .iter()
+                .map(|(failure, _)| (&failure.scene, failure.filter_id())),
+        )
+        .collect();
+    let has_references = |alignment: &Alignment| {
+        (names.iter()).any(|name| name.is_reference && name.alignment == *alignment)
+    };
+    let shutters = names.iter().filter(|name| !name.is_reference);
+    let shutters: BTreeSet<Alignment> = (shutters.map(|name| name.alignment))
         .chain((!names.is_empty()).then_some(common))
         .collect();
-    if let Some(missing) = shutters
-        .into_iter()
-        .find(|alignment| !has_references(*alignment))
-    {
+    if let Some(missing) = shutters.iter().find(|alignment| !has_references(alignment)) {
         return Err(Error::Usage(format!(
             "no part holds the references of the {missing} shutter; add the part with the references, measured with the same \
              filters"
         )));
     }
-    for scene in &scenes {
-        for (is_reference, name, alignment) in &names {
-            if !found.contains(&(scene, *is_reference, name.clone(), *alignment)) {
-                return Err(Error::Usage(format!(
-                    "no part holds {scene} / {name} ({alignment} shutter), which other scenes have; add the part that measured it"
-                )));
-            }
-        }
+    let mut all = (scenes.iter()).flat_map(|scene| names.iter().map(|name| (*scene, name.clone())));
+    if let Some((scene, missing)) = all.find(|one| !found.contains(one)) {
+        return Err(Error::Usage(format!(
+            "no part holds {scene} / {} ({} shutter), which other scenes have; add the part that measured it",
+            missing.name, missing.alignment
+        )));
     }
     Ok(())
 }

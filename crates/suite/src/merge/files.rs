@@ -44,27 +44,26 @@ fn check_pictures(part: &RunPart, files: &Files) -> Result<(), Error> {
 }
 
 /// Lists the cases of a run, and of all frames of its sequences, each as the folder of its scene, its own folder, and its shutter.
-fn list_cases(run: &Run) -> impl Iterator<Item = (&Path, &Path, Alignment)> {
-    let cases =
-        (run.cases.iter()).map(|case| (Path::new(&case.scene), &*case.folder, case.alignment));
+fn list_cases(run: &Run) -> impl Iterator<Item = (PathBuf, &Path, Alignment)> {
+    let cases = (run.cases.iter()).map(|case| (case.scene.folder(), &*case.folder, case.alignment));
     let frames = run.sequences.iter().flat_map(|sequence| {
         let frames = sequence.frames.iter();
-        frames.map(|frame| (&*frame.scene, &*frame.folder, sequence.alignment))
+        frames.map(|frame| (frame.scene.clone(), &*frame.folder, sequence.alignment))
     });
     cases.chain(frames)
 }
 
 /// Lists the files of a run's scenes and cases, and those that were rendered for them, relative to `run.json`.
 fn list_files(part: &RunPart) -> Result<Vec<PathBuf>, Error> {
-    let mut folders: BTreeSet<&Path> = BTreeSet::new();
+    let mut folders: BTreeSet<PathBuf> = BTreeSet::new();
     for (scene, case, _) in list_cases(&part.run) {
-        folders.extend([scene, case]);
+        folders.extend([scene, case.to_owned()]);
     }
     let mut files: BTreeSet<PathBuf> = (list_renders(&part.folder)?.into_iter())
-        .filter(|render| folders.contains(Path::new(&render.folder)))
+        .filter(|render| folders.contains(&render.scene.folder()))
         .map(|render| render.path())
         .collect();
-    for below in folders {
+    for below in &folders {
         let names = list_names(&part.folder.join(below))?.into_iter();
         files.extend(names.map(|name| below.join(name)));
     }

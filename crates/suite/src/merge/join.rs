@@ -2,8 +2,6 @@
 
 use std::collections::HashMap;
 
-use frame::Alignment;
-
 use crate::Error;
 use crate::merge::case_order::CaseOrder;
 use crate::merge::checks::{check_complete, check_truths};
@@ -11,7 +9,6 @@ use crate::merge::run_part::RunPart;
 use crate::render::settings::list_settings;
 use crate::run::Run;
 use crate::run::case::Case;
-use crate::run::case_key::key;
 use crate::run::failure::Failure;
 use crate::run::sequence::Sequence;
 use crate::stats::overall::overall;
@@ -27,10 +24,14 @@ pub(super) fn join_runs(parts: &[RunPart]) -> Result<Run, Error> {
         check_settings(first, other)?;
     }
     let adapter = find_adapter(parts)?;
-    let mut cases = join(parts, |run| &run.cases, key)?;
+    let mut cases = join(parts, |run| &run.cases, |case| case.of_preset())?;
     check_truths(&cases)?;
     let mut failures = join(parts, |run| &run.failures, text_of)?;
-    let mut sequences = join(parts, |run| &run.sequences, sequence_key)?;
+    let mut sequences = join(
+        parts,
+        |run| &run.sequences,
+        |own| (own.scene.clone(), own.filter_id()),
+    )?;
     check_complete(&cases, &failures, first.run.common_alignment)?;
     let order = CaseOrder::new(parts);
     cases.sort_by_key(|(case, _)| order.of_case(case));
@@ -149,7 +150,7 @@ trait Joined: serde::Serialize {
 
 impl Joined for Case {
     fn label(&self) -> String {
-        format!("{} / {}", self.scene, self.name())
+        self.id.to_string()
     }
 }
 
@@ -167,13 +168,4 @@ impl Joined for Failure {
 
 fn text_of(one: &impl serde::Serialize) -> String {
     serde_json::to_string(one).expect("a run is plain data")
-}
-
-fn sequence_key(sequence: &Sequence) -> (String, String, Alignment, bool) {
-    (
-        sequence.scene.clone(),
-        sequence.filter.clone(),
-        sequence.alignment,
-        sequence.is_reference,
-    )
 }

@@ -136,7 +136,7 @@ fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
 fn list_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> BTreeSet<String> {
     let (has_frame, has_truths) =
         find_kept(scene, &plan.render, alignments, plan.ladders, &plan.out);
-    let name = &scene.name;
+    let name = &scene.id;
     let frame = (!has_frame).then(|| format!("frame of {name}"));
     let truths = (alignments.iter().zip(has_truths)).filter(|(_, is_there)| !is_there);
     let truths = truths.map(|(alignment, _)| format!("{alignment} truth of {name}"));

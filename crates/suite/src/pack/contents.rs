@@ -5,6 +5,7 @@ use std::path::Path;
 
 use frame::{Alignment, ExrFile, read_exr_header, truth_hash};
 use store::{PackedFile, RenderFile, RenderPath};
+use tracer::SceneId;
 
 use crate::Error;
 use crate::render::ladders::needed_rungs;
@@ -13,8 +14,7 @@ use crate::run::case::ACCUMULATE;
 
 /// The truths of one scene, or of a later frame of it.
 struct KeptScene {
-    /// Folder of its files below that of the run: `fan` or `fan/0003`.
-    folder: String,
+    scene: SceneId,
     /// Alignments of its truths, each with the `truth_hash` of the cases that were measured against it; none where no case was.
     truths: BTreeMap<Alignment, Option<String>>,
     /// Alignments that the run has accumulations of several sub-frames of: those whose whole ladder was rendered.
@@ -41,7 +41,7 @@ pub(super) fn list_contents(
 
 /// Lists the chosen scenes and their later frames; leaves out those that engines drew, which have their truths elsewhere.
 fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
-    let mut truths: BTreeMap<&str, BTreeMap<Alignment, Option<String>>> = BTreeMap::new();
+    let mut truths: BTreeMap<&SceneId, BTreeMap<Alignment, Option<String>>> = BTreeMap::new();
     for case in run.cases.iter().filter(|case| case.drawn.is_none()) {
         let alignment = case.alignment;
         let own = truths.entry(&case.scene).or_default();
@@ -57,22 +57,17 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
         }
     }
     let mut scenes = Vec::new();
-    for name in chosen {
-        let Some(own) = truths.get(name.as_str()) else {
-            continue;
-        };
+    let is_chosen = |scene: &SceneId| chosen.contains(&scene.to_string());
+    for (scene, own) in (truths.iter()).filter(|(scene, _)| is_chosen(scene)) {
         let alignments: BTreeSet<Alignment> =
             own.keys().copied().chain([run.common_alignment]).collect();
         let ladders: BTreeSet<Alignment> = (alignments.iter().copied())
-            .filter(|alignment| has_accumulation(run, name, *alignment))
+            .filter(|alignment| has_accumulation(run, scene, *alignment))
             .collect();
         for frame in 0..run.frames.count {
             let hash = |alignment| own.get(&alignment).cloned().flatten();
             scenes.push(KeptScene {
-                folder: match frame {
-                    0 => name.clone(),
-                    later => format!("{name}/{later:04}"),
-                },
+                scene: scene.at_frame(frame),
                 // Cases of later frames are not in run.json.
                 truths: (alignments.iter())
                     .map(|&alignment| (alignment, hash(alignment).filter(|_| frame == 0)))
@@ -91,12 +86,12 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
 }
 
 /// Tells whether a run compares with accumulations of several sub-frames in a scene, for one alignment.
-fn has_accumulation(run: &Run, scene: &str, alignment: Alignment) -> bool {
+fn has_accumulation(run: &Run, scene: &SceneId, alignment: Alignment) -> bool {
     (run.cases.iter()).any(|case| {
         case.is_reference
             && case.filter == ACCUMULATE
             && !case.is_sharp()
-            && case.scene == scene
+            && case.scene == *scene
             && case.alignment == alignment
     })
 }
@@ -109,8 +104,8 @@ fn add_scene(
     files: &mut Vec<PackedFile>,
 ) -> Result<(), Error> {
     let found = |file| {
-        let folder = scene.folder.clone();
-        read_kept(root, &RenderPath { folder, file })
+        let scene = scene.scene.clone();
+        read_kept(root, &RenderPath { scene, file })
     };
     files.push(found(RenderFile::Frame)?);
     for (&alignment, hash) in &scene.truths {

@@ -29,7 +29,7 @@ pub fn render_frame(
     }
     own.check_frame(scene)?;
     check_memory(scene, settings, settings.replicates)?;
-    let label = format!("{} frame", scene.name);
+    let label = format!("{} frame", scene.id);
     let frame = monitor.watch(&label, |watch| tracer::trace_frame(scene, &own, watch))?;
     assert_eq!(
         frame.provenance.content_hash, hash,

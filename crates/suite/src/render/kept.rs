@@ -19,7 +19,7 @@ pub(crate) fn list_render_files(
 ) -> Vec<Wanted> {
     let wanted = |file, hash: &str| Wanted {
         path: RenderPath {
-            folder: scene.name.clone(),
+            scene: scene.id.clone(),
             file,
         },
         hash: hash.to_owned(),

@@ -91,7 +91,7 @@ impl<'a> LadderFiles<'a> {
     fn render(&self, subframes: u32, monitor: Monitor) -> Result<(), Error> {
         let label = format!(
             "{} {subframes} sub-frames, {}",
-            self.scene.name, self.truth.alignment
+            self.scene.id, self.truth.alignment
         );
         let rung = monitor.watch(&label, |watch| self.tracer()?.trace(subframes, watch))?;
         assert_eq!(

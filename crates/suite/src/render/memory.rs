@@ -7,38 +7,25 @@ use tracer::{RenderSettings, Scene};
 use crate::Error;
 
 /// Memory of the program without any picture, in bytes.
-const PROGRAM: u64 = 80 << 20;
-/// Bytes per pixel of a truth, beside its replicates and coverages. This number and the next ones are measured slopes of the largest
-/// resident size of `render` and `run`, between 512x512 and 1024x1024 pixels and between 6 and 11 coverages.
-const PER_PIXEL: u64 = 400;
-/// Bytes per pixel and coverage.
-const PER_COVERAGE: u64 = 27;
-/// Bytes per pixel and replicate: its colour, its reference to the instant, and its support.
-const PER_REPLICATE: u64 = 55;
-/// Bytes per pixel, replicate and coverage.
-const PER_REPLICATE_COVERAGE: u64 = 3;
-/// Bytes per pixel of a frame's guard band.
-const PER_BAND_PIXEL: u64 = 300;
-/// Bytes per pixel of the guard band and coverage.
-const PER_BAND_COVERAGE: u64 = 30;
+const PROGRAM: u64 = 136 << 20;
+/// Bytes per pixel of a picture beside its coverages: fourteen floats for its colour, its samples, and what is known of the instant.
+const PER_PIXEL: u64 = 56 + 2;
+/// Bytes per pixel of a coverage: a float, and the mask of its support.
+const PER_COVERAGE: u64 = 4 + 1;
 /// Bytes per triangle of a scene while its trees are built.
 const PER_TRIANGLE: u64 = 600;
 /// Bytes per object and thread: its pose now and at the instant.
 const PER_POSE: u64 = 500;
 
-/// Memory of measuring without any picture, in bytes.
-const MEASURING: u64 = 136 << 20;
-/// Bytes per pixel of a frame, of the truth that filters are measured by, and of the case that is measured, beside their coverages,
-/// for any number of replicates.
-const PER_MEASURED_PIXEL: u64 = 780;
-/// Bytes per such pixel and coverage.
-const PER_MEASURED_COVERAGE: u64 = 43;
-/// Bytes per pixel of the colours of a further truth.
-const PER_FURTHER_TRUTH: u64 = 330;
-/// Bytes per pixel of a further form of the frame, beside its coverages: what its rasters hold.
-const PER_FURTHER_FORM: u64 = 32;
-/// Bytes per such pixel and coverage.
-const PER_FURTHER_FORM_COVERAGE: u64 = 4;
+/// Pictures that a truth takes beside its replicates. This number and the next ones bound the largest resident sizes of `render` and
+/// `run` that were measured, from 512x512 to 1024x1024 pixels and from 6 to 11 coverages: its mean, its halves, and what is written of it to a file.
+const PICTURES_OF_TRUTH: u64 = 7;
+/// Pictures that the guard band of a frame takes.
+const PICTURES_OF_BAND: u64 = 6;
+/// Pictures of a frame, of the truth that filters are measured by, and of the case that is measured, for any number of replicates.
+const PICTURES_MEASURED: u64 = 14;
+/// Pictures without coverages that the colours of a further truth take.
+const COLORS_OF_FURTHER_TRUTH: u64 = 6;
 
 /// Refuses to render a frame, and a truth of a number of replicates, where memory does not suffice. Refuses nothing where the
 /// system does not tell what is free.
@@ -74,13 +61,10 @@ pub(crate) fn measuring_memory(
     forms: usize,
 ) -> u64 {
     let pixels = u64::from(settings.width) * u64::from(settings.height);
-    let coverages = count_coverages(scene);
-    let further_truths = PER_FURTHER_TRUTH * truths.saturating_sub(1) as u64;
-    let form = PER_FURTHER_FORM + PER_FURTHER_FORM_COVERAGE * coverages;
-    let further_forms = form * forms.saturating_sub(1) as u64;
-    let further = further_truths + further_forms;
-    let pixel = PER_MEASURED_PIXEL + PER_MEASURED_COVERAGE * coverages + further;
-    let measuring = MEASURING.saturating_add(pixels.saturating_mul(pixel));
+    let further_forms = forms.saturating_sub(1) as u64;
+    let further_colors = COLORS_OF_FURTHER_TRUTH * truths.saturating_sub(1) as u64;
+    let pixel = (PICTURES_MEASURED + further_forms) * per_pixel(scene) + further_colors * PER_PIXEL;
+    let measuring = PROGRAM.saturating_add(pixels.saturating_mul(pixel));
     measuring.max(rendering_memory(scene, settings, settings.replicates))
 }
 
@@ -89,7 +73,7 @@ fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> 
         Some(free) if free < needed => Err(Error::Usage(format!(
             "scene {}: needs about {} for {}x{} pixels of color and {} coverages, {} are free; choose a smaller size, \
              fewer replicates or a scene of fewer objects, or free memory",
-            scene.name,
+            scene.id,
             gibibytes(needed),
             settings.width,
             settings.height,
@@ -105,6 +89,11 @@ fn count_coverages(scene: &Scene) -> u64 {
     scene.objects.len() as u64 + 1
 }
 
+/// Bounds the bytes per pixel of one picture with its coverages.
+fn per_pixel(scene: &Scene) -> u64 {
+    PER_PIXEL + PER_COVERAGE * count_coverages(scene)
+}
+
 /// Estimates the largest resident size of a render, in bytes.
 fn rendering_memory(scene: &Scene, settings: &RenderSettings, replicates: u32) -> u64 {
     let area = |band: u32| {
@@ -113,18 +102,14 @@ fn rendering_memory(scene: &Scene, settings: &RenderSettings, replicates: u32) -
     };
     let pixels = area(0);
     let band = area(settings.guard_band) - pixels;
-    let coverages = count_coverages(scene);
-    let replicate = PER_REPLICATE + PER_REPLICATE_COVERAGE * coverages;
-    let pixel =
-        PER_PIXEL + PER_COVERAGE * coverages + u64::from(replicates).saturating_mul(replicate);
-    let band_pixel = PER_BAND_PIXEL + PER_BAND_COVERAGE * coverages;
+    let pictures = PICTURES_OF_TRUTH.saturating_add(u64::from(replicates));
     let triangles: usize = scene.meshes.iter().map(|mesh| mesh.triangles.len()).sum();
     let threads = rayon::current_num_threads() as u64;
     [
-        pixels.saturating_mul(pixel),
-        band.saturating_mul(band_pixel),
+        pixels.saturating_mul(pictures.saturating_mul(per_pixel(scene))),
+        band.saturating_mul(PICTURES_OF_BAND * per_pixel(scene)),
         triangles as u64 * PER_TRIANGLE,
-        threads * coverages * PER_POSE,
+        threads * count_coverages(scene) * PER_POSE,
     ]
     .into_iter()
     .fold(PROGRAM, u64::saturating_add)

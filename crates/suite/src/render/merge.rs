@@ -136,7 +136,7 @@ fn check_replicates(truth: &RenderPath, replicates: &[Replicate]) -> Result<(), 
     }
     let one = &replicates[0];
     let home = RenderPath {
-        folder: one.provenance.scene.clone(),
+        scene: one.provenance.scene.parse().map_err(Error::Usage)?,
         file: RenderFile::Truth(one.alignment),
     };
     if *truth != home {

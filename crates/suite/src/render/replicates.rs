@@ -59,7 +59,7 @@ impl ReplicateFiles {
                 Some(tracer) => tracer,
                 none => none.insert(TruthTracer::new(scene, settings, &[self.alignment])?),
             };
-            let label = format!("{} {}, replicate {index}", scene.name, self.alignment);
+            let label = format!("{} {}, replicate {index}", scene.id, self.alignment);
             for replicate in monitor.watch(&label, |watch| tracer.trace(index, watch))? {
                 replicate.write(&self.path(index))?;
                 replicates.push(replicate);

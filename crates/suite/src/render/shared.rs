@@ -77,10 +77,7 @@ impl<'a> SharedReplicates<'a> {
                 Some(tracer) => tracer,
                 none => none.insert(TruthTracer::new(self.scene, &self.settings, &SHARED)?),
             };
-            let label = format!(
-                "{} trailing and centred, replicate {index}",
-                self.scene.name
-            );
+            let label = format!("{} trailing and centred, replicate {index}", self.scene.id);
             let replicates = monitor.watch(&label, |watch| tracer.trace(index, watch))?;
             for (files, replicate) in self.files.iter().zip(replicates) {
                 replicate.write(&files.path(index))?;

@@ -1,17 +1,16 @@
 //! A case: one picture of a scene, with its scores.
 
 use std::collections::BTreeMap;
+use std::ops::Deref;
 use std::path::PathBuf;
 
 use filters::{Convention, Value};
-use frame::Alignment;
 use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
 use serde::{Deserialize, Serialize};
-use tracer::{Family, FrameRate};
+use tracer::{Family, FrameRate, SceneId};
 
-use crate::InputFormat;
 use crate::engine_scene::engine_name;
-use crate::filter::choice::overrides_text;
+use crate::identity::CaseId;
 use crate::render::ladders::SHARP;
 
 /// Confidence intervals of scores.
@@ -20,8 +19,9 @@ pub type Intervals = BTreeMap<Metric, Interval>;
 /// One filter preset, or one reference picture, on one scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Case {
-    /// Scene, with its variant and its frame rate: `sliding_panel@64px_45deg`, `fan@144fps`.
-    pub scene: String,
+    /// Identity.
+    #[serde(flatten)]
+    pub id: CaseId,
     /// The scene's family; none of a scene that an engine drew.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family: Option<Family>,
@@ -35,20 +35,8 @@ pub struct Case {
     pub rate: Option<FrameRate>,
     /// Exposure in frames.
     pub exposure: f64,
-    /// Filter name; of a reference picture [`IDENTITY`], [`SCATTER_ORACLE`] or [`ACCUMULATE`].
-    pub filter: String,
-    /// The preset that the parameters started from; of `accumulate` the number of sub-frames.
-    pub preset: String,
-    /// True for a reference picture that filters are compared with: no filter made it, and no bound limits it.
-    #[serde(rename = "bar")]
-    pub is_reference: bool,
-    /// Form in which the filter got the frame.
-    pub input: InputFormat,
     /// Every parameter's value.
     pub parameters: BTreeMap<String, Value>,
-    /// Parameters that `--set` gave a value of their own.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub overrides: BTreeMap<String, Value>,
     /// Width of the pictures that the preset was made for, from which values in pixels were scaled to this run's; none where
     /// the preset names none, or values were left as written.
     #[serde(default)]
@@ -63,8 +51,6 @@ pub struct Case {
     /// Dependence of the filter's weights on colour: the difference between the blur of a mixture and the mixture of the blurs,
     /// relative to what the blur changes; none for reference pictures.
     pub nonlinearity: Option<f64>,
-    /// The shutter alignment that the filter declares and is scored against.
-    pub alignment: Alignment,
     /// Hash of the truth's inputs: equal hashes mean equal truths.
     pub truth_hash: String,
     /// The measured scores, each with its noise floor.
@@ -86,7 +72,7 @@ pub struct Drawn {
     /// Engine and version.
     pub engine: String,
     /// Scene of the suite that it drew.
-    pub scene: Option<String>,
+    pub scene: Option<SceneId>,
     /// Number of sub-frames that the truth is the mean of.
     pub subframes: u32,
     /// Distance that 99 % of the moving pixels move at most between two of them, in pixels.
@@ -105,31 +91,18 @@ impl Drawn {
 }
 
 impl Case {
-    /// Names the case as tables and folders do: `jump_flood:paper`, followed by what is not as usual.
-    pub fn name(&self) -> String {
-        self.name_with(&overrides_text(&self.overrides))
-    }
-
     /// Tells whether it is the reference that is a sharp picture of the shutter's middle, where the frame is not that.
     pub fn is_sharp(&self) -> bool {
         self.is_reference && self.filter == ACCUMULATE && self.preset == SHARP.to_string()
     }
+}
 
-    /// Names the case without its overrides, so that runs with and without them compare.
-    pub fn preset_name(&self) -> String {
-        self.name_with("")
-    }
+/// A case is its identity, with scores.
+impl Deref for Case {
+    type Target = CaseId;
 
-    fn name_with(&self, overrides: &str) -> String {
-        let mut name = match self.preset.as_str() {
-            "" => self.filter.clone(),
-            preset => format!("{}:{preset}", self.filter),
-        };
-        name += overrides;
-        if let Some(change) = self.input.change() {
-            name += &format!(" {change}");
-        }
-        name
+    fn deref(&self) -> &CaseId {
+        &self.id
     }
 }
 

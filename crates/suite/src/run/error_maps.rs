@@ -68,7 +68,7 @@ impl<'a> ErrorMaps<'a> {
 
     fn measure_again(&self) -> Result<Measurement, Error> {
         let Self { case, folder, .. } = self;
-        let scene = folder.join(&case.scene);
+        let scene = folder.join(case.scene.folder());
         let frame = Frame::read(&scene.join("frame.exr"))?.cropped();
         let truth = Truth::read(&scene.join(format!("truth_{}.exr", case.alignment)))?;
         let output = read_exr(&folder.join(&case.folder).join("output.exr"))?;

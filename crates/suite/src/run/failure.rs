@@ -2,20 +2,33 @@
 
 use frame::Alignment;
 use serde::{Deserialize, Serialize};
+use tracer::SceneId;
 
 use crate::Error;
+use crate::identity::FilterId;
 
 /// One filter preset that failed on one scene.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
-    /// Scene, with its variant.
-    pub scene: String,
+    /// Scene.
+    pub scene: SceneId,
     /// `filter:preset`, and behind that the form of its input where that is not the default.
     pub filter: String,
     /// The shutter alignment that the filter declares.
     pub alignment: Alignment,
     /// The error, and its place.
     pub reason: String,
+}
+
+impl Failure {
+    /// Returns the identity of the filter.
+    pub fn filter_id(&self) -> FilterId {
+        FilterId {
+            is_reference: false,
+            name: self.filter.clone(),
+            alignment: self.alignment,
+        }
+    }
 }
 
 /// Returns the error that ends a command whose run has failures.

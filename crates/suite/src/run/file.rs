@@ -55,12 +55,11 @@ fn parse(text: &str) -> Result<Run, String> {
     run.sequences.iter().try_for_each(check_sequence)?;
     let mut folders = HashSet::new();
     for case in &run.cases {
-        check_case(case).map_err(|reason| format!("{} / {}: {reason}", case.scene, case.name()))?;
+        check_case(case).map_err(|reason| format!("{}: {reason}", case.id))?;
         if !folders.insert(&case.folder) {
             return Err(format!(
-                "{} / {}: folder \"{}\" belongs to two cases; allowed: one case each",
-                case.scene,
-                case.name(),
+                "{}: folder \"{}\" belongs to two cases; allowed: one case each",
+                case.id,
                 case.folder.display()
             ));
         }
@@ -94,10 +93,9 @@ fn check_settings(run: &Run) -> Result<(), String> {
 }
 
 fn check_case(case: &Case) -> Result<(), String> {
-    if !(is_below(Path::new(&case.scene)) && is_below(&case.folder)) {
+    if !is_below(&case.folder) {
         return Err(format!(
-            "scene \"{}\", folder \"{}\": a case lies in a folder below run.json, and nowhere else",
-            case.scene,
+            "folder \"{}\": a case lies in a folder below run.json, and nowhere else",
             case.folder.display()
         ));
     }

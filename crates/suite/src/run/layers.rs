@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, ExrFile, Frame, Truth, read_exr, write_exr};
 use metrics::ErrorMap;
-use tracer::{Progress, TraceError, Watch};
+use tracer::{Progress, SceneId, TraceError, Watch};
 
 use super::Run;
 use super::case::Case;
@@ -50,7 +50,7 @@ pub fn write_layers(
 
 /// Files that all cases of one scene and alignment share.
 struct Inputs {
-    scene: String,
+    scene: SceneId,
     alignment: Alignment,
     frame: Frame,
     truth: Truth,
@@ -58,7 +58,7 @@ struct Inputs {
 
 impl Inputs {
     fn read(case: &Case, folder: &Path) -> Result<Self, Error> {
-        let files = folder.join(&case.scene);
+        let files = folder.join(case.scene.folder());
         Ok(Self {
             scene: case.scene.clone(),
             alignment: case.alignment,

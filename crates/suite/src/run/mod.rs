@@ -1,7 +1,6 @@
 //! A finished run: its data, and the files that hold it.
 
 pub mod case;
-pub mod case_key;
 mod case_scores;
 pub mod error_maps;
 pub mod failure;

@@ -5,6 +5,8 @@ use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use tracer::FrameRate;
 
+use crate::identity::FilterId;
+
 /// One metric of one filter preset, or of one reference picture, over the scenes that it applies to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Overall {
@@ -31,7 +33,15 @@ pub struct Overall {
 impl Overall {
     /// Tells whether both are of one filter preset or reference picture, at one frame rate.
     pub fn is_of_same(&self, other: &Self) -> bool {
-        let key = |own: &Self| (own.is_reference, own.filter.clone(), own.alignment);
-        key(self) == key(other) && self.rate == other.rate
+        self.filter_id() == other.filter_id() && self.rate == other.rate
+    }
+
+    /// Returns the identity of the filter or reference.
+    pub fn filter_id(&self) -> FilterId {
+        FilterId {
+            is_reference: self.is_reference,
+            name: self.filter.clone(),
+            alignment: self.alignment,
+        }
     }
 }

@@ -6,9 +6,10 @@ use std::path::PathBuf;
 use frame::Alignment;
 use metrics::{Metric, SequenceScores};
 use serde::{Deserialize, Serialize};
-use tracer::FrameRate;
+use tracer::SceneId;
 
 use super::case::Intervals;
+use crate::identity::{CaseId, FilterId};
 
 /// Upper limit on the frames of a sequence.
 pub const MOST_FRAMES: u32 = 1000;
@@ -16,8 +17,8 @@ pub const MOST_FRAMES: u32 = 1000;
 /// The pictures of one filter preset, or of one reference, over all frames of a scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Sequence {
-    /// Scene, with its variant.
-    pub scene: String,
+    /// Scene.
+    pub scene: SceneId,
     /// `filter:preset`, and behind that the form of its input where that is not the default.
     pub filter: String,
     /// True for a reference picture.
@@ -35,6 +36,22 @@ pub struct Sequence {
     pub worst_frames: BTreeMap<Metric, u32>,
     /// Frames, from the first on.
     pub frames: Vec<SequenceFrame>,
+}
+
+impl Sequence {
+    /// Returns the identity of the filter or reference.
+    pub fn filter_id(&self) -> FilterId {
+        FilterId {
+            is_reference: self.is_reference,
+            name: self.filter.clone(),
+            alignment: self.alignment,
+        }
+    }
+
+    /// Tells whether it starts with a case.
+    pub fn is_of(&self, case: &CaseId) -> bool {
+        self.scene == case.scene && self.filter_id() == case.filter_id()
+    }
 }
 
 /// One picture of a sequence. Its `case.json` has all scores of the single frame.
@@ -73,9 +90,9 @@ impl Default for Frames {
 
 impl Frames {
     /// Returns the frames per second at which a scene is shown: those of its frame rate, or the run's for a scene as its file says.
-    pub fn shown(&self, scene: &str) -> f64 {
-        let rate = FrameRate::of_name(scene).unwrap_or_default();
-        match rate.per_second == FrameRate::WRITTEN.per_second {
+    pub fn shown(&self, scene: &SceneId) -> f64 {
+        let rate = scene.rate.unwrap_or_default();
+        match rate.per_second == tracer::FrameRate::WRITTEN.per_second {
             true => self.per_second,
             false => rate.per_second,
         }

@@ -90,12 +90,12 @@ fn settings_of(own: &SequenceTruth) -> RenderSettings {
 /// Refuses a truth of another scene: its motion, which the scores follow, would be another.
 fn check_scene(scene: &Scene, settings: &RenderSettings, own: &SequenceTruth) -> Result<(), Error> {
     let provenance = &own.truth.provenance;
-    if provenance.scene != scene.name {
+    if scene.id != provenance.scene.as_str() {
         return Err(Error::Usage(format!(
             "{}: is the truth of {}; needed: that of {}",
             own.path.display(),
             provenance.scene,
-            scene.name
+            scene.id
         )));
     }
     match truth_hash(scene, settings, own.truth.alignment) == provenance.content_hash {
@@ -104,7 +104,7 @@ fn check_scene(scene: &Scene, settings: &RenderSettings, own: &SequenceTruth) ->
             "{}: was rendered from other files of the scene {}, or by another version of this program, and the scores of a sequence \
              follow the scene's motion; render frames and truths again",
             own.path.display(),
-            scene.name
+            scene.id
         ))),
     }
 }

@@ -48,8 +48,7 @@ pub fn rank_filters(overall: &[Overall], metric: Metric) -> Vec<Vec<&Overall>> {
 
 /// Tells whether both are of the same filter preset or reference picture, at the same frame rate.
 fn are_of_one(a: &Case, b: &Case) -> bool {
-    let key = |case: &Case| (case.is_reference, case.name(), case.alignment);
-    key(a) == key(b) && a.rate == b.rate
+    a.filter_id() == b.filter_id() && a.rate == b.rate
 }
 
 fn mean(own: &[&Case], metric: Metric, all: &[Case]) -> Option<Overall> {

@@ -141,7 +141,7 @@ fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>
         return Err(Error::Broken(format!(
             "{}: there is no truth_{alignment}.exr beside it, without which a ladder cannot be traced again; render {} again",
             work.shown(&ladder).display(),
-            work.scene.name
+            work.scene.id
         )));
     }
     let Some(first) = work.kept.replicates(alignment).pop_first() else {

@@ -4,17 +4,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use frame::Alignment;
-use store::{RenderFile, list_renders};
+use store::{RenderFile, RenderPath, list_renders};
+use tracer::SceneId;
 
 use crate::Error;
 
 /// The kept frame, truths, replicates and ladders of one scene, or of a later frame of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeptScene {
-    /// Name of the scene, with its variant.
-    pub scene: String,
-    /// Frame of the scene's own clock.
-    pub frame: u32,
+    /// Scene, of which the frame may be a later one.
+    pub scene: SceneId,
     /// Folder of its files.
     pub folder: PathBuf,
     /// Name of this folder in messages: that in a pack, for files that were unpacked somewhere.
@@ -28,19 +27,15 @@ pub struct KeptScene {
 /// # Errors
 /// The folder cannot be read, or holds no frame and no truth.
 pub fn list_kept_scenes(root: &Path, shown: &Path) -> Result<Vec<KeptScene>, Error> {
-    let mut kept: BTreeMap<(String, u32), KeptScene> = BTreeMap::new();
-    for render in list_renders(root)? {
-        let (scene, frame) = render.scene();
-        let own = kept
-            .entry((scene.to_owned(), frame))
-            .or_insert_with(|| KeptScene {
-                scene: scene.to_owned(),
-                frame,
-                folder: root.join(&render.folder),
-                shown: shown.join(&render.folder),
-                files: BTreeSet::new(),
-            });
-        own.files.insert(render.file);
+    let mut kept: BTreeMap<SceneId, KeptScene> = BTreeMap::new();
+    for RenderPath { scene, file } in list_renders(root)? {
+        let own = kept.entry(scene).or_insert_with_key(|scene| KeptScene {
+            scene: scene.clone(),
+            folder: root.join(scene.folder()),
+            shown: shown.join(scene.folder()),
+            files: BTreeSet::new(),
+        });
+        own.files.insert(file);
     }
     match kept.is_empty() {
         false => Ok(kept.into_values().collect()),

@@ -23,7 +23,7 @@ pub(super) fn trace_frame_tiles(
     let mut tiles = Vec::new();
     for _ in 0..work.verification.tiles {
         let tile = chance.tile(width, height);
-        let label = format!("verifying {}, frame", work.scene.name);
+        let label = format!("verifying {}, frame", work.scene.id);
         let made = work.monitor.watch(&label, |watch| {
             trace_frame_tile(work.scene, settings, tile, watch)
         })?;
@@ -49,7 +49,7 @@ pub(super) fn trace_replicate_tiles(
         let tile = chance.tile(settings.width, settings.height);
         let label = format!(
             "verifying {}, {} replicate {index}",
-            work.scene.name, files.alignment
+            work.scene.id, files.alignment
         );
         let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(index, tile, watch))?;
         let path = files.path(index);
@@ -83,7 +83,7 @@ pub(super) fn trace_rung_tiles(
         let tile = chance.tile(settings.width, settings.height);
         let label = format!(
             "verifying {}, {rung} sub-frames, {}",
-            work.scene.name, truth.alignment
+            work.scene.id, truth.alignment
         );
         let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(rung, tile, watch))?;
         let path = file(rung);

@@ -76,7 +76,7 @@ impl Work<'_> {
         format!(
             "it was altered, or this processor computes otherwise than the one that rendered it; use none of these files, and render \
              {} again; the choice of tiles had the seed {}",
-            self.scene.name, self.verification.seed
+            self.scene.id, self.verification.seed
         )
     }
 
@@ -100,7 +100,7 @@ impl Work<'_> {
 
     /// Makes the random choices of a file of this scene.
     pub fn chance(&self, name: &str) -> Chance {
-        let name = format!("{} {name}", self.scene.name);
+        let name = format!("{} {name}", self.scene.id);
         Chance::new(self.verification.seed, &name)
     }
 }

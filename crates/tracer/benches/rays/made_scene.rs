@@ -1,13 +1,12 @@
 //! The scene that rays are timed on: a displaced ground and 25 displaced spheres, 540,000 triangles in all.
 
 use std::f64::consts::{PI, TAU};
-use std::path::PathBuf;
 
 use frame::ShutterProfile;
 use glam::{DQuat, DVec3, Vec3};
 use tracer::{
-    Background, Camera, Display, Family, FlipExposures, FrameRate, Key, Material, Mesh, Motion,
-    Object, Parent, Scene, Turn,
+    Background, Camera, Display, Family, Key, Material, Mesh, Motion, Object, Parent, Scene,
+    SceneId, Turn,
 };
 
 /// Quads along each side of the ground.
@@ -43,24 +42,15 @@ pub fn made_scene(moving: bool) -> Scene {
         });
     }
     Scene {
-        name: "made".into(),
-        frame: 0,
+        id: SceneId::new("made", None),
         exposes: "the speed of rays".into(),
         family: Family::Limits,
         exposure: 1.0,
-        rate: FrameRate::WRITTEN,
         written_exposure: 1.0,
         shutter_profile: ShutterProfile::default(),
         width: 1920,
         height: 1080,
-        display: Display {
-            stops: 0.0,
-            flip: FlipExposures {
-                start: -2.0,
-                stop: 2.0,
-                count: 5,
-            },
-        },
+        display: Display::default(),
         camera: Camera {
             motion: Motion::still(Key {
                 translation: DVec3::new(0.0, 9.0, 17.0),
@@ -75,15 +65,8 @@ pub fn made_scene(moving: bool) -> Scene {
         meshes: vec![ground(), sphere()],
         textures: Vec::new(),
         materials: vec![Material {
-            name: "grey".into(),
-            finish: tracer::Finish::Diffuse,
             diffuse: Vec3::splat(0.5),
-            diffuse_texture: None,
-            emission: Vec3::ZERO,
-            emission_texture: None,
-            opacity: 1.0,
-            opacity_texture: None,
-            translucency: None,
+            ..Material::default()
         }],
         objects,
         notes: Vec::new(),
@@ -169,12 +152,9 @@ fn grid(rows: u32, columns: u32, point: impl Fn(f64, f64) -> DVec3) -> Mesh {
         })
         .collect();
     Mesh {
-        path: PathBuf::from("made by the benchmark"),
         positions,
-        normals: Vec::new(),
-        texcoords: Vec::new(),
         slots: vec![0; triangles.len()],
         triangles,
-        shapes: Vec::new(),
+        ..Mesh::default()
     }
 }

@@ -1,16 +1,13 @@
 //! Rays per second. The variants take turns, part by part, and the best of several turns of every part counts, so that
 //! rates hold on a busy machine.
 
-mod arithmetic;
 mod frames;
 mod made_scene;
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use arithmetic::arithmetic;
 use glam::DVec3;
 use made_scene::{SHUTTER, made_scene};
 use tracer::{Ray, Scene, Stage};
@@ -99,15 +96,8 @@ fn print_rates() {
         "\n{triangles} triangles, one thread, {RAYS} rays, best of {TURNS} turns of each of {PARTS} parts, Mray/s"
     );
     println!(
-        "{:10} {:>8} {:>8} {:>14} {:>9} {:>14} {:>12} {:>14}",
-        "",
-        "still",
-        "moving",
-        "still/moving",
-        "portable",
-        "still/portable",
-        "two threads",
-        "of arithmetic"
+        "{:10} {:>8} {:>8} {:>14} {:>9} {:>14}",
+        "", "still", "moving", "still/moving", "portable", "still/portable"
     );
     let portable = Field::new(&scenes[0]).portable();
     for kind in KINDS {
@@ -115,20 +105,13 @@ fn print_rates() {
             &|part| once(|| fields[0].trace(kind, part)),
             &|part| once(|| fields[1].trace(kind, part)),
             &|part| once(|| portable.trace(kind, part)),
-            &|part| twice(|| fields[0].trace(kind, part)),
-            &|_| once(arithmetic),
-            &|_| twice(arithmetic),
         ]);
-        let [once_sums, twice_sums] = [best[4], best[5]].map(|best| best.as_secs_f64());
-        let [still, moving, portable, twice, ..] =
-            best.map(|best| fields[0].rate(kind, best) / 1e6);
+        let [still, moving, portable] = best.map(|best| fields[0].rate(kind, best) / 1e6);
         let name = format!("{kind:?}").to_lowercase();
         println!(
-            "{name:10} {still:8.2} {moving:8.2} {:14.2} {portable:9.2} {:14.2} {:11.2}x {:13.2}x",
+            "{name:10} {still:8.2} {moving:8.2} {:14.2} {portable:9.2} {:14.2}",
             still / moving,
-            still / portable,
-            2.0 * twice / still,
-            2.0 * once_sums / twice_sums
+            still / portable
         );
     }
     let stored: usize = scenes[0]
@@ -148,22 +131,6 @@ fn once(work: impl Fn() -> usize) -> Duration {
     let start = Instant::now();
     black_box(work());
     start.elapsed()
-}
-
-/// Measures the time of some work on the slower of two threads, which both do it and start together.
-fn twice(work: impl Fn() -> usize + Sync) -> Duration {
-    let there = AtomicUsize::new(0);
-    let timed = || {
-        there.fetch_add(1, Ordering::Relaxed);
-        while there.load(Ordering::Relaxed) < 2 {
-            std::hint::spin_loop();
-        }
-        once(&work)
-    };
-    std::thread::scope(|scope| {
-        let other = scope.spawn(timed);
-        timed().max(other.join().expect("no work here panics"))
-    })
 }
 
 /// Measures several works in parts and in turns; returns for each the sum of its parts' shortest times.

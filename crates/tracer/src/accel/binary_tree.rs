@@ -191,7 +191,7 @@ fn union_area(nodes: &[Bvh2Node], one: usize, other: usize) -> f32 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::accel) mod tests {
     use super::*;
 
     const MANY: u32 = 200_000;
@@ -200,6 +200,17 @@ mod tests {
 
     fn cube(centre: f32, size: f32) -> Aabb32 {
         Aabb32::new([centre - size; 3].into(), [centre + size; 3].into())
+    }
+
+    /// Boxes of all sizes here and there.
+    pub(in crate::accel) fn scatter_boxes(count: u32) -> Vec<Aabb32> {
+        let part = |number: u32, step: f32| (number as f32 * step).fract();
+        let scattered = (0..count).map(|index| {
+            let corner = [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|step| part(index, step));
+            let size = 0.5 * part(index, 0.618_034).powi(3);
+            Aabb32::new(corner.into(), corner.map(|least| least + size).into())
+        });
+        scattered.collect()
     }
 
     /// The depth of the optimised tree, in which every box is one leaf.
@@ -258,12 +269,6 @@ mod tests {
 
     #[test]
     fn boxes_here_and_there_make_a_tree_that_is_not_deep() {
-        let part = |number: u32, step: f32| (number as f32 * step).fract();
-        let scattered = (0..20_000).map(|index| {
-            let corner = [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|step| part(index, step));
-            let size = 0.5 * part(index, 0.618_034).powi(3);
-            Aabb32::new(corner.into(), corner.map(|least| least + size).into())
-        });
-        assert_depth(scattered.collect(), 60);
+        assert_depth(scatter_boxes(20_000), 60);
     }
 }

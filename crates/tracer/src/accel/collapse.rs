@@ -147,13 +147,11 @@ impl<'a> Collapse<'a> {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
-    use obvhs::BvhBuildParams;
     use obvhs::aabb::Aabb as Aabb32;
-    use obvhs::bvh2::builder::build_bvh2;
 
     use super::*;
+    use crate::accel::binary_tree::build_binary_tree;
+    use crate::accel::binary_tree::tests::scatter_boxes;
 
     /// A binary tree over boxes along a line.
     fn boxes(count: u32) -> Bvh2 {
@@ -161,26 +159,7 @@ mod tests {
             let x = index as f32;
             Aabb32::new([x, 0.0, 0.0].into(), [x + 0.9, 1.0, 1.0].into())
         });
-        binary(boxes.collect())
-    }
-
-    /// A binary tree over boxes of all sizes here and there.
-    fn scattered(count: u32) -> Bvh2 {
-        let part = |number: u32, step: f32| (number as f32 * step).fract();
-        let boxes = (0..count).map(|index| {
-            let corner = [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|step| part(index, step));
-            let size = 0.5 * part(index, 0.618_034).powi(3);
-            Aabb32::new(corner.into(), corner.map(|least| least + size).into())
-        });
-        binary(boxes.collect())
-    }
-
-    fn binary(boxes: Vec<Aabb32>) -> Bvh2 {
-        let params = BvhBuildParams {
-            max_prims_per_leaf: 1,
-            ..BvhBuildParams::very_slow_build()
-        };
-        build_bvh2(&boxes, params, &mut Duration::default())
+        build_binary_tree(&boxes.collect::<Vec<_>>())
     }
 
     /// The items of every leaf at or below the wide node for `top`.
@@ -288,7 +267,7 @@ mod tests {
                 max_items,
                 item_cost,
             };
-            let binary = scattered(22);
+            let binary = build_binary_tree(&scatter_boxes(22));
             let known = &mut vec![None; binary.nodes.len()];
             let least = least_cost(&binary, rules, 0, known);
             let found = cost(&Collapse::new(&binary, rules), 0);

@@ -5,9 +5,9 @@ use crate::accel::bvh::{Child, Leaves, Tree};
 use crate::accel::collapse::LeafRules;
 use crate::accel::lanes::Lanes;
 use crate::geometry::aabb::Aabb;
-use crate::geometry::ball::{Approach, Ball};
+use crate::geometry::ball::Ball;
 use crate::geometry::ray::Ray;
-use crate::geometry::triangle::{Crossing, cross};
+use crate::geometry::triangle::Crossing;
 use crate::motion::keys::times_within;
 use crate::motion::slices::Slices;
 use crate::scene::Mesh;
@@ -87,7 +87,8 @@ impl<'a> DeformingTree<'a> {
             #[inline(always)]
             |_, leaf| {
                 for &triangle in slice.leaves.items(leaf) {
-                    if let Some(crossing) = self.crossing(&approach, time, triangle, limit) {
+                    let corners = self.mesh.at(time).corners(triangle);
+                    if let Some(crossing) = approach.cross(corners, limit) {
                         limit = visit(triangle, crossing);
                     }
                 }
@@ -97,28 +98,9 @@ impl<'a> DeformingTree<'a> {
         );
     }
 
-    /// Visits every crossing at `0 < t` without a tree: the reference for tests of traversals.
-    pub fn visit_all(&self, ray: &Ray, time: f64, mut visit: impl FnMut(u32, Crossing)) {
-        let Some(approach) = self.slice(time).ball.approach(ray) else {
-            return;
-        };
-        for triangle in 0..self.mesh.triangles.len() as u32 {
-            if let Some(crossing) = self.crossing(&approach, time, triangle, f64::INFINITY) {
-                visit(triangle, crossing);
-            }
-        }
-    }
-
-    fn crossing(
-        &self,
-        approach: &Approach,
-        time: f64,
-        triangle: u32,
-        limit: f64,
-    ) -> Option<Crossing> {
-        let mut crossing = cross(&approach.ray, self.mesh.at(time).corners(triangle))?;
-        crossing.t += approach.start;
-        (crossing.t > 0.0 && crossing.t <= limit).then_some(crossing)
+    /// The ball around the mesh at a time.
+    pub fn ball(&self, time: f64) -> &Ball {
+        &self.slice(time).ball
     }
 
     fn slice(&self, time: f64) -> &Slice {

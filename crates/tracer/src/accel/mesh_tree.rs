@@ -67,11 +67,26 @@ impl<'a> MeshTree<'a> {
         }
     }
 
-    /// Visits every crossing at `0 < t` without a tree: the reference for tests of traversals.
-    pub fn visit_all(&self, ray: &Ray, time: f64, visit: impl FnMut(u32, Crossing)) {
-        match self {
-            MeshTree::Rigid(tree) => tree.visit_all(ray, visit),
-            MeshTree::Deforming(tree) => tree.visit_all(ray, time, visit),
+    /// Visits every crossing at `0 < t` of the mesh without a tree: the reference for tests of traversals.
+    pub fn visit_all(
+        &self,
+        mesh: &Mesh,
+        ray: &Ray,
+        time: f64,
+        mut visit: impl FnMut(u32, Crossing),
+    ) {
+        let ball = match self {
+            MeshTree::Rigid(tree) => &tree.ball,
+            MeshTree::Deforming(tree) => tree.ball(time),
+        };
+        let Some(approach) = ball.approach(ray) else {
+            return;
+        };
+        for triangle in 0..mesh.triangles.len() as u32 {
+            let corners = mesh.at(time).corners(triangle);
+            if let Some(crossing) = approach.cross(corners, f64::INFINITY) {
+                visit(triangle, crossing);
+            }
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::accel::lanes::{EdgeRay, LEAF, Lanes, Triangles};
 use crate::geometry::aabb::Aabb;
 use crate::geometry::ball::{Approach, Ball};
 use crate::geometry::ray::Ray;
-use crate::geometry::triangle::{Crossing, cross};
+use crate::geometry::triangle::Crossing;
 use crate::scene::Mesh;
 
 /// Leaves of triangles side by side, and a tree over the leaves.
@@ -18,7 +18,7 @@ pub(crate) struct RigidTree {
     /// Tree over the leaves; dropped where the leaves of every object that shows the mesh lie in the world tree.
     tree: Option<Tree>,
     leaves: Vec<Leaf>,
-    ball: Ball,
+    pub ball: Ball,
     /// Greatest coordinate of the mesh, metres.
     largest_coordinate: f64,
 }
@@ -158,7 +158,7 @@ impl RigidTree {
         while inside != 0 {
             let lane = inside.trailing_zeros() as usize;
             inside &= inside - 1;
-            if let Some(crossing) = leaf.crossing(&ray.approach, lane, limit) {
+            if let Some(crossing) = ray.approach.cross(leaf.corners(lane), limit) {
                 limit = visit(leaf.indices[lane], crossing);
             }
         }
@@ -169,20 +169,6 @@ impl RigidTree {
     #[inline(always)]
     pub fn prefetch(&self, leaf: u32) {
         self.leaves[leaf as usize].prefetch();
-    }
-
-    /// Visits every crossing at `0 < t` without the tree: the reference for tests of traversals.
-    pub fn visit_all(&self, ray: &Ray, mut visit: impl FnMut(u32, Crossing)) {
-        let Some(approach) = self.ball.approach(ray) else {
-            return;
-        };
-        for leaf in &self.leaves {
-            for lane in leaf.lanes() {
-                if let Some(crossing) = leaf.crossing(&approach, lane, f64::INFINITY) {
-                    visit(leaf.indices[lane], crossing);
-                }
-            }
-        }
     }
 }
 
@@ -221,13 +207,6 @@ impl Leaf {
             let coordinate = |axis: usize| f64::from(self.triangles.0[vertex][axis][lane]);
             DVec3::new(coordinate(0), coordinate(1), coordinate(2))
         })
-    }
-
-    #[inline(always)]
-    fn crossing(&self, approach: &Approach, lane: usize, limit: f64) -> Option<Crossing> {
-        let mut crossing = cross(&approach.ray, self.corners(lane))?;
-        crossing.t += approach.start;
-        (crossing.t > 0.0 && crossing.t <= limit).then_some(crossing)
     }
 }
 

@@ -7,12 +7,10 @@ use crate::accel::world_leaves::collect_world_leaves;
 use crate::accel::world_tree::{Part, WorldTree};
 use crate::error::TraceError;
 use crate::geometry::aabb::Aabb;
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::{LIFT, Ray};
+use crate::geometry::ray::{Hit, LIFT, Ray};
 use crate::geometry::triangle::Crossing;
 use crate::limits::LARGEST_COORDINATE;
-use crate::material::sight::Sight;
-use crate::material::surface::Opacity;
+use crate::material::surface::{Sight, find_solid_objects, is_seen};
 use crate::motion::poses::Poses;
 use crate::motion::slices::sweep_slices;
 use crate::scene::Scene;
@@ -33,8 +31,8 @@ pub(crate) struct SceneTree<'a> {
     world: WorldTree,
     /// Objects that move or deform.
     movers: Vec<usize>,
-    /// Holes per object.
-    opacities: Vec<Opacity>,
+    /// Objects that are opaque everywhere.
+    solid: Vec<bool>,
     stack_size: usize,
 }
 
@@ -98,7 +96,7 @@ impl<'a> SceneTree<'a> {
         let in_meshes = meshes.iter().flatten().map(MeshTree::stack_size).max();
         Ok(Self {
             scene,
-            stack_size: world.stack_size() + in_meshes.unwrap_or(0),
+            stack_size: world.tree.stack_size + in_meshes.unwrap_or(0),
             meshes,
             world,
             movers: (0..scene.objects.len())
@@ -107,14 +105,14 @@ impl<'a> SceneTree<'a> {
                     !poses.stands_still(object) || mesh.deforms()
                 })
                 .collect(),
-            opacities: Opacity::of_objects(scene),
+            solid: find_solid_objects(scene),
         })
     }
 
     /// Size of trees and triangles in memory, in bytes.
     pub fn bytes(&self) -> usize {
         let meshes: usize = self.meshes.iter().flatten().map(MeshTree::bytes).sum();
-        meshes + self.world.bytes()
+        meshes + self.world.tree.bytes()
     }
 
     /// Finds the nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
@@ -288,11 +286,11 @@ impl<'a> SceneTree<'a> {
         let mut best = None;
         for object in 0..self.scene.objects.len() {
             let local = ray.transformed(&poses.pose(object).to_object);
-            self.mesh(object)
-                .visit_all(&local, time, |triangle, crossing| {
-                    let seen = (Sight::Everything, time);
-                    self.keep_nearer(&mut best, seen, object, triangle, crossing);
-                });
+            let mesh = &self.scene.meshes[self.scene.objects[object].mesh];
+            (self.mesh(object)).visit_all(mesh, &local, time, |triangle, crossing| {
+                let seen = (Sight::Everything, time);
+                self.keep_nearer(&mut best, seen, object, triangle, crossing);
+            });
         }
         best
     }
@@ -307,7 +305,14 @@ impl<'a> SceneTree<'a> {
 
     #[inline(always)]
     fn is_opaque(&self, object: usize, triangle: u32, crossing: &Crossing) -> bool {
-        self.opacities[object].is_seen(Sight::Opaque, self.scene, triangle, crossing)
+        self.is_seen(Sight::Opaque, object, triangle, crossing)
+    }
+
+    /// Returns true if a ray of this sight sees the surface at the crossing.
+    #[inline(always)]
+    fn is_seen(&self, sight: Sight, object: usize, triangle: u32, crossing: &Crossing) -> bool {
+        let weights = [crossing.u, crossing.v];
+        self.solid[object] || is_seen(sight, self.scene, (object, triangle), weights)
     }
 
     /// Replaces the best hit by a crossing that is nearer, unless the ray does not see the surface there.
@@ -323,7 +328,7 @@ impl<'a> SceneTree<'a> {
         let nearer = best.is_none_or(|best| {
             (crossing.t, object, triangle) < (best.t, best.object, best.triangle)
         });
-        if nearer && self.opacities[object].is_seen(sight, self.scene, triangle, &crossing) {
+        if nearer && self.is_seen(sight, object, triangle, &crossing) {
             *best = Some(Hit {
                 t: crossing.t,
                 object,
@@ -366,7 +371,7 @@ fn check_coordinates(scene: &Scene, slices: &[Vec<Aabb>]) -> Result<(), TraceErr
             .or(Some(own[object.mesh]).filter(too_large))
         {
             return Err(TraceError::TooFar {
-                scene: scene.name.clone(),
+                scene: scene.id.to_string(),
                 object: object.name.clone(),
                 coordinate,
             });

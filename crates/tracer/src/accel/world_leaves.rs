@@ -50,13 +50,10 @@ pub(crate) fn collect_world_leaves(
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
-
     use glam::{DVec3, Vec3};
 
     use super::*;
-    use crate::motion::keys::{Key, Motion, Turn};
-    use crate::scene::{Mesh, Object, Parent};
+    use crate::scene::{Key, Mesh, Motion, Object, Parent, Turn};
     use crate::test_scene::load_test_scene;
 
     /// A fan of so many triangles, two metres wide.
@@ -66,15 +63,12 @@ mod tests {
             Vec3::new(cosine, sine, 0.0)
         });
         Mesh {
-            path: PathBuf::new(),
             positions: std::iter::once(Vec3::Z).chain(rim).collect(),
-            normals: Vec::new(),
-            texcoords: Vec::new(),
             triangles: (1..=triangles)
                 .map(|corner| [0, corner, corner + 1])
                 .collect(),
             slots: vec![0; triangles as usize],
-            shapes: Vec::new(),
+            ..Mesh::default()
         }
     }
 

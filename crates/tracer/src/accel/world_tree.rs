@@ -18,7 +18,7 @@ const LEAF_RULES: LeafRules = LeafRules {
 /// A tree over the leaves of still objects. Per slice of the shutter interval, a small tree lies above it, over its topmost
 /// nodes and the boxes that all other objects sweep.
 pub(crate) struct WorldTree {
-    tree: Tree,
+    pub tree: Tree,
     slices: Slices,
     /// Root of each slice, or of them all.
     roots: Vec<Child>,
@@ -129,16 +129,6 @@ impl WorldTree {
         }
     }
 
-    /// Size of the trees in memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        self.tree.bytes()
-    }
-
-    /// Size of the stack that [`WorldTree::traverse`] needs.
-    pub fn stack_size(&self) -> usize {
-        self.tree.stack_size
-    }
-
     /// Traverses the tree at a time; see [`Tree::traverse`].
     #[inline(always)]
     pub fn traverse<L: Lanes, const SORTED: bool>(
@@ -199,7 +189,7 @@ mod tests {
             direction: DVec3::X,
         };
         let mut parts = Vec::new();
-        let mut stack = vec![0; tree.stack_size()];
+        let mut stack = vec![0; tree.tree.stack_size];
         tree.traverse::<_, true>(
             Portable,
             &mut stack,
@@ -253,7 +243,9 @@ mod tests {
         let bytes = |count: usize| {
             let swept = vec![vec![Aabb::EMPTY, cube(-5.0)]; count];
             let slices = Slices::new([0.0, 1.0], count as f64);
-            WorldTree::build(&[Some(leaves.clone()), None], slices, &swept).bytes()
+            WorldTree::build(&[Some(leaves.clone()), None], slices, &swept)
+                .tree
+                .bytes()
         };
         // Over a thousand leaves there are at least 143 nodes; above 16 of them and one object, at most 17.
         assert!(bytes(8) < 2 * bytes(1), "{} and {}", bytes(8), bytes(1));

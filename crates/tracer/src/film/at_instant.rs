@@ -4,14 +4,13 @@ use glam::{DVec2, DVec3, Vec3};
 
 use crate::film::canvas::Canvas;
 use crate::film::eye::EyeRay;
-use crate::film::sampler::Sampler;
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::{LIFT, Ray};
-use crate::light::integrator::Integrator;
-use crate::light::stops::Stop;
+use crate::geometry::ray::{Hit, LIFT, Ray};
 use crate::motion::camera::View;
 use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;
+use crate::path::integrator::Integrator;
+use crate::path::stops::Stop;
+use crate::sampler::Sampler;
 use crate::stage::Stage;
 
 /// Rounding of a projected place, in pixels; points at the picture's very border still count as inside.

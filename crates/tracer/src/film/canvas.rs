@@ -82,9 +82,8 @@ impl Canvas {
     /// The number that seeds a pixel. Inside the picture it does not depend on the guard band, and so neither do the random
     /// numbers.
     pub fn seed_number(&self, pixel: u32) -> u32 {
-        let [column, row] = [pixel % self.columns(), pixel / self.columns()]
-            .map(|index| index.wrapping_sub(self.guard_band));
-        if column < self.width && row < self.height {
+        if self.is_in_picture(pixel) {
+            let [column, row] = self.corner(pixel).map(|place| place as u32);
             row * self.width + column
         } else {
             self.width * self.height + pixel

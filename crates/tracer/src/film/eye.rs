@@ -1,11 +1,11 @@
 //! The camera and all poses, at the time of one sample after the other.
 
 use crate::film::canvas::Canvas;
-use crate::film::sampler::Sampler;
 use crate::geometry::ray::Ray;
 use crate::motion::camera::View;
 use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;
+use crate::sampler::Sampler;
 use crate::scene::Scene;
 use crate::stage::Stage;
 

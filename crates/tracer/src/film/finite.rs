@@ -54,7 +54,7 @@ fn check_pixels<T>(
     match values.find_map(|(pixel, value)| Some((pixel as u32, value?))) {
         None => Ok(()),
         Some((pixel, value)) => Err(TraceError::NotFinite {
-            scene: scene.name.clone(),
+            scene: scene.id.to_string(),
             layer: layer.to_owned(),
             value,
             x: pixel % raster.width,

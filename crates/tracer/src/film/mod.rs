@@ -1,4 +1,4 @@
-//! The samples of a picture: their places, times and random numbers, and their means.
+//! The samples of a picture: their places and times, and their means.
 
 pub(crate) mod at_instant;
 pub(crate) mod canvas;
@@ -8,6 +8,5 @@ pub(crate) mod finite;
 pub(crate) mod pilot;
 pub(crate) mod render;
 pub(crate) mod sample_counts;
-pub(crate) mod sampler;
 pub(crate) mod shutter_sampler;
 pub(crate) mod support;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use frame::{Image, Picture, Plane, Tile};
+use frame::{ColorSampling, Image, Picture, Plane, Tile};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -11,11 +11,11 @@ use crate::film::at_instant::{InstantMeans, InstantPoint, InstantSums, InstantVi
 use crate::film::canvas::Canvas;
 use crate::film::eye::Eye;
 use crate::film::sample_counts::SampleCounts;
-use crate::film::sampler::{Sampler, Stream, pixel_seed};
 use crate::film::shutter_sampler::ShutterSampler;
-use crate::light::integrator::Integrator;
-use crate::light::stops::visit_layers;
+use crate::path::integrator::Integrator;
+use crate::path::stops::visit_layers;
 use crate::progress::Meter;
+use crate::sampler::{Sampler, Stream, pixel_seed};
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
 pub(crate) const PIXELS_PER_TASK: usize = 32;
@@ -31,20 +31,12 @@ pub(crate) enum Times<'a> {
     Midpoints(&'a ShutterSampler, u32),
 }
 
-/// Places of the samples in a pixel.
-#[derive(Clone, Copy)]
-pub(crate) enum Places {
-    /// Places spread evenly over its area.
-    Area,
-    /// The centre.
-    Centre,
-}
-
 /// The parameters of a render, the same for every pixel.
 pub(crate) struct Film<'a> {
     pub integrator: Integrator<'a>,
     pub canvas: Canvas,
-    pub places: Places,
+    /// Places of the samples: spread evenly over the pixel's area, or its centre.
+    pub color: ColorSampling,
     /// Times of each picture that is rendered; a sample at a time of several pictures is traced once.
     pub times: &'a [Times<'a>],
     /// View of the instant, if samples are looked up there; the stage must then hold `t = 0`.
@@ -135,14 +127,18 @@ impl<'a> Film<'a> {
         let number = self.canvas.seed_number(pixel);
         let seed = pixel_seed(self.seed, self.stream, number, replicate);
         let objects = self.integrator.stage.scene.objects.len() + 1;
-        let mut sums = vec![PixelSums::new(objects); self.times.len()];
+        let unseen = PixelSums {
+            seen: vec![0.0; objects],
+            ..PixelSums::default()
+        };
+        let mut sums = vec![unseen; self.times.len()];
         let mut sample = FilmSample::default();
         for index in 0..self.samples.of(pixel) {
             let sampler = Sampler::new(seed, index);
             let [x, y, part, _] = sampler.camera();
-            let place = match self.places {
-                Places::Area => [x, y],
-                Places::Centre => [0.5, 0.5],
+            let place = match self.color {
+                ColorSampling::Antialiased => [x, y],
+                ColorSampling::Point => [0.5, 0.5],
             };
             let mut traced_at = None;
             for (times, sums) in self.times.iter().zip(&mut sums) {
@@ -172,7 +168,7 @@ impl<'a> Film<'a> {
         let stage = self.integrator.stage;
         let then = &mut eye.instant;
         let shades_again =
-            self.instant.is_some() && sampler.index().is_multiple_of(self.shaded_again);
+            self.instant.is_some() && sampler.index.is_multiple_of(self.shaded_again);
         sample.clear(self.canvas.place(pixel, [0.5; 2]));
         sample.shift = shades_again.then_some(Vec3::ZERO);
         visit_layers(stage, &mut eye.poses, &ray, |poses, layer| {
@@ -234,7 +230,7 @@ impl FilmSample {
 }
 
 /// Sums over the samples of a pixel of one picture.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 struct PixelSums {
     count: u32,
     radiance: DVec3,
@@ -244,16 +240,6 @@ struct PixelSums {
 }
 
 impl PixelSums {
-    fn new(objects: usize) -> Self {
-        Self {
-            count: 0,
-            radiance: DVec3::ZERO,
-            bounces: 0,
-            seen: vec![0.0; objects],
-            at_instant: None,
-        }
-    }
-
     fn add(&mut self, sample: &FilmSample) {
         self.count += 1;
         self.radiance += sample.radiance.as_dvec3();

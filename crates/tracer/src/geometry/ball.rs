@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::geometry::ray::Ray;
+use crate::geometry::triangle::{Crossing, cross};
 
 /// Room for rounding.
 const SLACK: f64 = 1.0 + 1e-6;
@@ -98,6 +99,14 @@ impl Approach {
     #[inline(always)]
     pub fn local_limit(&self, limit: f64) -> f64 {
         limit - self.start
+    }
+
+    /// Crosses a triangle at `0 < t <= limit`, counted from the ray's own origin.
+    #[inline(always)]
+    pub fn cross(&self, corners: [DVec3; 3], limit: f64) -> Option<Crossing> {
+        let mut crossing = cross(&self.ray, corners)?;
+        crossing.t += self.start;
+        (crossing.t > 0.0 && crossing.t <= limit).then_some(crossing)
     }
 }
 

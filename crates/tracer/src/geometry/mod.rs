@@ -2,6 +2,5 @@
 
 pub(crate) mod aabb;
 pub(crate) mod ball;
-pub(crate) mod hit;
 pub(crate) mod ray;
 pub(crate) mod triangle;

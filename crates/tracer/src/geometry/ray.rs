@@ -1,4 +1,4 @@
-//! A half-line in `f64`, in the world or in an object's space.
+//! A half-line in `f64`, in the world or in an object's space, and its hit.
 
 use glam::{DAffine3, DVec3};
 
@@ -29,4 +29,19 @@ impl Ray {
             direction: to.transform_vector3(self.direction),
         }
     }
+}
+
+/// The first surface that a ray meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance in units of the ray's direction.
+    pub t: f64,
+    /// Index into the scene's objects.
+    pub object: usize,
+    /// Index into the mesh's triangles.
+    pub triangle: u32,
+    /// Weights of the triangle's second and third vertex.
+    pub weights: [f64; 2],
+    /// Frames relative to the instant; a deforming mesh has its shape of that time.
+    pub time: f64,
 }

@@ -1,8 +1,5 @@
-//! Lights, and the radiance along paths.
+//! Lights: the sky, the sun and emissive triangles.
 
 pub(crate) mod environment;
-pub(crate) mod integrator;
-pub(crate) mod light_sample;
 pub(crate) mod lights;
 pub(crate) mod sky;
-pub(crate) mod stops;

@@ -1,4 +1,6 @@
-//! The camera of a scene.toml.
+//! The camera of a scene.toml, and its lens.
+
+use std::ops::Range;
 
 use glam::{DMat3, DQuat, DVec3};
 use toml::Spanned;
@@ -6,21 +8,10 @@ use toml::Spanned;
 use super::document::Document;
 use super::error::SceneError;
 use super::keyed_motion::{Pose, build_motion, read_interpolation};
-use super::lens::read_lens;
 use super::rotation::Rotation;
-use super::schema::{CameraTable, RotationTable};
-use crate::limits::NARROWEST_VIEW;
-use crate::{Camera, Key, Motion};
-
-/// View of a camera as written: towards a point, or with a rotation.
-struct View<'a> {
-    position: [f64; 3],
-    look_at: &'a Option<Spanned<[f64; 3]>>,
-    up: &'a Option<Spanned<[f64; 3]>>,
-    rotation: &'a Option<Spanned<RotationTable>>,
-    /// Place in the file.
-    place: std::ops::Range<usize>,
-}
+use super::schema::{CameraKeyTable, CameraTable};
+use crate::limits::{NARROWEST_VIEW, NEAREST_FOCUS, WIDEST_LENS};
+use crate::{Camera, Lens};
 
 /// Reads the camera, still or moving.
 pub(super) fn read_camera(
@@ -29,64 +20,33 @@ pub(super) fn read_camera(
 ) -> Result<Camera, SceneError> {
     let place = table.span();
     let table = table.get_ref();
-    let mut fields_of_view = Vec::new();
-    if let Some(degrees) = &table.vertical_fov {
-        fields_of_view.push((0.0, read_field_of_view(document, degrees)?));
-    }
     let interpolation =
         read_interpolation(document, "the camera", &table.interpolation, &table.keys)?;
-    let motion = match (&table.keys, table.position) {
-        (None, Some(position)) => {
-            let view = View {
-                position,
-                look_at: &table.look_at,
-                up: &table.up,
-                rotation: &table.rotation,
-                place: place.clone(),
-            };
-            Motion::still(Key {
-                translation: DVec3::from(position),
-                orientation: read_view_rotation(document, &view)?.orientation(),
-                ..Key::REST
-            })
-        }
-        (Some(keys), None)
-            if table.look_at.is_none() && table.up.is_none() && table.rotation.is_none() =>
-        {
-            let still = !fields_of_view.is_empty();
-            let mut poses = Vec::new();
-            for key in keys.get_ref() {
-                let time = *key.time.get_ref();
-                let view = View {
-                    position: key.position,
-                    look_at: &key.look_at,
-                    up: &key.up,
-                    rotation: &key.rotation,
-                    place: key.time.span(),
-                };
-                poses.push(Pose {
-                    time,
-                    translation: DVec3::from(key.position),
-                    rotation: read_view_rotation(document, &view)?,
-                    scale: DVec3::ONE,
-                    place: key.time.span(),
-                });
-                if let Some(degrees) = &key.vertical_fov {
-                    if still {
-                        let reason = "vertical_fov stands both beside the keys and in a key; leave it out in one of \
-                                      these places";
-                        return Err(document.error(degrees.span(), reason));
-                    }
-                    fields_of_view.push((time, read_field_of_view(document, degrees)?));
-                }
+    let keys = read_keys(document, table, place.clone())?;
+    let mut poses = Vec::new();
+    let mut fields_of_view = Vec::new();
+    if let (Some(degrees), Some(_)) = (&table.vertical_fov, &table.keys) {
+        fields_of_view.push((0.0, read_field_of_view(document, degrees)?));
+    }
+    let is_still = !fields_of_view.is_empty();
+    for key in keys.get_ref() {
+        let time = *key.time.get_ref();
+        poses.push(Pose {
+            time,
+            translation: DVec3::from(key.position),
+            rotation: read_view_rotation(document, key)?,
+            scale: DVec3::ONE,
+            place: key.time.span(),
+        });
+        if let Some(degrees) = &key.vertical_fov {
+            if is_still {
+                let reason = "vertical_fov stands both beside the keys and in a key; leave it out in one of these places";
+                return Err(document.error(degrees.span(), reason));
             }
-            build_motion(document, "the camera", keys.span(), &poses, interpolation)?
+            fields_of_view.push((time, read_field_of_view(document, degrees)?));
         }
-        _ => {
-            let reason = "a camera needs either a position with look_at or rotation, or keys that hold these";
-            return Err(document.error(place, reason));
-        }
-    };
+    }
+    let motion = build_motion(document, "the camera", keys.span(), &poses, interpolation)?;
     if fields_of_view.is_empty() {
         let reason = "the camera has no vertical_fov; give it in degrees, once or in the keys";
         return Err(document.error(place, reason));
@@ -96,6 +56,33 @@ pub(super) fn read_camera(
         vertical_fov: fields_of_view,
         lens: read_lens(document, table)?,
     })
+}
+
+/// Returns the keys of a camera; one at time 0 for a still one.
+fn read_keys(
+    document: &Document,
+    table: &CameraTable,
+    place: Range<usize>,
+) -> Result<Spanned<Vec<CameraKeyTable>>, SceneError> {
+    let is_turned = table.look_at.is_some() || table.up.is_some() || table.rotation.is_some();
+    match (&table.keys, table.position) {
+        (None, Some(position)) => {
+            let key = CameraKeyTable {
+                time: Spanned::new(place.clone(), 0.0),
+                position,
+                look_at: table.look_at.clone(),
+                up: table.up.clone(),
+                rotation: table.rotation.clone(),
+                vertical_fov: table.vertical_fov.clone(),
+            };
+            Ok(Spanned::new(place, vec![key]))
+        }
+        (Some(keys), None) if !is_turned => Ok(keys.clone()),
+        _ => {
+            let reason = "a camera needs either a position with look_at or rotation, or keys that hold these";
+            Err(document.error(place, reason))
+        }
+    }
 }
 
 fn read_field_of_view(document: &Document, degrees: &Spanned<f64>) -> Result<f64, SceneError> {
@@ -108,13 +95,13 @@ fn read_field_of_view(document: &Document, degrees: &Spanned<f64>) -> Result<f64
     Err(document.error(degrees.span(), reason))
 }
 
-fn read_view_rotation(document: &Document, view: &View) -> Result<Rotation, SceneError> {
-    match (view.look_at, view.rotation) {
-        (None, Some(table)) if view.up.is_none() => Rotation::read(document, table),
-        (Some(target), None) => read_look_at(document, view, target),
+fn read_view_rotation(document: &Document, key: &CameraKeyTable) -> Result<Rotation, SceneError> {
+    match (&key.look_at, &key.rotation) {
+        (None, Some(table)) if key.up.is_none() => Rotation::read(document, table),
+        (Some(target), None) => read_look_at(document, key, target),
         _ => {
             let reason = "a camera needs either look_at, with up or without, or rotation";
-            Err(document.error(view.place.clone(), reason))
+            Err(document.error(key.time.span(), reason))
         }
     }
 }
@@ -122,19 +109,19 @@ fn read_view_rotation(document: &Document, view: &View) -> Result<Rotation, Scen
 /// Turns -Z towards the target and +Y as far up as that allows.
 fn read_look_at(
     document: &Document,
-    view: &View,
+    key: &CameraKeyTable,
     target: &Spanned<[f64; 3]>,
 ) -> Result<Rotation, SceneError> {
     let Some(backward) =
-        (DVec3::from(view.position) - DVec3::from(*target.get_ref())).try_normalize()
+        (DVec3::from(key.position) - DVec3::from(*target.get_ref())).try_normalize()
     else {
         let reason = format!(
             "the camera is at {:?} and looks at the same point; give another look_at",
-            view.position
+            key.position
         );
         return Err(document.error(target.span(), reason));
     };
-    let (up, place) = match view.up {
+    let (up, place) = match &key.up {
         Some(up) => (*up.get_ref(), up.span()),
         None => ([0.0, 1.0, 0.0], target.span()),
     };
@@ -152,4 +139,47 @@ fn read_look_at(
     };
     let axes = DMat3::from_cols(right, backward.cross(right), backward);
     Ok(Rotation::Quaternion(DQuat::from_mat3(&axes)))
+}
+
+/// Reads the lens; none of a pinhole.
+fn read_lens(document: &Document, camera: &CameraTable) -> Result<Option<Lens>, SceneError> {
+    let refuse = |number: &Spanned<f64>, reason: String| Err(document.error(number.span(), reason));
+    match (&camera.aperture, &camera.focus) {
+        (None, None) => Ok(None),
+        (Some(aperture), None) => {
+            let reason = "the camera has an aperture and no focus; give the distance in metres at which it is sharp, or leave \
+                          both out";
+            refuse(aperture, reason.to_owned())
+        }
+        (None, Some(focus)) => {
+            let reason = "the camera has a focus and no aperture; give the diameter of its lens in metres, or leave both out: a \
+                          pinhole is sharp at all distances";
+            refuse(focus, reason.to_owned())
+        }
+        (Some(aperture), Some(focus)) => {
+            let lens = Lens {
+                aperture: *aperture.get_ref(),
+                focus: *focus.get_ref(),
+            };
+            if lens.focus < NEAREST_FOCUS {
+                let found = lens.focus;
+                return refuse(
+                    focus,
+                    format!("focus is {found:?} m; allowed: {NEAREST_FOCUS:e} or more"),
+                );
+            }
+            if !(lens.aperture > 0.0 && lens.aperture <= WIDEST_LENS * lens.focus) {
+                let Lens {
+                    aperture: found,
+                    focus,
+                } = lens;
+                let reason = format!(
+                    "aperture is {found:?} m and focus {focus:?} m; allowed: an aperture above 0 and up to {WIDEST_LENS} times \
+                     the focus; leave both out for a pinhole"
+                );
+                return refuse(aperture, reason);
+            }
+            Ok(Some(lens))
+        }
+    }
 }

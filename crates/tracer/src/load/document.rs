@@ -116,7 +116,7 @@ impl Document {
         check_visible(text).map_err(|reason| self.error(place, format!("the text {reason}")))
     }
 
-    /// Turns a parser's error into one about the file: keys, families and numbers instead of fields, variants and Rust
+    /// Turns a parser's error into one about the file: keys, words and numbers instead of fields, variants and Rust
     /// types.
     fn syntax_error(&self, error: &toml::de::Error) -> SceneError {
         let reason = error
@@ -126,7 +126,7 @@ impl Document {
             .replace("unknown field", "unknown key")
             .replace("missing field", "missing key")
             .replace("duplicate field", "duplicate key")
-            .replace("unknown variant", "unknown family")
+            .replace("unknown variant", "unknown word")
             .replace("expected f64", "expected a number")
             .replace("expected f32", "expected a number")
             .replace("expected u32", "expected a whole number from 0")

@@ -18,7 +18,7 @@ use super::error::SceneError;
 use crate::scene::{Mesh, Object};
 
 /// Most faces of a mesh with the same three corners.
-pub const MOST_COINCIDENT: usize = 256;
+const MOST_COINCIDENT: usize = 256;
 
 /// Numbers of faces removed from a mesh.
 #[derive(Default)]
@@ -147,19 +147,14 @@ fn is_copy(mesh: &Mesh, face: u32, other: u32) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
-
     use super::*;
 
     fn build_mesh(positions: &[[f32; 3]], triangles: Vec<[u32; 3]>) -> Mesh {
         Mesh {
-            path: PathBuf::from("mesh.obj"),
             positions: positions.iter().copied().map(Vec3::from).collect(),
-            normals: Vec::new(),
-            texcoords: Vec::new(),
             slots: vec![0; triangles.len()],
             triangles,
-            shapes: Vec::new(),
+            ..Mesh::default()
         }
     }
 

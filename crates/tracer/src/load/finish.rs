@@ -13,14 +13,6 @@ pub(super) struct FinishValues {
     pub index: Option<f32>,
 }
 
-/// Name of one of the values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FinishValue {
-    Roughness,
-    Metallic,
-    Index,
-}
-
 impl From<Finish> for FinishValues {
     fn from(finish: Finish) -> Self {
         match finish {
@@ -41,20 +33,23 @@ impl From<Finish> for FinishValues {
 
 impl FinishValues {
     /// Builds the finish. Without a roughness it is diffuse, whatever the index: exporters write an index for every
-    /// material. The error names the wrong value and says why.
-    pub fn build(self) -> Result<Finish, (FinishValue, String)> {
+    /// material. `names` are those of roughness, metallic and index in the file; the error holds that of the wrong value, and says why.
+    pub fn build(self, names: [&'static str; 3]) -> Result<Finish, (&'static str, String)> {
+        let refuse = |name, reason: String| Err((name, format!("{name} {reason}")));
+        let [roughness_name, metallic_name, index_name] = names;
         let Some(roughness) = self.roughness else {
-            return if self.metallic {
-                let reason = "makes a metal without a roughness; give it one (0 is a mirror)";
-                Err((FinishValue::Metallic, reason.into()))
-            } else {
-                Ok(Finish::Diffuse)
+            return match self.metallic {
+                true => {
+                    let reason = "makes a metal without a roughness; give it one (0 is a mirror)";
+                    refuse(metallic_name, reason.into())
+                }
+                false => Ok(Finish::Diffuse),
             };
         };
         if roughness != 0.0 && !(Finish::SMOOTHEST..=1.0).contains(&roughness) {
             let smoothest = Finish::SMOOTHEST;
             let reason = format!("is {roughness}; allowed: 0 (a mirror) and {smoothest} to 1");
-            return Err((FinishValue::Roughness, reason));
+            return refuse(roughness_name, reason);
         }
         if self.metallic {
             return Ok(Finish::Conductor { roughness });
@@ -62,13 +57,12 @@ impl FinishValues {
         let index = self.index.unwrap_or(DEFAULT_INDEX);
         if !(1.0..=Finish::DENSEST).contains(&index) {
             let reason = format!("is {index}; allowed: 1 to {}", Finish::DENSEST);
-            return Err((FinishValue::Index, reason));
+            return refuse(index_name, reason);
         }
         // A coat of index 1 reflects nothing.
-        Ok(if index == 1.0 {
-            Finish::Diffuse
-        } else {
-            Finish::Coated { roughness, index }
+        Ok(match index == 1.0 {
+            true => Finish::Diffuse,
+            false => Finish::Coated { roughness, index },
         })
     }
 }

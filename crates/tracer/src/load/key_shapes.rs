@@ -1,68 +1,209 @@
-//! Deforming meshes from OBJ files with the same faces.
+//! Meshes from OBJ files: from one, or from key shapes, which have the same faces.
 
 use std::collections::HashMap;
 
-use glam::Vec3;
+use glam::{DVec3, Vec2, Vec3};
 
 use super::error::SceneError;
-use super::obj::{ObjFile, Slot};
-use super::statements::split_statements;
-use crate::{Mesh, Shape};
+use super::face::{Corner, Face};
+use super::material_list::MaterialList;
+use super::obj::{ObjFile, Part};
+use crate::{Material, Mesh, Shape};
 
-/// Face of an OBJ file.
-struct Face {
-    /// Line number, counted from 1.
-    line: usize,
-    /// Vertices, counted from 1.
-    vertices: Vec<i64>,
+/// Material of a mesh.
+#[derive(Clone)]
+pub(super) struct Slot {
+    /// Material as the MTL file has it.
+    pub(super) material: Material,
+    /// True if all its faces have texture coordinates.
+    pub(super) textured: bool,
 }
 
-/// Builds the mesh that has these shapes at these times, with the materials of its slots. Materials and texture coordinates
-/// are those of the first shape.
-pub(super) fn build_deforming_mesh(
-    shapes: &[(f64, &ObjFile)],
+/// Builds the mesh of a whole file or one group, with the materials of its slots. Several files are the shapes of a deforming
+/// mesh at these times; materials and texture coordinates are those of the first.
+///
+/// Beside parts with normals, faces without get flat ones; beside parts with texture coordinates, faces without get (0, 0), which
+/// no texture reads.
+pub(super) fn build_mesh(
+    files: &[(f64, &ObjFile)],
     group: Option<&str>,
 ) -> Result<(Mesh, Vec<Slot>), SceneError> {
-    let files: Vec<&ObjFile> = shapes.iter().map(|(_, file)| *file).collect();
-    for file in &files[1..] {
-        check_faces(files[0], file)?;
-        check_parts(files[0], file)?;
+    let (_, first) = files[0];
+    for (_, file) in &files[1..] {
+        check_faces(first, file)?;
+        check_parts(first, file)?;
     }
-    let files = unify_vertices(&files);
-    let (mut mesh, slots) = files[0].build_mesh(group)?;
-    let flat = find_flat_vertices(&files[0], group, &mesh);
-    for ((time, _), file) in shapes.iter().zip(&files) {
-        let shape = file.build_shape(group);
-        let normals = shape.normals.iter().zip(&flat);
-        mesh.shapes.push(Shape {
-            time: *time,
-            normals: normals
-                .map(|(normal, flat)| if *flat { Vec3::ZERO } else { *normal })
-                .collect(),
-            positions: shape.positions,
-        });
+    let mut building = Building {
+        mesh: Mesh {
+            path: first.path.clone(),
+            ..Mesh::default()
+        },
+        shapes: (files.iter())
+            .map(|(time, _)| Shape {
+                time: *time,
+                positions: Vec::new(),
+                normals: Vec::new(),
+            })
+            .collect(),
+        flat_triangles: Vec::new(),
+        with_normals: first.parts_of(group).any(|(_, part)| part.has_normals()),
+        with_texcoords: first.parts_of(group).any(|(_, part)| part.has_texcoords()),
+    };
+    let mut materials = MaterialList::default();
+    let mut textured: Vec<bool> = Vec::new();
+    for (index, part) in first.parts_of(group) {
+        let slot = materials.add(first.material(part));
+        textured.resize(materials.list.len(), true);
+        textured[slot] &= part.has_texcoords();
+        building.add_part(files, index, slot as u32);
     }
-    Ok((mesh, slots))
+    let mesh = building.finish();
+    check_area(&mesh)?;
+    let slots = materials.list.into_iter().zip(textured);
+    let slots = slots.map(|(material, textured)| Slot { material, textured });
+    Ok((mesh, slots.collect()))
+}
+
+/// Mesh under construction.
+struct Building {
+    mesh: Mesh,
+    /// Shape of each file.
+    shapes: Vec<Shape>,
+    /// Triangles that get flat normals.
+    flat_triangles: Vec<[u32; 3]>,
+    with_normals: bool,
+    with_texcoords: bool,
+}
+
+impl Building {
+    /// Adds the faces of a part, by its index in every file.
+    fn add_part(&mut self, files: &[(f64, &ObjFile)], index: usize, slot: u32) {
+        let (_, first) = files[0];
+        let part = &first.parts[index];
+        let is_flat = self.with_normals && !part.has_normals();
+        let numbers = match is_flat {
+            // Flat faces share no vertices.
+            true => (0..3 * part.count_triangles() as u32).collect(),
+            false => number_vertices(files.iter().map(|(_, file)| &file.parts[index])),
+        };
+        let start = self.shapes[0].positions.len() as u32;
+        for (shape, (_, file)) in self.shapes.iter_mut().zip(files) {
+            for corner in list_vertices(&file.parts[index], &numbers) {
+                let position = file.positions[corner.position as usize];
+                shape.positions.push(position);
+                if self.with_normals {
+                    let normal = corner.normal.map(|normal| file.normals[normal as usize]);
+                    shape.normals.push(normal.unwrap_or(Vec3::ZERO));
+                }
+            }
+        }
+        if self.with_texcoords {
+            let texcoords = list_vertices(part, &numbers).map(|corner| {
+                let texcoord = corner
+                    .texcoord
+                    .map(|texcoord| first.texcoords[texcoord as usize]);
+                texcoord.unwrap_or(Vec2::ZERO)
+            });
+            self.mesh.texcoords.extend(texcoords);
+        }
+        for corners in numbers.chunks_exact(3) {
+            let triangle = [0, 1, 2].map(|corner| start + corners[corner]);
+            self.flat_triangles.extend(is_flat.then_some(triangle));
+            self.mesh.triangles.push(triangle);
+            self.mesh.slots.push(slot);
+        }
+    }
+
+    fn finish(self) -> Mesh {
+        let mut mesh = self.mesh;
+        mesh.positions.clone_from(&self.shapes[0].positions);
+        mesh.normals.clone_from(&self.shapes[0].normals);
+        for triangle in self.flat_triangles {
+            // A face without area has no direction, and no ray hits it.
+            let normal = find_area_normal(&mesh, triangle).normalize_or(DVec3::Y);
+            for vertex in triangle {
+                mesh.normals[vertex as usize] = normal.as_vec3();
+            }
+        }
+        if self.shapes.len() > 1 {
+            mesh.shapes = self.shapes;
+        }
+        mesh
+    }
+}
+
+/// Numbers the corners of triangles, in the order in which they are first met. Corners that are one vertex in every file have one
+/// number: equal normals share an index, so that files of the same faces may differ in theirs.
+fn number_vertices<'a>(parts: impl Iterator<Item = &'a Part>) -> Vec<u32> {
+    let mut numbers = Vec::new();
+    for part in parts {
+        numbers.resize(3 * part.count_triangles(), 0);
+        let mut known = HashMap::new();
+        for (number, corner) in numbers.iter_mut().zip(part.triangle_corners()) {
+            let next = known.len() as u32;
+            *number = *known.entry((*number, corner)).or_insert(next);
+        }
+    }
+    numbers
+}
+
+/// Lists the first corner of every number.
+fn list_vertices<'a>(part: &'a Part, numbers: &'a [u32]) -> impl Iterator<Item = Corner> + 'a {
+    let mut next = 0;
+    let corners = part.triangle_corners().zip(numbers);
+    corners.filter_map(move |(corner, number)| {
+        let is_first = *number == next;
+        next += u32::from(is_first);
+        is_first.then_some(corner)
+    })
+}
+
+/// Finds a normal of a triangle; its length is twice the area.
+fn find_area_normal(mesh: &Mesh, triangle: [u32; 3]) -> DVec3 {
+    let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
+    (b - a).cross(c - a)
+}
+
+fn check_area(mesh: &Mesh) -> Result<(), SceneError> {
+    if mesh.triangles.is_empty() {
+        let reason = "holds no faces; a mesh needs at least one f statement with 3 corners";
+        return Err(SceneError::in_file(&mesh.path, reason));
+    }
+    let has_area = |triangle: &[u32; 3]| find_area_normal(mesh, *triangle).length_squared() > 0.0;
+    if !mesh.triangles.iter().any(has_area) {
+        return Err(SceneError::without_area(&mesh.path, mesh.triangles.len()));
+    }
+    Ok(())
 }
 
 /// Refuses faces with other vertices than those of the first shape.
 fn check_faces(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
-    let [expected, found] = [first, file].map(|file| read_faces(&file.text));
+    let faces = |file: &'_ ObjFile| {
+        file.parts
+            .iter()
+            .map(|part| part.faces.len())
+            .sum::<usize>()
+    };
     let name = first.path.display();
-    if found.len() != expected.len() {
+    if faces(file) != faces(first) {
         let reason = format!(
             "has {} faces, {name} has {}; key shapes must have the same faces in the same order",
-            found.len(),
-            expected.len()
+            faces(file),
+            faces(first)
         );
         return Err(SceneError::in_file(&file.path, reason));
     }
-    for (expected, found) in expected.iter().zip(&found) {
-        if expected.vertices != found.vertices {
+    let [expected, found] =
+        [first, file].map(|file| file.parts.iter().flat_map(|part| &part.faces));
+    for (expected, found) in expected.zip(found) {
+        if expected.vertices().ne(found.vertices()) {
+            let list = |face: &Face| face.vertices().collect::<Vec<u32>>();
             let reason = format!(
                 "the face has the vertices {:?}, in {name}:{} it has {:?}; key shapes must have the same faces in \
                  the same order",
-                found.vertices, expected.line, expected.vertices
+                list(found),
+                expected.line,
+                list(expected)
             );
             return Err(SceneError::at_line(&file.path, found.line, reason));
         }
@@ -72,24 +213,25 @@ fn check_faces(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
 
 /// Refuses groups, materials and kinds of faces that are not those of the first shape.
 fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
-    let describe_parts = |file: &ObjFile| -> Vec<String> {
-        let describe = |part: &tobj::Model| {
-            let material = file.material(&part.mesh);
-            let normals = if part.mesh.normals.is_empty() {
-                "without"
-            } else {
-                "with"
-            };
-            format!(
-                "{} triangles of group \"{}\" {normals} normals in material \"{}\"",
-                part.mesh.indices.len() / 3,
-                part.name,
-                material.name
-            )
+    let describe = |file: &ObjFile, part: &Part| {
+        let normals = if part.has_normals() {
+            "with"
+        } else {
+            "without"
         };
-        file.parts.iter().map(describe).collect()
+        format!(
+            "{} triangles of group \"{}\" {normals} normals in material \"{}\"",
+            part.count_triangles(),
+            part.group,
+            file.material(part).name
+        )
     };
-    let [expected, found] = [first, file].map(describe_parts);
+    let [expected, found] = [first, file].map(|file| {
+        file.parts
+            .iter()
+            .map(|part| describe(file, part))
+            .collect::<Vec<_>>()
+    });
     let name = first.path.display();
     if expected != found {
         let differing = expected.iter().zip(&found).position(|(e, f)| e != f);
@@ -103,7 +245,7 @@ fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
         return Err(SceneError::in_file(&file.path, reason));
     }
     for (expected, found) in first.parts.iter().zip(&file.parts) {
-        let [expected, found] = [first.material(&expected.mesh), file.material(&found.mesh)];
+        let [expected, found] = [first.material(expected), file.material(found)];
         if expected != found {
             let reason = format!(
                 "material \"{}\" is not the same as in {name}; key shapes must have the same materials",
@@ -113,95 +255,4 @@ fn check_parts(first: &ObjFile, file: &ObjFile) -> Result<(), SceneError> {
         }
     }
     Ok(())
-}
-
-/// Reads the faces of a checked OBJ text.
-fn read_faces(text: &str) -> Vec<Face> {
-    let mut faces = Vec::new();
-    let mut vertices = 0;
-    for statement in split_statements(text) {
-        match statement.keyword {
-            "v" => vertices += 1,
-            "f" => {
-                let read_index = |corner: &str| {
-                    let word = corner.split('/').next().unwrap_or_default();
-                    let index: i64 = word.parse().expect("indices have been checked");
-                    if index < 0 {
-                        vertices + 1 + index
-                    } else {
-                        index
-                    }
-                };
-                faces.push(Face {
-                    line: statement.line,
-                    vertices: statement.rest.split_whitespace().map(read_index).collect(),
-                });
-            }
-            _ => (),
-        }
-    }
-    faces
-}
-
-/// Gives all files the same vertices: corners that are one vertex in every file stay one. tobj makes a vertex of each
-/// different triple of indices, and equal normals share an index, so that files of the same faces may differ in theirs.
-fn unify_vertices(files: &[&ObjFile]) -> Vec<ObjFile> {
-    let mut unified: Vec<ObjFile> = files.iter().map(|file| (*file).clone()).collect();
-    for part in 0..files[0].parts.len() {
-        let mut numbers: HashMap<Vec<u32>, u32> = HashMap::new();
-        let mut corners_of_numbers = Vec::new();
-        let mut indices = Vec::new();
-        for corner in 0..files[0].parts[part].mesh.indices.len() {
-            let key: Vec<u32> = files
-                .iter()
-                .map(|file| file.parts[part].mesh.indices[corner])
-                .collect();
-            let next = numbers.len() as u32;
-            let number = *numbers.entry(key).or_insert_with(|| {
-                corners_of_numbers.push(corner);
-                next
-            });
-            indices.push(number);
-        }
-        for (file, unified) in files.iter().zip(&mut unified) {
-            let from = &file.parts[part].mesh;
-            let pick = |values: &[f32], width: usize| -> Vec<f32> {
-                let vertices = corners_of_numbers
-                    .iter()
-                    .map(|corner| from.indices[*corner]);
-                if values.is_empty() {
-                    return Vec::new();
-                }
-                vertices
-                    .flat_map(|vertex| &values[width * vertex as usize..][..width])
-                    .copied()
-                    .collect()
-            };
-            unified.parts[part].mesh = tobj::Mesh {
-                positions: pick(&from.positions, 3),
-                normals: pick(&from.normals, 3),
-                texcoords: pick(&from.texcoords, 2),
-                indices: indices.clone(),
-                material_id: from.material_id,
-                ..tobj::Mesh::default()
-            };
-        }
-    }
-    unified
-}
-
-/// Finds the vertices of flat faces beside faces with normals.
-fn find_flat_vertices(file: &ObjFile, group: Option<&str>, mesh: &Mesh) -> Vec<bool> {
-    let mut flat = vec![false; mesh.positions.len()];
-    let parts = file.parts_of(group);
-    let of_triangles = parts.flat_map(|part| {
-        let is_flat = part.normals.is_empty();
-        part.indices.chunks_exact(3).map(move |_| is_flat)
-    });
-    for (triangle, is_flat) in mesh.triangles.iter().zip(of_triangles) {
-        for vertex in triangle {
-            flat[*vertex as usize] = is_flat;
-        }
-    }
-    flat
 }

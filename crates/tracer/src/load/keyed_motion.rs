@@ -6,17 +6,11 @@ use glam::DVec3;
 use toml::Spanned;
 
 use super::document::Document;
-use super::error::{SceneError, join_names};
+use super::error::SceneError;
 use super::rotation::{LARGEST_TURN, Rotation};
 use crate::limits::{CLOSEST_KEYS, MOST_KEYS};
 use crate::motion::keys::key_times;
 use crate::{Interpolation, Key, Motion, Turn};
-
-/// Interpolations by name.
-const INTERPOLATIONS: [(&str, Interpolation); 2] = [
-    ("linear", Interpolation::Linear),
-    ("cubic", Interpolation::Cubic),
-];
 
 /// Pose at one key.
 pub(super) struct Pose {
@@ -32,28 +26,19 @@ pub(super) struct Pose {
 pub(super) fn read_interpolation<K>(
     document: &Document,
     what: &str,
-    name: &Option<Spanned<String>>,
+    interpolation: &Option<Spanned<Interpolation>>,
     keys: &Option<Spanned<Vec<K>>>,
 ) -> Result<Interpolation, SceneError> {
-    let Some(name) = name else {
-        return Ok(Interpolation::default());
-    };
-    if keys.is_none() {
-        let reason =
-            format!("{what} has an interpolation but no keys; give it keys, or leave it out");
-        return Err(document.error(name.span(), reason));
-    }
-    let mut known = INTERPOLATIONS.into_iter();
-    match known.find(|(known, _)| known == name.get_ref()) {
-        Some((_, interpolation)) => Ok(interpolation),
-        None => {
-            let reason = format!(
-                "interpolation of {what} is \"{}\"; allowed: {}",
-                name.get_ref(),
-                join_names(INTERPOLATIONS.map(|(known, _)| known))
-            );
-            Err(document.error(name.span(), reason))
+    match interpolation {
+        Some(given) if keys.is_none() => {
+            let reason =
+                format!("{what} has an interpolation but no keys; give it keys, or leave it out");
+            Err(document.error(given.span(), reason))
         }
+        given => Ok(given
+            .as_ref()
+            .map(|given| *given.get_ref())
+            .unwrap_or_default()),
     }
 }
 

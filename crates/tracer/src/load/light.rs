@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use frame::MOST_STOPS;
 use glam::{DVec3, Vec3};
 use toml::Spanned;
 
@@ -11,7 +10,7 @@ use super::environment;
 use super::error::SceneError;
 use super::files::Files;
 use super::schema::{BackgroundTable, DisplayTable, FlipTable, SunTable};
-use crate::limits::{BRIGHTEST, MOST_FLIP_EXPOSURES, SMALLEST_SUN};
+use crate::limits::{BRIGHTEST, SMALLEST_SUN};
 use crate::{Background, Display, EnvironmentMap, FlipExposures, Sun};
 
 /// Reads the background with its image, if it has one.
@@ -129,67 +128,22 @@ fn check_strength(
     Err(document.error(strength.span(), reason))
 }
 
-/// Allowed numbers of exposures of HDR-FLIP.
-const FLIP_COUNTS: std::ops::RangeInclusive<u32> = 2..=MOST_FLIP_EXPOSURES;
-
 /// Reads how pictures of the scene are shown.
 pub(super) fn read_display(
     document: &Document,
     table: &DisplayTable,
 ) -> Result<Display, SceneError> {
-    let stops = match &table.stops {
-        Some(stops) => {
-            check_stops(document, "stops", *stops.get_ref(), stops.span())?;
-            *stops.get_ref()
-        }
-        None => 0.0,
-    };
-    let flip = match &table.flip {
-        Some(flip) => read_flip_exposures(document, flip)?,
-        None => FlipExposures::default(),
-    };
-    Ok(Display { stops, flip })
-}
-
-/// Refuses more stops than can be shown or compared.
-fn check_stops(
-    document: &Document,
-    what: &str,
-    stops: f32,
-    span: std::ops::Range<usize>,
-) -> Result<(), SceneError> {
-    match stops.abs() <= MOST_STOPS {
-        true => Ok(()),
-        false => {
-            let reason =
-                format!("{what} = {stops}; allowed: stops from -{MOST_STOPS} to {MOST_STOPS}");
-            Err(document.error(span, reason))
-        }
+    let mut display = Display::default();
+    if let Some(stops) = &table.stops {
+        display.stops = *stops.get_ref();
+        (display.check_stops()).map_err(|reason| document.error(stops.span(), reason))?;
     }
-}
-
-fn read_flip_exposures(
-    document: &Document,
-    table: &Spanned<FlipTable>,
-) -> Result<FlipExposures, SceneError> {
-    let FlipTable { start, stop, count } = *table.get_ref();
-    if !FLIP_COUNTS.contains(&count) {
-        let reason = format!(
-            "flip has {count} exposures; allowed: {} to {}",
-            FLIP_COUNTS.start(),
-            FLIP_COUNTS.end()
-        );
-        return Err(document.error(table.span(), reason));
+    if let Some(flip) = &table.flip {
+        let FlipTable { start, stop, count } = *flip.get_ref();
+        display.flip = FlipExposures { start, stop, count };
+        (display.flip.check()).map_err(|reason| document.error(flip.span(), reason))?;
     }
-    for (what, stops) in [("flip start", start), ("flip stop", stop)] {
-        check_stops(document, what, stops, table.span())?;
-    }
-    if stop <= start {
-        let reason =
-            format!("flip starts at {start} and stops at {stop}; stop must be above start");
-        return Err(document.error(table.span(), reason));
-    }
-    Ok(FlipExposures { start, stop, count })
+    Ok(display)
 }
 
 /// Reads an amount of light, which is never negative.

@@ -3,8 +3,7 @@
 use std::io;
 
 use super::error::SceneError;
-use super::files::Files;
-use super::scene_folder::{folder_name, read_document};
+use super::files::{Files, folder_name, read_document};
 use super::variants::ParsedScene;
 use crate::{Family, Location};
 
@@ -27,7 +26,7 @@ pub struct SceneListing {
 pub fn list_scenes(root: impl Into<Location>) -> Result<Vec<SceneListing>, SceneError> {
     let root = root.into();
     let unreadable = |error| {
-        let reason = format!("the folder of scenes cannot be read: {error}; name another one");
+        let reason = format!("the folder of scenes cannot be read: {error}; name another folder");
         SceneError::in_file(&root.path, reason)
     };
     let mut folders = Vec::new();

@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::document::Document;
 use super::error::SceneError;
 use super::files::Files;
-use super::finish::{FinishValue, FinishValues};
+use super::finish::FinishValues;
 use super::light::{check_albedo, read_radiance};
 use super::schema::MaterialTable;
 use super::texture::{Textures, Use};
@@ -30,14 +30,15 @@ fn change_finish(
         index: given(&table.index_of_refraction).or(before.index),
     };
     let span = |given: &Option<Spanned<f32>>| given.as_ref().map(Spanned::span);
-    values.build().map_err(|(value, reason)| {
-        let (name, place) = match value {
-            FinishValue::Roughness => ("roughness", span(&table.roughness)),
-            FinishValue::Metallic => ("metallic", table.metallic.as_ref().map(Spanned::span)),
-            FinishValue::Index => ("index_of_refraction", span(&table.index_of_refraction)),
+    let names = ["roughness", "metallic", "index_of_refraction"];
+    values.build(names).map_err(|(name, reason)| {
+        let place = match name {
+            "roughness" => span(&table.roughness),
+            "metallic" => table.metallic.as_ref().map(Spanned::span),
+            _ => span(&table.index_of_refraction),
         };
         let place = place.expect("the material's own values were allowed");
-        document.error(place, format!("{name} {reason}"))
+        document.error(place, reason)
     })
 }
 

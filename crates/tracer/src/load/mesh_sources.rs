@@ -20,23 +20,13 @@ pub(super) struct MeshSource {
     pub(super) place: Range<usize>,
 }
 
-/// Sources of a mesh: equal keys, equal meshes.
-#[derive(PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct MeshKey {
-    /// Paths, and bits of the times.
-    files: Vec<(PathBuf, u64)>,
-    group: Option<String>,
-}
+/// Sources of a mesh: paths, bits of the times, and the group. Equal keys, equal meshes.
+pub(super) type MeshKey = (Vec<(PathBuf, u64)>, Option<String>);
 
-impl MeshKey {
-    pub(super) fn new(sources: &[MeshSource], group: Option<&str>) -> Self {
-        // Adding 0 turns -0 into 0.
-        let file = |source: &MeshSource| (source.path.clone(), (source.time + 0.0).to_bits());
-        Self {
-            files: sources.iter().map(file).collect(),
-            group: group.map(str::to_owned),
-        }
-    }
+pub(super) fn mesh_key(sources: &[MeshSource], group: Option<&str>) -> MeshKey {
+    // Adding 0 turns -0 into 0.
+    let file = |source: &MeshSource| (source.path.clone(), (source.time + 0.0).to_bits());
+    (sources.iter().map(file).collect(), group.map(str::to_owned))
 }
 
 /// Reads where an object's mesh lies: in one file, or in one for each key shape, at rising times.

@@ -4,21 +4,20 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use glam::DVec3;
 use toml::Spanned;
 
 use super::document::Document;
 use super::error::{SceneError, join_names};
 use super::files::Files;
-use super::key_shapes::build_deforming_mesh;
+use super::key_shapes::{Slot, build_mesh};
 use super::material::change_material;
 use super::material_list::MaterialList;
-use super::mesh_sources::{MeshKey, MeshSource, read_mesh_sources};
-use super::obj::{ObjFile, Slot};
+use super::mesh_sources::{MeshKey, MeshSource, mesh_key, read_mesh_sources};
+use super::obj::ObjFile;
 use super::schema::ObjectTable;
 use super::texture::Textures;
 use super::translucency::Alpha;
-use crate::limits::MOST_TRIANGLES;
+use crate::limits::{LARGEST_MESH_FILE, MOST_TRIANGLES};
 use crate::{Material, Mesh};
 
 /// Loader of meshes, materials and textures, each once.
@@ -83,11 +82,11 @@ impl<'a> MeshLoader<'a> {
             self.check_group(table, &source.path)?;
         }
         let group = table.group.as_ref().map(|group| group.get_ref().as_str());
-        let key = MeshKey::new(&sources, group);
+        let key = mesh_key(&sources, group);
         let mesh = match self.loaded.get(&key) {
             Some(mesh) => mesh.clone(),
             None => {
-                let mesh = Rc::new(self.add_mesh(&sources, table, group)?);
+                let mesh = Rc::new(self.add_mesh(&sources, group)?);
                 self.loaded.entry(key).or_insert(mesh).clone()
             }
         };
@@ -161,12 +160,11 @@ impl<'a> MeshLoader<'a> {
     fn add_mesh(
         &mut self,
         sources: &[MeshSource],
-        table: &ObjectTable,
         group: Option<&str>,
     ) -> Result<LoadedMesh, SceneError> {
         let first = &self.obj_files[&sources[0].path];
         let parts = first.parts_of(group);
-        self.triangles += parts.map(|part| part.indices.len() / 3).sum::<usize>();
+        self.triangles += parts.map(|(_, part)| part.count_triangles()).sum::<usize>();
         if self.triangles > MOST_TRIANGLES {
             let reason = format!(
                 "with {} the scene has {} triangles; allowed: {MOST_TRIANGLES}; simplify its meshes",
@@ -175,15 +173,10 @@ impl<'a> MeshLoader<'a> {
             );
             return Err(self.document.error(sources[0].place.clone(), reason));
         }
-        let (mesh, slots) = if table.shapes.is_none() {
-            first.build_mesh(group)?
-        } else {
-            let shapes: Vec<_> = sources
-                .iter()
-                .map(|source| (source.time, &self.obj_files[&source.path]))
-                .collect();
-            build_deforming_mesh(&shapes, group)?
-        };
+        let files: Vec<_> = (sources.iter())
+            .map(|source| (source.time, &self.obj_files[&source.path]))
+            .collect();
+        let (mesh, slots) = build_mesh(&files, group)?;
         let mut triangles = vec![0; slots.len()];
         for slot in &mesh.slots {
             triangles[*slot as usize] += 1;
@@ -201,11 +194,12 @@ impl<'a> MeshLoader<'a> {
     fn read_obj(&mut self, source: &MeshSource) -> Result<(), SceneError> {
         let path = &source.path;
         if !self.obj_files.contains_key(path) {
-            let obj = ObjFile::read(&mut self.files, &mut self.textures, path);
-            let obj = obj.map_err(|error| {
+            let text = self.files.read_text(path, LARGEST_MESH_FILE);
+            let text = text.map_err(|error| {
                 let reason = format!("mesh {} cannot be read: {error}", path.display());
                 self.document.error(source.place.clone(), reason)
-            })??;
+            })?;
+            let obj = ObjFile::read(&mut self.files, &mut self.textures, path, &text)?;
             self.obj_files.insert(path.clone(), obj);
         }
         Ok(())
@@ -242,11 +236,6 @@ fn farthest_vertex(mesh: &Mesh, [from, to]: [f64; 2]) -> f64 {
         times.extend(mesh.shape_times().filter(|time| from < *time && *time < to));
         times.push(to);
     }
-    times
-        .into_iter()
-        .map(|time| {
-            let positions = mesh.at(time).positions();
-            positions.map(DVec3::length).fold(0.0, f64::max)
-        })
-        .fold(0.0, f64::max)
+    let radii = times.into_iter().map(|time| mesh.at(time).radius());
+    radii.fold(0.0, f64::max)
 }

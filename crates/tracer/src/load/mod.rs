@@ -6,12 +6,12 @@ mod camera;
 mod document;
 mod environment;
 mod error;
+mod face;
 mod faces;
 mod files;
 mod finish;
 mod key_shapes;
 mod keyed_motion;
-mod lens;
 mod light;
 mod listing;
 mod material;
@@ -20,37 +20,32 @@ mod mesh_sources;
 mod meshes;
 mod mtl;
 mod obj;
-mod obj_check;
 mod object_motion;
 mod objects;
 mod parents;
 mod picture;
 mod rotation;
-mod scene_folder;
 mod schema;
 mod shutter;
 mod statements;
 mod texture;
 mod transform_range;
 mod translucency;
-mod variant_changes;
 mod variants;
 
 use std::path::PathBuf;
 
 use document::Document;
 pub use error::SceneError;
-pub use faces::MOST_COINCIDENT;
-use files::Files;
+use files::{Files, folder_name, read_document};
 pub use listing::{SceneListing, list_scene, list_scenes};
 use meshes::MeshLoader;
 use objects::ObjectLoader;
-use scene_folder::{folder_name, read_document};
 use schema::SceneTable;
 use variants::ParsedScene;
 
-use crate::limits::{LARGEST_SIDE, MOST_PIXELS};
-use crate::{FrameRate, Location, Scene, Seal};
+use crate::settings::check_size;
+use crate::{FrameRate, Location, Scene, SceneId, Seal};
 
 /// Variant that every scene has without naming it: its surfaces send out their own colours.
 const UNLIT: &str = "unlit";
@@ -73,20 +68,15 @@ pub fn load_scene_and_files(
     let folder = folder.path.as_path();
     let document = read_document(&mut files, folder)?;
     let parsed = ParsedScene::parse(&document)?;
-    let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
-    let (from_file, rate) = match variant.filter(|name| !own(name)) {
-        Some(made) => FrameRate::split_variant(made),
-        None => (variant, None),
-    };
-    let rate = rate.unwrap_or_default();
+    let id = SceneId::new(folder_name(folder)?, variant);
+    let rate = id.rate.unwrap_or_default();
     if let Err(reason) = rate.check() {
         return Err(SceneError::in_file(&document.path, reason));
     }
-    let made = from_file.filter(|name| !own(name));
-    let is_unlit = made == Some(UNLIT);
-    let seed = made.and_then(Seal::seed_in);
-    let is_made = is_unlit || seed.is_some();
-    let table = parsed.read(from_file.filter(|_| !is_made))?;
+    let from_file = id.variant.as_deref();
+    let own = |name: &str| parsed.variant_names().iter().any(|own| own == name);
+    let is_unlit = from_file == Some(UNLIT) && !own(UNLIT);
+    let table = parsed.read(from_file.filter(|_| !is_unlit))?;
     parsed.check_variants()?;
     check_picture(&document, &table)?;
 
@@ -98,7 +88,7 @@ pub fn load_scene_and_files(
         .as_ref()
         .map(|sun| light::read_sun(&document, sun));
     let display = light::read_display(&document, &table.display)?;
-    let interval = rendered_interval(&table, shutter_profile.rolling, seed.is_some(), rate);
+    let interval = rendered_interval(&table, shutter_profile.rolling, id.seal.is_some(), rate);
     let meshes = MeshLoader::new(&document, folder, files, interval);
     let mut loader = ObjectLoader::new(&document, meshes, interval);
     loader.add_objects(&table.camera, &camera, &table.object)?;
@@ -110,15 +100,11 @@ pub fn load_scene_and_files(
     let notes = faces::remove_redundant_faces(&mut meshes.meshes, &objects)?;
 
     let [width, height] = *table.size.get_ref();
-    let name = folder_name(folder)?;
     let paths = meshes.files.paths();
     let scene = Scene {
-        name: variant.map_or_else(|| name.clone(), |variant| format!("{name}@{variant}")),
-        frame: 0,
         exposes: table.exposes.into_inner(),
         family: table.family,
         exposure: *table.exposure.get_ref(),
-        rate: FrameRate::WRITTEN,
         written_exposure: *table.exposure.get_ref(),
         shutter_profile,
         width,
@@ -133,10 +119,11 @@ pub fn load_scene_and_files(
         objects,
         notes,
         hash: meshes.files.hash(variant),
+        id,
     };
-    let scene = match seed {
+    let scene = match scene.id.seal {
         _ if is_unlit => scene.unlit(),
-        Some(seed) => Seal::new(seed, &name).apply(scene),
+        Some(seed) => Seal::new(seed, &scene.id.name).apply(scene),
         None => scene,
     };
     Ok((scene.at_rate(rate), paths))
@@ -169,19 +156,8 @@ fn check_picture(document: &Document, table: &SceneTable) -> Result<(), SceneErr
         .shutter(*table.exposure.get_ref())
         .map_err(|error| document.error(table.exposure.span(), error.to_string()))?;
     let [width, height] = *table.size.get_ref();
-    let allowed = 1..=LARGEST_SIDE;
-    if !allowed.contains(&width) || !allowed.contains(&height) {
-        let reason =
-            format!("size is [{width}, {height}]; allowed: 1 to {LARGEST_SIDE} pixels each");
-        return Err(document.error(table.size.span(), reason));
-    }
-    let pixels = u64::from(width) * u64::from(height);
-    if pixels > MOST_PIXELS {
-        let reason = format!(
-            "size is [{width}, {height}], {pixels} pixels; allowed: {MOST_PIXELS}; give a smaller size"
-        );
-        return Err(document.error(table.size.span(), reason));
-    }
+    check_size(width, height)
+        .map_err(|error| document.error(table.size.span(), error.to_string()))?;
     if table.object.is_empty() {
         let reason = "no objects; a scene needs at least one [object.name] with a mesh";
         return Err(SceneError::in_file(&document.path, reason));

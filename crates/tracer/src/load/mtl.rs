@@ -7,13 +7,13 @@ use glam::Vec3;
 
 use super::error::{SceneError, join_names};
 use super::files::Files;
-use super::finish::{FinishValue, FinishValues};
+use super::finish::FinishValues;
 use super::light::{check_albedo, check_radiance};
 use super::statements::{Statement, shorten, split_statements};
 use super::texture::{Textures, Use};
 use super::translucency::GLASS;
-use crate::limits::{LARGEST_MATERIAL_FILE, MOST_MATERIALS};
-use crate::{Finish, Material, Translucency};
+use crate::limits::MOST_MATERIALS;
+use crate::{Material, Translucency};
 
 /// Albedo of faces without a material, and of materials with neither Kd nor map_Kd.
 const DEFAULT_ALBEDO: f32 = 0.5;
@@ -21,91 +21,80 @@ const DEFAULT_ALBEDO: f32 = 0.5;
 /// Name of the material of faces without one.
 const DEFAULT_NAME: &str = "default";
 
-/// The MTL files of one OBJ file.
-#[derive(Default)]
-pub(super) struct Libraries {
-    /// Checked statements for tobj, by name as the OBJ file writes it.
-    pub(super) texts: BTreeMap<PathBuf, String>,
-    /// Place of each statement, by material and keyword; a material begins at its `newmtl`.
-    places: BTreeMap<(String, &'static str), (PathBuf, usize)>,
-    /// Numbers of statements that tobj does not read, by material and keyword.
-    numbers: BTreeMap<(String, &'static str), f32>,
-    /// Colour of what passes each material (Tf).
-    filters: BTreeMap<String, Vec3>,
-}
-
-/// Statements that are read. tobj gets them checked: it panics on colours of fewer than three numbers.
+/// Statements that are read.
 const KEYWORDS: [&str; 13] = [
     "newmtl", "Kd", "Ke", "d", "map_Kd", "map_Ke", "map_d", "Pr", "Pm", "Ni", "Tf", "Tr", "illum",
 ];
-
-/// Statements that hold a name.
-const NAMES: [&str; 4] = ["newmtl", "map_Kd", "map_Ke", "map_d"];
-
-/// Statements about the finish: roughness, metallic, index of refraction.
-const FINISH: [&str; 3] = ["Pr", "Pm", "Ni"];
-
-/// Statements that tobj is not given, beside those about the finish: colour of what passes, transparency, illumination model.
-const PASSING: [&str; 3] = ["Tf", "Tr", "illum"];
 
 /// Illumination model of glass: "Transparency: Glass on, Reflection: Ray trace on".
 const GLASS_MODEL: f32 = 4.0;
 /// Largest difference between a Tr and 1 - d, by rounding of decimals.
 const SAME_TRANSPARENCY: f32 = 1e-3;
 
+/// The MTL files of one OBJ file.
+#[derive(Default)]
+pub(super) struct Libraries {
+    /// Materials by name.
+    materials: BTreeMap<String, Statements>,
+}
+
+/// Statements of a material, by keyword.
+#[derive(Default)]
+struct Statements(BTreeMap<&'static str, Stated>);
+
+/// Statement that has been checked.
+struct Stated {
+    path: PathBuf,
+    line: usize,
+    /// Numbers; empty for a name, and for words in the place of a number that may be ignored.
+    numbers: Vec<f32>,
+    /// Text after the keyword.
+    text: String,
+}
+
 /// Material of faces without one.
 pub(super) fn default_material() -> Material {
     Material {
         name: DEFAULT_NAME.into(),
-        finish: Finish::Diffuse,
         diffuse: Vec3::splat(DEFAULT_ALBEDO),
-        diffuse_texture: None,
-        emission: Vec3::ZERO,
-        emission_texture: None,
-        opacity: 1.0,
-        opacity_texture: None,
-        translucency: None,
+        ..Material::default()
     }
 }
 
 impl Libraries {
-    /// Reads and checks a file, which the OBJ file calls `name`. The outer error says why it cannot be read; the caller
-    /// knows the line that names it.
-    pub(super) fn add(
-        &mut self,
-        files: &mut Files,
-        path: &Path,
-        name: &str,
-    ) -> Result<Result<(), SceneError>, String> {
-        let text = files.read_text(path, LARGEST_MATERIAL_FILE)?;
-        Ok(self.check(path, &text).map(|checked| {
-            self.texts.insert(name.into(), checked);
-        }))
-    }
-
     /// Tells whether one of the files defines a material.
     pub(super) fn defines(&self, material: &str) -> bool {
-        self.places.contains_key(&(material.to_owned(), "newmtl"))
+        self.materials.contains_key(material)
     }
 
     /// Lists the names of all materials, for messages.
     pub(super) fn list_names(&self) -> String {
-        join_names(
-            self.places
-                .keys()
-                .filter(|(_, keyword)| *keyword == "newmtl")
-                .map(|(name, _)| name.as_str()),
-        )
+        join_names(self.materials.keys().map(String::as_str))
     }
 
-    fn check(&mut self, path: &Path, text: &str) -> Result<String, SceneError> {
-        let mut checked = String::new();
-        let mut transparencies = Vec::new();
-        let mut current: Option<&str> = None;
+    /// Builds all materials, with their textures.
+    pub(super) fn build_materials(
+        &self,
+        files: &mut Files,
+        textures: &mut Textures,
+    ) -> Result<BTreeMap<String, Material>, SceneError> {
+        let materials = self.materials.iter();
+        materials
+            .map(|(name, own)| Ok((name.clone(), own.build(name, files, textures)?)))
+            .collect()
+    }
+
+    /// Reads and checks the text of a file.
+    pub(super) fn read(&mut self, path: &Path, text: &str) -> Result<(), SceneError> {
+        let mut current = None;
         let mut materials = 0;
         for statement in split_statements(text) {
             let fail = |reason| SceneError::at_line(path, statement.line, reason);
-            if statement.keyword == "newmtl" {
+            let Some(keyword) = KEYWORDS.into_iter().find(|k| *k == statement.keyword) else {
+                continue;
+            };
+            let numbers = read_values(&statement).map_err(fail)?;
+            if keyword == "newmtl" {
                 current = Some(statement.rest);
                 materials += 1;
                 if materials > MOST_MATERIALS {
@@ -114,177 +103,151 @@ impl Libraries {
                     )));
                 }
             }
-            check_statement(&statement).map_err(fail)?;
-            let Some(keyword) = KEYWORDS.into_iter().find(|k| *k == statement.keyword) else {
-                continue;
-            };
             let material = current.ok_or_else(|| {
                 fail(format!(
                     "{keyword} stands before the first newmtl; move it below the newmtl of its material"
                 ))
             })?;
-            let place = (path.to_owned(), statement.line);
-            if NAMES.contains(&keyword) {
-                statement.check_name().map_err(fail)?;
-            }
-            if let Some((path, line)) = self.places.insert((material.to_owned(), keyword), place) {
+            let stated = Stated {
+                path: path.to_owned(),
+                line: statement.line,
+                numbers,
+                text: statement.rest.to_owned(),
+            };
+            let own = self.materials.entry(material.to_owned()).or_default();
+            if let Some(first) = own.0.insert(keyword, stated) {
                 return Err(fail(format!(
-                    "{keyword} of material \"{material}\" is given twice, first in {}:{line}; delete one",
-                    path.display()
+                    "{keyword} of material \"{material}\" is given twice, first in {}:{}; delete one",
+                    first.path.display(),
+                    first.line
                 )));
             }
-            if keyword == "Tf" {
-                let numbers = statement.read_numbers(&[3]).map_err(fail)?;
-                let filter = Vec3::from_slice(&numbers);
-                self.filters.insert(material.to_owned(), filter);
-            } else if PASSING.contains(&keyword) {
-                // Programs write words for illum too, which are ignored as other models are.
-                let number = statement
-                    .read_numbers(&[1])
-                    .map_or(0.0, |numbers| numbers[0]);
-                self.numbers.insert((material.to_owned(), keyword), number);
-                if keyword == "Tr" {
-                    transparencies.push((statement.line, material.to_owned()));
-                }
-            } else if FINISH.contains(&keyword) {
-                let number = statement.read_numbers(&[1]).map_err(fail)?[0];
-                self.numbers.insert((material.to_owned(), keyword), number);
-            } else {
-                checked += &format!("{keyword} {}\n", statement.rest);
-                if keyword == "d" {
-                    let number = statement.read_numbers(&[1]).map_err(fail)?[0];
-                    self.numbers.insert((material.to_owned(), keyword), number);
-                }
-            }
         }
-        for (line, material) in transparencies {
-            self.check_transparency(&material)
-                .map_err(|reason| SceneError::at_line(path, line, reason))?;
-        }
-        Ok(checked)
+        Ok(())
+    }
+}
+
+impl Statements {
+    /// The numbers after a keyword.
+    fn numbers(&self, keyword: &str) -> Option<&[f32]> {
+        self.0.get(keyword).map(|stated| stated.numbers.as_slice())
     }
 
-    /// Refuses a Tr that does not say what the material's d says.
-    fn check_transparency(&self, material: &str) -> Result<(), String> {
-        let number = |keyword| self.numbers.get(&(material.to_owned(), keyword)).copied();
-        match (number("Tr"), number("d")) {
+    /// The number after a keyword.
+    fn number(&self, keyword: &str) -> Option<f32> {
+        self.numbers(keyword)?.first().copied()
+    }
+
+    /// Makes an error about a statement that there is.
+    fn error(&self, keyword: &str, reason: String) -> SceneError {
+        let Stated { path, line, .. } = &self.0[keyword];
+        SceneError::at_line(path, *line, reason)
+    }
+
+    fn build(
+        &self,
+        name: &str,
+        files: &mut Files,
+        textures: &mut Textures,
+    ) -> Result<Material, SceneError> {
+        self.check_transparency()
+            .map_err(|reason| self.error("Tr", reason))?;
+        let mut texture = |keyword, usage| {
+            let Some(stated) = self.0.get(keyword) else {
+                return Ok(None);
+            };
+            // Programs on Windows write backslashes.
+            let name = stated.text.replace('\\', "/");
+            let index = textures.load(files, &stated.path.with_file_name("").join(name), usage);
+            index
+                .map(Some)
+                .map_err(|reason| self.error(keyword, reason))
+        };
+        let diffuse_texture = texture("map_Kd", Use::Color)?;
+        let emission_texture = texture("map_Ke", Use::Color)?;
+        let opacity_texture = texture("map_d", Use::Opacity)?;
+        let color = |keyword, default| {
+            let numbers = self.numbers(keyword);
+            numbers.map_or(Vec3::splat(default), Vec3::from_slice)
+        };
+        let finish = FinishValues {
+            roughness: self.number("Pr"),
+            metallic: self.number("Pm") == Some(1.0),
+            index: self.number("Ni"),
+        };
+        let is_glass = self.number("illum") == Some(GLASS_MODEL);
+        Ok(Material {
+            name: name.to_owned(),
+            finish: (finish.build(["Pr", "Pm", "Ni"]))
+                .map_err(|(keyword, reason)| self.error(keyword, reason))?,
+            // A texture alone is shown as it is.
+            diffuse: color("Kd", diffuse_texture.map_or(DEFAULT_ALBEDO, |_| 1.0)),
+            diffuse_texture,
+            emission: color("Ke", emission_texture.map_or(0.0, |_| 1.0)),
+            emission_texture,
+            opacity: self.number("d").unwrap_or(1.0),
+            opacity_texture,
+            translucency: Some(Translucency {
+                filter: color("Tf", 1.0),
+                glass: is_glass.then(|| self.number("Ni").unwrap_or(GLASS)),
+                ..Translucency::CLEAR
+            }),
+        })
+    }
+
+    /// Refuses a Tr that does not say what d says.
+    fn check_transparency(&self) -> Result<(), String> {
+        match (self.number("Tr"), self.number("d")) {
             (None | Some(0.0), _) => Ok(()),
             (Some(_), None) => Err(
                 "Tr is not read, since programs disagree about its meaning; write d (1 is opaque)"
                     .into(),
             ),
-            (Some(transparency), Some(opacity))
-                if (transparency - (1.0 - opacity)).abs() > SAME_TRANSPARENCY =>
-            {
+            (Some(transparency), Some(opacity)) => {
                 let allowed = 1.0 - opacity;
-                Err(format!(
-                    "Tr is {transparency} beside d {opacity}; allowed: 1 - d, here {allowed}; delete Tr"
-                ))
+                match (transparency - allowed).abs() > SAME_TRANSPARENCY {
+                    false => Ok(()),
+                    true => Err(format!(
+                        "Tr is {transparency} beside d {opacity}; allowed: 1 - d, here {allowed}; delete Tr"
+                    )),
+                }
             }
-            _ => Ok(()),
         }
-    }
-
-    /// Builds what a material asks for where its opacity is blended.
-    fn build_translucency(&self, material: &str) -> Translucency {
-        let number = |keyword| self.numbers.get(&(material.to_owned(), keyword)).copied();
-        let is_glass = number("illum") == Some(GLASS_MODEL);
-        Translucency {
-            filter: self.filters.get(material).copied().unwrap_or(Vec3::ONE),
-            glass: is_glass.then(|| number("Ni").unwrap_or(GLASS)),
-            ..Translucency::CLEAR
-        }
-    }
-
-    /// Builds a material from what tobj read, with its textures.
-    pub(super) fn build_material(
-        &self,
-        files: &mut Files,
-        textures: &mut Textures,
-        read: &tobj::Material,
-    ) -> Result<Material, SceneError> {
-        let mut texture = |keyword, name: Option<&str>, usage| {
-            let Some(name) = name else { return Ok(None) };
-            let (library, line) = &self.places[&(read.name.clone(), keyword)];
-            // Programs on Windows write backslashes.
-            let path = library.with_file_name("").join(name.replace('\\', "/"));
-            let index = textures.load(files, &path, usage);
-            index
-                .map(Some)
-                .map_err(|reason| SceneError::at_line(library, *line, reason))
-        };
-        let map_emission = read.unknown_param.get("map_Ke").map(String::as_str);
-        let diffuse_texture = texture("map_Kd", read.diffuse_texture.as_deref(), Use::Color)?;
-        let emission_texture = texture("map_Ke", map_emission, Use::Color)?;
-        let opacity_texture = texture("map_d", read.dissolve_texture.as_deref(), Use::Opacity)?;
-        // A texture alone is shown as it is.
-        let default_albedo = diffuse_texture.map_or(DEFAULT_ALBEDO, |_| 1.0);
-        let default_emission = emission_texture.map_or(0.0, |_| 1.0);
-        Ok(Material {
-            name: read.name.clone(),
-            finish: self.build_finish(&read.name)?,
-            diffuse: Vec3::from(read.diffuse.unwrap_or([default_albedo; 3])),
-            diffuse_texture,
-            emission: Vec3::from(read.emissive.unwrap_or([default_emission; 3])),
-            emission_texture,
-            opacity: read.dissolve.unwrap_or(1.0),
-            opacity_texture,
-            translucency: Some(self.build_translucency(&read.name)),
-        })
-    }
-
-    fn build_finish(&self, material: &str) -> Result<Finish, SceneError> {
-        let number = |keyword| self.numbers.get(&(material.to_owned(), keyword)).copied();
-        let [roughness, metallic, index] = FINISH.map(number);
-        let values = FinishValues {
-            roughness,
-            metallic: metallic == Some(1.0),
-            index,
-        };
-        values.build().map_err(|(value, reason)| {
-            let keyword = match value {
-                FinishValue::Roughness => "Pr",
-                FinishValue::Metallic => "Pm",
-                FinishValue::Index => "Ni",
-            };
-            let (path, line) = &self.places[&(material.to_owned(), keyword)];
-            SceneError::at_line(path, *line, format!("{keyword} {reason}"))
-        })
     }
 }
 
-/// Checks the values of a statement.
-fn check_statement(statement: &Statement) -> Result<(), String> {
-    let keyword = statement.keyword;
-    let rest = statement.rest;
-    let check_triple = |check: fn([f32; 3]) -> Result<(), String>| {
-        let numbers = statement.read_numbers(&[3])?;
-        check([numbers[0], numbers[1], numbers[2]]).map_err(|reason| format!("{keyword} {reason}"))
+/// Reads the numbers of a statement, and checks its values.
+fn read_values(statement: &Statement) -> Result<Vec<f32>, String> {
+    let Statement { keyword, rest, .. } = *statement;
+    let numbers = match keyword {
+        "Kd" | "Ke" | "Tf" => statement.read_numbers(&[3])?,
+        "d" | "Pr" | "Pm" | "Ni" | "Tr" => statement.read_numbers(&[1])?,
+        // Programs write words too, which are ignored as other models are.
+        "illum" => statement.read_numbers(&[1]).unwrap_or_default(),
+        _ => Vec::new(),
     };
-    let read_one = || statement.read_numbers(&[1]).map(|numbers| numbers[0]);
-    match keyword {
-        "newmtl" if rest.is_empty() => Err("newmtl names no material; give it a name".into()),
-        "Kd" => check_triple(check_albedo),
-        "Ke" => check_triple(check_radiance),
-        "d" => match read_one()? {
-            opacity if (0.0..=1.0).contains(&opacity) => Ok(()),
-            opacity => Err(format!("d is {opacity}; allowed: 0 to 1")),
-        },
-        "Pm" => match read_one()? {
-            0.0 | 1.0 => Ok(()),
-            metallic => Err(format!(
-                "Pm is {metallic}; allowed: 0 (paint, wood, plastic) or 1 (bare metal), nothing between"
-            )),
-        },
-        "Tf" => check_triple(check_albedo),
-        "Tr" => read_one().map(|_| ()),
-        "map_Kd" | "map_Ke" | "map_d" if rest.is_empty() => {
-            Err(format!("{keyword} names no file; give it one"))
+    let checked = match (keyword, numbers.as_slice()) {
+        ("Kd" | "Tf", &[r, g, b]) => check_albedo([r, g, b]),
+        ("Ke", &[r, g, b]) => check_radiance([r, g, b]),
+        ("d", [opacity]) if !(0.0..=1.0).contains(opacity) => {
+            Err(format!("is {opacity}; allowed: 0 to 1"))
         }
-        "map_Kd" | "map_Ke" | "map_d" if rest.starts_with('-') => Err(format!(
-            "{keyword} has options (\"{}\"); allowed: a file name alone",
+        ("Pm", [metallic]) if ![0.0, 1.0].contains(metallic) => Err(format!(
+            "is {metallic}; allowed: 0 (paint, wood, plastic) or 1 (bare metal), nothing between"
+        )),
+        ("newmtl", _) if rest.is_empty() => Err("names no material; give it a name".into()),
+        ("map_Kd" | "map_Ke" | "map_d", _) if rest.is_empty() => {
+            Err("names no file; give it one".into())
+        }
+        ("map_Kd" | "map_Ke" | "map_d", _) if rest.starts_with('-') => Err(format!(
+            "has options (\"{}\"); allowed: a file name alone",
             shorten(rest)
         )),
         _ => Ok(()),
+    };
+    checked.map_err(|reason| format!("{keyword} {reason}"))?;
+    if numbers.is_empty() && keyword != "illum" {
+        statement.check_name()?;
     }
+    Ok(numbers)
 }

@@ -1,231 +1,250 @@
-//! Meshes from OBJ files.
+//! OBJ files: their vertices, and their faces by group and material.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
 
 use super::error::SceneError;
+use super::face::{Corner, Face};
 use super::files::Files;
-use super::material_list::MaterialList;
 use super::mtl::{Libraries, default_material};
-use super::obj_check::check_obj;
+use super::statements::{Statement, shorten, split_statements};
 use super::texture::Textures;
-use crate::limits::LARGEST_MESH_FILE;
-use crate::{Material, Mesh};
+use crate::Material;
+use crate::limits::{LARGEST_MATERIAL_FILE, LARGEST_NUMBER, MOST_TRIANGLES, MOST_VERTICES};
+
+/// Group of faces before the first `g` or `o`, and after one without a name.
+const UNNAMED: &str = "unnamed_object";
 
 /// OBJ file with its materials.
-#[derive(Clone)]
+#[derive(Default)]
 pub(super) struct ObjFile {
     pub(super) path: PathBuf,
-    pub(super) text: String,
+    pub(super) positions: Vec<Vec3>,
+    pub(super) texcoords: Vec<Vec2>,
+    /// Unit normals.
+    pub(super) normals: Vec<Vec3>,
     /// Runs of faces with one group and one material.
-    pub(super) parts: Vec<tobj::Model>,
-    materials: Vec<Material>,
+    pub(super) parts: Vec<Part>,
+    materials: BTreeMap<String, Material>,
+    /// Number of triangles of all faces.
+    triangles: usize,
 }
 
-/// Material of a mesh.
-#[derive(Clone)]
-pub(super) struct Slot {
-    /// Material as the MTL file has it.
-    pub(super) material: Material,
-    /// True if all its faces have texture coordinates.
-    pub(super) textured: bool,
+/// Faces of one group and one material. Their corners have the same kinds of indices.
+pub(super) struct Part {
+    pub(super) group: String,
+    /// Name in the MTL files; none for the default.
+    pub(super) material: Option<String>,
+    pub(super) faces: Vec<Face>,
 }
 
-/// Slots of a mesh under construction.
-#[derive(Default)]
-struct Slots {
-    materials: MaterialList,
-    /// Flags by material, true if all its faces have texture coordinates.
-    textured: Vec<bool>,
-}
-
-impl Slots {
-    /// Adds a slot for a part's material, unless an equal one is there, and returns its index.
-    fn add(&mut self, material: Material, textured: bool) -> u32 {
-        let index = self.materials.add(material);
-        if index == self.textured.len() {
-            self.textured.push(true);
+impl Part {
+    fn new(group: String, material: Option<String>) -> Self {
+        Self {
+            group,
+            material,
+            faces: Vec::new(),
         }
-        self.textured[index] &= textured;
-        u32::try_from(index).expect("a mesh has fewer than 2^32 materials")
     }
 
-    fn into_list(self) -> Vec<Slot> {
-        (self.materials.list.into_iter())
-            .zip(self.textured)
-            .map(|(material, textured)| Slot { material, textured })
-            .collect()
+    pub(super) fn has_texcoords(&self) -> bool {
+        self.faces[0].kinds()[0]
+    }
+
+    pub(super) fn has_normals(&self) -> bool {
+        self.faces[0].kinds()[1]
+    }
+
+    /// Cuts the faces into triangles that have the first corner in common, and lists the corners of these.
+    pub(super) fn triangle_corners(&self) -> impl Iterator<Item = Corner> {
+        self.faces.iter().flat_map(|Face { corners, .. }| {
+            let pairs = corners[1..].windows(2);
+            pairs.flat_map(|pair| [corners[0], pair[0], pair[1]])
+        })
+    }
+
+    pub(super) fn count_triangles(&self) -> usize {
+        self.faces.iter().map(|face| face.corners.len() - 2).sum()
     }
 }
 
 impl ObjFile {
-    /// Reads an OBJ file. The outer error says why it cannot be read; the caller knows the line that names the file.
+    /// Reads the text of an OBJ file, and the files of materials and textures that it names.
     pub(super) fn read(
         files: &mut Files,
         textures: &mut Textures,
         path: &Path,
-    ) -> Result<Result<Self, SceneError>, String> {
-        let text = files.read_text(path, LARGEST_MESH_FILE)?;
-        Ok(Self::parse(files, textures, path, text))
+        text: &str,
+    ) -> Result<Self, SceneError> {
+        let mut file = Self {
+            path: path.to_owned(),
+            parts: vec![Part::new(UNNAMED.into(), None)],
+            ..Self::default()
+        };
+        let mut libraries = Libraries::default();
+        for statement in split_statements(text) {
+            let fail = |reason: String| SceneError::at_line(path, statement.line, reason);
+            if statement.keyword == "mtllib" {
+                statement.check_name().map_err(fail)?;
+                let library = path.with_file_name("").join(statement.rest);
+                let text = files.read_text(&library, LARGEST_MATERIAL_FILE);
+                let text = text.map_err(|error| {
+                    let name = library.display();
+                    fail(format!("material library {name} cannot be read: {error}"))
+                })?;
+                libraries.read(&library, &text)?;
+            } else {
+                file.read_statement(&statement, &libraries).map_err(fail)?;
+            }
+        }
+        file.parts.retain(|part| !part.faces.is_empty());
+        file.materials = libraries.build_materials(files, textures)?;
+        Ok(file)
     }
 
-    fn parse(
-        files: &mut Files,
-        textures: &mut Textures,
-        path: &Path,
-        text: String,
-    ) -> Result<Self, SceneError> {
-        let mut libraries = Libraries::default();
-        let checked = check_obj(files, path, &text, &mut libraries)?;
-        let options = tobj::LoadOptions {
-            single_index: true,
-            triangulate: true,
-            ..Default::default()
-        };
-        let library = |name: &Path| tobj::load_mtl_buf(&mut libraries.texts[name].as_bytes());
-        let read = tobj::load_obj_buf(&mut checked.as_bytes(), &options, library);
-        let (parts, read) = read
-            .and_then(|(parts, materials)| Ok((parts, materials?)))
-            .map_err(|error| {
-                SceneError::in_file(path, format!("not a readable OBJ file: {error}"))
-            })?;
-        let materials = read
-            .iter()
-            .map(|material| libraries.build_material(files, textures, material))
-            .collect::<Result<_, _>>()?;
-        Ok(Self {
-            path: path.to_owned(),
-            text,
-            parts: parts
-                .into_iter()
-                .filter(|part| !part.mesh.indices.is_empty())
-                .collect(),
-            materials,
-        })
+    /// Material of a part.
+    pub(super) fn material(&self, part: &Part) -> Material {
+        let name = part.material.as_ref();
+        name.map_or_else(default_material, |name| self.materials[name].clone())
     }
 
     /// Lists the names of groups and objects that have faces, each once, in the order of the file.
     pub(super) fn groups(&self) -> Vec<&str> {
         let mut seen = HashSet::new();
-        let names = self.parts.iter().map(|part| part.name.as_str());
+        let names = self.parts.iter().map(|part| part.group.as_str());
         names.filter(|name| seen.insert(*name)).collect()
     }
 
-    /// Builds a mesh of the whole file or one group, with the materials of its slots.
-    pub(super) fn build_mesh(&self, group: Option<&str>) -> Result<(Mesh, Vec<Slot>), SceneError> {
-        let (mesh, slots) = self.build_unchecked(group);
-        self.check_area(&mesh)?;
-        Ok((mesh, slots))
+    /// Parts of the whole file or of one group, with their indices.
+    pub(super) fn parts_of(&self, group: Option<&str>) -> impl Iterator<Item = (usize, &Part)> {
+        let parts = self.parts.iter().enumerate();
+        parts.filter(move |(_, part)| group.is_none_or(|group| part.group == group))
     }
 
-    /// Builds one of several shapes, which may have no area.
-    pub(super) fn build_shape(&self, group: Option<&str>) -> Mesh {
-        self.build_unchecked(group).0
-    }
-
-    /// Parts of the whole file or of one group.
-    pub(super) fn parts_of<'a>(
-        &'a self,
-        group: Option<&'a str>,
-    ) -> impl Iterator<Item = &'a tobj::Mesh> {
-        self.parts
-            .iter()
-            .filter(move |part| group.is_none_or(|group| part.name == group))
-            .map(|part| &part.mesh)
-    }
-
-    /// Material of a part.
-    pub(super) fn material(&self, part: &tobj::Mesh) -> Material {
-        match part.material_id {
-            Some(index) => self.materials[index].clone(),
-            None => default_material(),
+    /// Reads a statement of the mesh; skips all others.
+    fn read_statement(
+        &mut self,
+        statement: &Statement,
+        libraries: &Libraries,
+    ) -> Result<(), String> {
+        match statement.keyword {
+            "o" | "g" => {
+                statement.check_name()?;
+                self.next_part().group = match statement.rest {
+                    "" => UNNAMED.to_owned(),
+                    name => name.to_owned(),
+                };
+                Ok(())
+            }
+            "usemtl" => {
+                statement.check_name()?;
+                check_material(statement, libraries)?;
+                let name = Some(statement.rest.to_owned());
+                if self.last_part().material != name {
+                    self.next_part().material = name;
+                }
+                Ok(())
+            }
+            "f" => self.read_face(statement),
+            "v" => {
+                self.positions.push(read_position(statement)?);
+                check_count(self.positions.len(), MOST_VERTICES, "vertices")
+            }
+            "vt" => {
+                let numbers = statement.read_numbers(&[2, 3])?;
+                self.texcoords.push(Vec2::from_slice(&numbers));
+                check_count(self.texcoords.len(), MOST_VERTICES, "texture coordinates")
+            }
+            "vn" => {
+                let normal = Vec3::from_slice(&statement.read_numbers(&[3])?);
+                if normal.length_squared() == 0.0 {
+                    return Err("vn has no length; give it a direction".into());
+                }
+                self.normals.push(normal.as_dvec3().normalize().as_vec3());
+                check_count(self.normals.len(), MOST_VERTICES, "normals")
+            }
+            _ => Ok(()),
         }
     }
 
-    fn build_unchecked(&self, group: Option<&str>) -> (Mesh, Vec<Slot>) {
-        let parts: Vec<_> = self.parts_of(group).collect();
-        let with_normals = parts.iter().any(|part| !part.normals.is_empty());
-        let with_texcoords = parts.iter().any(|part| !part.texcoords.is_empty());
-        let mut mesh = Mesh {
-            path: self.path.clone(),
-            positions: Vec::new(),
-            normals: Vec::new(),
-            texcoords: Vec::new(),
-            triangles: Vec::new(),
-            slots: Vec::new(),
-            shapes: Vec::new(),
-        };
-        let mut slots = Slots::default();
-        for part in parts {
-            let slot = slots.add(self.material(part), !part.texcoords.is_empty());
-            push_part(&mut mesh, part, slot, with_normals, with_texcoords);
-        }
-        (mesh, slots.into_list())
+    /// The part that faces are added to.
+    fn last_part(&mut self) -> &mut Part {
+        self.parts.last_mut().expect("a file begins with a part")
     }
 
-    fn check_area(&self, mesh: &Mesh) -> Result<(), SceneError> {
-        if mesh.triangles.is_empty() {
-            let reason = "holds no faces; a mesh needs at least one f statement with 3 corners";
-            return Err(SceneError::in_file(&self.path, reason));
+    /// Begins a part after the last, unless that has no faces yet.
+    fn next_part(&mut self) -> &mut Part {
+        let last = self.last_part();
+        if !last.faces.is_empty() {
+            let next = Part::new(last.group.clone(), last.material.clone());
+            self.parts.push(next);
         }
-        let has_area = |triangle: &[u32; 3]| {
-            let [a, b, c] = triangle.map(|index| mesh.positions[index as usize].as_dvec3());
-            (b - a).cross(c - a).length_squared() > 0.0
-        };
-        if !mesh.triangles.iter().any(has_area) {
-            return Err(SceneError::without_area(&self.path, mesh.triangles.len()));
+        self.last_part()
+    }
+
+    /// Reads a face of the last part.
+    fn read_face(&mut self, statement: &Statement) -> Result<(), String> {
+        let lengths = [
+            self.positions.len(),
+            self.texcoords.len(),
+            self.normals.len(),
+        ];
+        let face = Face::read(statement, lengths)?;
+        self.triangles += face.corners.len() - 2;
+        let faces = &mut self.last_part().faces;
+        if faces
+            .first()
+            .is_some_and(|first| first.kinds() != face.kinds())
+        {
+            return Err(
+                "the face has other kinds of indices than the faces before it; give texture coordinates and normals to all \
+                 faces of a group and material, or to none"
+                    .into(),
+            );
         }
-        Ok(())
+        faces.push(face);
+        check_count(self.triangles, MOST_TRIANGLES, "triangles")
     }
 }
 
-/// Adds the faces of one part. Beside parts with normals, faces without get flat ones; beside parts with texture
-/// coordinates, faces without get (0, 0), which no texture reads.
-fn push_part(
-    mesh: &mut Mesh,
-    part: &tobj::Mesh,
-    slot: u32,
-    with_normals: bool,
-    with_texcoords: bool,
-) {
-    let flat = with_normals && part.normals.is_empty();
-    // Flat faces share no vertices.
-    let vertices: Vec<u32> = if flat {
-        part.indices.clone()
-    } else {
-        (0..part.positions.len() as u32 / 3).collect()
+/// Refuses more elements than are allowed.
+fn check_count(count: usize, most: usize, what: &str) -> Result<(), String> {
+    if count <= most {
+        return Ok(());
+    }
+    Err(format!(
+        "the file has more than {most} {what}, as many as are allowed; simplify the mesh, or split it into several files"
+    ))
+}
+
+/// Reads a position: three numbers, with a weight or a colour, which is not used.
+fn read_position(statement: &Statement) -> Result<Vec3, String> {
+    let numbers = statement.read_numbers(&[3, 4, 6])?;
+    let position = Vec3::from_slice(&numbers);
+    let &[_, _, _, weight] = &numbers[..] else {
+        return Ok(position);
     };
-    let first = mesh.positions.len() as u32;
-    let triple = |values: &[f32], index: u32| Vec3::from_slice(&values[3 * index as usize..]);
-    for &index in &vertices {
-        mesh.positions.push(triple(&part.positions, index));
-        if with_texcoords {
-            let texcoord = match part.texcoords.is_empty() {
-                true => Vec2::ZERO,
-                false => Vec2::from_slice(&part.texcoords[2 * index as usize..]),
-            };
-            mesh.texcoords.push(texcoord);
-        }
-        if with_normals && !flat {
-            let normal = triple(&part.normals, index).as_dvec3().normalize();
-            mesh.normals.push(normal.as_vec3());
-        }
+    if weight == 0.0 {
+        return Err("v has the weight 0, which puts it at infinity; leave the weight out".into());
     }
-    for (face, corners) in part.indices.chunks_exact(3).enumerate() {
-        let corners = match flat {
-            true => [0, 1, 2].map(|corner| 3 * face as u32 + corner),
-            false => [corners[0], corners[1], corners[2]],
-        };
-        let triangle = corners.map(|corner| first + corner);
-        if flat {
-            let [a, b, c] = triangle.map(|index| mesh.positions[index as usize].as_dvec3());
-            // A face without area has no direction, and no ray hits it.
-            let normal = (b - a).cross(c - a).normalize_or(glam::DVec3::Y);
-            mesh.normals.extend([normal.as_vec3(); 3]);
-        }
-        mesh.triangles.push(triangle);
-        mesh.slots.push(slot);
+    let position = position / weight;
+    if f64::from(position.abs().max_element()) > LARGEST_NUMBER {
+        return Err(format!(
+            "v has the weight {weight:e}, which puts it beyond {LARGEST_NUMBER:e}; leave the weight out"
+        ));
     }
+    Ok(position)
+}
+
+fn check_material(statement: &Statement, libraries: &Libraries) -> Result<(), String> {
+    if libraries.defines(statement.rest) {
+        return Ok(());
+    }
+    Err(format!(
+        "usemtl names material \"{}\", which no mtllib above it defines; materials: {}",
+        shorten(statement.rest),
+        libraries.list_names()
+    ))
 }

@@ -8,7 +8,7 @@ use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use crate::Family;
+use crate::{Family, Interpolation};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -28,6 +28,19 @@ pub(super) struct SceneTable {
     /// Taken out before the rest is read; stands here so that messages list it among the keys.
     #[serde(rename = "variant")]
     pub(super) _variant: Option<IgnoredAny>,
+}
+
+/// Keys that a variant may change. Only their check needs them.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(dead_code, reason = "reading checks them")]
+pub(super) struct VariantTable {
+    background: Option<BackgroundTable>,
+    camera: Option<CameraTable>,
+    exposure: Option<f64>,
+    object: Option<BTreeMap<String, ObjectTable>>,
+    shutter: Option<ShutterTable>,
+    sun: Option<SunTable>,
 }
 
 #[derive(Deserialize)]
@@ -65,10 +78,10 @@ pub(super) struct CameraTable {
     pub(super) aperture: Option<Spanned<f64>>,
     pub(super) focus: Option<Spanned<f64>>,
     pub(super) keys: Option<Spanned<Vec<CameraKeyTable>>>,
-    pub(super) interpolation: Option<Spanned<String>>,
+    pub(super) interpolation: Option<Spanned<Interpolation>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CameraKeyTable {
     pub(super) time: Spanned<f64>,
@@ -116,9 +129,9 @@ pub(super) struct ObjectTable {
     pub(super) rotation: Option<Spanned<RotationTable>>,
     pub(super) scale: Option<Spanned<ScaleTable>>,
     pub(super) keys: Option<Spanned<Vec<KeyTable>>>,
-    pub(super) interpolation: Option<Spanned<String>>,
-    pub(super) alpha: Option<Spanned<String>>,
-    pub(super) buffers: Option<Spanned<String>>,
+    pub(super) interpolation: Option<Spanned<Interpolation>>,
+    pub(super) alpha: Option<AlphaWord>,
+    pub(super) buffers: Option<Spanned<BuffersWord>>,
     #[serde(default)]
     pub(super) material: BTreeMap<Spanned<String>, MaterialTable>,
 }
@@ -130,7 +143,7 @@ pub(super) struct ShapeTable {
     pub(super) mesh: Spanned<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct KeyTable {
     pub(super) time: Spanned<f64>,
@@ -153,6 +166,22 @@ pub(super) struct MaterialTable {
     pub(super) diffuse_texture: Option<Spanned<String>>,
     pub(super) emission_texture: Option<Spanned<String>>,
     pub(super) opacity_texture: Option<Spanned<String>>,
+}
+
+/// Meaning of an object's opacities.
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum AlphaWord {
+    Cutout,
+    Blended,
+}
+
+/// Surfaces that the buffers show where an object is translucent.
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum BuffersWord {
+    Behind,
+    Own,
 }
 
 /// `{ axis, degrees }` or a quaternion `[x, y, z, w]`.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use frame::check_png_palette;
+use frame::{check_png_palette, decode_srgb};
 use image::ImageFormat;
 
 use crate::Texture;
@@ -102,15 +102,6 @@ fn decode_texel(encoded: [u16; 4], usage: Use, has_alpha: bool) -> [f32; 4] {
         Use::Color | Use::Opacity => a,
     };
     [decode_srgb(r), decode_srgb(g), decode_srgb(b), alpha]
-}
-
-/// Decodes an sRGB component (IEC 61966-2-1).
-fn decode_srgb(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
 }
 
 #[cfg(test)]

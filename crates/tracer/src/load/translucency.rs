@@ -6,7 +6,7 @@ use toml::Spanned;
 use super::document::Document;
 use super::error::SceneError;
 use super::light::check_albedo;
-use super::schema::{MaterialTable, ObjectTable};
+use super::schema::{AlphaWord, BuffersWord, MaterialTable, ObjectTable};
 use crate::{Finish, Material, Translucency};
 
 /// Index of refraction of glass if no file gives one.
@@ -24,25 +24,15 @@ pub(super) struct Alpha {
 impl Alpha {
     /// Reads `alpha` and `buffers` of an object.
     pub(super) fn read(document: &Document, table: &ObjectTable) -> Result<Self, SceneError> {
-        let choose = |what: &str, key: &Option<Spanned<String>>, words: [&str; 2]| {
-            let Some(key) = key else { return Ok(false) };
-            let index = words.iter().position(|word| word == key.get_ref());
-            index.map(|index| index == 1).ok_or_else(|| {
-                let [first, second] = words;
-                let found = key.get_ref();
-                let reason = format!("{what} is \"{found}\"; allowed: \"{first}\", \"{second}\"");
-                document.error(key.span(), reason)
-            })
-        };
-        let is_blended = choose("alpha", &table.alpha, ["cutout", "blended"])?;
-        let in_buffers = choose("buffers", &table.buffers, ["behind", "own"])?;
+        let is_blended = table.alpha == Some(AlphaWord::Blended);
         if let (Some(buffers), false) = (&table.buffers, is_blended) {
             let reason = "buffers tells what velocity and depth are where an object is translucent; give it alpha = \"blended\"";
             return Err(document.error(buffers.span(), reason));
         }
+        let buffers = table.buffers.as_ref().map(|buffers| *buffers.get_ref());
         Ok(Self {
             is_blended,
-            in_buffers,
+            in_buffers: buffers == Some(BuffersWord::Own),
         })
     }
 

@@ -1,19 +1,27 @@
 //! The tables of a scene.toml: the scene, and its variants.
 
-use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use super::document::Document;
 use super::error::{SceneError, check_name, join_names};
-use super::schema::{
-    BackgroundTable, CameraTable, ObjectTable, SceneTable, ShutterTable, SunTable,
-};
-use super::variant_changes::{
-    VARIANT_KEYS, apply_variant, find_object, merge_tables, unknown_change,
-};
-use crate::FrameRate;
+use super::schema::{SceneTable, VariantTable};
+use crate::SceneId;
 use crate::limits::{MOST_OBJECTS, MOST_VARIANTS};
+
+/// Keys of an object that give a still pose.
+const STILL_POSE: [&str; 3] = ["translation", "rotation", "scale"];
+
+/// Keys of an object that give a motion.
+const MOTION: [&str; 2] = ["keys", "interpolation"];
+
+/// Keys of an object that a variant gives, and those that it thereby removes.
+const ALTERNATIVES: [(&[&str], &[&str]); 4] = [
+    (&STILL_POSE, &MOTION),
+    (&MOTION, &STILL_POSE),
+    (&["mesh"], &["shapes"]),
+    (&["shapes"], &["mesh"]),
+];
 
 /// Parsed scene.toml, with the variants apart.
 pub(super) struct ParsedScene<'a> {
@@ -53,84 +61,139 @@ impl<'a> ParsedScene<'a> {
     pub(super) fn read(&self, variant: Option<&str>) -> Result<SceneTable, SceneError> {
         let mut scene = self.scene.clone();
         if let Some(name) = variant {
-            let Some(changes) = self.variants.get(name) else {
+            if !self.variants.contains_key(name) {
                 let known = join_names(self.variant_names.iter().map(String::as_str));
                 let reason = format!("variant \"{name}\" is unknown; variants: {known}");
                 return Err(SceneError::in_file(&self.document.path, reason));
-            };
-            apply_variant(self.document, &mut scene, name, changes)?;
+            }
+            apply_changes(&mut scene, self.read_changes(name)?);
         }
         let whole = Spanned::new(self.document.whole(), DeValue::Table(scene));
         self.document.read(whole)
     }
 
-    /// Checks all variants at once, not only the one that somebody chooses. Reads what each changes and no more, so that the
-    /// time grows with the length of the text.
+    /// Checks the scene and all variants at once, not only what somebody chooses.
     pub(super) fn check_variants(&self) -> Result<(), SceneError> {
-        for key in VARIANT_KEYS {
-            if let Some(value) = self.scene.get(key) {
-                self.check_part(key, value)?;
-            }
-        }
-        for name in &self.variant_names {
-            let what = format!("variant \"{name}\"");
-            let variant = &self.variants[name.as_str()];
-            for (key, change) in self.document.expect_table(&what, variant)? {
-                match key.get_ref().as_ref() {
-                    "object" => {
-                        for (object, change) in self.document.expect_table(&what, change)? {
-                            self.check_object(name, object, change)?;
-                        }
-                    }
-                    other if VARIANT_KEYS.contains(&other) => self.check_part(other, change)?,
-                    _ => return Err(unknown_change(self.document, name, key)),
-                }
-            }
-        }
-        Ok(())
+        self.read(None)?;
+        let mut names = self.variant_names.iter();
+        names.try_for_each(|name| self.read_changes(name).map(|_| ()))
     }
 
-    fn check_part(&self, key: &str, value: &Spanned<DeValue<'a>>) -> Result<(), SceneError> {
-        fn check<T: DeserializeOwned>(
-            document: &Document,
-            value: &Spanned<DeValue<'_>>,
-        ) -> Result<(), SceneError> {
-            document.read::<T>(value.clone()).map(|_| ())
-        }
-        match key {
-            "background" => check::<BackgroundTable>(self.document, value),
-            "camera" => check::<CameraTable>(self.document, value),
-            "exposure" => check::<f64>(self.document, value),
-            "object" => {
-                let mut objects = self.document.expect_table("object", value)?.values();
-                objects.try_for_each(|object| check::<ObjectTable>(self.document, object))
+    /// Reads and checks what a variant changes, and no more, so that the time grows with the length of the text. Tables of its
+    /// objects are merged with those of the scene's objects.
+    fn read_changes(&self, variant: &str) -> Result<DeTable<'a>, SceneError> {
+        let what = format!("variant \"{variant}\"");
+        let value = &self.variants[variant];
+        let mut changes = self.document.expect_table(&what, value)?.clone();
+        if let Some(objects) = changes.get("object") {
+            let mut merged = DeTable::new();
+            for (name, change) in self.document.expect_table(&what, objects)? {
+                let change = self.merge_object(variant, name, change)?;
+                merged.insert(name.clone(), Spanned::new(name.span(), change));
             }
-            "shutter" => check::<ShutterTable>(self.document, value),
-            "sun" => check::<SunTable>(self.document, value),
-            other => unreachable!("\"{other}\" is no key of a variant"),
+            let merged = Spanned::new(objects.span(), DeValue::Table(merged));
+            changes["object"] = merged;
         }
+        let checked = Spanned::new(value.span(), DeValue::Table(changes.clone()));
+        self.document.read::<VariantTable>(checked)?;
+        Ok(changes)
     }
 
-    /// Checks a change of an object. Only the tables that it merges with are read with it.
-    fn check_object(
+    /// Merges the change of an object with the tables that the scene has of it.
+    fn merge_object(
         &self,
         variant: &str,
         name: &Spanned<DeString<'a>>,
         change: &Spanned<DeValue<'a>>,
-    ) -> Result<(), SceneError> {
-        let object = find_object(self.document, &self.scene, variant, name)?;
+    ) -> Result<DeValue<'a>, SceneError> {
         let what = format!("object \"{}\"", name.get_ref());
-        let change = self.document.expect_table(&what, change)?.clone();
-        let mut changed = DeTable::new();
-        for key in change.keys() {
-            let before = object.get_key_value(key.get_ref().as_ref());
-            if let Some((key, before)) = before.filter(|(_, before)| before.get_ref().is_table()) {
-                changed.insert(key.clone(), before.clone());
+        let object = self.find_object(variant, name)?;
+        let change = self.document.expect_table(&what, change)?;
+        let before = (change.keys()).filter_map(|key| object.get_key_value(key.get_ref().as_ref()));
+        let mut merged: DeTable = before
+            .filter(|(_, before)| before.get_ref().is_table())
+            .map(|(key, before)| (key.clone(), before.clone()))
+            .collect();
+        merge_tables(&mut merged, change.clone());
+        Ok(DeValue::Table(merged))
+    }
+
+    /// Finds the object that a variant changes.
+    fn find_object(
+        &self,
+        variant: &str,
+        name: &Spanned<DeString<'a>>,
+    ) -> Result<&DeTable<'a>, SceneError> {
+        let objects = match self.scene.get("object") {
+            Some(objects) => Some(self.document.expect_table("object", objects)?),
+            None => None,
+        };
+        if let Some(object) = objects.and_then(|objects| objects.get(name.get_ref().as_ref())) {
+            let what = format!("object \"{}\"", name.get_ref());
+            return self.document.expect_table(&what, object);
+        }
+        let known = objects.into_iter().flat_map(|objects| objects.keys());
+        let reason = format!(
+            "variant \"{variant}\" changes object \"{}\", which the scene does not have; objects: {}",
+            name.get_ref(),
+            join_names(known.map(|name| name.get_ref().as_ref()))
+        );
+        Err(self.document.error(name.span(), reason))
+    }
+}
+
+/// Changes objects key by key, and replaces all else whole.
+fn apply_changes<'a>(scene: &mut DeTable<'a>, changes: DeTable<'a>) {
+    for (key, change) in changes {
+        let objects = scene.get_mut("object").and_then(table_mut);
+        let Some(objects) = objects.filter(|_| key.get_ref() == "object") else {
+            replace(scene, key, change);
+            continue;
+        };
+        for (name, change) in into_table(change) {
+            let object = objects.get_mut(name.get_ref().as_ref());
+            let object = object.and_then(table_mut).expect("it has been found");
+            let change = into_table(change);
+            for (given, removed) in ALTERNATIVES {
+                if given.iter().any(|key| change.contains_key(*key)) {
+                    removed.iter().for_each(|key| drop(object.remove(*key)));
+                }
+            }
+            for (key, value) in change {
+                replace(object, key, value);
             }
         }
-        merge_tables(&mut changed, change);
-        let changed = Spanned::new(name.span(), DeValue::Table(changed));
-        self.document.read::<ObjectTable>(changed).map(|_| ())
+    }
+}
+
+/// Merges tables into tables and replaces all other values.
+fn merge_tables<'a>(base: &mut DeTable<'a>, changes: DeTable<'a>) {
+    for (key, change) in changes {
+        let own = base.get_mut(key.get_ref().as_ref()).and_then(table_mut);
+        match own.filter(|_| change.get_ref().is_table()) {
+            Some(own) => merge_tables(own, into_table(change)),
+            None => replace(base, key, change),
+        }
+    }
+}
+
+/// Puts a value in the place of another, with its own key, whose place messages name.
+fn replace<'a>(table: &mut DeTable<'a>, key: Spanned<DeString<'a>>, value: Spanned<DeValue<'a>>) {
+    table.remove(key.get_ref().as_ref());
+    table.insert(key, value);
+}
+
+fn table_mut<'b, 'a>(value: &'b mut Spanned<DeValue<'a>>) -> Option<&'b mut DeTable<'a>> {
+    match value.get_mut() {
+        DeValue::Table(table) => Some(table),
+        _ => None,
+    }
+}
+
+fn into_table<'a>(value: Spanned<DeValue<'a>>) -> DeTable<'a> {
+    match value.into_inner() {
+        DeValue::Table(table) => table,
+        _ => DeTable::new(),
     }
 }
 
@@ -141,9 +204,9 @@ fn read_variant_names(document: &Document, variants: &DeTable) -> Result<Vec<Str
     for (index, name) in names.iter().enumerate() {
         check_name(name.get_ref())
             .map_err(|reason| document.error(name.span(), format!("variant {reason}")))?;
-        if FrameRate::in_word(name.get_ref()).is_some() {
+        if SceneId::new("", Some(name.get_ref())).variant.is_none() {
             let reason = format!(
-                "variant \"{}\" has the name of a frame rate, which every scene can be taken at; rename it",
+                "variant \"{}\" has the name of a frame rate or of a sealed variant, which every scene has; rename it",
                 name.get_ref()
             );
             return Err(document.error(name.span(), reason));

@@ -8,6 +8,5 @@ pub(crate) mod ggx;
 pub(crate) mod glossy_brdf;
 pub(crate) mod glossy_material;
 pub(crate) mod passage;
-pub(crate) mod sight;
 pub(crate) mod surface;
 pub(crate) mod texture;

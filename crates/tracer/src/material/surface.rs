@@ -2,12 +2,9 @@
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::Ray;
-use crate::geometry::triangle::Crossing;
+use crate::geometry::ray::{Hit, Ray};
 use crate::material::brdf::Brdf;
 use crate::material::glossy_material::GlossyMaterial;
-use crate::material::sight::Sight;
 use crate::motion::pose::Pose;
 use crate::scene::{Material, Mesh, Scene};
 
@@ -31,48 +28,47 @@ pub(crate) struct Surface {
     pub area: f64,
 }
 
-/// The holes of an object, cut out by opacity, and its translucent parts.
-pub(crate) struct Opacity {
-    object: usize,
-    solid: bool,
+/// The translucent surfaces that a ray sees; opaque ones it always sees, holes never.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sight {
+    /// All that change the light.
+    Everything,
+    /// Those that velocity, depth and object id are taken of.
+    Buffers,
+    /// None.
+    Opaque,
 }
 
-impl Opacity {
-    pub fn of_objects(scene: &Scene) -> Vec<Opacity> {
-        let solid = |&material: &usize| {
-            let material = &scene.materials[material];
-            material.opacity >= HOLE
-                && material.opacity_texture.is_none()
-                && material.translucency.is_none()
-        };
-        scene
-            .objects
-            .iter()
-            .enumerate()
-            .map(|(index, object)| Opacity {
-                object: index,
-                solid: object.materials.iter().all(solid),
-            })
-            .collect()
-    }
+/// Tells of each object whether it is opaque everywhere, without holes cut out by opacity and without translucent parts.
+pub(crate) fn find_solid_objects(scene: &Scene) -> Vec<bool> {
+    let is_solid = |&material: &usize| {
+        let material = &scene.materials[material];
+        material.opacity >= HOLE
+            && material.opacity_texture.is_none()
+            && material.translucency.is_none()
+    };
+    let objects = scene.objects.iter();
+    objects
+        .map(|object| object.materials.iter().all(is_solid))
+        .collect()
+}
 
-    /// Returns true if a ray of this sight sees the surface at the crossing.
-    #[inline]
-    pub fn is_seen(&self, sight: Sight, scene: &Scene, triangle: u32, crossing: &Crossing) -> bool {
-        self.solid || self.is_seen_at(sight, scene, triangle, [crossing.u, crossing.v])
-    }
-
-    fn is_seen_at(&self, sight: Sight, scene: &Scene, triangle: u32, weights: [f64; 2]) -> bool {
-        let opacity = || opacity(scene, self.object, triangle, weights);
-        let Some(own) = find_material(scene, self.object, triangle).translucency else {
-            return opacity() >= HOLE;
-        };
-        let changes_light = || own.glass.is_some() || own.filter != Vec3::ONE || opacity() > 0.0;
-        match sight {
-            Sight::Everything => changes_light(),
-            Sight::Buffers => own.in_buffers && changes_light(),
-            Sight::Opaque => false,
-        }
+/// Returns true if a ray of this sight sees a point of a triangle of an object that is not solid.
+pub(crate) fn is_seen(
+    sight: Sight,
+    scene: &Scene,
+    (object, triangle): (usize, u32),
+    weights: [f64; 2],
+) -> bool {
+    let opacity = || opacity(scene, object, triangle, weights);
+    let Some(own) = find_material(scene, object, triangle).translucency else {
+        return opacity() >= HOLE;
+    };
+    let changes_light = || own.glass.is_some() || own.filter != Vec3::ONE || opacity() > 0.0;
+    match sight {
+        Sight::Everything => changes_light(),
+        Sight::Buffers => own.in_buffers && changes_light(),
+        Sight::Opaque => false,
     }
 }
 

@@ -2,25 +2,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-/// The path of a motion between keys.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Interpolation {
-    /// Position and scale change at a constant rate, the orientation turns at a constant angular velocity. Velocities
-    /// jump at keys.
-    #[default]
-    Linear,
-    /// Velocities are continuous.
-    ///
-    /// Position and scale follow cubic polynomials. The slope at a key is that of the parabola through the key and its
-    /// neighbours (Catmull and Rom 1974, for uneven times), so keys taken from a parabola give it back. The angular
-    /// velocity at a key is the same mean of the turns beside it.
-    ///
-    /// Between keys the orientation is a product of rotations about fixed axes by cubic angles (the kind of curve of Kim,
-    /// Kim and Shin 1995): the turn from key to key, with a swing before it and one after it. A swing vanishes at both
-    /// keys and supplies the part of the angular velocity there that lies across the turn's axis. Turns that share an axis
-    /// need no swing.
-    Cubic,
-}
+use crate::scene::Interpolation;
 
 /// A number or a vector that changes along a curve.
 pub(crate) trait Quantity:

@@ -34,10 +34,9 @@ impl Extent {
     }
 
     fn of(mesh: &Mesh) -> Self {
-        let lengths = mesh.positions.iter().map(|p| p.as_dvec3().length());
         let many = !mesh.deforms() && mesh.positions.len() >= FEW;
         Self {
-            distance: lengths.fold(0.0, f64::max),
+            distance: mesh.at(0.0).radius(),
             grid: many.then(|| Grid::of(mesh)),
         }
     }
@@ -108,8 +107,6 @@ fn direction(node: usize) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
-
     use glam::{DQuat, Vec3};
 
     use super::*;
@@ -127,13 +124,8 @@ mod tests {
             )
         };
         Mesh {
-            path: PathBuf::new(),
             positions: (0..2000).map(point).collect(),
-            normals: Vec::new(),
-            texcoords: Vec::new(),
-            triangles: Vec::new(),
-            slots: Vec::new(),
-            shapes: Vec::new(),
+            ..Mesh::default()
         }
     }
 

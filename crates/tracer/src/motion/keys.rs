@@ -2,41 +2,8 @@
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use crate::motion::curve::{Cubic, Interpolation, Keyed};
-
-/// A rotation about a fixed axis; more than one turn is allowed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turn {
-    /// Unit vector.
-    pub axis: DVec3,
-    /// Radians, right-handed about `axis`.
-    pub angle: f64,
-}
-
-/// A pose at one time, and the turn to the next.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Key {
-    /// Frames relative to the instant.
-    pub time: f64,
-    /// Metres.
-    pub translation: DVec3,
-    /// Rotation, a unit quaternion.
-    pub orientation: DQuat,
-    /// Factors per axis, applied before the rotation; never 0.
-    pub scale: DVec3,
-    /// Rotation from this key to the next, in the parent's axes; unused at the last key.
-    pub turn: Turn,
-}
-
-/// At least one key, in rising order of time. Before the first key and after the last the motion goes on at the velocity
-/// that it has there. A motion of one key stands still.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Motion {
-    /// Poses at strictly rising times.
-    pub keys: Vec<Key>,
-    /// Path between them.
-    pub interpolation: Interpolation,
-}
+use crate::motion::curve::{Cubic, Keyed};
+use crate::scene::{Interpolation, Key, Motion, Turn};
 
 /// A part of a motion without keys inside, as polynomials in time.
 pub(crate) struct Segment {
@@ -59,34 +26,7 @@ pub(crate) struct Rotation {
     pub angle: Cubic<f64>,
 }
 
-impl Turn {
-    /// No rotation.
-    pub const NONE: Turn = Turn {
-        axis: DVec3::Y,
-        angle: 0.0,
-    };
-}
-
-impl Key {
-    /// The identity pose at time 0.
-    pub const REST: Key = Key {
-        time: 0.0,
-        translation: DVec3::ZERO,
-        orientation: DQuat::IDENTITY,
-        scale: DVec3::ONE,
-        turn: Turn::NONE,
-    };
-}
-
 impl Motion {
-    /// A pose that never changes.
-    pub fn still(key: Key) -> Self {
-        Self {
-            keys: vec![key],
-            ..Self::default()
-        }
-    }
-
     /// Transform from the object's space to its parent's at `time` (frames).
     pub fn at(&self, time: f64) -> DAffine3 {
         self.segment(time).at(time)

@@ -72,19 +72,6 @@ mod tests {
     }
 
     #[test]
-    fn the_moments_of_the_disc_are_those_of_a_uniform_one() {
-        let (mut mean, mut square, mut count) = (DVec2::ZERO, DVec2::ZERO, 0.0);
-        for_each_point(|point| {
-            mean += point;
-            square += point * point;
-            count += 1.0;
-        });
-        // The midpoint rule's error is about 1 / 256^2.
-        assert!((mean / count).length() < 1e-9);
-        assert!((square / count - DVec2::splat(0.25)).length() < 1e-4);
-    }
-
-    #[test]
     fn neighbours_stay_neighbours() {
         let step = 1e-4;
         for index in 0..10_000u32 {

@@ -2,6 +2,8 @@
 
 use glam::DAffine3;
 
+use crate::scene::Scene;
+
 /// The transforms between an object's space and the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pose {
@@ -23,5 +25,16 @@ impl Pose {
             to_world: self.to_world * child.to_world,
             to_object: child.to_object * self.to_object,
         }
+    }
+}
+
+impl Scene {
+    /// Transform from the object's space to the world at `time` (frames).
+    pub fn object_to_world(&self, object: usize, time: f64) -> DAffine3 {
+        let outwards = self.motion_chain(object).into_iter();
+        let transforms = outwards.rev().map(|motion| motion.at(time));
+        transforms
+            .reduce(|outer, own| outer * own)
+            .expect("an object is in its own chain")
     }
 }

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use crate::geometry::ray::Ray;
-use crate::motion::keys::{Motion, Segment, key_times};
+use crate::motion::keys::{Segment, key_times};
 use crate::motion::pose::Pose;
 use crate::motion::screw::Screw;
-use crate::scene::{Mesh, Parent, Scene};
+use crate::scene::{Mesh, Motion, Parent, Scene};
 
 /// The poses of all objects at one time.
 #[derive(Clone)]
@@ -86,6 +86,10 @@ impl<'a> Poses<'a> {
                 }
             })
             .collect();
+        let radius = |mesh: &Mesh| match mesh.deforms() {
+            true => f64::INFINITY,
+            false => mesh.at(from).radius(),
+        };
         let radii: Vec<f64> = scene.meshes.iter().map(radius).collect();
         let objects = scene.objects.iter();
         let motions = PreparedMotions {
@@ -135,8 +139,7 @@ impl<'a> Poses<'a> {
     /// Returns true if a ray certainly misses an object. It is a quick test of objects whose pose is not yet known.
     #[inline(always)]
     pub(crate) fn is_missed(&self, object: usize, ray: &Ray) -> bool {
-        let stamp = self.poses[object].0;
-        if stamp == FOR_EVER || stamp == self.current {
+        if self.is_current(object) {
             return false;
         }
         match (
@@ -169,16 +172,16 @@ impl<'a> Poses<'a> {
     /// Poses an object, and before it those of its parents that are out of date. A loop, because chains of parents may be
     /// deeper than a thread's stack.
     fn update(&mut self, object: usize) {
-        let mut due = Vec::new();
+        let mut outdated = Vec::new();
         let mut outermost = object;
         while let Parent::Object(parent) = self.scene.objects[outermost].parent
             && !self.is_current(parent)
         {
-            due.push(outermost);
+            outdated.push(outermost);
             outermost = parent;
         }
         self.update_one(outermost);
-        for object in due.into_iter().rev() {
+        for object in outdated.into_iter().rev() {
             self.update_one(object);
         }
     }
@@ -193,15 +196,6 @@ impl<'a> Poses<'a> {
         };
         self.poses[object] = (self.current, pose);
     }
-}
-
-/// The greatest distance of a vertex from the origin, metres; infinite where the mesh deforms.
-fn radius(mesh: &Mesh) -> f64 {
-    if mesh.deforms() {
-        return f64::INFINITY;
-    }
-    let lengths = mesh.positions.iter().map(|p| p.as_dvec3().length());
-    lengths.fold(0.0, f64::max)
 }
 
 /// Returns true if no motion between the object and the world changes anything within the interval.

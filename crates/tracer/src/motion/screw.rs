@@ -85,8 +85,7 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
-    use crate::motion::curve::Interpolation;
-    use crate::motion::keys::{Key, Motion, Turn};
+    use crate::scene::{Interpolation, Key, Motion, Turn};
 
     /// A drift of metres and a turn of this many radians about a tilted axis, for a large, flat, mirrored object.
     fn drifting(angle: f64) -> Motion {

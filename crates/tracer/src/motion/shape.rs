@@ -51,11 +51,7 @@ impl Mesh {
     /// The greatest distance from the origin (metres) and the greatest speed (metres per frame) of any vertex within
     /// `[from, to]`, an interval without key shapes inside.
     pub(crate) fn vertex_maxima(&self, from: f64, to: f64) -> [f64; 2] {
-        let farthest = |time: f64| {
-            let lengths = self.at(time).positions().map(DVec3::length);
-            lengths.fold(0.0, f64::max)
-        };
-        let distance = farthest(from).max(farthest(to));
+        let distance = self.at(from).radius().max(self.at(to).radius());
         let Some(between) = self.at(0.5 * (from + to)).between else {
             return [distance, 0.0];
         };
@@ -85,6 +81,11 @@ impl ShapeAt<'_> {
     /// Positions of all vertices.
     pub fn positions(self) -> impl Iterator<Item = DVec3> {
         (0..self.mesh.positions.len() as u32).map(move |vertex| self.position(vertex))
+    }
+
+    /// Greatest distance of a vertex from the origin, metres.
+    pub fn radius(self) -> f64 {
+        self.positions().map(DVec3::length).fold(0.0, f64::max)
     }
 
     /// Unit normal of a vertex; none where the mesh has none, where the face is flat, or where two shapes' cancel.
@@ -129,8 +130,6 @@ impl ShapeAt<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
-
     use super::*;
 
     #[test]
@@ -145,13 +144,10 @@ mod tests {
             shape(1.0, [Vec3::X, Vec3::ZERO]),
         ];
         let mesh = Mesh {
-            path: PathBuf::new(),
             positions: vec![Vec3::ZERO; 2],
             normals: vec![Vec3::Z, Vec3::Y],
-            texcoords: Vec::new(),
-            triangles: Vec::new(),
-            slots: Vec::new(),
             shapes,
+            ..Mesh::default()
         };
         let normal = mesh.at(0.0).normal(0).unwrap();
         // Rounding of a square root.

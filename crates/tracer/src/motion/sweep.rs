@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use crate::geometry::aabb::Aabb;
 use crate::motion::extent::Extent;
-use crate::motion::keys::{Motion, Segment, times_within};
-use crate::scene::{Mesh, Scene};
+use crate::motion::keys::{Segment, times_within};
+use crate::scene::{Mesh, Motion, Scene};
 
 /// Upper limits for all points of a mesh within an interval.
 #[derive(Clone, Copy)]
@@ -127,27 +127,24 @@ fn segment_maxima(inner: PointMaxima, segment: &Segment, from: f64, to: f64) -> 
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::PI;
-    use std::path::PathBuf;
-
     use glam::{DQuat, Vec3};
+    use std::f64::consts::PI;
 
     use super::*;
-    use crate::motion::curve::Interpolation;
-    use crate::motion::keys::{Key, Turn};
-    use crate::scene::{Camera, Object, Parent, Shape};
+    use crate::scene::{Camera, Interpolation, Key, Object, Parent, Shape, Turn};
+    use crate::seal::chance::Chance;
     use crate::test_scene::load_test_scene;
 
-    /// SplitMix64 in [-1, 1): enough to vary poses.
-    struct Numbers(u64);
+    /// Numbers in [-1, 1].
+    struct Numbers(Chance);
 
     impl Numbers {
+        fn new(seed: u64) -> Self {
+            Self(Chance::new(seed, "poses"))
+        }
+
         fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = self.0;
-            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ (z >> 31)) >> 11) as f64 / 2f64.powi(52) - 1.0
+            self.0.between(-1.0..=1.0)
         }
 
         fn vector(&mut self) -> DVec3 {
@@ -223,13 +220,9 @@ mod tests {
                 lens: None,
             },
             meshes: vec![Mesh {
-                path: PathBuf::new(),
                 positions: corners,
-                normals: Vec::new(),
-                texcoords: Vec::new(),
-                triangles: Vec::new(),
-                slots: Vec::new(),
                 shapes,
+                ..Mesh::default()
             }],
             objects: vec![
                 object(numbers, Parent::World),
@@ -256,7 +249,7 @@ mod tests {
 
     #[test]
     fn a_swept_box_contains_the_mesh_at_every_time() {
-        let mut numbers = Numbers(1);
+        let mut numbers = Numbers::new(1);
         for _ in 0..4 {
             for scene in scenes(&mut numbers) {
                 for object in 0..scene.objects.len() {
@@ -283,7 +276,7 @@ mod tests {
 
     #[test]
     fn nothing_is_faster_than_the_greatest_speed() {
-        let mut numbers = Numbers(4);
+        let mut numbers = Numbers::new(4);
         for scene in scenes(&mut numbers) {
             for object in 0..scene.objects.len() {
                 let greatest =
@@ -308,7 +301,7 @@ mod tests {
 
     #[test]
     fn the_box_of_a_translation_is_tight() {
-        let mut numbers = Numbers(2);
+        let mut numbers = Numbers::new(2);
         let mut scene = random_scene(&mut numbers, Interpolation::Linear, 0.0, false);
         for key in &mut scene.objects[0].motion.keys {
             key.scale = DVec3::ONE;

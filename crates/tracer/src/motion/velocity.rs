@@ -3,7 +3,7 @@
 use frame::{Camera, Reprojection, VelocityKind};
 use glam::DVec3;
 
-use crate::geometry::hit::Hit;
+use crate::geometry::ray::Hit;
 use crate::scene::Scene;
 
 /// Step of the difference quotient, in frames. The error is the third derivative times the step squared over 3: 1e-3 pixels

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 /// Numbers that a seed and a name give, the same everywhere.
-pub(super) struct Chance(blake3::OutputReader);
+pub(crate) struct Chance(blake3::OutputReader);
 
 impl Chance {
     pub fn new(seed: u64, name: &str) -> Self {

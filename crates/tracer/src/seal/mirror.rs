@@ -2,8 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::motion::keys::Key;
-use crate::scene::{Background, Scene};
+use crate::scene::{Background, Key, Scene};
 
 /// Mirrors a scene at the plane x = 0, camera and lights included: its picture is that of the scene, left for right.
 pub(super) fn mirror(mut scene: Scene) -> Scene {

@@ -1,6 +1,6 @@
 //! Sealed variants: scenes changed by a seed, which no tuning has met.
 
-mod chance;
+pub(crate) mod chance;
 mod mirror;
 mod times;
 
@@ -12,8 +12,6 @@ use self::chance::Chance;
 use self::mirror::mirror;
 use crate::scene::{Background, Material, Scene};
 
-/// The word before the seed in the name of a variant: `fan@seal7`.
-const WORD: &str = "seal";
 /// Factor on all speeds.
 const SPEED: RangeInclusive<f64> = 0.75..=1.3;
 /// Frames by which everything happens earlier or later.
@@ -64,23 +62,6 @@ impl Seal {
         zoom: 1.0,
         colors: [0, 1, 2],
     };
-
-    /// Takes the name of a scene apart into that of the scene that was sealed and the seed: `fan@seal7` into `fan` and 7. Without a
-    /// seed the name stays as it is.
-    pub fn split_name(scene: &str) -> (&str, Option<u64>) {
-        let seed = scene.split_once('@').and_then(|(name, variant)| {
-            // The name goes on with a frame rate or a later frame: `fan@seal7@24fps/0003`.
-            let seed = Self::seed_in(variant.split(['/', '@']).next()?)?;
-            Some((name, Some(seed)))
-        });
-        seed.unwrap_or((scene, None))
-    }
-
-    /// Reads the seed from the name of a variant, `seal7`; none for another name.
-    pub fn seed_in(variant: &str) -> Option<u64> {
-        let seed = variant.strip_prefix(WORD)?.parse::<u64>().ok()?;
-        (format!("{WORD}{seed}") == variant).then_some(seed)
-    }
 
     /// Largest time of the scene that the sealed one shows `time` frames after its instant, or as many before it.
     pub(crate) fn farthest(time: f64) -> f64 {
@@ -253,16 +234,6 @@ mod tests {
     }
 
     #[test]
-    fn a_mirrored_world_moves_as_in_a_mirror() {
-        let seal = Seal {
-            mirrored: true,
-            ..Seal::NOTHING
-        };
-        let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
-        assert_moves(&seal, |time| time, |pose| mirror * pose * mirror);
-    }
-
-    #[test]
     fn the_camera_turns_about_itself_and_zooms() {
         let seal = Seal {
             roll: 0.05,
@@ -342,18 +313,6 @@ mod tests {
         for (index, seal) in all.iter().enumerate() {
             assert!(SPEED.contains(&seal.speed) && DELAY.contains(&seal.delay));
             assert!(all[..index].iter().all(|other| other.speed != seal.speed));
-        }
-    }
-
-    #[test]
-    fn a_variant_names_its_seed() {
-        assert_eq!(Seal::seed_in("seal7"), Some(7));
-        for other in ["seal", "seal07", "seal-1", "sealed7", "unlit"] {
-            assert_eq!(Seal::seed_in(other), None, "{other}");
-        }
-        assert_eq!(Seal::split_name("fan@seal7/0003"), ("fan", Some(7)));
-        for other in ["fan", "fan@20deg", "fan@20deg/0003"] {
-            assert_eq!(Seal::split_name(other), (other, None));
         }
     }
 }

@@ -1,32 +1,16 @@
 //! Times of a sealed variant.
 
 use super::Seal;
-use crate::motion::keys::{Motion, Turn};
-use crate::scene::{Mesh, Scene};
+use crate::scene::{Mesh, Motion, Scene, Turn};
 
 impl Seal {
     /// Changes what happens when: what happened at `t` happens at `delay + t / speed`, or at `delay - t / speed`.
     pub(super) fn change_times(&self, scene: &mut Scene) {
         let sign = if self.reversed { -1.0 } else { 1.0 };
-        let change = |time: &mut f64| *time = self.delay + sign * *time / self.speed;
-        let objects = scene.objects.iter_mut().map(|object| &mut object.motion);
-        for motion in objects.chain([&mut scene.camera.motion]) {
-            for key in &mut motion.keys {
-                change(&mut key.time);
-            }
-            if self.reversed {
-                reverse(motion);
-            }
-        }
-        for (time, _) in &mut scene.camera.vertical_fov {
-            change(time);
-        }
-        for mesh in &mut scene.meshes {
-            for shape in &mut mesh.shapes {
-                change(&mut shape.time);
-            }
-        }
+        scene.change_times(|time| self.delay + sign * time / self.speed);
         if self.reversed {
+            let objects = scene.objects.iter_mut().map(|object| &mut object.motion);
+            objects.chain([&mut scene.camera.motion]).for_each(reverse);
             scene.camera.vertical_fov.reverse();
             scene.meshes.iter_mut().for_each(reverse_shapes);
         }

@@ -258,8 +258,13 @@ fn a_truth_or_frame_with_missing_or_invalid_numbers_is_refused() {
         (FRAME, "guard_band", "16", "less than half of 64x32"),
         (FRAME, "exposure", "1e50", "exposure is 1e50 frames"),
         (FRAME, "exposure", "NaN", "exposure is NaN frames"),
-        (FRAME, "flip_stop", "3e38", "flip_stop and flip_count hold"),
-        (FRAME, "flip_count", "400", "2 to 128 exposures"),
+        (FRAME, "flip_stop", "3e38", "display: flip stop = 3"),
+        (
+            FRAME,
+            "flip_count",
+            "400",
+            "display: flip has 400 exposures; allowed: 2 to 128",
+        ),
         (FRAME, "display_stops", "150", "stops from -32 to 32"),
         (FRAME, "objects", "", "attribute \"objects\" is empty"),
         (

@@ -77,7 +77,7 @@ fn letters_of_other_languages_are_allowed() {
     });
     let name = "scenes/été_桜";
     let scene = tracer::load_scene(bench.path(name), None).unwrap();
-    assert_eq!(scene.name, "été_桜");
+    assert_eq!(scene.id, "été_桜");
 }
 
 #[cfg(unix)]

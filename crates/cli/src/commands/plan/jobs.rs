@@ -156,7 +156,7 @@ impl Planner<'_> {
         last.arguments = command;
         last.inputs = merged;
         for scene in self.scenes {
-            let bounds = format!("{}.bounds.toml", scene.name);
+            let bounds = format!("{}.bounds.toml", scene.id);
             last.outputs.push(path_word(&self.plan.out.join(bounds))?);
         }
         jobs.push(last);
@@ -210,7 +210,7 @@ impl Planner<'_> {
     }
 
     fn truth_job(&self, scene: &SceneWords, cost: JobCost) -> Result<Job, Error> {
-        let mut job = Job::new(format!("{}truths/{}", self.prefix, scene.name), cost);
+        let mut job = Job::new(format!("{}truths/{}", self.prefix, scene.id), cost);
         let alignments = self.plan.alignments();
         let names: Vec<&str> = alignments.into_iter().map(Alignment::name).collect();
         job.arguments = words(["truths", "render", "--quiet", "--scenes", &scene.word]);
@@ -225,12 +225,8 @@ impl Planner<'_> {
             &path_word(&self.truths)?,
         ]));
         job.inputs = scene.files.clone();
-        let folder = self.truths.join(&scene.name);
         for frame in 0..self.plan.frames.count {
-            let folder = match frame {
-                0 => folder.clone(),
-                later => folder.join(format!("{later:04}")),
-            };
+            let folder = self.truths.join(scene.id.at_frame(frame).folder());
             job.outputs.push(path_word(&folder.join("frame.exr"))?);
             for name in &names {
                 // The last file that a render writes of a truth.
@@ -251,8 +247,8 @@ impl Planner<'_> {
         cost: JobCost,
     ) -> Result<Job, Error> {
         let name = match (part, filters) {
-            ("filters", [filter]) => format!("filters/{}/{}", scene.name, filter.name),
-            _ => format!("references/{}", scene.name),
+            ("filters", [filter]) => format!("filters/{}/{}", scene.id, filter.name),
+            _ => format!("references/{}", scene.id),
         };
         let folder = self.parts.join(&name);
         let mut job = Job::new(format!("{}{name}", self.prefix), cost);

@@ -1,6 +1,7 @@
 //! Scenes as words of a job's command line.
 
 use suite::{EngineScene, Error};
+use tracer::SceneId;
 
 use super::job::{files_below, path_word};
 use crate::arguments::SceneArgs;
@@ -10,8 +11,8 @@ use crate::selection::{SceneChoice, select_engine_scenes, select_scenes};
 pub struct SceneWords {
     /// Word for `--scenes`.
     pub word: String,
-    /// Name, which no other scene of the plan has.
-    pub name: String,
+    /// Identity, which no other scene of the plan has.
+    pub id: SceneId,
     /// True if its frame and truths are rendered, and false if an engine drew them.
     pub is_rendered: bool,
     /// Its files on disk.
@@ -30,19 +31,15 @@ pub fn list_scene_words(args: &SceneArgs) -> Result<Vec<SceneWords>, Error> {
 }
 
 fn words_of_scene(args: &SceneArgs, choice: &SceneChoice) -> Result<SceneWords, Error> {
-    let name = choice.scene.name.clone();
-    let variant = name
-        .split_once('@')
-        .map_or(String::new(), |(_, variant)| format!("@{variant}"));
-    let own = name.split('@').next().unwrap_or_default();
-    let word = match args.root.scenes_dir.join(own).path == choice.folder.path {
-        true => name.clone(),
-        false => as_path(path_word(&choice.folder.path)?) + &variant,
+    let id = choice.scene.id.clone();
+    let word = match args.root.scenes_dir.join(&id.name).path == choice.folder.path {
+        true => id.to_string(),
+        false => as_path(path_word(&choice.folder.path)?) + &id.choice(),
     };
     let files = (choice.folder.on_disk()).map_or(Ok(Vec::new()), files_below)?;
     Ok(SceneWords {
         word,
-        name,
+        id,
         is_rendered: true,
         files,
     })
@@ -51,7 +48,7 @@ fn words_of_scene(args: &SceneArgs, choice: &SceneChoice) -> Result<SceneWords, 
 fn words_of_drawn(scene: &EngineScene) -> Result<SceneWords, Error> {
     Ok(SceneWords {
         word: as_path(path_word(&scene.folder)?),
-        name: scene.name.clone(),
+        id: scene.id.clone(),
         is_rendered: false,
         files: files_below(&scene.folder)?,
     })

@@ -1,0 +1,92 @@
+//! Identity of a case.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::path::PathBuf;
+
+use filters::Value;
+use frame::Alignment;
+use serde::{Deserialize, Serialize};
+use tracer::SceneId;
+
+use super::filter_id::FilterId;
+use crate::InputFormat;
+use crate::filter::choice::overrides_text;
+
+/// Identity of a case: a filter or a reference on a scene, with all that was chosen of both. As a text: `fan / jump_flood:paper`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CaseId {
+    /// Scene.
+    pub scene: SceneId,
+    /// Filter name; of a reference picture [`IDENTITY`](crate::IDENTITY), [`SCATTER_ORACLE`](crate::SCATTER_ORACLE) or `accumulate`.
+    pub filter: String,
+    /// The preset that the parameters started from; of `accumulate` the number of sub-frames.
+    pub preset: String,
+    /// True for a reference picture that filters are compared with: no filter made it, and no bound limits it.
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
+    /// Form in which the filter got the frame.
+    pub input: InputFormat,
+    /// Parameters that `--set` gave a value of their own.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub overrides: BTreeMap<String, Value>,
+    /// The shutter alignment that the filter declares and is scored against.
+    pub alignment: Alignment,
+}
+
+impl CaseId {
+    /// Names the case apart from its scene, as tables do: `jump_flood:paper`, followed by what is not as usual.
+    pub fn name(&self) -> String {
+        let mut name = match self.preset.as_str() {
+            "" => self.filter.clone(),
+            preset => format!("{}:{preset}", self.filter),
+        };
+        name += &overrides_text(&self.overrides);
+        name.extend(self.input.change().map(|change| format!(" {change}")));
+        name
+    }
+
+    /// Returns the identity of the preset alone, so that cases with other overrides compare.
+    pub fn of_preset(&self) -> Self {
+        Self {
+            overrides: BTreeMap::new(),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the identity of the filter or reference apart from the scene.
+    pub fn filter_id(&self) -> FilterId {
+        FilterId {
+            is_reference: self.is_reference,
+            name: self.name(),
+            alignment: self.alignment,
+        }
+    }
+
+    /// Returns the folder of its pictures, relative to `run.json`. References have one per alignment.
+    pub fn folder(&self) -> PathBuf {
+        let mut parts = vec![self.filter.clone(), self.preset.clone()];
+        parts.extend(self.is_reference.then(|| self.alignment.to_string()));
+        let overrides = self.overrides.iter();
+        parts.extend(overrides.map(|(parameter, value)| format!("{parameter}_{value}")));
+        parts.extend(self.input.change().map(|change| change.replace('=', "_")));
+        parts.retain(|part| !part.is_empty());
+        self.scene.folder().join(parts.join("_"))
+    }
+}
+
+impl fmt::Display for CaseId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} / {}", self.scene, self.name())
+    }
+}
+
+// No value of a parameter is NaN.
+impl Eq for CaseId {}
+
+impl Hash for CaseId {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (&self.scene, self.filter_id()).hash(state);
+    }
+}

@@ -1,0 +1,4 @@
+//! The radiance along paths of light.
+
+pub(crate) mod integrator;
+pub(crate) mod stops;
