@@ -124,6 +124,7 @@ pub enum TruthsCommand {
 }
 
 /// The commands of `limits`.
+#[expect(clippy::large_enum_variant, reason = "a process has one")]
 #[derive(Debug, Subcommand)]
 pub enum LimitsCommand {
     /// Make the scores of a finished run the baseline of later checks
