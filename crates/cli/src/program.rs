@@ -35,7 +35,7 @@ pub enum Command {
     /// Run, and hold every score to its bound: pass or fail
     Check(check::CheckArgs),
     /// Measure a finished picture from any source
-    Score(score::ScoreArgs),
+    Score(scored::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
     Report(report::ReportArgs),
     /// Compare two finished runs: which scores changed by more than noise
