@@ -5,9 +5,6 @@ use std::collections::BTreeSet;
 use crate::modules::{Graph, Module, find_folder_graph, find_graph, read_modules};
 use crate::sources;
 
-/// Crates that still have circles. Each leaves the list with its last circle.
-const OPEN: [&str; 4] = ["cli", "filters", "metrics", "tune"];
-
 #[test]
 fn no_crate_has_a_circle_of_modules() {
     let mut wrong = Vec::new();
@@ -23,11 +20,7 @@ fn no_crate_has_a_circle_of_modules() {
             find_circles(&find_folder_graph(&graph)),
         ]
         .concat();
-        match (circles.is_empty(), OPEN.contains(&&*name)) {
-            (true, true) => wrong.push(format!("{name} has no circle: take it from OPEN\n")),
-            (false, false) => wrong.extend(circles.iter().map(|it| format!("{name}: {it}"))),
-            _ => {}
-        }
+        wrong.extend(circles.iter().map(|it| format!("{name}: {it}")));
     }
     assert!(
         wrong.is_empty(),
