@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use frame::{Raster, read_png, write_png};
+use store::RenderFile;
 use suite::{Case, Error};
 
 /// Pixels between two pictures.
@@ -23,7 +24,7 @@ pub fn write_case_strip(case: &Case, folder: &Path, out: &Path) -> Result<(), Er
 
 /// Reads the truth that a case is scored against.
 pub fn read_truth(folder: &Path, case: &Case) -> Result<Picture, Error> {
-    let name = format!("truth_{}.png", case.alignment);
+    let name = RenderFile::Truth(case.alignment).picture();
     Ok(read_png(&folder.join(case.scene.folder()).join(name))?)
 }
 

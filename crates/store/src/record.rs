@@ -3,11 +3,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use frame::{FileError, write_atomically};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+
+use crate::folder::is_below;
 
 /// Name of a case's record, beside its pictures.
 pub const CASE_RECORD: &str = "case.json";
@@ -69,17 +71,15 @@ pub fn remove_altered_files(path: &Path, inputs: &str) {
 /// out there is read or removed.
 fn read_whole<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<Record<T>> {
     let found: Record<T> = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
-    let is_below = |name: &String| is_below(&path.with_file_name(""), name);
-    (found.inputs == inputs && found.files.keys().all(is_below)).then_some(found)
+    let is_own = |name: &String| is_file_of(&path.with_file_name(""), name);
+    (found.inputs == inputs && found.files.keys().all(is_own)).then_some(found)
 }
 
 /// Tells whether a name is that of a file in a folder or in one of its folders, and no path out of it.
-fn is_below(folder: &Path, name: &str) -> bool {
+fn is_file_of(folder: &Path, name: &str) -> bool {
     let name = Path::new(name);
-    let is_plain = (name.components()).all(|part| matches!(part, Component::Normal(_)));
     let mut folders = name.ancestors().skip(1);
-    is_plain
-        && name.file_name().is_some()
+    is_below(name)
         && folders.all(|inner| inner == Path::new("") || !folder.join(inner).is_symlink())
 }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Image, read_bounded, read_png};
 use glob::Pattern;
+use store::RenderFile;
 use suite::{Error, Run};
 
 use crate::study::{Study, StudyShutter};
@@ -74,7 +75,7 @@ pub fn make_study(
             let found = filters.iter().map(|filter| find_item(&own, scene, filter));
             let found = found.collect::<Result<Vec<&Item>, Error>>()?;
             let frames = &found[0].frames;
-            let truth = format!("truth_{alignment}.png");
+            let truth = RenderFile::Truth(alignment).picture();
             clips.push(
                 frames
                     .iter()

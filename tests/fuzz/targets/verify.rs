@@ -3,7 +3,7 @@
 use std::fs;
 
 use frame::read_exr;
-use suite::{Monitor, TRAVERSALS, Verification, list_kept_scenes, verify_scene};
+use suite::{Monitor, TRAVERSALS, Verification, list_scene_renders, verify_scene};
 use tracer::load_scene;
 
 use super::none;
@@ -52,7 +52,7 @@ pub static TARGET: Target = Target {
         fs::copy(&path, place_of).unwrap();
         let scenes = place.copy("scenes");
         let scene = load_scene(scenes.join("plate"), None).unwrap();
-        let kept = list_kept_scenes(&out, &out).unwrap();
+        let kept = list_scene_renders(&out, &out).unwrap();
         let verification = Verification { seed: 1, tiles: 1 };
         let verified = verify_scene(&scene, &kept[0], &verification, Monitor::SILENT);
         fs::write(place_of, bytes).unwrap();

@@ -5,6 +5,7 @@ use std::path::Path;
 use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
 use serde::Serialize;
+use store::RenderFile;
 use suite::{CHANGE_PICTURE, Run, Sequence};
 use tracer::SceneId;
 
@@ -135,7 +136,7 @@ fn rates(own: f64) -> Vec<f64> {
 }
 
 fn play(own: &Sequence) -> Played {
-    let truth = format!("truth_{}.png", own.alignment);
+    let truth = RenderFile::Truth(own.alignment).picture();
     let path = |folder: &Path, name: &str| {
         let path = folder.join(name);
         let parts = path.iter().map(|part| part.to_string_lossy());

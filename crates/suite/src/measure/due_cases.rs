@@ -214,7 +214,8 @@ impl SceneContext<'_> {
             return Ok(Vec::new());
         };
         let RunPlan { render, out, .. } = self.plan;
-        let replicates = render_replicates(scene, render, alignment, out, self.plan.monitor)?;
+        let all = 0..render.replicates;
+        let replicates = render_replicates(scene, render, alignment, all, out, self.plan.monitor)?;
         Ok(truths_without_pairs(&replicates)?)
     }
 }

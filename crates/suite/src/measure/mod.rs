@@ -8,7 +8,6 @@ pub mod earlier;
 pub mod estimate;
 mod frames;
 mod history;
-pub mod job_costs;
 pub mod part;
 pub mod pictures;
 pub mod plan;

@@ -3,16 +3,17 @@
 use std::path::Path;
 
 use frame::{Alignment, Image, Raster, Truth, read_exr, read_png, write_animated_png, write_png};
-use metrics::{Instant, Metric, SequenceReference, SequenceScores};
-use tracer::Scene;
+use metrics::{Instant, SequenceReference, SequenceScores};
+use store::{RenderFile, RenderPath};
+use tracer::{PointLayers, Scene};
 
 use super::plan::RunPlan;
-use super::points_of_frame::PointsOfFrame;
+use super::points_of_frame::{make_instant, trace_points};
 use crate::Error;
 use crate::colors::magma;
 use crate::render::truths::render_replicates;
 use crate::run::case::{Case, Intervals};
-use crate::run::sequence::{Sequence, SequenceFrame};
+use crate::run::sequence::{Sequence, SequenceFrame, worst_frames};
 use crate::stats::intervals::{count_pairs, sequence_intervals, truth_without_pair};
 
 /// Picture of the error of the change since the frame before, beside a case's other pictures.
@@ -43,8 +44,8 @@ pub(super) fn measure_sequences(
         // No case of the first frame was measured.
         return Ok(sequences);
     };
-    let layers: Vec<PointsOfFrame> = (0..plan.frames.count)
-        .map(|frame| PointsOfFrame::trace(&scene.at_frame(frame), &plan.render))
+    let layers: Vec<PointLayers> = (0..plan.frames.count)
+        .map(|frame| trace_points(&scene.at_frame(frame), &plan.render))
         .collect::<Result<_, _>>()?;
     for alignment in Alignment::ALL {
         let is_due = |case: &&Case| case.alignment == alignment;
@@ -82,7 +83,7 @@ struct SequenceTruths<'a> {
     plan: &'a RunPlan,
     scene: &'a Scene,
     alignment: Alignment,
-    layers: &'a [PointsOfFrame],
+    layers: &'a [PointLayers],
 }
 
 impl SequenceTruths<'_> {
@@ -127,10 +128,11 @@ impl SequenceTruths<'_> {
     /// Reads the truths of all frames.
     fn whole(&self) -> Result<SequenceReference, Error> {
         self.reference(|scene| {
-            let folder = self.plan.out.join(scene.id.folder());
-            Ok(Truth::read(
-                &folder.join(format!("truth_{}.exr", self.alignment)),
-            )?)
+            let path = RenderPath {
+                scene: scene.id.clone(),
+                file: RenderFile::Truth(self.alignment),
+            };
+            Ok(Truth::read(&self.plan.out.join(path.path()))?)
         })
     }
 
@@ -143,7 +145,8 @@ impl SequenceTruths<'_> {
             ..
         } = self.plan;
         self.reference(|scene| {
-            let replicates = render_replicates(scene, render, self.alignment, out, *monitor)?;
+            let all = 0..render.replicates;
+            let replicates = render_replicates(scene, render, self.alignment, all, out, *monitor)?;
             Ok(truth_without_pair(&replicates, pair)?)
         })
     }
@@ -154,7 +157,7 @@ impl SequenceTruths<'_> {
     ) -> Result<SequenceReference, Error> {
         let instants = (0..).zip(self.layers).map(|(frame, layer)| {
             let truth = truth(&self.scene.at_frame(frame))?;
-            Ok(layer.instant(&truth))
+            Ok(make_instant(&truth, layer.clone()))
         });
         Ok(SequenceReference::new(
             instants.collect::<Result<Vec<Instant>, Error>>()?,
@@ -194,16 +197,13 @@ fn measure_sequence(
             flicker: *flicker,
         },
     );
-    let worst_frames = measured.worst_frames.iter();
     Ok(Sequence {
         scene: first.scene.clone(),
         filter: first.name(),
         is_reference: first.is_reference,
         alignment: first.alignment,
         frames: frames.collect(),
-        worst_frames: worst_frames
-            .map(|(metric, frame)| (Metric::Sequence(*metric), *frame as u32))
-            .collect(),
+        worst_frames: worst_frames(&measured),
         intervals: Intervals::new(),
         scores: measured.scores,
     })
@@ -216,14 +216,14 @@ fn write_animation(
     all: &[&Case],
     per_second: f64,
 ) -> Result<(), Error> {
-    let truth = format!("truth_{}.png", first.alignment);
+    let truth = RenderFile::Truth(first.alignment).picture();
     let strips = all.iter().map(|case| {
         let [scene, own] = [
             plan.out.join(case.scene.folder()),
             plan.out.join(&case.folder),
         ];
         let pictures = [
-            scene.join("frame.png"),
+            scene.join(RenderFile::Frame.picture()),
             scene.join(&truth),
             own.join("output.png"),
             own.join("flip.png"),
