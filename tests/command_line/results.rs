@@ -9,8 +9,7 @@ use judge::Results;
 use metrics::Metric;
 use suite::Run;
 use tests::filter_folder::copy_changed_filter;
-use tracer::SceneId;
-use tracer::Seal;
+use tracer::{SceneId, Seal};
 
 use crate::bench::{Bench, assert_done};
 

@@ -1,240 +1,206 @@
 //! Batches of cases in worker processes, on all cores.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use crate::batch::{Ended, Failed, Terms, try_cases, try_file};
-use crate::failure::{Failure, How, save};
-use crate::fixture::Fixture;
-use crate::options::{CASES, Input, RunPlan};
+use rayon::iter::{ParallelBridge, ParallelIterator};
+
+use crate::options::{CASES, Options};
 use crate::place::Place;
-use crate::seeds::read_seeds;
-use crate::self_test;
+use crate::seeds::Seeds;
 use crate::target::Target;
+use crate::worker_process::{Ended, PANICKED, try_cases};
+use crate::{fixture, self_test};
 
 /// Longest time of a case.
 const LIMIT: Duration = Duration::from_secs(60);
 
 /// Failures after which a target is left alone: the same cases would fail again.
-const MOST_FAILURES: u64 = 40;
+const MAX_FAILURES: u64 = 40;
 
-/// Rounds of a campaign by time. Every target adds a part of its share to each.
-const PARTS: u64 = 10;
+/// Cases of one target.
+pub type Batch = (&'static Target, Range<u64>);
 
 /// Result of one target.
 #[derive(Default)]
 pub struct Tally {
     /// Number of tried cases.
     pub cases: u64,
-    /// Number of failed cases.
-    pub failed: u64,
+    failed: u64,
     /// Time of all its workers.
-    pub time: Duration,
+    time: Duration,
     /// Time and number of the slowest case that ended.
-    pub slowest: (Duration, u64),
+    slowest: (Duration, u64),
+    /// The first failure of each kind.
+    pub failures: BTreeMap<String, Failure>,
 }
 
-/// Result of a campaign.
-#[derive(Default)]
-pub struct Found {
-    /// Failures by target and [kind](How::kind).
-    pub failures: BTreeMap<(&'static str, String), Failure>,
+/// First input that failed in one way.
+pub struct Failure {
+    /// What happened: a panic with its place, the last words of the process, or its time.
+    pub how: String,
+    /// File that keeps the input.
+    path: PathBuf,
+    case: u64,
+    /// Number of inputs that failed the same way.
+    count: u64,
+}
+
+/// Settings, and what was found with them.
+pub struct Campaign {
+    options: Options,
+    /// Longest time of a case.
+    limit: Duration,
     /// Results by target.
-    pub tallies: BTreeMap<&'static str, Tally>,
+    pub found: Mutex<BTreeMap<&'static str, Tally>>,
 }
-
-/// Cases of one target.
-pub type Batch = (&'static Target, Range<u64>);
 
 /// Tests the fuzzer itself; then fuzzes, and prints the result.
-pub fn execute(plan: &RunPlan) -> ExitCode {
+pub fn execute(mut options: Options) -> ExitCode {
     self_test::check();
-    let fixture = Fixture::make();
-    let terms = Terms {
-        fixture: fixture.path(),
-        seed: plan.seed,
-        limit: LIMIT,
-    };
+    let fixture = fixture::make();
+    options.fixture = fixture.path().to_owned();
     let began = Instant::now();
-    println!("fuzz: seed {}", plan.seed);
-    let found = match plan.time {
-        None => run(&terms, once(plan, fixture.path()).into_iter(), None),
-        Some(time) => {
-            let rounds = (0..).flat_map(|round| part(plan, fixture.path(), round));
-            run(&terms, rounds, Some(began + time))
-        }
+    println!("fuzz: seed {}", options.seed);
+    let campaign = Campaign::new(options, LIMIT);
+    let Options { cases, minutes, .. } = campaign.options;
+    let is_over = || minutes.is_some_and(|limit| began.elapsed().as_secs_f64() > 60.0 * limit);
+    let rounds = match minutes {
+        None => 0..1,
+        Some(_) => 0..u64::MAX,
     };
-    print!("{}", table(&found));
-    for failure in found.failures.values() {
-        print!("{}", failure.text(plan.seed));
-    }
-    let cases: u64 = found.tallies.values().map(|tally| tally.cases).sum();
-    let seconds = began.elapsed().as_secs_f64();
-    println!(
-        "fuzz: {cases} cases in {seconds:.1} s, {} kinds of failure",
-        found.failures.len()
-    );
-    match found.failures.is_empty() {
-        true => ExitCode::SUCCESS,
-        false => ExitCode::FAILURE,
-    }
+    let cases = minutes.map_or(cases, |_| cases / 10);
+    let batches = rounds.flat_map(|round| campaign.list_batches(cases, round));
+    campaign.run(batches.take_while(|_| !is_over()));
+    campaign.print(began.elapsed())
 }
 
-/// Tries one input, and prints the result.
-pub fn try_one(asked: &Input) -> ExitCode {
-    let fixture = Fixture::make();
-    let terms = Terms {
-        fixture: fixture.path(),
-        seed: 0,
-        limit: LIMIT,
-    };
-    let path = asked.path.canonicalize().unwrap_or(asked.path.clone());
-    match try_file(asked.target, &path, &terms).failed {
-        None => {
-            println!("fuzz: {}: it came back", asked.target.name);
-            ExitCode::SUCCESS
-        }
-        Some(Failed { how, .. }) => {
-            println!("fuzz: {}: {how}", asked.target.name);
-            ExitCode::FAILURE
+impl Campaign {
+    /// Starts without a result.
+    pub fn new(options: Options, limit: Duration) -> Self {
+        Self {
+            options,
+            limit,
+            found: Mutex::default(),
         }
     }
-}
 
-/// Tries batches on all cores until none is left or the time is over.
-pub fn run(
-    terms: &Terms,
-    batches: impl Iterator<Item = Batch> + Send,
-    until: Option<Instant>,
-) -> Found {
-    let batches = Mutex::new(batches);
-    let found = Mutex::new(Found::default());
-    let next = || match until.is_some_and(|until| Instant::now() >= until) {
-        true => None,
-        false => batches.lock().unwrap().next(),
-    };
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..cores {
-            scope.spawn(|| {
-                while let Some((target, cases)) = next() {
-                    try_batch(terms, target, cases, &found);
-                }
-            });
+    /// Lists the cases of a round: in the first one the seeds as they are, in each changed ones by the targets' shares.
+    fn list_batches(&self, cases: u64, round: u64) -> Vec<Batch> {
+        let mut batches = Vec::new();
+        for target in self.options.chosen() {
+            let place = Place::new(target.name, &self.options.fixture);
+            let seeds = Seeds::read(target, &self.options, &place).count();
+            let part = match &self.options.input {
+                Some(_) => 0,
+                None => (target.share * cases).div_ceil(CASES),
+            };
+            let first = if round == 0 { 0 } else { seeds + round * part };
+            let end = seeds + (round + 1) * part;
+            let starts = (first..end).step_by(target.batch() as usize);
+            batches.extend(starts.map(|start| (target, start..end.min(start + target.batch()))));
         }
-    });
-    found.into_inner().unwrap()
-}
-
-/// Tries a batch. Every failed case ends a process, and a new one goes on after it.
-fn try_batch(terms: &Terms, target: &'static Target, mut cases: Range<u64>, found: &Mutex<Found>) {
-    while !cases.is_empty() {
-        let failed = |found: &Found| found.tallies.get(target.name).map_or(0, |it| it.failed);
-        if failed(&found.lock().unwrap()) >= MOST_FAILURES {
-            return;
-        }
-        let began = Instant::now();
-        let Ended { failed, slowest } = try_cases(target, cases.clone(), terms);
-        let next = failed.as_ref().map_or(cases.end, |failed| failed.case + 1);
-        let mut found = found.lock().unwrap();
-        let tally = found.tallies.entry(target.name).or_default();
-        tally.cases += next - cases.start;
-        tally.time += began.elapsed();
-        tally.slowest = tally.slowest.max(slowest);
-        if let Some(failed) = failed {
-            tally.failed += 1;
-            found.add(target, failed);
-        }
-        cases.start = next;
+        batches
     }
-}
 
-impl Found {
-    /// Counts a failure, and keeps the input of the first of its kind.
-    fn add(&mut self, target: &'static Target, Failed { case, how, input }: Failed) {
-        let key = (target.name, how.kind());
-        if let Some(known) = self.failures.get_mut(&key) {
-            known.count += 1;
-            return;
+    /// Tries batches on all cores.
+    pub fn run(&self, batches: impl Iterator<Item = Batch> + Send) {
+        let batches = batches.par_bridge();
+        batches.for_each(|(target, cases)| self.try_batch(target, cases));
+    }
+
+    /// Tries a batch. Every failed case ends a process, and a new one goes on after it.
+    fn try_batch(&self, target: &'static Target, mut cases: Range<u64>) {
+        let is_hopeless = || {
+            let found = self.found.lock().unwrap();
+            (found.get(target.name)).is_some_and(|tally| tally.failed >= MAX_FAILURES)
+        };
+        while !cases.is_empty() && !is_hopeless() {
+            let began = Instant::now();
+            let Ended { failed, slowest } = try_cases(target, &cases, &self.options, self.limit);
+            let next = failed.as_ref().map_or(cases.end, |(case, _)| case + 1);
+            let mut found = self.found.lock().unwrap();
+            let tally = found.entry(target.name).or_default();
+            tally.cases += next - cases.start;
+            tally.time += began.elapsed();
+            tally.slowest = tally.slowest.max(slowest);
+            if let Some((case, how)) = failed {
+                tally.failed += 1;
+                let failure = tally.failures.entry(kind(&how));
+                failure
+                    .or_insert_with(|| self.keep(target, case, how))
+                    .count += 1;
+            }
+            cases.start = next;
         }
+    }
+
+    /// Keeps the input of a failure below the build folder, under the hash of its bytes.
+    fn keep(&self, target: &'static Target, case: u64, how: String) -> Failure {
         eprintln!("fuzz: {}: {how}", target.name);
-        let failure = Failure {
-            path: save(target, &input),
-            target,
+        let place = Place::new(target.name, &self.options.fixture);
+        let input = Seeds::read(target, &self.options, &place).make(&place, case);
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fuzz");
+        let folder = folder.join(target.name);
+        let path = folder.join(&blake3::hash(&input).to_hex()[..16]);
+        fs::create_dir_all(folder)
+            .and_then(|()| fs::write(&path, input))
+            .unwrap_or_else(|error| panic!("{} cannot be written: {error}", path.display()));
+        Failure {
             how,
+            path,
             case,
-            count: 1,
+            count: 0,
+        }
+    }
+
+    /// Prints a line for each target, and a paragraph for each kind of failure.
+    fn print(&self, time: Duration) -> ExitCode {
+        let found = self.found.lock().unwrap();
+        println!("target           cases  seconds  failed  slowest case");
+        for (name, tally) in found.iter() {
+            let (cases, failed, seconds) = (tally.cases, tally.failed, tally.time.as_secs_f64());
+            let (slowest, case) = (tally.slowest.0.as_secs_f64(), tally.slowest.1);
+            println!(
+                "{name:<14} {cases:>7} {seconds:>8.1} {failed:>7}  {slowest:.2} s, case {case}"
+            );
+        }
+        let failures = || {
+            found
+                .iter()
+                .flat_map(|(name, own)| own.failures.values().map(move |it| (name, it)))
         };
-        self.failures.insert(key, failure);
+        for (name, failure) in failures() {
+            let Failure {
+                how,
+                path,
+                case,
+                count,
+            } = failure;
+            let (path, seed) = (path.display(), self.options.seed);
+            println!(
+                "fuzz: {name}: {how} ({count} inputs; the first is case {case} of seed {seed})"
+            );
+            println!("  input: {path}");
+            println!("  again: cargo test --locked -p cli --test fuzz -- --input {path}");
+        }
+        let (cases, count): (u64, _) =
+            (found.values().map(|it| it.cases).sum(), failures().count());
+        let seconds = time.as_secs_f64();
+        println!("fuzz: {cases} cases in {seconds:.1} s, {count} kinds of failure");
+        ExitCode::from(u8::from(count > 0))
     }
+}
 
-    /// Returns how each failure of a target happened.
-    pub fn hows(&self, target: &str) -> Vec<&How> {
-        let own = self.failures.values();
-        own.filter(|failure| failure.target.name == target)
-            .map(|failure| &failure.how)
-            .collect()
+/// Returns a text that is equal for failures of one kind: the place of a panic, or the words without their numbers.
+fn kind(how: &str) -> String {
+    match how.starts_with(PANICKED) {
+        true => how.split(": ").next().unwrap_or_default().to_owned(),
+        false => how.chars().filter(|c| !c.is_ascii_digit()).collect(),
     }
-}
-
-/// Returns every seed, and changed ones according to each target's share; slow targets come first.
-fn once(plan: &RunPlan, fixture: &Path) -> Vec<Batch> {
-    let mut targets = plan.targets.clone();
-    targets.sort_by_key(|target| target.batch);
-    let count = |target: &Target| {
-        let share = (target.share * plan.cases).div_ceil(CASES);
-        share.max(seed_count(target, fixture))
-    };
-    let batches = targets
-        .into_iter()
-        .flat_map(|target| cut(target, 0..count(target)));
-    batches.collect()
-}
-
-/// Returns the next part of every target's cases.
-fn part(plan: &RunPlan, fixture: &Path, round: u64) -> Vec<Batch> {
-    let batches = plan.targets.iter().flat_map(|target| {
-        let seeds = seed_count(target, fixture);
-        let part = target.share.div_ceil(PARTS);
-        let first = match round {
-            0 => 0,
-            _ => seeds + round * part,
-        };
-        cut(target, first..seeds + (round + 1) * part)
-    });
-    batches.collect()
-}
-
-fn seed_count(target: &Target, fixture: &Path) -> u64 {
-    read_seeds(target, &Place::new(fixture)).len() as u64
-}
-
-fn cut(target: &'static Target, cases: Range<u64>) -> Vec<Batch> {
-    let end = cases.end;
-    let starts = cases.step_by(target.batch as usize);
-    starts
-        .map(|start| (target, start..(start + target.batch).min(end)))
-        .collect()
-}
-
-fn table(found: &Found) -> String {
-    let mut text = format!(
-        "{:<14} {:>7} {:>8} {:>7}  slowest case\n",
-        "target", "cases", "seconds", "failed"
-    );
-    for (name, tally) in &found.tallies {
-        let (slowest, case) = tally.slowest;
-        text += &format!(
-            "{name:<14} {:>7} {:>8.1} {:>7}  {:.2} s, case {case}\n",
-            tally.cases,
-            tally.time.as_secs_f64(),
-            tally.failed,
-            slowest.as_secs_f64(),
-        );
-    }
-    text
 }

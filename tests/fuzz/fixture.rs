@@ -1,102 +1,40 @@
-//! Real files of every kind. The program itself makes them before the first case, so that they always have today's
-//! layout.
+//! Real files of every kind: those of `tests/fuzz/fixture`, and what the program itself makes of them before the first case, so
+//! that it always has today's layout.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use tests::plate::{MTL, OBJ};
+use crate::seeds::in_repository;
 
 /// The program that is fuzzed.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_shuttertruth");
 
 /// Options that every picture is rendered with.
-pub const RENDER: [&str; 7] = [
-    "--quiet",
-    "--scenes",
-    "plate",
-    "--size",
-    "16x16",
-    "--samples-per-pixel",
-    "16",
+pub const RENDER: &str = "--quiet --scenes plate --size 16x16 --samples-per-pixel 16";
+
+/// Makes a run, its measured time and baseline, a tuning and a study.
+const COMMANDS: [&str; 5] = [
+    "run RENDER --filters velocity_gather:departure,mcguire:paper --out out",
+    "bench --quiet --size 16x16 --filters velocity_gather:departure --out out",
+    "limits accept --out out --reason first --baseline base.json --force",
+    "tune search RENDER --filter velocity_gather --objective flip --out tuned --budget 4",
+    "tune sensitivity RENDER --filter velocity_gather --objective flip --out study --rows 2",
 ];
 
-const SCENE: &str = "\
-exposes = \"nothing: it serves the fuzzer\"
-family = \"translation\"
-exposure = 0.5
-size = [16, 16]
-camera = { position = [0, 0, 2], look_at = [0, 0, 0], vertical_fov = 60.0 }
-background = { constant = [0.2, 0.2, 0.2] }
-
-[object.plate]
-mesh = \"plate.obj\"
-keys = [{ time = -1, translation = [-0.8, 0, 0] }, { time = 0, translation = [0, 0, 0] }]
-";
-
-const BOUNDS: &str = "\
-[default]
-flip_moving = { limit = 1, why = \"it is never more\", level = \"report\" }
-static_contamination = { limit = 1, why = \"measured\" }
-
-[filter.velocity_gather]
-extent = { limit = 9, size = [16, 16], why = \"measured 1\" }
-
-[margin]
-flip_moving = 0.005
-";
-
-/// Temporary folder: `scenes`, `out` of a run, `tuned` and `study` of a tuning, `base.json`.
-pub struct Fixture {
-    folder: tempfile::TempDir,
-}
-
-impl Fixture {
-    /// Runs the program a few times.
-    pub fn make() -> Self {
-        let fixture = Self {
-            folder: tempfile::tempdir().expect("a folder for temporary files"),
-        };
-        fixture.write("scenes/plate/scene.toml", SCENE);
-        fixture.write("scenes/plate/plate.obj", OBJ);
-        fixture.write("scenes/plate/plate.mtl", MTL);
-        fixture.write("scenes/bounds.toml", BOUNDS);
-        let filters = "velocity_gather:departure,mcguire:paper";
-        fixture.render(&["run"], &["--filters", filters, "--out", "out"]);
-        let words = "bench --quiet --size 16x16 --filters velocity_gather:departure --out out";
-        fixture.shuttertruth(&words.split(' ').collect::<Vec<_>>());
-        let words = "limits accept --out out --reason first --baseline base.json --force";
-        fixture.shuttertruth(&words.split(' ').collect::<Vec<_>>());
-        let candidate = ["--filter", "velocity_gather", "--objective", "flip"];
-        let tune = [&candidate[..], &["--out", "tuned", "--budget", "4"]].concat();
-        fixture.render(&["tune", "search"], &tune);
-        let study = [&candidate[..], &["--out", "study", "--rows", "2"]].concat();
-        fixture.render(&["tune", "sensitivity"], &study);
-        fixture
-    }
-
-    /// Returns the folder.
-    pub fn path(&self) -> &Path {
-        self.folder.path()
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        let path = self.path().join(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, text).unwrap();
-    }
-
-    fn render(&self, command: &[&str], more: &[&str]) {
-        self.shuttertruth(&[command, &RENDER[..], more].concat());
-    }
-
-    fn shuttertruth(&self, words: &[&str]) {
+/// Makes the fixture in a temporary folder.
+pub fn make() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    copy(&in_repository("tests/fuzz/fixture"), folder.path());
+    for line in COMMANDS {
+        let line = line.replace("RENDER", RENDER);
         let mut command = Command::new(PROGRAM);
-        command.current_dir(self.path()).args(words);
+        command.current_dir(&folder).args(line.split(' '));
         let output = command.output().expect("the program can be started");
         let stderr = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{}: {stderr}", words.join(" "));
+        assert!(output.status.success(), "{line}: {stderr}");
     }
+    folder
 }
 
 /// Copies a file, or a folder with its content.

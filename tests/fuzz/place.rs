@@ -4,34 +4,25 @@ use std::fs;
 use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 
-use filters::Gpu;
-use suite::FilterChoice;
-
 use crate::fixture;
-use crate::targets::Service;
 
 /// Content of a file beside the folder of a case, which no case may change.
 pub const CANARY: &str = "this file belongs to nobody's run";
 
-/// Temporary folder, and values that stay from case to case.
+/// Temporary folder.
 pub struct Place {
     _keep: tempfile::TempDir,
     /// Folder of the cases.
     pub folder: PathBuf,
+    /// Name of the target.
+    pub target: &'static str,
     /// Files that the program wrote before the first case.
     pub fixture: PathBuf,
-    /// Adapter, opened once.
-    pub gpu: Option<Gpu>,
-    /// Running `serve`.
-    pub service: Option<Service>,
-    /// All built-in filters, loaded once.
-    pub filters: Vec<FilterChoice>,
-    canary: PathBuf,
 }
 
 impl Place {
     /// Makes an empty folder.
-    pub fn new(fixture: &Path) -> Self {
+    pub fn new(target: &'static str, fixture: &Path) -> Self {
         let keep = tempfile::Builder::new()
             .prefix("shuttertruth-fuzz-")
             .tempdir()
@@ -39,17 +30,19 @@ impl Place {
         // Deep enough for inputs that contain `../../`.
         let folder = keep.path().join("a/b/c/case");
         fs::create_dir_all(&folder).unwrap();
-        let canary = keep.path().join("a/b/c/canary.txt");
-        fs::write(&canary, CANARY).unwrap();
-        Self {
+        let place = Self {
             _keep: keep,
             folder,
+            target,
             fixture: fixture.to_owned(),
-            gpu: None,
-            service: None,
-            filters: Vec::new(),
-            canary,
-        }
+        };
+        fs::write(place.canary(), CANARY).unwrap();
+        place
+    }
+
+    /// Returns the path of a file that no case may change.
+    pub fn canary(&self) -> PathBuf {
+        self.folder.with_file_name("canary.txt")
     }
 
     /// Writes a file below the folder and returns its path.
@@ -60,7 +53,7 @@ impl Place {
         path
     }
 
-    /// Copies a folder of the fixture to `name` below the cases' folder, once.
+    /// Copies a file or folder of the fixture to `name` below the cases' folder, once.
     pub fn copy(&self, name: &str) -> PathBuf {
         let own = self.folder.join(name);
         if !own.exists() {
@@ -69,15 +62,9 @@ impl Place {
         own
     }
 
-    /// Copies a folder of the fixture again.
-    pub fn copy_again(&self, name: &str) -> PathBuf {
-        let _ = fs::remove_dir_all(self.folder.join(name));
-        self.copy(name)
-    }
-
     /// Panics if a case changed a file beside its folder.
     pub fn check(&self) {
-        let found = fs::read_to_string(&self.canary).unwrap_or_default();
+        let found = fs::read_to_string(self.canary()).unwrap_or_default();
         assert_eq!(
             found, CANARY,
             "a file outside the case's folder was changed"

@@ -1,66 +1,105 @@
 //! Inputs to begin with.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use fastrand::Rng;
+
+use crate::fixture::files;
+use crate::mutation::mutate;
+use crate::options::Options;
 use crate::place::Place;
 use crate::target::Target;
 
 /// Longest input that gets changed; a longer one is only tried as it is.
-const LONGEST: usize = 200_000;
+const MAX_LENGTH: usize = 200_000;
 
-/// An input to begin with.
-pub enum Seed {
-    /// Bytes that are tried as they are, and changed.
-    Bytes(Vec<u8>),
-    /// Function that makes the input when needed; tried as it is.
-    Made(fn() -> Vec<u8>),
+/// Inputs that a target begins with, always in the same order.
+pub struct Seeds {
+    target: &'static Target,
+    seed: u64,
+    inputs: Vec<Vec<u8>>,
+    /// Files of the first ones.
+    paths: Vec<PathBuf>,
+    /// Compressed ones, which are large and only tried as they are.
+    packed: Vec<PathBuf>,
 }
 
-/// Returns all inputs that a target begins with, always in the same order: its corpus first.
-pub fn read_seeds(target: &Target, place: &Place) -> Vec<Seed> {
-    let mut seeds: Vec<Seed> = files(&corpus().join(target.name))
-        .map(|path| Seed::Bytes(fs::read(path).unwrap()))
-        .collect();
-    seeds.extend((target.seeds)(place));
-    seeds
-}
+impl Seeds {
+    /// Reads the corpus of a target and makes its other seeds, or takes the one input that was asked for.
+    pub fn read(target: &'static Target, options: &Options, place: &Place) -> Self {
+        let corpus = in_repository("tests/fuzz/corpus").join(target.name);
+        let paths = match &options.input {
+            Some(path) => vec![path.clone()],
+            None => files(&corpus, ""),
+        };
+        let (packed, paths): (Vec<_>, Vec<_>) = paths
+            .into_iter()
+            .partition(|path| path.extension().is_some_and(|end| end == "zst"));
+        let mut inputs = read_all(&paths);
+        if options.input.is_none() {
+            inputs.extend((target.seeds)(place));
+        }
+        Self {
+            target,
+            seed: options.seed,
+            inputs,
+            paths,
+            packed,
+        }
+    }
 
-/// Returns the inputs that may be changed.
-pub fn changeable(seeds: &[Seed]) -> Vec<&[u8]> {
-    let own = seeds.iter().filter_map(|seed| match seed {
-        Seed::Bytes(bytes) if bytes.len() <= LONGEST => Some(bytes.as_slice()),
-        _ => None,
-    });
-    own.collect()
+    /// Returns the number of cases that are tried as they are.
+    pub fn count(&self) -> u64 {
+        (self.inputs.len() + self.packed.len()) as u64
+    }
+
+    /// Returns whether a case is a seed that must not be refused: otherwise nobody would notice that it has an old layout.
+    pub fn is_valid(&self, case: u64) -> bool {
+        let name = self.paths.get(case as usize).and_then(|it| it.file_name());
+        name.is_some_and(|name| name.to_string_lossy().starts_with("valid"))
+    }
+
+    /// Makes the input of a case: first the seeds as they are, then changed ones.
+    pub fn make(&self, place: &Place, case: u64) -> Vec<u8> {
+        let index = case as usize;
+        if let Some(input) = self.inputs.get(index) {
+            return input.clone();
+        }
+        if let Some(path) = self.packed.get(index - self.inputs.len()) {
+            let packed = fs::File::open(path).expect("the corpus can be read");
+            return zstd::decode_all(packed).expect("the corpus can be unpacked");
+        }
+        let short = self.inputs.iter().filter(|it| it.len() <= MAX_LENGTH);
+        let short: Vec<&[u8]> = short.map(Vec::as_slice).collect();
+        let key = format!("{} {} {case}", self.seed, self.target.name);
+        let hash = blake3::hash(key.as_bytes());
+        let key = hash.as_bytes().first_chunk().expect("a hash has 32 bytes");
+        let mut random = Rng::with_seed(u64::from_le_bytes(*key));
+        mutate(self.target, place, &short, &mut random)
+    }
 }
 
 /// Returns the path of a file of the repository.
 pub fn in_repository(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../..")
-        .join(path)
+    tests::root().join(path)
 }
 
-/// Reads as seeds the files below a folder of the repository whose names end this way.
-pub fn read_shipped(folder: &str, end: &str) -> Vec<Seed> {
-    let folders = files(&in_repository(folder)).flat_map(|path| match path.is_dir() {
-        true => files(&path).collect(),
-        false => vec![path],
-    });
-    (folders.filter(|path| path.to_string_lossy().ends_with(end)))
-        .map(|path| Seed::Bytes(fs::read(path).unwrap()))
-        .collect()
+/// Reads the files below a folder of the repository whose names end this way.
+pub fn shipped(folder: &str, end: &str) -> Vec<Vec<u8>> {
+    read_all(&files(&in_repository(folder), end))
 }
 
-fn corpus() -> PathBuf {
-    in_repository("tests/fuzz/corpus")
+/// Reads the files below a folder of the fixture whose names end in one of these ways.
+pub fn made(place: &Place, folder: &str, ends: &[&str]) -> Vec<Vec<u8>> {
+    let find = |end| {
+        let found = files(&place.fixture.join(folder), end);
+        assert!(!found.is_empty(), "the fixture has no {folder}/*{end}");
+        read_all(&found)
+    };
+    ends.iter().flat_map(|end| find(end)).collect()
 }
 
-/// Lists the files of a folder by name; none if there is no folder.
-fn files(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
-    let entries = fs::read_dir(folder).into_iter().flatten();
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    paths.into_iter()
+fn read_all(paths: &[PathBuf]) -> Vec<Vec<u8>> {
+    paths.iter().map(|path| fs::read(path).unwrap()).collect()
 }

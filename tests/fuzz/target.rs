@@ -1,32 +1,30 @@
 //! A target of the fuzzer.
 
 use crate::place::Place;
-use crate::seeds::Seed;
-use crate::targets;
+use crate::targets::ALL;
 
 /// One kind of input, and the code that reads it.
 pub struct Target {
-    /// Name, also of its folder in the corpus, and its word on the command line.
+    /// Name, also of its folder in the corpus.
     pub name: &'static str,
-    /// Number of its cases among 20,000.
+    /// Number of its cases among 20,000; 0 if it is left out.
     pub share: u64,
-    /// Cases of one worker process: many if a case takes little time.
-    pub batch: u64,
     /// Kind of changes to its inputs.
     pub shape: Shape,
-    /// Words that are worth trying in an input.
-    pub tokens: &'static [&'static str],
-    /// Inputs to begin with, beside its corpus.
-    pub seeds: fn(&Place) -> Vec<Seed>,
+    /// Inputs to begin with, in addition to its corpus.
+    pub seeds: fn(&Place) -> Vec<Vec<u8>>,
     /// Function that reads an input as the program does. It may refuse the input, and must return.
-    pub run: fn(&mut Place, &[u8]),
+    pub run: Run,
 }
+
+/// Reads an input; none if it was refused. A seed must not be refused if its name begins with `valid`.
+pub type Run = fn(&mut Place, &[u8]) -> Option<()>;
 
 /// Kind of changes to inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// Lines of words and numbers.
-    Text,
+    /// Lines of words and numbers, with the dictionary of this name.
+    Text(&'static str),
     /// Bytes.
     Bytes,
     /// PNG (chunks), OpenEXR (channels and attributes) or other pictures (bytes). Checksums are made valid again.
@@ -34,25 +32,39 @@ pub enum Shape {
     /// SPIR-V (instructions), or bytes.
     Spirv,
     /// A command line, one word per line.
-    Words,
+    CommandLine,
 }
 
 impl Target {
-    /// Returns all targets except those that fail on purpose.
-    pub fn all() -> Vec<&'static Target> {
-        let all = targets::ALL.iter().copied();
-        all.filter(|target| target.share > 0).collect()
+    /// Makes a target whose only seeds are its corpus.
+    pub const fn new(name: &'static str, share: u64, shape: Shape, run: Run) -> Self {
+        Self {
+            name,
+            share,
+            shape,
+            seeds: |_| Vec::new(),
+            run,
+        }
+    }
+
+    /// Adds seeds.
+    pub const fn seeds(mut self, seeds: fn(&Place) -> Vec<Vec<u8>>) -> Self {
+        self.seeds = seeds;
+        self
+    }
+
+    /// Returns the number of cases that one process tries: targets with few cases are slow.
+    pub fn batch(&self) -> u64 {
+        (self.share / 6).max(25)
     }
 }
 
 /// Finds the target of this name.
 pub fn find(name: &str) -> Result<&'static Target, String> {
-    let found = targets::ALL.iter().find(|target| target.name == name);
-    found.copied().ok_or_else(|| {
-        let names: Vec<&str> = Target::all().iter().map(|target| target.name).collect();
-        format!(
-            "no target \"{name}\"; there are {}; an input lies in a folder named after its target, or --targets names it",
-            names.join(", ")
-        )
+    let found = ALL.iter().find(|target| target.name == name);
+    found.ok_or_else(|| {
+        let names: Vec<&str> = ALL.iter().map(|target| target.name).collect();
+        let all = names.join(", ");
+        format!("no target \"{name}\"; allowed: {all}; --targets names that of an input")
     })
 }

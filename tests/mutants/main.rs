@@ -12,9 +12,10 @@ mod table;
 mod verdict;
 
 use std::process::ExitCode;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use bench::Bench;
+use clap::Parser;
 use journal::Journal;
 use options::Options;
 use subject::Subject;
@@ -22,11 +23,7 @@ use suite::Error;
 use verdict::find_verdicts;
 
 fn main() -> ExitCode {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let done = Options::parse(&words)
-        .map_err(Error::Usage)
-        .and_then(|options| execute(&options));
-    match done {
+    match execute(&Options::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("mutants: {error}");
@@ -37,7 +34,10 @@ fn main() -> ExitCode {
 
 /// Measures every mutant of every filter that no earlier run has measured, and prints the score.
 fn execute(options: &Options) -> Result<(), Error> {
-    let deadline = options.time.map(|time| Instant::now() + time);
+    let minutes = options
+        .minutes
+        .map(|minutes| Duration::from_secs(60 * minutes));
+    let deadline = minutes.map(|time| Instant::now() + time);
     let due = || deadline.is_none_or(|deadline| Instant::now() < deadline);
     let subjects = (options.filters.iter())
         .map(|filter| Subject::new(filter, options.count))

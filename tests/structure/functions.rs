@@ -127,7 +127,7 @@ fn find_functions(text: &str) -> Vec<(usize, &str, usize)> {
             code == "}"
                 || code.starts_with(|c: char| !c.is_whitespace()) && code.ends_with([';', '}'])
         };
-        let end = lines[at..].iter().position(|line| is_end(line));
+        let end = lines[at..].iter().position(is_end);
         let name = after.split(['(', '<']).next().unwrap_or_default();
         found.extend(end.map(|end| (at + 1, name, end + 1)));
     }

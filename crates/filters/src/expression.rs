@@ -40,7 +40,7 @@ const FUNCTIONS: [(&str, Function, usize); 4] = [
 const MAX_CHARACTERS: usize = 200;
 
 impl Expression {
-    /// Parses an expression; `is_known` tells which names there are.
+    /// Parses an expression; `is_known` knows which names there are.
     pub fn parse(text: &str, is_known: &dyn Fn(&str) -> bool) -> Result<Self, String> {
         if text.len() > MAX_CHARACTERS {
             return Err(format!(
@@ -55,7 +55,9 @@ impl Expression {
         let expression = parser.sum()?;
         match parser.rest.trim_start() {
             "" => Ok(expression),
-            rest => Err(format!("goes on with \"{rest}\" where an operator is due")),
+            rest => Err(format!(
+                "goes on with \"{rest}\" where an operator is expected"
+            )),
         }
     }
 

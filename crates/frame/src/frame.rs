@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use crate::exr::{Channel, ExrFile, Samples, read_exr, write_exr};
-use crate::picture::coverage_name;
 use crate::{
     Alignment, Camera, Display, FileError, FrameOptions, Image, Picture, Plane, Provenance, Raster,
     Reprojection, Vectors,
@@ -93,7 +92,7 @@ impl Frame {
     pub fn to_exr(&self) -> ExrFile {
         let (width, height) = self.size();
         let mut file = ExrFile::new(width, height);
-        file.push_color("", &self.color);
+        self.picture().move_to(&mut file, "", &self.objects);
         file.push_plane("Z", &self.depth);
         file.push_plane("velocity.X", &self.velocity.map(|v| v[0]));
         file.push_plane("velocity.Y", &self.velocity.map(|v| v[1]));
@@ -101,9 +100,6 @@ impl Frame {
             name: "object.id".into(),
             samples: Samples::U32(self.object_id.pixels.clone()),
         });
-        for (object, plane) in self.objects.iter().zip(&self.coverage) {
-            file.push_plane(&coverage_name("", object), plane);
-        }
         if let Some(samples) = &self.samples {
             file.push_plane("samples", samples);
         }
@@ -130,14 +126,11 @@ impl Frame {
 
     /// Reads a frame that [`Frame::write`] wrote, bit for bit.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        let file = read_exr(path)?;
+        let mut file = read_exr(path)?;
         file.expect_kind("frame")?;
         let objects = file.objects()?;
         let ids = file.u32s("object.id")?;
-        let coverage = objects
-            .iter()
-            .map(|object| file.plane(&coverage_name("", object)))
-            .collect::<Result<_, _>>()?;
+        let Picture { color, coverage } = Picture::take_from(&mut file, "", &objects)?;
         let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
         Ok(Self {
             provenance: Provenance::from_exr(&file)?,
@@ -149,7 +142,7 @@ impl Frame {
             camera: Camera::from_exr(&file)?,
             display: Display::from_exr(&file)?,
             objects,
-            color: file.color("")?,
+            color,
             velocity: x.zip(&y, |x, y| [*x, *y]),
             depth: file.plane("Z")?,
             object_id: ids,

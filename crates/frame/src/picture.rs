@@ -23,10 +23,7 @@ impl Picture {
     }
 
     pub(crate) fn push(&self, file: &mut ExrFile, layer: &str, objects: &[String]) {
-        file.push_color(layer, &self.color);
-        for (object, plane) in objects.iter().zip(&self.coverage) {
-            file.push_plane(&coverage_name(layer, object), plane);
-        }
+        self.clone().move_to(file, layer, objects);
     }
 
     /// Adds the same channels as [`Picture::push`], without copying coverage.
@@ -77,6 +74,6 @@ impl Picture {
 }
 
 /// Names the channel of an object's coverage, in a named layer or at the top.
-pub(crate) fn coverage_name(layer: &str, object: &str) -> String {
+fn coverage_name(layer: &str, object: &str) -> String {
     in_layer(layer, &format!("coverage.{object}"))
 }

@@ -48,7 +48,7 @@ pub enum TruthError {
         "replicate {found} stands in the place of replicate {index}; each from 0 on is needed once"
     )]
     Index {
-        /// The index that is due.
+        /// The index that belongs there.
         index: u32,
         /// The index that was found.
         found: u32,

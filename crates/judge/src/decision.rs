@@ -6,7 +6,7 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Decision {
-    /// Every required bound is kept.
+    /// Every required bound is met.
     Pass,
     /// For some the truth is too noisy to tell.
     Inconclusive,

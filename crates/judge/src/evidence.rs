@@ -1,4 +1,4 @@
-//! Evidence of bounds that are not kept: the worst place of a picture, and the wrong blur that it resembles most.
+//! Evidence of bounds that are not met: the worst place of a picture, and the wrong blur that it resembles most.
 
 use std::path::Path;
 

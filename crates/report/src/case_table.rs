@@ -2,13 +2,15 @@
 
 use std::collections::HashMap;
 
-use suite::{Case, FilterId, Run};
+use suite::{Bench, Case, FilterId, Run};
 use tracer::SceneId;
 
 /// A run's cases with a row per filter and a column per scene: it finds a case without a walk over all.
 pub struct CaseTable<'a> {
     /// Run that holds the cases.
     pub run: &'a Run,
+    /// Costs of the filters; none where nothing was timed.
+    pub bench: Option<Bench>,
     /// Filters and references in the order they ran.
     pub filters: Vec<FilterId>,
     /// Scenes in the order they ran.
@@ -22,9 +24,10 @@ pub struct CaseTable<'a> {
 
 impl<'a> CaseTable<'a> {
     /// Sorts the cases of a run into a table.
-    pub fn new(run: &'a Run) -> Self {
+    pub fn new(run: &'a Run, bench: Option<Bench>) -> Self {
         let mut table = Self {
             run,
+            bench,
             filters: Vec::new(),
             scenes: Vec::new(),
             rows: HashMap::new(),

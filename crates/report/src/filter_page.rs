@@ -3,13 +3,14 @@
 use filters::{Filter, Source};
 use maud::{Markup, html};
 use metrics::Metric;
-use suite::{Bench, Case, FilterId};
+use suite::{Case, FilterId};
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{case_anchor, section_anchor};
 use crate::numbers::value_text;
 use crate::overview::bench_file::cost_of;
 use crate::overview::costs::cost_text;
+use crate::table::Column::{Plain, Text};
 use crate::table::{Column, scroll_table};
 
 /// Scores beside the error in the table of scenes.
@@ -23,12 +24,7 @@ const SCORES: [(Metric, &str); 6] = [
 ];
 
 /// Writes the section of a filter; `thumbnails` are addresses of the scenes' truths.
-pub fn filter_section(
-    table: &CaseTable,
-    filter: &FilterId,
-    thumbnails: &[String],
-    bench: Option<&Bench>,
-) -> Markup {
+pub fn filter_section(table: &CaseTable, filter: &FilterId, thumbnails: &[String]) -> Markup {
     let cases: Vec<&Case> = table.cases_of(filter).map(|(_, case)| case).collect();
     let Some(first) = cases.first() else {
         return html! {};
@@ -51,7 +47,7 @@ pub fn filter_section(
                 dl.facts {
                     @if let Some(own) = &own { (about(own, first)) }
                     div { dt { "shutter" } dd { (filter.alignment) } }
-                    @if bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(table, bench, filter))) " ms" } } }
+                    @if table.bench.is_some() { div { dt { "cost" } dd { (cost_text(cost_of(table, filter))) " ms" } } }
                     @if let Some(change) = first.input.change() { div { dt { "input" } dd { (change) } } }
                     @if let Some(command) = &first.command { div { dt { "command" } dd { code { (command.join(" ")) } } } }
                 }
@@ -91,19 +87,17 @@ fn weakest(table: &CaseTable, cases: &[&Case], thumbnails: &[String]) -> Markup 
     columns.extend(SCORES.map(|(_, title)| Column::Plain(title)));
     columns.push(Column::Text("what the scene exposes"));
     let rows = html! {
-        tbody {
-            @for case in sorted {
-                @let place = table.scenes.iter().position(|scene| **scene == case.scene);
-                tr {
-                    th scope="row" {
-                        a.scene href=(format!("#{}", case_anchor(case))) {
-                            img data-thumbnail=[place.filter(|at| *at < thumbnails.len())] alt="";
-                            (case.scene)
-                        }
+        @for case in sorted {
+            @let place = table.scenes.iter().position(|scene| **scene == case.scene);
+            tr {
+                th scope="row" {
+                    a.scene href=(format!("#{}", case_anchor(case))) {
+                        img data-thumbnail=[place.filter(|at| *at < thumbnails.len())] alt="";
+                        (case.scene)
                     }
-                    @for (metric, title) in SCORES { td data-label=(title) { (case.score_text(metric)) } }
-                    td.text { (case.exposes) }
                 }
+                @for (metric, title) in SCORES { td data-label=(title) { (case.score_text(metric)) } }
+                td.text { (case.exposes) }
             }
         }
     };
@@ -121,21 +115,16 @@ fn parameters(filter: Option<&Filter>, case: &Case) -> Markup {
         let mut all = filter?.parameters.iter();
         all.find(|own| own.name == name).map(|own| own.doc.as_str())
     };
-    let columns = [
-        Column::Plain("parameter"),
-        Column::Plain("value"),
-        Column::Text("meaning"),
-    ];
     let rows = html! {
-        tbody {
-            @for (name, value) in &case.parameters {
-                tr { th scope="row" { (name) } td { (value_text(value)) } td.text { (doc(name).unwrap_or_default()) } }
-            }
+        @for (name, value) in &case.parameters {
+            tr { th scope="row" { (name) } td { (value_text(value)) } td.text { (doc(name).unwrap_or_default()) } }
         }
     };
     html! {
         @if !case.parameters.is_empty() {
-            (scroll_table(Some("stacked"), "Parameters", Some("Parameters"), &columns, &rows))
+            (scroll_table(Some("stacked"), "Parameters", Some("Parameters"), &[
+                Plain("parameter"), Plain("value"), Text("meaning"),
+            ], &rows))
         }
     }
 }

@@ -1,20 +1,26 @@
-//! The gallery of a run: each scene with its best and its worst filter, and a contact sheet of all truths.
+//! Pictures of a run as files: the gallery of best and worst filters, a contact sheet of all truths, and the strip of a case.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use frame::{read_png, write_atomically, write_png};
+use frame::{Raster, read_png, write_atomically, write_png};
 use metrics::Metric;
+use store::RenderFile;
 use suite::{Case, Error, IDENTITY, Run};
 use tracer::SceneId;
 
-use crate::case_strip::{read_output, read_truth, tile};
 use crate::run_facts::command;
 
 /// File name of the contact sheet.
 const SHEET: &str = "truths.png";
 /// Truths in a row of the contact sheet.
 const COLUMNS: u32 = 6;
+
+/// Pixels between two pictures.
+const GAP: u32 = 2;
+
+/// Display values in [0, 1].
+type Picture = Raster<[f32; 3]>;
 
 /// Writes `README.md`, the contact sheet and a strip of pictures per scene below `out`, from the files of a run in `folder`. Returns
 /// the path of the page.
@@ -107,4 +113,57 @@ fn section(best: &Case, worst: &Case) -> String {
 
 fn strip_name(scene: &SceneId) -> String {
     format!("{scene}.png")
+}
+
+/// Writes truth, output and FLIP of a case side by side to the PNG file `out`; `folder` is that of its run.json.
+///
+/// # Errors
+/// A picture of the case cannot be read, or the file cannot be written.
+pub fn write_case_strip(case: &Case, folder: &Path, out: &Path) -> Result<(), Error> {
+    let flip = read_png(&folder.join(&case.folder).join("flip.png"))?;
+    let strip = [read_truth(folder, case)?, read_output(folder, case)?, flip];
+    Ok(write_png(out, &tile(&strip, 3))?)
+}
+
+/// Reads the truth that a case is scored against.
+fn read_truth(folder: &Path, case: &Case) -> Result<Picture, Error> {
+    let name = RenderFile::Truth(case.alignment).picture();
+    Ok(read_png(&folder.join(case.scene.folder()).join(name))?)
+}
+
+/// Reads the output of a case.
+fn read_output(folder: &Path, case: &Case) -> Result<Picture, Error> {
+    Ok(read_png(&folder.join(&case.folder).join("output.png"))?)
+}
+
+/// Places pictures of one size side by side, `columns` in a row, on white.
+fn tile(pictures: &[Picture], columns: u32) -> Picture {
+    let (width, height) = (pictures[0].width + GAP, pictures[0].height + GAP);
+    let columns = columns.min(pictures.len() as u32);
+    let rows = (pictures.len() as u32).div_ceil(columns);
+    Raster::from_fn(columns * width - GAP, rows * height - GAP, |x, y| {
+        let index = (y / height) * columns + x / width;
+        let picture = pictures.get(index as usize);
+        let inside = picture.filter(|it| x % width < it.width && y % height < it.height);
+        inside.map_or([1.0; 3], |picture| *picture.at(x % width, y % height))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_stand_in_rows_with_gaps_between() {
+        let pictures: Vec<Picture> = (0..3)
+            .map(|index| Raster::filled(2, 1, [0.25 * index as f32; 3]))
+            .collect();
+        let sheet = tile(&pictures, 2);
+        assert_eq!((sheet.width, sheet.height), (2 * 4 - 2, 2 * 3 - 2));
+        assert_eq!(*sheet.at(0, 0), [0.0; 3]);
+        assert_eq!(*sheet.at(2, 0), [1.0; 3]);
+        assert_eq!(*sheet.at(4, 0), [0.25; 3]);
+        assert_eq!(*sheet.at(1, 3), [0.5; 3]);
+        assert_eq!(*sheet.at(5, 3), [1.0; 3], "no third column");
+    }
 }

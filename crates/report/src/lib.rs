@@ -2,7 +2,6 @@
 
 mod ask;
 mod case;
-mod case_strip;
 mod case_table;
 mod charts;
 mod comparison;
@@ -23,31 +22,28 @@ mod tuning;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
-use frame::write_atomically;
-use judge::Finding;
-use maud::{Markup, PreEscaped};
-use suite::{Case, Error, Run};
-use tracer::SceneId;
-
+pub use ask::{ASK_PAGE, write_ask_folder};
 use case::case_view::CaseView;
 use case::{CaseTables, case_section};
 use case_table::CaseTable;
-use filter_page::filter_section;
-use overview::overview;
-use pixels::report_files::{Place, SceneTexts};
-use pixels::scene_files::SceneFiles;
-use run_page::{PageContent, run_page};
-
-pub use ask::{ASK_PAGE, write_ask_folder};
-pub use case_strip::write_case_strip;
 pub use comparison::{ChangeCells, compare_page};
+use filter_page::filter_section;
 pub use finding_text::{
     finding_line, finding_score, finding_status, length_text, limit_text, way_out, worst_frame_text,
 };
-pub use gallery::write_gallery;
+use frame::write_atomically;
+pub use gallery::{write_case_strip, write_gallery};
+use judge::Finding;
+use maud::{Markup, PreEscaped};
 pub use overview::bench_file::read_bench;
+use overview::overview;
 pub use pixels::report_files::LARGEST_PAGE;
+use pixels::report_files::{Place, SceneTexts};
+use pixels::scene_files::SceneFiles;
+use run_page::{PageContent, run_page};
 pub use sequence::{SEQUENCES_PAGE, sequences_page};
+use suite::{Case, Error, Run};
+use tracer::SceneId;
 pub use tuning::{TuneFolder, tuning_page};
 
 /// Writes the page of the run in `folder` to `html`; returns its path, then those of the files next to it.
@@ -71,19 +67,21 @@ pub fn write_report(
                 .to_owned(),
         ));
     }
-    let bench = read_bench(folder)?;
-    let table = CaseTable::new(run);
-    let findings = group_findings(findings);
+    let table = CaseTable::new(run, read_bench(folder)?);
+    let mut groups: HashMap<_, Vec<Finding>> = HashMap::new();
+    for finding in findings {
+        let own = groups.entry((finding.scene.clone(), finding.filter.clone()));
+        own.or_default().push(finding.clone());
+    }
     let mut parts = Parts::new(run, html, largest);
     for scene in 0..table.scenes.len() {
-        parts.add_scene(scene, &table, &findings, folder)?;
+        parts.add_scene(scene, &table, &groups, folder)?;
     }
     parts.views.sort_by_key(|view| view.index);
     let filters = table.filters.iter().filter(|filter| !filter.is_reference);
-    let sections =
-        filters.map(|filter| filter_section(&table, filter, &parts.thumbnails, bench.as_ref()));
+    let sections = filters.map(|filter| filter_section(&table, filter, &parts.thumbnails));
     parts.sections.extend(sections);
-    let first = overview(&table, &parts.views, &parts.thumbnails, bench.as_ref());
+    let first = overview(&table, &parts.views, &parts.thumbnails);
     let text: usize = parts.sections.iter().map(|section| section.0.len()).sum();
     let numbers = parts.numbers.place(text + first.0.len())?;
     let content = PageContent {
@@ -133,7 +131,7 @@ impl<'a> Parts<'a> {
         &mut self,
         scene: usize,
         table: &CaseTable<'a>,
-        findings: &HashMap<&SceneId, Vec<&Finding>>,
+        findings: &HashMap<(SceneId, String), Vec<Finding>>,
         folder: &Path,
     ) -> Result<(), Error> {
         let own = || table.cases_on(table.scenes[scene]);
@@ -141,8 +139,10 @@ impl<'a> Parts<'a> {
         let mut files = SceneFiles::read(table.run, &cases, folder)?;
         let mut texts: BTreeMap<String, [String; 2]> = BTreeMap::new();
         for (index, case) in own() {
-            let findings = findings_about(case, findings);
-            let view = CaseView::read(table.run, index, scene, findings, &mut files)?;
+            let judged = (!case.is_reference).then(|| (case.scene.clone(), case.name()));
+            let own = judged.and_then(|key| findings.get(&key).cloned());
+            let view =
+                CaseView::read(table.run, index, scene, own.unwrap_or_default(), &mut files)?;
             let tables = CaseTables::new(&view, table);
             self.sections[index] = case_section(&view, self.has_tables.then_some(&tables));
             if !self.has_tables {
@@ -162,20 +162,3 @@ impl<'a> Parts<'a> {
 
 /// Bytes of the tables of a case, about.
 const CASE_BYTES: usize = 25_000;
-
-/// Groups findings by scene.
-fn group_findings(findings: &[Finding]) -> HashMap<&SceneId, Vec<&Finding>> {
-    let mut groups: HashMap<&SceneId, Vec<&Finding>> = HashMap::new();
-    for finding in findings {
-        groups.entry(&finding.scene).or_default().push(finding);
-    }
-    groups
-}
-
-/// Lists the findings about a case; there are none about a reference.
-fn findings_about(case: &Case, findings: &HashMap<&SceneId, Vec<&Finding>>) -> Vec<Finding> {
-    let own = findings.get(&case.scene).into_iter().flatten();
-    own.filter(|finding| !case.is_reference && finding.is_of(case))
-        .map(|finding| (*finding).clone())
-        .collect()
-}

@@ -1,26 +1,19 @@
 //! Settings that a run's scores depend on.
 
 use std::collections::HashSet;
-use tracer::SceneId;
 
 use filters::AdapterDescription;
 use frame::Alignment;
 use maud::{Markup, html};
 use suite::{Case, Run};
+use tracer::SceneId;
 
 use crate::case_table::CaseTable;
-use crate::table::{Column, scroll_table};
+use crate::table::Column::{Plain, Text};
+use crate::table::scroll_table;
 
 /// Lists command, program, adapter, settings, and per scene the hashes of its truths.
 pub fn provenance(table: &CaseTable) -> Markup {
-    let columns = [
-        Column::Plain("scene"),
-        Column::Text("family"),
-        Column::Plain("exposure, frames"),
-        Column::Text("shutter"),
-        Column::Text("made by"),
-        Column::Text("hash of the truth"),
-    ];
     let caption = "Truths; a hash covers scene, meshes, textures, settings and the tracer, or all that an engine drew";
     html! {
         section.provenance {
@@ -30,7 +23,10 @@ pub fn provenance(table: &CaseTable) -> Markup {
                     div { dt { (term) } dd { (text) } }
                 }
             }
-            (scroll_table(Some("stacked"), "Truths", Some(caption), &columns, &truths(table)))
+            (scroll_table(Some("stacked"), "Truths", Some(caption), &[
+                Plain("scene"), Text("family"), Plain("exposure, frames"), Text("shutter"), Text("made by"),
+                Text("hash of the truth"),
+            ], &truths(table)))
         }
     }
 }
@@ -50,28 +46,22 @@ pub fn facts(run: &Run) -> Vec<(&'static str, String)> {
         true => "with a velocity",
         false => "without velocity",
     };
+    let pictures = format!("{}x{} pixels", render.width, render.height);
+    let truth = format!(
+        "{} samples per pixel in {} replicates, seed {}{rendered}",
+        render.samples_per_pixel, render.replicates, render.seed
+    );
+    let frame = format!(
+        "velocity {}, colour {}, background {sky}, guard band of {} pixels{rendered}",
+        render.options.velocity, render.options.color, render.guard_band
+    );
     vec![
         ("command", command(run)),
         ("program", run.program.clone()),
         ("adapter", adapter),
-        (
-            "pictures",
-            format!("{}x{} pixels", render.width, render.height),
-        ),
-        (
-            "truth",
-            format!(
-                "{} samples per pixel in {} replicates, seed {}{rendered}",
-                render.samples_per_pixel, render.replicates, render.seed
-            ),
-        ),
-        (
-            "frame",
-            format!(
-                "velocity {}, colour {}, background {sky}, guard band of {} pixels{rendered}",
-                render.options.velocity, render.options.color, render.guard_band
-            ),
-        ),
+        ("pictures", pictures),
+        ("truth", truth),
+        ("frame", frame),
         ("shutter in common", run.common_alignment.to_string()),
     ]
 }
@@ -132,16 +122,14 @@ fn truths(table: &CaseTable) -> Markup {
     let mut shown: HashSet<(&SceneId, Alignment)> = HashSet::new();
     let cases = table.scenes.iter().flat_map(|scene| table.cases_on(scene));
     html! {
-        tbody {
-            @for (_, case) in cases.filter(|(_, own)| shown.insert((&own.scene, own.alignment))) {
-                tr {
-                    th scope="row" { (case.scene) }
-                    td.text { (case.family.map_or("", |family| family.name())) }
-                    td data-label="exposure, frames" { (case.exposure) }
-                    td.text { (case.alignment) }
-                    td.text { (truth_text(case)) }
-                    td.text { code { (case.truth_hash) } }
-                }
+        @for (_, case) in cases.filter(|(_, own)| shown.insert((&own.scene, own.alignment))) {
+            tr {
+                th scope="row" { (case.scene) }
+                td.text { (case.family.map_or("", |family| family.name())) }
+                td data-label="exposure, frames" { (case.exposure) }
+                td.text { (case.alignment) }
+                td.text { (truth_text(case)) }
+                td.text { code { (case.truth_hash) } }
             }
         }
     }
@@ -149,16 +137,8 @@ fn truths(table: &CaseTable) -> Markup {
 
 #[test]
 fn a_command_line_of_thousands_of_parts_is_cut() {
-    assert_eq!(
-        shorten("shuttertruth truths merge a b".to_owned()),
-        "shuttertruth truths merge a b"
-    );
-    let long = shorten("ü".repeat(LONGEST_COMMAND + 1));
-    assert_eq!(
-        long,
-        format!(
-            "{} ... (run.json has all of it)",
-            "ü".repeat(LONGEST_COMMAND)
-        )
-    );
+    let [whole, long] = [LONGEST_COMMAND, LONGEST_COMMAND + 1].map(|count| "ü".repeat(count));
+    assert_eq!(shorten(whole.clone()), whole);
+    let cut = format!("{whole} ... (run.json has all of it)");
+    assert_eq!(shorten(long), cut);
 }

@@ -13,8 +13,19 @@ pub enum Column<'a> {
     Chart(&'a str),
 }
 
-/// Writes a table with the given bodies. Without a caption, only screen readers get the label.
+/// Writes a table. Without a caption, only screen readers get the label.
 pub fn scroll_table(
+    class: Option<&str>,
+    label: &str,
+    caption: Option<&str>,
+    columns: &[Column],
+    rows: &Markup,
+) -> Markup {
+    grouped_table(class, label, caption, columns, &html! { tbody { (rows) } })
+}
+
+/// Writes a table with the given bodies.
+pub fn grouped_table(
     class: Option<&str>,
     label: &str,
     caption: Option<&str>,

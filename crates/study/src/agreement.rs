@@ -1,12 +1,10 @@
-//! PeopleAgreement between people.
+//! Agreement between people.
 
 use std::collections::HashMap;
 
 use serde::Serialize;
 
-use crate::answers::Chosen;
-use crate::design::ShownPair;
-use crate::session::{Session, comparison};
+use crate::session::Session;
 
 /// How often two people chose alike.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -23,19 +21,18 @@ pub struct PeopleAgreement {
 pub fn measure_agreement(sessions: &[&Session], shutter: usize) -> Option<PeopleAgreement> {
     let mut shares: HashMap<[usize; 3], Vec<f64>> = HashMap::new();
     for session in sessions {
-        for (trial, choice) in session
-            .answers
-            .iter()
-            .filter(|(own, _)| own.shutter == shutter)
-        {
-            if let Some((clips, share)) = sorted(trial, *choice) {
-                shares.entry(clips).or_default().push(share);
-            }
+        for (scene, own) in session.comparisons_by_scene(shutter) {
+            // The smaller number comes first.
+            let (clips, share) = match own.one < own.other {
+                true => ([scene, own.one, own.other], own.share),
+                false => ([scene, own.other, own.one], 1.0 - own.share),
+            };
+            shares.entry(clips).or_default().push(share);
         }
     }
     let (mut alike, mut pairs) = (0.0, 0);
     for shares in shares.values() {
-        let count = |due: f64| shares.iter().filter(|share| **share == due).count();
+        let count = |wanted: f64| shares.iter().filter(|share| **share == wanted).count();
         let counts = [0.0, 0.5, 1.0].map(count);
         let [second, neither, first] = counts;
         let two = |count: usize| count * count.saturating_sub(1) / 2;
@@ -49,19 +46,11 @@ pub fn measure_agreement(sessions: &[&Session], shutter: usize) -> Option<People
     })
 }
 
-/// Scene and filters of a comparison, the smaller number first, and the share that the first one got.
-fn sorted(trial: &ShownPair, choice: Chosen) -> Option<([usize; 3], f64)> {
-    let own = comparison(trial, choice)?;
-    Some(match own.one < own.other {
-        true => ([trial.scene, own.one, own.other], own.share),
-        false => ([trial.scene, own.other, own.one], 1.0 - own.share),
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::Clip;
+    use crate::answers::Chosen;
+    use crate::design::{Clip, ShownPair};
     use crate::question::Question;
 
     #[test]

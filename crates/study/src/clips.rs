@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use frame::{Alignment, Image, read_bounded, read_png};
 use glob::Pattern;
 use store::RenderFile;
-use suite::{Error, Run};
+use suite::{Error, Run, Sequence, SequenceFrame};
 
 use crate::study::{Study, StudyShutter};
 
@@ -28,14 +28,7 @@ struct Item {
     scene: String,
     filter: String,
     alignment: Alignment,
-    frames: Vec<ItemFrame>,
-}
-
-/// One picture of them.
-struct ItemFrame {
-    scene: PathBuf,
-    folder: PathBuf,
-    truth_hash: String,
+    frames: Vec<SequenceFrame>,
 }
 
 /// Makes the study of a run whose pictures lie below `folder`; returns it with the files of each clip: scene by scene the
@@ -54,50 +47,37 @@ pub fn make_study(
     let mut shutters = Vec::new();
     let mut clips: Vec<Vec<ClipFiles>> = Vec::new();
     for scene in &scenes {
-        let own = items
-            .iter()
-            .find(|item| item.scene == *scene)
-            .expect("it is that of an item");
-        let sharp = own
-            .frames
-            .iter()
-            .map(|frame| folder.join(&frame.scene).join("frame.png"));
-        clips.push(vec![sharp.collect()]);
+        let own = items.iter().find(|item| item.scene == *scene);
+        let frames = &own.expect("it is that of an item").frames;
+        clips.push(vec![list_files(frames, |own| {
+            folder.join(&own.scene).join("frame.png")
+        })]);
     }
     for alignment in list_once(items.iter().map(|item| item.alignment)) {
-        let own: Vec<&Item> = items
-            .iter()
+        let own: Vec<&Item> = (items.iter())
             .filter(|item| item.alignment == alignment)
             .collect();
         let filters = list_once(own.iter().map(|item| item.filter.clone()));
+        let truth = RenderFile::Truth(alignment).picture();
         let mut truth_hashes = Vec::new();
         for (scene, clips) in scenes.iter().zip(&mut clips) {
             let found = filters.iter().map(|filter| find_item(&own, scene, filter));
             let found = found.collect::<Result<Vec<&Item>, Error>>()?;
             let frames = &found[0].frames;
-            let truth = RenderFile::Truth(alignment).picture();
-            clips.push(
-                frames
-                    .iter()
-                    .map(|frame| folder.join(&frame.scene).join(&truth))
-                    .collect(),
-            );
+            clips.push(list_files(frames, |own| {
+                folder.join(&own.scene).join(&truth)
+            }));
             for item in &found {
-                let files = item.frames.iter().map(|frame| folder.join(&frame.folder));
-                clips.push(files.map(|own| own.join("output.png")).collect());
+                let output = |own: &SequenceFrame| folder.join(&own.folder).join("output.png");
+                clips.push(list_files(&item.frames, output));
             }
-            truth_hashes.push(
-                frames
-                    .iter()
-                    .map(|frame| frame.truth_hash.clone())
-                    .collect(),
-            );
+            truth_hashes.push(frames.iter().map(|own| own.truth_hash.clone()).collect());
         }
         shutters.push(StudyShutter {
             alignment,
             filters,
             truth_hashes,
-            telling_scenes: Vec::new(),
+            blurred_scenes: Vec::new(),
         });
     }
     let mut study = Study {
@@ -107,9 +87,10 @@ pub fn make_study(
         scenes,
         shutters,
         most_pairs: choice.most_pairs,
-        pictures: hash_pictures(&clips, run)?,
+        pictures: String::new(),
     };
-    find_telling_scenes(&mut study, &clips)?;
+    study.pictures = hash_pictures(&study, &clips)?;
+    find_blurred_scenes(&mut study, &clips)?;
     study.check().map_err(|reason| {
         Error::Usage(format!(
             "{}: the page {reason}; choose other scenes, filters or another number of pairs",
@@ -119,19 +100,20 @@ pub fn make_study(
     Ok((study, clips.into_iter().flatten().collect()))
 }
 
+fn list_files(frames: &[SequenceFrame], file: impl Fn(&SequenceFrame) -> PathBuf) -> ClipFiles {
+    frames.iter().map(file).collect()
+}
+
 impl Study {
     /// Number of clips of one scene: the sharp frames, and per shutter the truth and the filters.
     pub fn clips_per_scene(&self) -> usize {
-        let clips = self
-            .shutters
-            .iter()
-            .map(|shutter| 1 + shutter.filters.len());
+        let clips = self.shutters.iter().map(|own| 1 + own.filters.len());
         1 + clips.sum::<usize>()
     }
 
-    /// Upper limit on the bytes of one of its pictures.
+    /// Upper limit on the bytes of one of its PNG files.
     pub fn most_picture_bytes(&self) -> u64 {
-        most_bytes(self.width, self.height)
+        (1 << 16) + 16 * u64::from(self.width) * u64::from(self.height)
     }
 
     /// Numbers of the truths' clips on the first scene, by shutter. The filters follow each.
@@ -163,10 +145,9 @@ fn choose_items(run: &Run, choice: &StudyChoice) -> Result<Vec<Item>, Error> {
     let fits = |patterns: &[Pattern], name: &str| {
         patterns.is_empty() || patterns.iter().any(|pattern| matches(pattern, name))
     };
-    let chosen = all
-        .into_iter()
-        .filter(|item| fits(&choice.scenes, &item.scene) && fits(&choice.filters, &item.filter));
-    Ok(chosen.collect())
+    let is_chosen =
+        |item: &Item| fits(&choice.scenes, &item.scene) && fits(&choice.filters, &item.filter);
+    Ok(all.into_iter().filter(is_chosen).collect())
 }
 
 /// Tells whether a pattern fits a name, or a filter's name without its preset.
@@ -178,34 +159,26 @@ fn matches(pattern: &Pattern, name: &str) -> bool {
 /// Lists the pictures of all filters; no references.
 fn list_items(run: &Run) -> Vec<Item> {
     if !run.frames.is_one() {
-        let own = run
-            .sequences
-            .iter()
-            .filter(|sequence| !sequence.is_reference);
-        return own
-            .map(|sequence| Item {
-                scene: sequence.scene.to_string(),
-                filter: sequence.filter.clone(),
-                alignment: sequence.alignment,
-                frames: (sequence.frames.iter())
-                    .map(|frame| ItemFrame {
-                        scene: frame.scene.clone(),
-                        folder: frame.folder.clone(),
-                        truth_hash: frame.truth_hash.clone(),
-                    })
-                    .collect(),
-            })
-            .collect();
+        let own = run.sequences.iter().filter(|own| !own.is_reference);
+        let item = |own: &Sequence| Item {
+            scene: own.scene.to_string(),
+            filter: own.filter.clone(),
+            alignment: own.alignment,
+            frames: own.frames.clone(),
+        };
+        return own.map(item).collect();
     }
     let own = run.cases.iter().filter(|case| !case.is_reference);
     own.map(|case| Item {
         scene: case.scene.to_string(),
         filter: case.name(),
         alignment: case.alignment,
-        frames: vec![ItemFrame {
+        frames: vec![SequenceFrame {
             scene: case.scene.folder(),
             folder: case.folder.clone(),
             truth_hash: case.truth_hash.clone(),
+            error: None,
+            flicker: None,
         }],
     })
     .collect()
@@ -213,60 +186,47 @@ fn list_items(run: &Run) -> Vec<Item> {
 
 /// Finds the pictures of a filter on a scene: every filter has a clip of every scene, or the scale would be of other scenes for some.
 fn find_item<'a>(items: &[&'a Item], scene: &str, filter: &str) -> Result<&'a Item, Error> {
-    let mut found = items
-        .iter()
-        .filter(|item| item.scene == scene && item.filter == filter);
-    found.next().copied().ok_or_else(|| {
+    let found = (items.iter()).find(|item| item.scene == scene && item.filter == filter);
+    found.copied().ok_or_else(|| {
         Error::Usage(format!(
             "{filter} has no picture on {scene}: every filter needs one on every scene; run it there, or leave one of both out"
         ))
     })
 }
 
-/// Hashes all pictures, and refuses those of another size than the run's.
-fn hash_pictures(clips: &[Vec<ClipFiles>], run: &Run) -> Result<String, Error> {
-    let (width, height) = (run.render.width, run.render.height);
+fn hash_pictures(study: &Study, clips: &[Vec<ClipFiles>]) -> Result<String, Error> {
     let mut hasher = blake3::Hasher::new();
     for path in clips.iter().flatten().flatten() {
-        let bytes = read_bounded(path, most_bytes(width, height))?;
+        let bytes = read_bounded(path, study.most_picture_bytes())?;
         hasher.update(&(bytes.len() as u64).to_le_bytes());
         hasher.update(&bytes);
     }
     Ok(hasher.finalize().to_hex().to_string())
 }
 
-/// Upper limit on the bytes of a PNG of this size.
-fn most_bytes(width: u32, height: u32) -> u64 {
-    (1 << 16) + 16 * u64::from(width) * u64::from(height)
-}
-
 /// Finds the scenes on which truth and sharp frame differ by half as much as where they differ most, or by more.
-fn find_telling_scenes(study: &mut Study, clips: &[Vec<ClipFiles>]) -> Result<(), Error> {
+fn find_blurred_scenes(study: &mut Study, clips: &[Vec<ClipFiles>]) -> Result<(), Error> {
     let size = (study.width, study.height);
     for (shutter, truth) in study.truth_clips().into_iter().enumerate() {
-        let differences = clips
-            .iter()
-            .map(|own| difference(&own[0], &own[truth], size));
-        let differences = differences.collect::<Result<Vec<f64>, Error>>()?;
+        let differences = (clips.iter())
+            .map(|own| difference(&own[0], &own[truth], size))
+            .collect::<Result<Vec<f64>, Error>>()?;
         let largest = differences.iter().fold(0.0_f64, |most, own| most.max(*own));
-        let telling = (0..differences.len())
-            .filter(|scene| largest > 0.0 && differences[*scene] >= largest / 2.0);
-        study.shutters[shutter].telling_scenes = telling.collect();
+        study.shutters[shutter].blurred_scenes = (0..differences.len())
+            .filter(|scene| largest > 0.0 && differences[*scene] >= largest / 2.0)
+            .collect();
     }
     Ok(())
 }
 
-/// Mean absolute difference between two clips, in display values.
+/// Sums the absolute differences of two clips, in display values.
 fn difference(one: &ClipFiles, other: &ClipFiles, size: (u32, u32)) -> Result<f64, Error> {
     let mut sum = 0.0;
     for (one, other) in one.iter().zip(other) {
         let [one, other] = [read_picture(one, size)?, read_picture(other, size)?];
-        let pixels = one
-            .pixels
-            .as_flattened()
-            .iter()
-            .zip(other.pixels.as_flattened());
-        sum += pixels.map(|(a, b)| f64::from((a - b).abs())).sum::<f64>();
+        let [one, other] = [&one, &other].map(|own| own.pixels.as_flattened());
+        let values = one.iter().zip(other);
+        sum += values.map(|(a, b)| f64::from((a - b).abs())).sum::<f64>();
     }
     Ok(sum)
 }

@@ -1,11 +1,11 @@
-//! Order of a session: which pairs are shown, and on which side. `design.js` of the page draws the same; a test compares both.
+//! Order of a session: which pairs are shown, and on which side. The page's `ask_session.js` draws the same; a test compares both.
 
 use suite::Random;
 
 use crate::question::Question;
 use crate::study::{Study, round_size};
 
-/// A check comes with so many pairs.
+/// Number of pairs per check.
 const PAIRS_PER_CHECK: usize = 8;
 /// Fewest checks of a session.
 const FEWEST_CHECKS: usize = 2;
@@ -36,23 +36,19 @@ pub struct ShownPair {
 
 /// Draws the trials of a session from its seed.
 ///
-/// The filters of a shutter stand in a circle of random order, one circle per scene. A round compares each filter with the one at a
+/// The filters of a shutter form a circle in random order, one circle per scene. A round compares each filter with the one at a
 /// certain distance, so that each takes part equally often; a round of distance 1 connects them all (David, "The structure of cyclic
 /// paired-comparison designs", Journal of the Australian Mathematical Society 3, 1963, 117-127). Rounds of all distances are all
 /// pairs. A session holds as many rounds as its limit allows, near distances first, scenes in random order. Checks come on top: the
-/// same clip twice; and where the truth is asked
-/// for, the truth beside the sharp frame.
+/// same clip twice; and if the question is about the truth, the truth and the sharp frame.
 pub fn draw_session(study: &Study, question: Question, seed: u64) -> Vec<ShownPair> {
     let mut random = Random(seed);
-    let circles: Vec<Vec<Vec<usize>>> = (study.shutters.iter())
-        .map(|own| {
-            study
-                .scenes
-                .iter()
-                .map(|_| draw_order(own.filters.len(), &mut random))
-                .collect()
-        })
-        .collect();
+    let mut circles: Vec<Vec<Vec<usize>>> = Vec::new();
+    for own in &study.shutters {
+        let scenes = study.scenes.iter();
+        let circle = |_| draw_order(own.filters.len(), &mut random);
+        circles.push(scenes.map(circle).collect());
+    }
     let mut trials = Vec::new();
     for [distance, scene, shutter] in draw_rounds(study, &mut random) {
         let circle = &circles[shutter][scene];
@@ -65,7 +61,8 @@ pub fn draw_session(study: &Study, question: Question, seed: u64) -> Vec<ShownPa
             });
         }
     }
-    for check in 0..count_checks(trials.len()) {
+    let checks = trials.len().div_ceil(PAIRS_PER_CHECK).max(FEWEST_CHECKS);
+    for check in 0..checks {
         trials.push(draw_check(study, question, check, &mut random));
     }
     shuffle(&mut trials, &mut random);
@@ -106,35 +103,27 @@ fn draw_rounds(study: &Study, random: &mut Random) -> Vec<[usize; 3]> {
     rounds
 }
 
-fn count_checks(pairs: usize) -> usize {
-    pairs.div_ceil(PAIRS_PER_CHECK).max(FEWEST_CHECKS)
-}
-
 /// Draws a check. Whether the truth looks better than the sharp frame is a matter of taste: no check asks for that.
 fn draw_check(study: &Study, question: Question, index: usize, random: &mut Random) -> ShownPair {
     let shutter = random.below(study.shutters.len());
     let own = &study.shutters[shutter];
-    if question == Question::Truth && index.is_multiple_of(2) {
-        let scene = own.telling_scenes[random.below(own.telling_scenes.len())];
-        let (left, right) = (Clip::Truth, Clip::Sharp);
-        return ShownPair {
-            shutter,
-            scene,
-            left,
-            right,
-        };
-    }
-    let scene = random.below(study.scenes.len());
-    let clip = Clip::Filter(random.below(own.filters.len()));
+    let (scene, left, right) = if question == Question::Truth && index.is_multiple_of(2) {
+        let scene = own.blurred_scenes[random.below(own.blurred_scenes.len())];
+        (scene, Clip::Truth, Clip::Sharp)
+    } else {
+        let scene = random.below(study.scenes.len());
+        let clip = Clip::Filter(random.below(own.filters.len()));
+        (scene, clip, clip)
+    };
     ShownPair {
         shutter,
         scene,
-        left: clip,
-        right: clip,
+        left,
+        right,
     }
 }
 
-/// Draws an order of so many numbers.
+/// Draws an order of the numbers below `count`.
 fn draw_order(count: usize, random: &mut Random) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
     shuffle(&mut order, random);
@@ -165,7 +154,7 @@ mod tests {
                 .map(|filter| format!("filter:{filter}"))
                 .collect(),
             truth_hashes: vec![vec![String::new()]; scenes],
-            telling_scenes: vec![scenes - 1],
+            blurred_scenes: vec![scenes - 1],
         };
         let study = Study {
             width: 64,
@@ -183,18 +172,23 @@ mod tests {
     /// Counts how often each pair of a shutter is shown, whatever the side.
     fn pairs(trials: &[ShownPair], shutter: usize) -> BTreeMap<(usize, usize, usize), usize> {
         let mut found = BTreeMap::new();
-        for trial in trials
-            .iter()
-            .filter(|own| !own.is_check() && own.shutter == shutter)
-        {
-            let (Clip::Filter(left), Clip::Filter(right)) = (trial.left, trial.right) else {
-                panic!("{trial:?} is a check");
-            };
-            *found
-                .entry((trial.scene, left.min(right), left.max(right)))
-                .or_default() += 1;
+        for trial in no_checks(trials).filter(|own| own.shutter == shutter) {
+            let [left, right] = filters(trial);
+            let pair = (trial.scene, left.min(right), left.max(right));
+            *found.entry(pair).or_default() += 1;
         }
         found
+    }
+
+    fn no_checks(trials: &[ShownPair]) -> impl Iterator<Item = &ShownPair> {
+        trials.iter().filter(|own| !own.is_check())
+    }
+
+    fn filters(trial: &ShownPair) -> [usize; 2] {
+        [trial.left, trial.right].map(|clip| match clip {
+            Clip::Filter(filter) => filter,
+            _ => panic!("{trial:?} is a check"),
+        })
     }
 
     #[test]
@@ -208,10 +202,7 @@ mod tests {
                     assert_eq!(found.len(), 3 * count * (count - 1) / 2);
                     assert!(found.values().all(|times| *times == 1), "{found:?}");
                 }
-                assert_eq!(
-                    trials.iter().filter(|own| !own.is_check()).count(),
-                    study.all_pairs()
-                );
+                assert_eq!(no_checks(&trials).count(), study.all_pairs());
             }
         }
     }
@@ -223,15 +214,14 @@ mod tests {
         for seed in 0..50 {
             let trials = draw_session(&study, Question::Better, seed);
             // 3 rounds of both, one more of both, and one more of the first: the next one would be beyond the limit.
-            let count = trials.iter().filter(|own| !own.is_check()).count();
-            assert_eq!(count, 3 * (9 + 4) + (9 + 2) + 9);
+            assert_eq!(no_checks(&trials).count(), 3 * (9 + 4) + (9 + 2) + 9);
             // It has 2 pairs, and a limit that is 1 higher lets it in.
             let longer = Study {
                 most_pairs: 61,
                 ..study.clone()
             };
             let longer = draw_session(&longer, Question::Better, seed);
-            assert_eq!(longer.iter().filter(|own| !own.is_check()).count(), 61);
+            assert_eq!(no_checks(&longer).count(), 61);
             for (shutter, count) in [9, 4].into_iter().enumerate() {
                 let mut counts = PairedCounts::new(count);
                 for (_, one, other) in pairs(&trials, shutter).keys() {
@@ -241,10 +231,8 @@ mod tests {
                 let totals: Vec<f64> = (0..count).map(|item| counts.totals(item)[1]).collect();
                 assert!(totals.iter().all(|total| *total == totals[0]), "{totals:?}");
             }
-            for trial in trials.iter().filter(|own| !own.is_check()) {
-                let (Clip::Filter(left), Clip::Filter(right)) = (trial.left, trial.right) else {
-                    panic!("{trial:?}");
-                };
+            for trial in no_checks(&trials) {
+                let [left, right] = filters(trial);
                 sides[usize::from(left < right)] += 1;
             }
             assert_ne!(trials, draw_session(&study, Question::Better, seed + 1));
@@ -260,31 +248,19 @@ mod tests {
         let mut truths_on_the_left = 0;
         for seed in 0..100 {
             let count = |question, is_right: fn(&ShownPair) -> bool| {
-                draw_session(&study, question, seed)
-                    .iter()
-                    .filter(|own| is_right(own))
-                    .count()
+                let trials = draw_session(&study, question, seed);
+                trials.iter().filter(|own| is_right(own)).count()
             };
             let is_same: fn(&ShownPair) -> bool = |own| own.left == own.right;
             let is_truth: fn(&ShownPair) -> bool = |own| {
                 let clips = [own.left, own.right];
-                // The scene that tells.
+                // The blurred scene.
                 clips.contains(&Clip::Truth) && clips.contains(&Clip::Sharp) && own.scene == 1
             };
-            assert_eq!(
-                [
-                    count(Question::Truth, is_same),
-                    count(Question::Truth, is_truth)
-                ],
-                [1, 1]
-            );
-            assert_eq!(
-                [
-                    count(Question::Better, is_same),
-                    count(Question::Better, is_truth)
-                ],
-                [2, 0]
-            );
+            for (question, expected) in [(Question::Truth, [1, 1]), (Question::Better, [2, 0])] {
+                let found = [is_same, is_truth].map(|is_right| count(question, is_right));
+                assert_eq!(found, expected);
+            }
             let is_left: fn(&ShownPair) -> bool = |own| own.left == Clip::Truth;
             truths_on_the_left += count(Question::Truth, is_left);
         }

@@ -76,9 +76,9 @@ pub struct ShutterScale {
     /// Groups of filters of which no filter was ever chosen over one of another group, where there is more than one: the distance between
     /// them is what the prior allows.
     pub separated: Vec<Vec<String>>,
-    /// PeopleAgreement between people; none where no two compared the same clips.
+    /// Agreement between people; none where no two compared the same clips.
     pub agreement: Option<PeopleAgreement>,
-    /// Scores of the run beside the scale; empty where no run was given.
+    /// Scores of the run compared with the scale; empty where no run was given.
     pub scores: Vec<ScoreAgreement>,
 }
 
@@ -110,8 +110,7 @@ pub fn find_preferences(
 ) -> Result<Preferences, Error> {
     let mut questions = Vec::new();
     for question in Question::ALL {
-        let own: Vec<&Session> = sessions
-            .iter()
+        let own: Vec<&Session> = (sessions.iter())
             .filter(|session| session.question == *question)
             .collect();
         if own.is_empty() {
@@ -142,28 +141,25 @@ fn scale_shutter(
     run: Option<&Run>,
 ) -> Result<ShutterScale, String> {
     let own = &study.shutters[shutter];
-    let people: Vec<_> = sessions
-        .iter()
+    let people: Vec<_> = (sessions.iter())
         .map(|session| session.comparisons(shutter))
+        .filter(|own| !own.is_empty())
         .collect();
-    let people: Vec<_> = people.into_iter().filter(|own| !own.is_empty()).collect();
     let all = people.concat();
     let counts = count_choices(&all, own.filters.len());
-    let groups = counts.connected();
-    if groups.len() > 1 {
-        return Err(format!(
+    let scale = scale_preferences(&people, own.filters.len(), RESAMPLES).ok_or_else(|| {
+        let groups = names(own, &counts.connected());
+        let groups: Vec<String> = groups.iter().map(|group| group.join(", ")).collect();
+        format!(
             "no scale of the {} shutter exists: no answers connect {}; collect more answers, or whole sessions",
             own.alignment,
-            names(own, &groups)
-                .iter()
-                .map(|group| group.join(", "))
-                .collect::<Vec<_>>()
-                .join(" | ")
-        ));
+            groups.join(" | ")
+        )
+    })?;
+    let mut separated = names(own, &counts.tied());
+    if separated.len() == 1 {
+        separated.clear();
     }
-    let scale = scale_preferences(&people, own.filters.len(), RESAMPLES)
-        .expect("the comparisons are connected");
-    let tied = counts.tied();
     let scores = run.map(|run| compare_scores(run, study, shutter, sessions, &scale));
     Ok(ShutterScale {
         alignment: own.alignment,
@@ -172,11 +168,7 @@ fn scale_shutter(
         neither: all.iter().filter(|own| own.share == 0.5).count(),
         resampled: scale.resampled,
         filters: list_filters(own, &scale, &counts),
-        separated: if tied.len() > 1 {
-            names(own, &tied)
-        } else {
-            Vec::new()
-        },
+        separated,
         agreement: measure_agreement(sessions, shutter),
         scores: scores.unwrap_or_default(),
     })
@@ -209,10 +201,8 @@ fn list_filters(
 
 fn names(own: &StudyShutter, groups: &[Vec<usize>]) -> Vec<Vec<String>> {
     let name = |filter: &usize| own.filters[*filter].clone();
-    groups
-        .iter()
-        .map(|group| group.iter().map(name).collect())
-        .collect()
+    let names = |group: &Vec<usize>| group.iter().map(name).collect();
+    groups.iter().map(names).collect()
 }
 
 fn session_facts(session: &Session) -> SessionFacts {

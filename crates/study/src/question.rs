@@ -1,7 +1,5 @@
 //! Questions that people are asked.
 
-use std::str::FromStr;
-
 use suite::named;
 
 named! {
@@ -21,15 +19,5 @@ impl Question {
             Self::Truth => "Which looks more like the truth?",
             Self::Better => "Which looks better?",
         }
-    }
-}
-
-impl FromStr for Question {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let mut all = Self::ALL.iter();
-        (all.find(|question| question.name() == text).copied())
-            .ok_or_else(|| "allowed: truth or better".to_owned())
     }
 }

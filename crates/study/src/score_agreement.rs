@@ -55,10 +55,9 @@ pub fn compare_scores(
     sessions: &[&Session],
     scale: &PreferenceScale,
 ) -> Vec<ScoreAgreement> {
-    let tables = list_tables(run, study, shutter).into_iter();
-    tables
-        .map(|table| compare_score(&table, shutter, sessions, scale))
-        .collect()
+    let tables = list_tables(run, study, shutter);
+    let compare = |table| compare_score(table, shutter, sessions, scale);
+    tables.iter().map(compare).collect()
 }
 
 fn compare_score(
@@ -107,11 +106,8 @@ fn predicted(table: &ScoreTable, shutter: usize, session: &Session) -> Option<We
             continue;
         };
         if one != other {
-            agreed += if one < other {
-                own.share
-            } else {
-                1.0 - own.share
-            };
+            let is_first = one < other;
+            agreed += if is_first { own.share } else { 1.0 - own.share };
             count += 1.0;
         }
     }
@@ -134,11 +130,9 @@ fn percentiles(mut values: Vec<f64>) -> Option<[f64; 2]> {
 fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
     let own = &study.shutters[shutter];
     let table = |score: Metric, badness: &dyn Fn(&str, &str) -> Option<f64>| {
-        let of_scene = |scene: &String| -> Vec<Option<f64>> {
-            own.filters
-                .iter()
-                .map(|filter| badness(scene, filter))
-                .collect()
+        let of_scene = |scene: &String| {
+            let filters = own.filters.iter();
+            filters.map(|filter| badness(scene, filter)).collect()
         };
         ScoreTable {
             score,
@@ -147,14 +141,24 @@ fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
     };
     let sequences = SequenceMetric::ALL.iter().map(|metric| {
         table(Metric::Sequence(*metric), &|scene, filter| {
-            let found = find_sequence(run, scene, filter, own.alignment)?;
+            let is_wanted = |it: &&Sequence| {
+                !it.is_reference
+                    && (it.scene == scene && it.alignment == own.alignment)
+                    && it.filter == filter
+            };
+            let found = run.sequences.iter().find(is_wanted)?;
             let value = found.scores.get(*metric).value()?;
             Some(metric.row().ideal.badness(value))
         })
     });
     let pictures = OF_PICTURES.iter().map(|metric| {
         table(*metric, &|scene, filter| {
-            let case = find_case(run, scene, filter, own.alignment)?;
+            let is_wanted = |it: &&Case| {
+                !it.is_reference
+                    && (it.scene == scene && it.alignment == own.alignment)
+                    && it.name() == filter
+            };
+            let case = run.cases.iter().find(is_wanted)?;
             Some(metric.ideal().badness(case.estimate(*metric)?))
         })
     });
@@ -162,32 +166,6 @@ fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
         true => pictures.collect(),
         false => sequences.chain(pictures).collect(),
     }
-}
-
-fn find_case<'a>(
-    run: &'a Run,
-    scene: &str,
-    filter: &str,
-    alignment: Alignment,
-) -> Option<&'a Case> {
-    run.cases.iter().find(|case| {
-        !case.is_reference
-            && (case.scene == scene && case.alignment == alignment)
-            && case.name() == filter
-    })
-}
-
-fn find_sequence<'a>(
-    run: &'a Run,
-    scene: &str,
-    filter: &str,
-    alignment: Alignment,
-) -> Option<&'a Sequence> {
-    run.sequences.iter().find(|own| {
-        !own.is_reference
-            && (own.scene == scene && own.alignment == alignment)
-            && own.filter == filter
-    })
 }
 
 #[cfg(test)]
@@ -210,12 +188,15 @@ mod tests {
                     left: Clip::Filter(*left),
                     right: Clip::Filter(*right),
                 };
-                let choice = if left < right {
-                    Chosen::Left
-                } else {
-                    Chosen::Right
-                };
-                (trial, choice)
+                let chooses_left = left < right;
+                (
+                    trial,
+                    if chooses_left {
+                        Chosen::Left
+                    } else {
+                        Chosen::Right
+                    },
+                )
             })
         });
         Session {
@@ -245,22 +226,16 @@ mod tests {
         assert_eq!(same.correlation_interval, Some([1.0, 1.0]));
         assert_eq!(same.choices, 6 * 24);
         let opposite = compare([0.4, 0.3, 0.2, 0.1]);
-        assert_eq!(
-            [opposite.correlation, opposite.predicted],
-            [Some(-1.0), Some(0.0)]
-        );
+        assert_eq!(opposite.correlation, Some(-1.0));
+        assert_eq!(opposite.predicted, Some(0.0));
         // One of six pairs the other way round; 0.8 is the textbook's for one swap of neighbours among four.
         let near = compare([0.2, 0.1, 0.3, 0.4]);
-        assert!((near.correlation.unwrap() - 0.8).abs() < 1e-12, "{near:?}");
-        assert!(
-            (near.predicted.unwrap() - 5.0 / 6.0).abs() < 1e-12,
-            "{near:?}"
-        );
-        // Filters with one score tell nothing.
+        let far = |found: Option<f64>, expected: f64| (found.unwrap() - expected).abs();
+        assert!(far(near.correlation, 0.8) < 1e-12, "{near:?}");
+        assert!(far(near.predicted, 5.0 / 6.0) < 1e-12, "{near:?}");
+        // A score that is the same for all filters predicts nothing.
         let equal = compare([0.1; 4]);
-        assert_eq!(
-            (equal.correlation, equal.predicted, equal.choices),
-            (None, None, 0)
-        );
+        let found = (equal.correlation, equal.predicted, equal.choices);
+        assert_eq!(found, (None, None, 0));
     }
 }

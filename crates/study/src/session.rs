@@ -83,53 +83,45 @@ impl Session {
 
     /// Lists the same with the numbers of their scenes.
     pub fn comparisons_by_scene(&self, shutter: usize) -> Vec<(usize, Comparison)> {
-        let own = self
-            .answers
-            .iter()
-            .filter(|(trial, _)| trial.shutter == shutter);
+        let own = (self.answers.iter()).filter(|(trial, _)| trial.shutter == shutter);
         own.filter_map(|(trial, choice)| Some((trial.scene, comparison(trial, *choice)?)))
             .collect()
     }
 
     /// Counts the checks that were answered, and those that were answered wrongly.
     pub fn checks(&self) -> [usize; 2] {
-        let right = self
-            .answers
-            .iter()
-            .filter_map(|(trial, choice)| is_right(trial, *choice));
-        let right: Vec<bool> = right.collect();
-        [
-            right.len(),
-            right.iter().filter(|is_right| !**is_right).count(),
-        ]
+        let answers = self.answers.iter();
+        let right: Vec<bool> = answers
+            .filter_map(|(trial, choice)| is_right(trial, *choice))
+            .collect();
+        let wrong = right.iter().filter(|is_right| !**is_right).count();
+        [right.len(), wrong]
     }
 }
 
 /// Makes the comparison that a choice is; none of a check.
-pub(super) fn comparison(trial: &ShownPair, choice: Chosen) -> Option<Comparison> {
+fn comparison(trial: &ShownPair, choice: Chosen) -> Option<Comparison> {
+    let share = match choice {
+        Chosen::Left => 1.0,
+        Chosen::Right => 0.0,
+        Chosen::Neither => 0.5,
+    };
     match (trial.left, trial.right) {
-        (Clip::Filter(one), Clip::Filter(other)) if one != other => Some(Comparison {
-            one,
-            other,
-            share: match choice {
-                Chosen::Left => 1.0,
-                Chosen::Right => 0.0,
-                Chosen::Neither => 0.5,
-            },
-        }),
+        (Clip::Filter(one), Clip::Filter(other)) if one != other => {
+            Some(Comparison { one, other, share })
+        }
         _ => None,
     }
 }
 
-/// Tells whether a check was answered rightly; none of a pair that is no check.
+/// Tells whether a check was answered correctly; none for a pair that is no check.
 fn is_right(trial: &ShownPair, choice: Chosen) -> Option<bool> {
-    let due = match trial.is_check() {
-        false => return None,
-        true if trial.left == Clip::Truth => Chosen::Left,
-        true if trial.right == Clip::Truth => Chosen::Right,
-        true => Chosen::Neither,
+    let right = match (trial.left, trial.right) {
+        (Clip::Truth, _) => Chosen::Left,
+        (_, Clip::Truth) => Chosen::Right,
+        _ => Chosen::Neither,
     };
-    Some(choice == due)
+    trial.is_check().then_some(choice == right)
 }
 
 /// Parses a file of answers; the error says what is wrong.
@@ -139,23 +131,16 @@ fn parse(text: &str) -> Result<AnswerFile, String> {
     };
     check_strings(text).map_err(broken)?;
     let plain: serde_json::Value = serde_json::from_str(text).map_err(broken)?;
-    match plain.get("format").and_then(serde_json::Value::as_u64) {
-        Some(format) if format == u64::from(ANSWERS_FORMAT) => {}
-        Some(format) => {
-            return Err(format!(
-                "has format {format}; allowed: {ANSWERS_FORMAT}; another version of the program made the page"
-            ));
-        }
-        None => {
-            return Err(
-                "is no file of answers: it has no format; the page of `ask` writes one".to_owned(),
-            );
-        }
+    let format = plain.get("format").and_then(serde_json::Value::as_u64);
+    let format =
+        format.ok_or("is no file of answers: it has no format; the page of `ask` writes one")?;
+    if format != u64::from(ANSWERS_FORMAT) {
+        return Err(format!(
+            "has format {format}; allowed: {ANSWERS_FORMAT}; another version of the program made the page"
+        ));
     }
     let file: AnswerFile = serde_json::from_value(plain).map_err(broken)?;
-    file.study
-        .check()
-        .map_err(|reason| format!("its page {reason}"))?;
+    (file.study.check()).map_err(|reason| format!("its page {reason}"))?;
     match file.seed <= LARGEST_SEED {
         true => Ok(file),
         false => Err(format!(
@@ -177,38 +162,36 @@ fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
     }
     for (index, (answer, trial)) in file.answers.iter().zip(&trials).enumerate() {
         let place = || format!("answer {} of {}", index + 1, file.answers.len());
-        let due = shown(&file.study, trial);
-        let found = [
-            &answer.scene,
-            answer.alignment.name(),
-            &answer.left,
-            &answer.right,
-        ];
-        if found != due {
+        let expected = shown(&file.study, trial);
+        let Answer {
+            scene,
+            alignment,
+            left,
+            right,
+            ..
+        } = answer;
+        let found = [scene, alignment.name(), left, right];
+        if found != expected {
             return Err(format!(
                 "{} is about {}; the seed {} shows {} there; give the file as the page wrote it",
                 place(),
                 found.join(" / "),
                 file.seed,
-                due.join(" / ")
+                expected.join(" / ")
             ));
         }
-        check_numbers(answer).map_err(|reason| format!("{} {reason}", place()))?;
+        let Answer {
+            milliseconds, zoom, ..
+        } = answer;
+        if !milliseconds.is_finite() || *milliseconds < 0.0 || *zoom < 1 {
+            return Err(format!(
+                "{} took {milliseconds} milliseconds at zoom {zoom}; allowed: 0 or more, and 1 or more",
+                place()
+            ));
+        }
     }
-    Ok(trials
-        .into_iter()
-        .zip(file.answers.iter().map(|answer| answer.choice))
-        .collect())
-}
-
-fn check_numbers(answer: &Answer) -> Result<(), String> {
-    match answer.milliseconds.is_finite() && answer.milliseconds >= 0.0 && answer.zoom >= 1 {
-        true => Ok(()),
-        false => Err(format!(
-            "took {} milliseconds at zoom {}; allowed: 0 or more, and 1 or more",
-            answer.milliseconds, answer.zoom
-        )),
-    }
+    let choices = file.answers.iter().map(|answer| answer.choice);
+    Ok(trials.into_iter().zip(choices).collect())
 }
 
 /// Names what a trial shows: scene, alignment, left and right.
@@ -220,43 +203,27 @@ fn shown<'a>(study: &'a Study, trial: &ShownPair) -> [&'a str; 4] {
         Clip::Sharp => SHARP_CLIP,
     };
     let scene = study.scenes[trial.scene].as_str();
-    [
-        scene,
-        shutter.alignment.name(),
-        name(trial.left),
-        name(trial.right),
-    ]
+    let [left, right] = [trial.left, trial.right].map(name);
+    [scene, shutter.alignment.name(), left, right]
 }
 
-/// Says in what two studies differ.
-pub(super) fn describe_difference(one: &Study, other: &Study) -> String {
-    let filters = |study: &Study| -> Vec<String> {
-        study
-            .shutters
-            .iter()
-            .flat_map(|own| own.filters.clone())
-            .collect()
-    };
-    let hashes = |study: &Study| -> Vec<Vec<Vec<String>>> {
-        study
-            .shutters
-            .iter()
-            .map(|own| own.truth_hashes.clone())
-            .collect()
-    };
-    let differences = [
-        ("scenes", one.scenes != other.scenes),
-        ("filters", filters(one) != filters(other)),
-        (
-            "size",
-            (one.width, one.height) != (other.width, other.height),
-        ),
-        ("frames", one.frames != other.frames),
-        ("truths", hashes(one) != hashes(other)),
-        ("pictures", one.pictures != other.pictures),
-        ("number of pairs", one.most_pairs != other.most_pairs),
+/// Names what differs between two studies.
+fn describe_difference(one: &Study, other: &Study) -> String {
+    let shutters = || one.shutters.iter().zip(&other.shutters);
+    let size = |study: &Study| (study.width, study.height);
+    let has_same_filters = one.shutters.len() == other.shutters.len()
+        && shutters().all(|(one, other)| one.filters == other.filters);
+    let has_same_truths = shutters().all(|(one, other)| one.truth_hashes == other.truth_hashes);
+    let equalities = [
+        ("scenes", one.scenes == other.scenes),
+        ("filters", has_same_filters),
+        ("size", size(one) == size(other)),
+        ("frames", one.frames == other.frames),
+        ("truths", has_same_truths),
+        ("pictures", one.pictures == other.pictures),
+        ("number of pairs", one.most_pairs == other.most_pairs),
     ];
-    let found = differences.iter().find(|(_, differs)| *differs);
+    let found = equalities.iter().find(|(_, is_equal)| !*is_equal);
     found.map_or("they differ".to_owned(), |(what, _)| {
         format!("the {what} differ")
     })
@@ -264,7 +231,7 @@ pub(super) fn describe_difference(one: &Study, other: &Study) -> String {
 
 /// Refuses a run that is not the one that the study shows: its truths or its pictures differ.
 pub fn refuse_other_run(study: &Study, of_run: &Study, run: &Path) -> Result<(), Error> {
-    // How many pairs a session holds is no matter of the run, nor are the scenes whose checks tell.
+    // The number of pairs in a session does not depend on the run.
     let same = Study {
         most_pairs: study.most_pairs,
         ..of_run.clone()

@@ -44,7 +44,8 @@ pub struct StudyShutter {
     /// Hashes of the truths' inputs: per scene those of its frames.
     pub truth_hashes: Vec<Vec<String>>,
     /// Numbers of the scenes where the truth clearly differs from the sharp frame.
-    pub telling_scenes: Vec<usize>,
+    #[serde(rename = "telling_scenes")]
+    pub blurred_scenes: Vec<usize>,
 }
 
 impl Study {
@@ -76,10 +77,11 @@ impl Study {
             ));
         }
         refuse_twice("scene", self.scenes.iter().map(String::as_str))?;
-        if !(1..=MOST_FRAMES).contains(&self.frames.count) || !self.shows_at_a_rate() {
+        let rate = self.frames.per_second;
+        if !(1..=MOST_FRAMES).contains(&self.frames.count) || !rate.is_finite() || rate <= 0.0 {
             return Err(format!(
                 "has {} frames at {} per second; allowed: 1 to {MOST_FRAMES}, above 0 per second",
-                self.frames.count, self.frames.per_second
+                self.frames.count, rate
             ));
         }
         refuse_twice(
@@ -89,9 +91,7 @@ impl Study {
         if self.shutters.is_empty() {
             return Err("asks about no filter; allowed: two or more of one shutter".to_owned());
         }
-        self.shutters
-            .iter()
-            .try_for_each(|own| self.check_shutter(own))?;
+        (self.shutters.iter()).try_for_each(|own| self.check_shutter(own))?;
         match self.most_pairs >= self.fewest_pairs() {
             true => Ok(()),
             false => Err(format!(
@@ -100,10 +100,6 @@ impl Study {
                 self.fewest_pairs()
             )),
         }
-    }
-
-    fn shows_at_a_rate(&self) -> bool {
-        self.frames.per_second.is_finite() && self.frames.per_second > 0.0
     }
 
     fn check_shutter(&self, own: &StudyShutter) -> Result<(), String> {
@@ -120,16 +116,13 @@ impl Study {
                 "asks about a filter \"{name}\"; brackets stand for the truth and the sharp frame"
             ));
         }
-        let counts = own.truth_hashes.iter().map(Vec::len);
-        let are_all = own.truth_hashes.len() == self.scenes.len()
-            && counts
-                .into_iter()
-                .all(|count| count == self.frames.count as usize);
-        if !are_all {
+        let frames = self.frames.count as usize;
+        let are_whole = own.truth_hashes.iter().all(|hashes| hashes.len() == frames);
+        if !are_whole || own.truth_hashes.len() != self.scenes.len() {
             return Err(format!("lacks hashes of truths of the {alignment} shutter"));
         }
         let is_scene = |scene: &usize| *scene < self.scenes.len();
-        match !own.telling_scenes.is_empty() && own.telling_scenes.iter().all(is_scene) {
+        match !own.blurred_scenes.is_empty() && own.blurred_scenes.iter().all(is_scene) {
             true => Ok(()),
             false => Err(format!(
                 "has no scene on which the truth of the {alignment} shutter differs from the sharp frame"
@@ -138,7 +131,7 @@ impl Study {
     }
 }
 
-/// Counts the pairs of a round: filters that stand in a circle, each beside the one at this distance.
+/// Counts the pairs of a round: filters in a circle, each compared with the one at this distance.
 pub(super) fn round_size(filters: usize, distance: usize) -> usize {
     match 2 * distance == filters {
         true => distance,

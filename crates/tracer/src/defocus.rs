@@ -32,7 +32,7 @@ struct Found {
     times: u32,
 }
 
-/// What a pass makes of one pixel: the mean over its rays.
+/// Effect of a pass on one pixel: the mean over its rays.
 struct Recipe {
     /// Pixels of the picture that rays read.
     reads: Vec<Found>,

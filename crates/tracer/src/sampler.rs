@@ -27,7 +27,7 @@ pub(crate) enum Stream {
 /// The random numbers of one sample of one pixel.
 #[derive(Clone, Copy)]
 pub(crate) struct Sampler {
-    index: u32,
+    pub index: u32,
     seed: u32,
 }
 
@@ -51,11 +51,6 @@ impl Sampler {
     /// Sample `index` of the pixel and replicate with this seed.
     pub fn new(seed: u32, index: u32) -> Self {
         Self { index, seed }
-    }
-
-    /// The sample's index.
-    pub fn index(&self) -> u32 {
-        self.index
     }
 
     /// Numbers for the place in the pixel (x, y) and in the shutter interval, stratified together; one is spare.

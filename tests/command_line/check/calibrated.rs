@@ -20,7 +20,7 @@ fn calibrated_limits_pass_the_filter_and_fail_a_worse_one() {
     bench.write("bounds.toml", &proposed);
     // A seed that neither run has.
     let fine = ["--filters", "velocity_gather:fine", "--seed", "9"];
-    assert_ends(&bench.check(&fine), 0, &["5 required bounds: 5 kept"]);
+    assert_ends(&bench.check(&fine), 0, &["5 required bounds: 5 met"]);
     let worse = [&fine[..], &["--set", "velocity_gather.samples=2"]].concat();
     assert_ends(&bench.check(&worse), 1, &["BROKEN flip_moving"]);
 }

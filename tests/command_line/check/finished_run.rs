@@ -28,7 +28,7 @@ fn a_finished_run_is_judged_without_an_adapter() {
     assert!(!plain.contains("worst at"), "{plain}");
 
     bench.write("bounds.toml", &bound("flip_moving", 0.9, "required"));
-    assert_ends(&judge(&["out"]), 0, &["1 required bound: 1 kept"]);
+    assert_ends(&judge(&["out"]), 0, &["1 required bound: 1 met"]);
     assert_eq!(bench.read_findings()[0].limit, 0.9);
 
     let output = judge(&["out", "--scenes-dir", "elsewhere"]);

@@ -11,7 +11,7 @@ use crate::bench::{Bench, SCENE, assert_refused};
 #[test]
 fn scores_within_their_bounds_pass() {
     let bench = make_bounded(0.9, "required");
-    let text = assert_ends(&bench.check(&IDENTITY), 0, &["1 required bound: 1 kept"]);
+    let text = assert_ends(&bench.check(&IDENTITY), 0, &["1 required bound: 1 met"]);
     assert!(
         !text.contains("plate /"),
         "what is kept is not listed: {text}"
@@ -88,7 +88,7 @@ fn a_bound_of_level_report_fails_nothing() {
     assert_ends(
         &bench.check(&[&IDENTITY[..], &["-v"]].concat()),
         0,
-        &["target missed flip_moving", "1 required bound: 1 kept"],
+        &["target missed flip_moving", "1 required bound: 1 met"],
     );
 }
 

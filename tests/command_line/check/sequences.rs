@@ -33,7 +33,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     let bench = bounded_sequence();
     let single = bench.check(&IDENTITY);
     let parts = [
-        "3 required bounds: 1 kept, 2 not judged",
+        "3 required bounds: 1 met, 2 not judged",
         "1 target: 1 not judged",
         "not judged: limits on sequences of 3 frames, 3 frames at 60 per second; measure with --frames 3, --frames 3 --fps 60",
         "PASS",
@@ -66,7 +66,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
         "; limit 0.0001000, floor ",
         "scenes/plate/bounds.toml:4: a hundredth of white",
         "worst in frame ",
-        "3 required bounds: 2 kept, 1 broken",
+        "3 required bounds: 2 met, 1 broken",
         "1 target: 1 met",
         "FAIL",
     ];
@@ -164,7 +164,7 @@ fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
         "--frames",
         "2",
     ];
-    assert_ends(&bench.check(&fine), 0, &["11 required bounds: 11 kept"]);
+    assert_ends(&bench.check(&fine), 0, &["11 required bounds: 11 met"]);
     let worse = [&fine[..], &["--set", "velocity_gather.samples=2"]].concat();
     assert_ends(&bench.check(&worse), 1, &["BROKEN error over 2 frames"]);
 }

@@ -75,7 +75,7 @@ fn answers_that_no_page_of_this_run_asked_for_are_refused() {
     );
     refuse(
         &[changed(|file| {
-            file.study.shutters[0].telling_scenes = vec![7]
+            file.study.shutters[0].blurred_scenes = vec![7]
         })],
         &["differs from the sharp frame"],
     );

@@ -1,62 +1,66 @@
 //! Changes that turn inputs into other inputs.
 
-#![expect(
-    clippy::explicit_auto_deref,
-    reason = "types of picks are inferred from it"
-)]
-
 mod bytes;
 mod exr;
+mod pieces;
 mod png;
 mod spirv;
 mod text;
-mod words;
 
-pub use png::push as push_chunk;
+use fastrand::Rng;
 
+use crate::dictionary::words;
 use crate::place::Place;
-use crate::random::Random;
 use crate::target::{Shape, Target};
 
 /// Longest input that is made.
-const LONGEST: usize = 400_000;
-
-/// First bytes of PNG files.
-const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
-const EXR: &[u8] = b"\x76\x2F\x31\x01";
+const MAX_LENGTH: usize = 400_000;
 
 /// Material that changes are made with.
 pub struct Source<'a> {
     /// Words of the target.
-    pub tokens: &'static [&'static str],
+    words: &'static [String],
     /// Another input.
-    pub other: &'a [u8],
+    other: &'a [u8],
 }
 
 /// Changes one of the inputs, once or a few times.
-pub fn mutate(target: &Target, place: &Place, seeds: &[&[u8]], random: &mut Random) -> Vec<u8> {
-    let mut input = random.pick(seeds).to_vec();
+pub fn mutate(target: &Target, place: &Place, seeds: &[&[u8]], random: &mut Rng) -> Vec<u8> {
+    let mut input = seeds[random.usize(..seeds.len())].to_vec();
     let source = Source {
-        tokens: target.tokens,
-        other: *random.pick(seeds),
+        words: match target.shape {
+            Shape::Text(name) => words(name),
+            Shape::CommandLine => words("command_line"),
+            _ => words("texts"),
+        },
+        other: seeds[random.usize(..seeds.len())],
     };
     // Half of the files get wrong bytes, too.
-    let whole = !random.once_in(2);
-    for _ in 0..random.magnitude(4) {
-        match target.shape {
-            Shape::Text if random.once_in(8) => bytes::change(&mut input, &source, random),
-            Shape::Text => text::change(&mut input, &source, random),
-            Shape::Words => words::change(&mut input, &source, random),
-            Shape::Picture if whole && input.starts_with(PNG) => png::change(&mut input, random),
-            Shape::Picture if whole && input.starts_with(EXR) => {
+    let whole = random.bool();
+    for _ in 0..magnitude(4, random) {
+        let format = match target.shape {
+            Shape::Text(_) => match random.u8(..8) {
+                0 => &bytes::FORMAT,
+                1 | 2 => &text::LINES,
+                _ => &text::WORDS,
+            },
+            Shape::CommandLine => &text::COMMAND_LINE,
+            Shape::Picture if whole && input.starts_with(png::SIGNATURE) => &png::FORMAT,
+            Shape::Picture if whole && input.starts_with(exr::MAGIC) => {
                 exr::change(&mut input, place, random);
+                continue;
             }
-            Shape::Spirv if whole => spirv::change(&mut input, source.other, random),
-            Shape::Bytes | Shape::Picture | Shape::Spirv => {
-                bytes::change(&mut input, &source, random)
-            }
-        }
-        input.truncate(LONGEST);
+            Shape::Spirv if whole => &spirv::FORMAT,
+            Shape::Bytes | Shape::Picture | Shape::Spirv => &bytes::FORMAT,
+        };
+        format.change(&mut input, &source, random);
+        input.truncate(MAX_LENGTH);
     }
     input
+}
+
+/// Draws a number from 1 to `most`; small numbers are as likely as large ones.
+fn magnitude(most: usize, random: &mut Rng) -> usize {
+    let bits = 1 + random.u32(..=most.ilog2());
+    (1 + random.usize(..1 << bits)).min(most)
 }

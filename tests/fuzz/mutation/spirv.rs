@@ -1,63 +1,60 @@
 //! Changes of SPIR-V modules: instructions of right lengths with wrong words.
 
-use crate::random::Random;
+use fastrand::Rng;
 
-/// Words of the header.
-const HEADER: usize = 5;
+use super::bytes::make_number;
+use super::pieces::Format;
 
-/// Changes, doubles, moves or removes an instruction, or one of its words.
-pub fn change(input: &mut Vec<u8>, other: &[u8], random: &mut Random) {
-    let (header, mut instructions) = read_instructions(input);
-    let (_, others) = read_instructions(other);
-    if instructions.is_empty() {
-        return;
-    }
-    let at = random.below(instructions.len());
-    let to = random.below(instructions.len());
-    match random.below(8) {
-        0 => drop(instructions.remove(at)),
-        1 => instructions.insert(to, instructions[at].clone()),
-        2 => instructions.swap(at, to),
-        3 if !others.is_empty() => instructions.insert(to, random.pick(&others).clone()),
-        4 => instructions[at][0] = instructions[to][0] & 0xffff,
-        5 => instructions[at].push(random.below(200) as u32),
-        _ => change_word(&mut instructions[at], random),
-    }
-    let words = instructions.into_iter().flat_map(|mut instruction| {
-        instruction[0] = (instruction.len() as u32) << 16 | instruction[0] & 0xffff;
-        instruction
-    });
-    *input = header
-        .into_iter()
-        .chain(words)
-        .flat_map(u32::to_le_bytes)
-        .collect();
-}
+/// Ids of a small module are below this.
+const IDS: u32 = 200;
 
-/// Changes a word after the first; ids of a small module are below 200.
-fn change_word(instruction: &mut [u32], random: &mut Random) {
-    const NUMBERS: [u32; 6] = [0, 1, 2, 4, 0x7fff_ffff, u32::MAX];
-    if instruction.len() > 1 {
-        let at = 1 + random.below(instruction.len() - 1);
-        instruction[at] = match random.below(4) {
-            0 => *random.pick(&NUMBERS),
-            1 => instruction[at] ^ (1 << random.below(32)),
-            _ => random.below(200) as u32,
-        };
-    }
-}
+/// Instructions, each of whole words.
+pub static FORMAT: Format = Format {
+    header: 20,
+    cut: |mut rest, _| {
+        let mut instructions = Vec::new();
+        while let [_, _, low, high, ..] = rest {
+            let length = 4 * u16::from_le_bytes([*low, *high]).max(1) as usize;
+            let (instruction, after) = rest.split_at(length.min(rest.len()));
+            instructions.push(instruction.to_vec());
+            rest = after;
+        }
+        instructions
+    },
+    write: |module, instruction| {
+        let start = module.len();
+        module.extend(instruction);
+        let count = (instruction.len() / 4) as u16;
+        if let Some(length) = module.get_mut(start + 2..start + 4) {
+            length.copy_from_slice(&count.to_le_bytes());
+        }
+    },
+    edit: |instructions, _, random| edit(instructions, random),
+    moves: 4,
+};
 
-/// Reads the words of the header and of each whole instruction.
-fn read_instructions(input: &[u8]) -> (Vec<u32>, Vec<Vec<u32>>) {
-    let words: Vec<u32> = (input.chunks_exact(4))
-        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
-        .collect();
-    let (header, mut rest) = words.split_at(HEADER.min(words.len()));
-    let mut instructions = Vec::new();
-    while let Some(first) = rest.first() {
-        let count = ((first >> 16) as usize).clamp(1, rest.len());
-        instructions.push(rest[..count].to_vec());
-        rest = &rest[count..];
+/// Changes an opcode or another word, or adds one.
+fn edit(instructions: &mut [Vec<u8>], random: &mut Rng) {
+    let at = random.usize(..instructions.len());
+    let other = random.usize(..instructions.len());
+    let opcode: Vec<u8> = instructions[other].iter().take(2).copied().collect();
+    let instruction = &mut instructions[at];
+    let count = instruction.len() / 4;
+    match random.u8(..6) {
+        0 if count > 0 => {
+            instruction.splice(..2, opcode);
+        }
+        1 => instruction.extend(random.u32(..IDS).to_le_bytes()),
+        kind if count > 1 => {
+            let word = &mut instruction[4 * random.usize(1..count)..][..4];
+            let old = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);
+            let new = match kind {
+                2 => make_number(random),
+                3 => old ^ 1 << random.u32(..32),
+                _ => random.u32(..IDS),
+            };
+            word.copy_from_slice(&new.to_le_bytes());
+        }
+        _ => {}
     }
-    (header.to_vec(), instructions)
 }

@@ -1,211 +1,147 @@
 //! Changes of text: lines, words, numbers, brackets.
 
-use std::ops::Range;
+use fastrand::Rng;
 
-use super::Source;
-use crate::random::Random;
-use crate::tokens::{NUMBERS, TEXTS};
+use super::pieces::Format;
+use super::{Source, magnitude};
+use crate::dictionary::words;
 
-type Change = fn(&mut Vec<u8>, &Source, &mut Random);
+/// Words of a command line, each in a line.
+pub static COMMAND_LINE: Format = Format { moves: 3, ..LINES };
 
-/// Changes. Numbers, texts and words of the format stand in the list more often.
-const CHANGES: [Change; 16] = [
-    change_number,
-    change_number,
-    change_number,
-    change_quoted,
-    change_quoted,
-    insert_token,
-    insert_token,
-    insert_line_token,
-    change_word,
-    change_word,
-    repeat_line,
-    remove_line,
-    swap_lines,
-    borrow_line,
-    nest,
-    change_bracket,
-];
-
-/// Brackets that can be nested.
-const BRACKETS: [(&str, &str); 7] = [
-    ("[", "]"),
-    ("{", "}"),
-    ("(", ")"),
-    ("{ a = ", " }"),
-    ("{\"a\":", "}"),
-    ("[[", "]]"),
-    ("{ ", " }"),
-];
-
-/// Applies a random change.
-pub fn change(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    random.pick(&CHANGES)(input, source, random);
-}
-
-/// Replaces a number.
-fn change_number(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    let is_number = |word: &[u8]| matches!(word.first(), Some(b'0'..=b'9' | b'-' | b'.'));
-    let numbers: Vec<Range<usize>> = (find_words(input).into_iter())
-        .filter(|range| is_number(&input[range.clone()]))
-        .collect();
-    if numbers.is_empty() {
-        return insert_token(input, source, random);
-    }
-    let range = random.pick(&numbers).clone();
-    let new = match random.below(4) {
-        0 => format!("{}", random.next() as i64 as f64 / (1_u64 << 60) as f64),
-        1 => format!("{}", random.magnitude(1 << 31)),
-        _ => (*random.pick(&NUMBERS)).to_owned(),
-    };
-    input.splice(range, new.into_bytes());
-}
-
-/// Replaces a text between quotes.
-fn change_quoted(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    let quotes: Vec<usize> = (0..input.len()).filter(|at| input[*at] == b'"').collect();
-    if quotes.len() < 2 {
-        return change_word(input, source, random);
-    }
-    let first = random.below(quotes.len() - 1);
-    let range = quotes[first] + 1..quotes[first + 1];
-    let new = match random.below(8) {
-        0 => "x".repeat(random.magnitude(20_000)),
-        1 => {
-            let other = random.below(quotes.len() - 1);
-            let other = quotes[other] + 1..quotes[other + 1];
-            String::from_utf8_lossy(&input[other]).into_owned()
+/// Lines with their ends.
+pub const LINES: Format = Format {
+    header: 0,
+    cut: |input, _| {
+        let lines = input.split_inclusive(|byte| *byte == b'\n');
+        lines.map(<[u8]>::to_vec).collect()
+    },
+    write: |input, line| {
+        input.extend(line);
+        if !line.ends_with(b"\n") {
+            input.push(b'\n');
         }
-        _ => (*random.pick(&TEXTS)).to_owned(),
-    };
-    input.splice(range, new.into_bytes());
+    },
+    edit: |lines, source, random| {
+        let at = random.usize(..lines.len());
+        let line = pick_word(source, random).into();
+        match random.bool() {
+            true => lines.insert(at, line),
+            false => lines[at] = line,
+        }
+    },
+    moves: 7,
+};
+
+/// Words, and every other byte alone. In half of the cases a text with its quotes is one piece.
+pub static WORDS: Format = Format {
+    header: 0,
+    cut: |input, random| cut_words(input, random.bool()),
+    write: |input, word| input.extend(word),
+    edit: edit_words,
+    moves: 1,
+};
+
+/// Brackets that can be nested, with `~` between.
+const BRACKETS: [&str; 7] = [
+    "[~]",
+    "{~}",
+    "(~)",
+    "{ a = ~ }",
+    "{\"a\":~}",
+    "[[~]]",
+    "{ ~ }",
+];
+
+fn is_part_of_word(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || b"_-.+".contains(&byte)
 }
 
-/// Inserts a word of the format anywhere.
-fn insert_token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    let at = match random.once_in(2) {
-        true => random.below(input.len() + 1),
-        false => random.pick(&find_words(input)).start,
-    };
-    let token = some_token(source, random);
-    input.splice(at..at, token.bytes());
-}
-
-/// Inserts a word of the format before a line.
-fn insert_line_token(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    let at = random.pick(&find_lines(input)).start;
-    let token = some_token(source, random);
-    input.splice(at..at, token.bytes());
-}
-
-/// Replaces a word.
-fn change_word(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    let words = find_words(input);
-    let range = random.pick(&words).clone();
-    let new = match random.once_in(2) {
-        true => some_token(source, random).trim_end().as_bytes().to_vec(),
-        false => input[random.pick(&words).clone()].to_vec(),
-    };
-    input.splice(range, new);
-}
-
-fn repeat_line(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let range = random.pick(&find_lines(input)).clone();
-    let line = input[range.clone()].to_vec();
-    let count = random.magnitude(2_000).min(1 + 100_000 / line.len().max(1));
-    input.splice(range.end..range.end, line.repeat(count));
-}
-
-fn remove_line(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let range = random.pick(&find_lines(input)).clone();
-    input.drain(range);
-}
-
-fn swap_lines(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let lines = find_lines(input);
-    let (from, to) = (random.pick(&lines).clone(), random.pick(&lines).start);
-    let line = input[from.clone()].to_vec();
-    input.splice(to..to, line);
-}
-
-fn borrow_line(input: &mut Vec<u8>, source: &Source, random: &mut Random) {
-    let line = random.pick(&find_lines(source.other)).clone();
-    let at = random.pick(&find_lines(input)).start;
-    input.splice(at..at, source.other[line].to_vec());
-}
-
-/// Nests brackets around a word.
-fn nest(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let range = random.pick(&find_words(input)).clone();
-    let (open, close) = *random.pick(&BRACKETS);
-    let depth = random.magnitude(20_000);
-    let inner = input[range.clone()].to_vec();
-    let mut nested = open.repeat(depth).into_bytes();
-    nested.extend(inner);
-    if !random.once_in(4) {
-        nested.extend(close.repeat(depth).bytes());
-    }
-    input.splice(range, nested);
-}
-
-/// Removes or doubles a bracket or comma.
-fn change_bracket(input: &mut Vec<u8>, _: &Source, random: &mut Random) {
-    let marks = b"[]{}(),:=\"'\n";
-    let places: Vec<usize> = (0..input.len())
-        .filter(|at| marks.contains(&input[*at]))
-        .collect();
-    if places.is_empty() {
-        return;
-    }
-    let at = *random.pick(&places);
-    match random.once_in(2) {
-        true => drop(input.remove(at)),
-        false => input.insert(at, input[at]),
-    }
-}
-
-fn some_token<'a>(source: &Source<'a>, random: &mut Random) -> &'a str {
-    match source.tokens.is_empty() || random.once_in(6) {
-        true => *random.pick(&TEXTS),
-        false => *random.pick(source.tokens),
-    }
-}
-
-/// Finds words and numbers. Without any, returns an empty range at the end.
-fn find_words(input: &[u8]) -> Vec<Range<usize>> {
-    let is_part = |byte: u8| byte.is_ascii_alphanumeric() || b"_-.+".contains(&byte);
+fn cut_words(mut rest: &[u8], has_texts: bool) -> Vec<Vec<u8>> {
     let mut words = Vec::new();
-    let mut start = None;
-    for (at, byte) in input.iter().enumerate() {
-        match (start, is_part(*byte)) {
-            (None, true) => start = Some(at),
-            (Some(from), false) => {
-                words.push(from..at);
-                start = None;
+    while let [first, more @ ..] = rest {
+        let length = match *first {
+            b'"' if has_texts => {
+                (more.iter().position(|byte| *byte == b'"')).map_or(1, |at| at + 2)
             }
-            _ => {}
-        }
-    }
-    words.extend(start.map(|from| from..input.len()));
-    if words.is_empty() {
-        words.push(input.len()..input.len());
+            byte if is_part_of_word(byte) => rest
+                .iter()
+                .take_while(|byte| is_part_of_word(**byte))
+                .count(),
+            _ => 1,
+        };
+        let (word, after) = rest.split_at(length);
+        words.push(word.to_vec());
+        rest = after;
     }
     words
 }
 
-/// Finds lines with their ends. Without any, returns an empty range.
-fn find_lines(input: &[u8]) -> Vec<Range<usize>> {
-    let mut start = 0;
-    let mut lines: Vec<Range<usize>> = (input.split_inclusive(|byte| *byte == b'\n'))
-        .map(|line| {
-            let range = start..start + line.len();
-            start = range.end;
-            range
-        })
-        .collect();
-    if lines.is_empty() {
-        lines.push(0..0);
+/// Changes a number, a text, a word or a bracket: each kind has its share, however many there are.
+fn edit_words(pieces: &mut Vec<Vec<u8>>, source: &Source, random: &mut Rng) {
+    let kind = random.u8(..16);
+    let suits = |word: &[u8]| match (kind, word.first()) {
+        (0..5, first) => matches!(first, Some(b'0'..=b'9' | b'-' | b'.')),
+        (5..9, first) => first == Some(&b'"') && word.len() > 1,
+        (9..13, first) => first.is_some_and(|byte| is_part_of_word(*byte)),
+        (13, first) => first.is_some_and(|byte| b"[]{}(),:=\"'\n".contains(byte)),
+        _ => true,
+    };
+    let suited: Vec<usize> = (0..pieces.len()).filter(|at| suits(&pieces[*at])).collect();
+    let Some(at) = random.choice(suited) else {
+        let at = random.usize(..pieces.len());
+        return pieces.insert(at, pick_word(source, random).into());
+    };
+    let old = &pieces[at];
+    pieces[at] = match kind {
+        0..5 => make_number(random).into(),
+        5..9 => format!("\"{}\"", make_text(random)).into(),
+        9..12 if random.bool() => pick_word(source, random).trim_end().into(),
+        9..12 => pieces[random.usize(..pieces.len())].clone(),
+        12 => nest(old, random),
+        13 if random.bool() => Vec::new(),
+        13 => old.repeat(2),
+        _ => [pick_word(source, random).as_bytes(), old].concat(),
+    };
+}
+
+fn make_number(random: &mut Rng) -> String {
+    match random.u8(..4) {
+        0 => ((random.f64() - 0.5) * 16.0).to_string(),
+        1 => magnitude(1 << 31, random).to_string(),
+        _ => pick_number(random).to_owned(),
     }
-    lines
+}
+
+/// Picks a number at or beyond a limit.
+pub fn pick_number(random: &mut Rng) -> &'static str {
+    random.choice(words("numbers")).expect("it is a list")
+}
+
+/// Makes the content of a text between quotes.
+pub fn make_text(random: &mut Rng) -> String {
+    match random.u8(..8) {
+        0 => "x".repeat(magnitude(20_000, random)),
+        _ => random.choice(words("texts")).expect("a list").clone(),
+    }
+}
+
+/// Nests brackets around a word; some stay open.
+fn nest(word: &[u8], random: &mut Rng) -> Vec<u8> {
+    let brackets = BRACKETS[random.usize(..BRACKETS.len())];
+    let (open, close) = brackets.split_once('~').expect("each has a pair");
+    let depth = magnitude(20_000, random);
+    let close = match random.u8(..4) {
+        0 => String::new(),
+        _ => close.repeat(depth),
+    };
+    [open.repeat(depth).as_bytes(), word, close.as_bytes()].concat()
+}
+
+fn pick_word(source: &Source, random: &mut Rng) -> &'static str {
+    let list = match random.u8(..6) {
+        0 => words("texts"),
+        _ => source.words,
+    };
+    random.choice(list).expect("a dictionary has words")
 }

@@ -4,68 +4,31 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use store::{Manifest, PACK_FORMAT, Pack, PackedFile};
+use store::Pack;
 
 use crate::place::Place;
-use crate::seeds::Seed;
-use crate::target::{Shape, Target};
-use crate::{huge, tokens};
 
-/// Where the files of a pack lie.
-const PATHS: [&str; 3] = [
-    "plate/frame.exr",
-    "plate/truth_centred.exr",
-    "plate/truth_centred/replicate_000.exr",
-];
-/// Paths that would leave the folder. Each stands in place of the first one.
-const OUTSIDE: [&str; 3] = ["../outside.exr", "../../outside.exr", "a/../../outside.exr"];
 /// What the files of a pack hold. No pack is read as pictures here.
 const CONTENTS: [&[u8]; 3] = [b"a frame", b"a truth", b"a replicate"];
 
-/// The manifest of a pack. The files in its archive have the names that the manifest gives them, whatever these are.
-pub static MANIFEST: Target = Target {
-    name: "pack_manifest",
-    share: 450,
-    batch: 250,
-    shape: Shape::Text,
-    tokens: tokens::JSON,
-    seeds: |_| {
-        let mut seeds = vec![
-            Seed::Bytes(manifest(&PATHS)),
-            Seed::Made(huge::deep_json),
-            Seed::Made(empty_files),
-        ];
-        let outside = OUTSIDE.map(|path| Seed::Bytes(manifest(&[path, PATHS[1], PATHS[2]])));
-        seeds.extend(outside);
-        seeds
-    },
-    run: |place, input| unpack(place, &pack_up(input)),
-};
-
-/// The archive of a pack, before it is compressed.
-pub static ARCHIVE: Target = Target {
-    name: "pack_archive",
-    share: 450,
-    batch: 250,
-    shape: Shape::Bytes,
-    tokens: &["ustar", "../../canary.txt", "/dev/null", "5", "2"],
-    seeds: |_| vec![Seed::Bytes(pack_up(&manifest(&PATHS)))],
-    run: unpack,
-};
+/// Unpacks an archive with this manifest, whose files have the names that it gives them, whatever these are.
+pub fn manifest(place: &mut Place, input: &[u8]) -> Option<()> {
+    unpack(place, &pack_up(input))
+}
 
 /// Compresses an archive, reads it, and unpacks it as a run does. Panics if anything lies outside of the folder then.
-fn unpack(place: &mut Place, archive: &[u8]) {
+pub fn unpack(place: &mut Place, archive: &[u8]) -> Option<()> {
     let path = place.write("pack.tar.zst", zstd::encode_all(archive, 1).unwrap());
     let folder = place.folder.join("out");
     fs::create_dir_all(&folder).unwrap();
-    if let Ok(pack) = Pack::open(&path)
-        && pack.check().is_ok()
-    {
-        drop(pack.unpack(&folder, |_| true));
-    }
+    let read = Pack::open(&path).and_then(|pack| {
+        pack.check()?;
+        pack.unpack(&folder, |_| true)
+    });
     fs::remove_dir_all(folder).unwrap();
     assert_eq!(list(&place.folder), ["pack.tar.zst"]);
     assert_eq!(list(place.folder.parent().unwrap()), ["canary.txt", "case"]);
+    read.ok().map(drop)
 }
 
 /// Lists the names in a folder, sorted.
@@ -76,38 +39,6 @@ fn list(folder: &Path) -> Vec<String> {
         .collect();
     names.sort();
     names
-}
-
-/// Makes a manifest of more files than a run has, all of them empty.
-fn empty_files() -> Vec<u8> {
-    let paths: Vec<String> = (0..100_000)
-        .map(|at| format!("s{at:06}/frame.exr"))
-        .collect();
-    let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
-    manifest(&paths)
-}
-
-/// Makes a manifest of files at these paths; those without a content of their own are empty.
-fn manifest(paths: &[&str]) -> Vec<u8> {
-    let contents = CONTENTS.into_iter().chain(std::iter::repeat(&b""[..]));
-    let files = (paths.iter().zip(contents))
-        .map(|(path, content)| PackedFile {
-            path: (*path).to_owned(),
-            bytes: content.len() as u64,
-            blake3: blake3::hash(content).to_hex().to_string(),
-            content_hash: "0".repeat(64),
-            scene: "plate".to_owned(),
-            width: 16,
-            height: 16,
-            samples_per_pixel: 16,
-        })
-        .collect();
-    let manifest = Manifest {
-        format: PACK_FORMAT,
-        program: "shuttertruth".to_owned(),
-        files,
-    };
-    serde_json::to_vec_pretty(&manifest).unwrap()
 }
 
 /// Makes the archive of a manifest. A file whose hash fits one of the contents gets that content.

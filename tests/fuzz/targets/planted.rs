@@ -2,41 +2,11 @@
 
 use std::time::Duration;
 
-use super::none;
 use crate::place::Place;
-use crate::seeds::Seed;
-use crate::target::{Shape, Target};
 
-/// Inputs, named after what they do.
-pub const PLANTED: [&str; 8] = [
-    "hang",
-    "nothing",
-    "panic",
-    "crowd",
-    "overflow",
-    "allocation",
-    "exit",
-    "canary",
-];
-
-/// Target that the fuzzer skips.
-pub static TARGET: Target = Target {
-    name: "planted",
-    share: 0,
-    batch: 100,
-    shape: Shape::Text,
-    tokens: none(),
-    seeds: |_| {
-        let seeds = PLANTED.iter();
-        seeds
-            .map(|name| Seed::Bytes(name.as_bytes().to_vec()))
-            .collect()
-    },
-    run,
-};
-
-fn run(place: &mut Place, input: &[u8]) {
-    match input {
+/// Does what the first line of the input says.
+pub fn fail(place: &mut Place, input: &[u8]) -> Option<()> {
+    match input.split(|byte| *byte == b'\n').next()? {
         b"panic" => panic!("it panics on purpose"),
         b"crowd" => rayon::in_place_scope(|scope| {
             scope.spawn(|_| panic!("it panics in a crowd"));
@@ -49,9 +19,10 @@ fn run(place: &mut Place, input: &[u8]) {
         },
         b"allocation" => drop(std::hint::black_box(vec![1_u8; 5 << 30])),
         b"exit" => std::process::exit(7),
-        b"canary" => std::fs::remove_file(place.folder.join("../canary.txt")).unwrap(),
+        b"canary" => std::fs::remove_file(place.canary()).unwrap(),
         _ => {}
     }
+    Some(())
 }
 
 /// Calls itself until the stack is full.

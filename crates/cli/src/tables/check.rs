@@ -181,7 +181,7 @@ pub fn count_lines(check: &Check) -> Vec<String> {
                 "required bound",
                 "required bounds"
             ),
-            counts(Level::Required, "kept", "broken")
+            counts(Level::Required, "met", "broken")
         ));
     }
     if of_level(Level::Report).next().is_some() {

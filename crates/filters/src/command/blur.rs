@@ -16,7 +16,7 @@ use crate::{Command, Filter, FilterError, Input, Settings};
 /// Upper limit on the bytes per pixel that a program may write: 64 channels of 32 bits.
 pub const BYTES_PER_PIXEL: u64 = 256;
 
-/// Upper limit on the bytes that it may write beside those of the pixels.
+/// Upper limit on the bytes that it may write besides those of the pixels.
 pub const BESIDE_PIXELS: u64 = 1 << 20;
 
 /// A filter that is a program, ready to run on images of one size.
@@ -252,7 +252,7 @@ fn kind_of(found: &std::fs::Metadata) -> &'static str {
     "a pipe or a device"
 }
 
-/// Returns the rate that a program is told.
+/// Returns the rate that a program gets.
 fn frames_per_second(input: &Input) -> f64 {
     input.frames_per_second.unwrap_or(FRAMES_PER_SECOND)
 }

@@ -2,24 +2,28 @@
 
 use std::ffi::OsString;
 
-/// Variables that every program gets, as far as the system has them. None of them is a secret.
-const PASSED: [&str; 15] = [
+/// Variables that every program gets. None of them is a secret.
+const PASSED: [&str; 7] = [
     "PATH",
-    "PATHEXT",
     "HOME",
-    "USERPROFILE",
     "TMPDIR",
-    "TEMP",
-    "TMP",
     "LANG",
     "TZ",
+    // Places of Vulkan drivers.
+    "VK_DRIVER_FILES",
+    "VK_ICD_FILENAMES",
+];
+
+/// Variables that programs get on Windows as well.
+const PASSED_ON_WINDOWS: [&str; 8] = [
+    "PATHEXT",
+    "USERPROFILE",
+    "TEMP",
+    "TMP",
     "ComSpec",
     "SystemDrive",
     "SystemRoot",
     "windir",
-    // Places of Vulkan drivers.
-    "VK_DRIVER_FILES",
-    "VK_ICD_FILENAMES",
 ];
 
 /// Languages and formats: `LC_ALL` and its like.
@@ -33,7 +37,9 @@ pub(crate) fn collect_environment(named: &[String]) -> Vec<(OsString, OsString)>
 }
 
 fn is_passed(name: &str, named: &[String]) -> bool {
-    let mut known = PASSED.into_iter().chain(named.iter().map(String::as_str));
+    let on_windows = PASSED_ON_WINDOWS.into_iter().filter(|_| cfg!(windows));
+    let known = PASSED.into_iter().chain(on_windows);
+    let mut known = known.chain(named.iter().map(String::as_str));
     let is_locale = name.starts_with(LOCALE);
     is_locale || known.any(|known| is_same(known, name))
 }

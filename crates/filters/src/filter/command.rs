@@ -11,7 +11,7 @@ pub struct Command {
     pub arguments: Vec<String>,
     /// Absolute folder of filter.toml, in which the program runs.
     pub folder: PathBuf,
-    /// Variables of the environment that it gets beside the usual ones.
+    /// Variables of the environment that it gets besides the usual ones.
     pub environment: Vec<String>,
     /// Path of filter.toml, as it was given.
     pub manifest: PathBuf,

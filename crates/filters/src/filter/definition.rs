@@ -99,7 +99,7 @@ impl Filter {
         listed
     }
 
-    /// Tells whether a shader reads where the camera is, or how it moved.
+    /// Returns true if a shader reads where the camera is, or how it moved.
     pub fn reads_camera(&self) -> bool {
         let CameraUse {
             reprojection,
@@ -116,7 +116,7 @@ impl Filter {
         [own].into_iter().chain(corners).collect()
     }
 
-    /// Tells which parts of the camera the shaders read.
+    /// Lists the parts of the camera the shaders read.
     pub(crate) fn camera_use(&self) -> CameraUse {
         let mut blocks = self.shaders.iter().flat_map(|shader| &shader.blocks);
         CameraUse {

@@ -59,6 +59,11 @@ pub(crate) struct Pass {
 }
 
 impl Pass {
+    /// Lists its render targets, by location; none of a kernel.
+    pub fn list_targets(&self) -> impl Iterator<Item = &String> {
+        self.shader.iter().flat_map(|shader| &shader.targets)
+    }
+
     /// Names the entry point.
     pub(crate) fn kernel(&self) -> &str {
         match &self.shader {

@@ -1,6 +1,6 @@
 //! Placeholders: names in braces that stand for files and values in the arguments of a command.
 
-/// Placeholders for the frame. Every parameter of the filter is a placeholder beside these.
+/// Placeholders for the frame. Every parameter of the filter is a placeholder, too.
 pub(crate) const PLACEHOLDERS: [&str; 5] = [
     "frame",
     "out",

@@ -75,7 +75,7 @@ impl<'g> Blur<'g> {
         self.run_after(input, input)
     }
 
-    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history behind another frame. That has as
+    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame. That has as
     /// many colour images, which go with those of the input.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         self.check(input)?;
@@ -164,11 +164,11 @@ impl<'g> Blur<'g> {
         Ok(Some(outputs))
     }
 
-    /// Runs the passes that are due on what has been uploaded, and reads the output.
-    fn blur(&self, due: impl Fn(&Dispatch) -> bool) -> Result<Image, FilterError> {
+    /// Runs the wanted dispatches on what has been uploaded, and reads the output.
+    fn blur(&self, is_wanted: impl Fn(&Dispatch) -> bool) -> Result<Image, FilterError> {
         let place = self.place("upload");
-        (self.gpu).catch_errors(place, || self.passes.mark_output(self.gpu, &due))?;
-        for dispatch in self.passes.dispatches.iter().filter(|it| due(it)) {
+        (self.gpu).catch_errors(place, || self.passes.mark_output(self.gpu, &is_wanted))?;
+        for dispatch in self.passes.dispatches.iter().filter(|it| is_wanted(it)) {
             self.run_dispatch(dispatch)?;
         }
         self.read_output()

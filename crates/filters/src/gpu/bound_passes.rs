@@ -82,13 +82,13 @@ impl BoundPasses {
         })
     }
 
-    /// Copies the mark to the output if every pass that writes it is due. Pixels that keep the mark were not written.
-    pub fn mark_output(&self, gpu: &Gpu, due: impl Fn(&Dispatch) -> bool) {
+    /// Copies the mark to the output if every dispatch that writes it is wanted. Pixels that keep the mark were not written.
+    pub fn mark_output(&self, gpu: &Gpu, is_wanted: impl Fn(&Dispatch) -> bool) {
         let mut writers = self
             .dispatches
             .iter()
             .filter(|dispatch| dispatch.writes_output);
-        if writers.all(due) {
+        if writers.all(is_wanted) {
             gpu.copy(&self.mark, self.target("output"));
         }
     }
@@ -143,7 +143,6 @@ impl Binder<'_> {
             filter: &filter.name,
             pass: &pass.entry,
         };
-        let drawn = (pass.shader.as_ref()).map_or(&[][..], |shader| &shader.targets);
         for iteration in 0..iterations {
             let value = |name: &str| match name {
                 "iteration" => f64::from(iteration),
@@ -156,13 +155,12 @@ impl Binder<'_> {
             if !levels.are_there(&self.targets) {
                 continue;
             }
-            (levels.check(shader, entry, &self.targets, &self.ready))
-                .map_err(|reason| place.refuse(reason))?;
-            levels.add_to(&mut self.ready);
+            let ready = levels.write(shader, entry, &self.targets, &mut self.ready);
+            ready.map_err(|reason| place.refuse(reason))?;
             let (groups, blocks) =
                 gpu.catch_errors(place, || self.bind_stages(pass, compiled, &levels))?;
             let targets = &self.targets;
-            let attachments = drawn.iter().map(|name| {
+            let attachments = pass.list_targets().map(|name| {
                 let target = targets.written(entry, name);
                 target.view(Some(levels.of_written(name))).clone()
             });
@@ -218,8 +216,7 @@ impl Binder<'_> {
 
 /// Counts the workgroups of a dispatch along x and y.
 fn count_workgroups(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Levels) -> [u32; 2] {
-    let drawn = pass.shader.iter().flat_map(|shader| &shader.targets);
-    let over = drawn.chain(&pass.over).next();
+    let over = pass.list_targets().chain(&pass.over).next();
     let over = over.map_or("output", String::as_str);
     let entry = filter.entry_point(pass);
     let [width, height] = targets.size(over, levels.of_written(over));
@@ -241,12 +238,11 @@ fn sum_bytes(targets: &Targets, filter: &Filter, pass: &Pass, levels: &Levels) -
             let target = targets.of_variable(entry, variable);
             target.bytes(levels.of_variable(index))
         });
-    let drawn = pass.shader.iter().flat_map(|shader| &shader.targets);
-    let drawn = drawn.map(|name| {
+    let attached = pass.list_targets().map(|name| {
         let level = levels.of_written(name);
         targets.written(entry, name).bytes(Some(level))
     });
-    bound.chain(drawn).sum()
+    bound.chain(attached).sum()
 }
 
 /// Creates a buffer for each uniform block.

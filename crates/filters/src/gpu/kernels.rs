@@ -48,7 +48,7 @@ pub(super) struct Compiled {
     pub pipeline: Pipeline,
 }
 
-/// Upper limit on kernels that are kept for other values of specialisation constants.
+/// Upper limit on kernels that are cached for other values of specialisation constants.
 const MOST_KEPT: usize = 16;
 
 impl<'g> Kernels<'g> {
@@ -75,16 +75,16 @@ impl<'g> Kernels<'g> {
         let constants = list_all_constants(&self.filter, settings);
         let lock = || (self.specialised.lock()).unwrap_or_else(|broken| broken.into_inner());
         let first = {
-            let kept = lock();
-            if let Some(known) = kept.iter().find(|known| known.constants == constants) {
+            let cached = lock();
+            if let Some(known) = cached.iter().find(|known| known.constants == constants) {
                 return Ok(known.clone());
             }
-            kept[0].clone()
+            cached[0].clone()
         };
         let mut filter = self.filter.clone();
         let changed = constants.iter().zip(&first.constants);
-        for (pass, (own, kept)) in self.filter.passes.iter().zip(changed) {
-            let Some(shader) = pass.shader.as_ref().filter(|_| own != kept) else {
+        for (pass, (own, cached)) in self.filter.passes.iter().zip(changed) {
+            let Some(shader) = pass.shader.as_ref().filter(|_| own != cached) else {
                 continue;
             };
             let indices = [Some(pass.shader_index), pass.vertex_index];
@@ -94,11 +94,11 @@ impl<'g> Kernels<'g> {
             }
         }
         let made = Arc::new(compile(self.gpu, filter, constants, Some(&first))?);
-        let mut kept = lock();
-        if kept.len() > MOST_KEPT {
-            kept.remove(1);
+        let mut cached = lock();
+        if cached.len() > MOST_KEPT {
+            cached.remove(1);
         }
-        kept.push(made.clone());
+        cached.push(made.clone());
         Ok(made)
     }
 

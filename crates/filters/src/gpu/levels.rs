@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::targets::Targets;
+use crate::filter::PassShader;
 use crate::shader::{EntryPoint, Role, Shader, Variable};
 use crate::{Expression, Filter, Pass};
 
@@ -54,10 +55,9 @@ impl<'a> Levels<'a> {
                 Role::Block(_) | Role::Sampler(_) => {}
             }
         }
-        if let Some(drawn) = &pass.shader {
-            let level = drawn.level.as_ref().map(evaluate).transpose()?;
-            let drawn = drawn.targets.iter();
-            written.extend(drawn.map(|name| (&name[..], level.unwrap_or(0))));
+        if let Some(PassShader { level, targets, .. }) = &pass.shader {
+            let level = level.as_ref().map(evaluate).transpose()?;
+            written.extend(targets.iter().map(|name| (&name[..], level.unwrap_or(0))));
         }
         Ok(Self { variables, written })
     }
@@ -81,13 +81,13 @@ impl<'a> Levels<'a> {
             .map_or(0, |(_, level)| *level)
     }
 
-    /// Refuses to read a level that the dispatch itself writes, or that none before has written.
-    pub fn check(
+    /// Adds what the dispatch writes. Refuses to read a level that it writes itself, or that none before has written.
+    pub fn write(
         &self,
         shader: &Shader,
         entry: &EntryPoint,
         targets: &Targets,
-        ready: &WrittenLevels,
+        ready: &mut WrittenLevels,
     ) -> Result<(), String> {
         for (index, level) in &self.variables {
             let Variable { resource, role, .. } = &shader.variables[*index];
@@ -111,12 +111,8 @@ impl<'a> Levels<'a> {
                 ));
             }
         }
-        Ok(())
-    }
-
-    /// Adds what the dispatch writes.
-    pub fn add_to(&self, ready: &mut WrittenLevels) {
         let written = self.written.iter();
         (ready.0).extend(written.map(|(name, level)| ((*name).to_owned(), *level)));
+        Ok(())
     }
 }

@@ -78,69 +78,62 @@ impl Limits {
             .variables
             .iter()
             .map(|index| shader.variables[*index].binding);
-        let invocations = u64::from(x) * u64::from(y) * u64::from(z);
-        let workgroup = format!("@workgroup_size({x}, {y}, {z}): ");
-        let smaller = "make @workgroup_size smaller";
-        // (prefix, found, allowed, what it is, way out)
+        let broken = |found: u64, allowed: u32, what: &str, way_out: &str| {
+            (found > u64::from(allowed)).then(|| {
+                format!("{found} {what}; allowed: at most {allowed} by {owner}; {way_out}")
+            })
+        };
+        let of_workgroup = |found, allowed, what| {
+            let reason = broken(found, allowed, what, "make @workgroup_size smaller")?;
+            Some(format!("@workgroup_size({x}, {y}, {z}): {reason}"))
+        };
+        let [x_side, y_side, z_side] = [x, y, z].map(u64::from);
         let found = [
-            (
-                &workgroup[..],
-                invocations,
+            of_workgroup(
+                x_side * y_side * z_side,
                 limits.max_compute_invocations_per_workgroup,
                 "invocations in a workgroup",
-                smaller,
             ),
-            (
-                "",
+            broken(
                 entry.usage.workgroup_bytes,
                 limits.max_compute_workgroup_storage_size,
                 "bytes of var<workgroup>",
                 "keep less in it, or divide the pass",
             ),
-            (
-                "",
+            broken(
                 count(|role| matches!(role, Role::Write(_))),
                 limits.max_storage_textures_per_shader_stage,
                 "textures that it writes",
                 "divide the pass",
             ),
-            (
-                "",
+            broken(
                 count(|role| matches!(role, Role::Read(_))),
                 limits.max_sampled_textures_per_shader_stage,
                 "textures that it reads",
                 "divide the pass",
             ),
-            (
-                "",
+            broken(
                 u64::from(bindings.max().unwrap_or(0)),
                 limits.max_bindings_per_bind_group - 1,
                 "as a number of @binding",
                 "number the bindings from 1",
             ),
-        ];
-        let sides = [
-            (
-                x,
+            of_workgroup(
+                x_side,
                 limits.max_compute_workgroup_size_x,
                 "invocations along x",
             ),
-            (
-                y,
+            of_workgroup(
+                y_side,
                 limits.max_compute_workgroup_size_y,
                 "invocations along y",
             ),
-            (
-                z,
+            of_workgroup(
+                z_side,
                 limits.max_compute_workgroup_size_z,
                 "invocations along z",
             ),
-        ]
-        .map(|(side, allowed, what)| (&workgroup[..], u64::from(side), allowed, what, smaller));
-        let mut found = found.into_iter().chain(sides);
-        let broken = found.find(|(_, found, allowed, ..)| *found > u64::from(*allowed));
-        broken.map(|(prefix, found, allowed, what, way_out)| {
-            format!("{prefix}{found} {what}; allowed: at most {allowed} by {owner}; {way_out}")
-        })
+        ];
+        found.into_iter().flatten().next()
     }
 }

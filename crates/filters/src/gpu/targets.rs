@@ -115,8 +115,7 @@ pub(super) fn output_format(filter: &Filter) -> Format {
 
 /// Lists the formats of the render targets of a pass, by location.
 pub(super) fn list_target_formats(filter: &Filter, pass: &Pass) -> Vec<wgpu::TextureFormat> {
-    let targets = pass.shader.iter().flat_map(|shader| &shader.targets);
-    let formats = targets.map(|name| match filter.texture(name) {
+    let formats = pass.list_targets().map(|name| match filter.texture(name) {
         Some(texture) => texture.format.wgpu(),
         None => output_format(filter).wgpu(),
     });
@@ -128,8 +127,7 @@ fn find_usage(filter: &Filter, name: &str) -> wgpu::TextureUsages {
     let mut usage = wgpu::TextureUsages::empty();
     for pass in &filter.passes {
         let entry = filter.entry_point(pass);
-        let is_target =
-            (pass.shader.iter()).any(|shader| shader.targets.iter().any(|it| it == name));
+        let is_target = pass.list_targets().any(|target| target == name);
         if is_target {
             usage |= wgpu::TextureUsages::RENDER_ATTACHMENT;
         } else if entry.writes.contains(name) {

@@ -306,18 +306,21 @@ mod tests {
     fn packed_formats_keep_as_many_bits_as_they_have() {
         let values = [0.25, 1.0, 0.5, 1.0, 0.0, 2.0, -1.0, 0.5];
         let unorm = Format::Rgb10a2Unorm;
-        let kept = unorm.decode(&unorm.encode(&values));
-        for (kept, value) in kept.iter().zip(values).take(3) {
-            assert!((kept - value).abs() <= 0.5 / 1023.0, "{kept} for {value}");
+        let decoded = unorm.decode(&unorm.encode(&values));
+        for (decoded, value) in decoded.iter().zip(values).take(3) {
+            assert!(
+                (decoded - value).abs() <= 0.5 / 1023.0,
+                "{decoded} for {value}"
+            );
         }
-        assert_eq!(kept[4..7], [0.0, 1.0, 0.0]);
+        assert_eq!(decoded[4..7], [0.0, 1.0, 0.0]);
         let float = Format::Rg11b10Ufloat;
         let values = [3.17, 1000.0, 0.3, 1.0, 0.0, 1e9, -2.0, 1.0];
-        let kept = float.decode(&float.encode(&values));
+        let decoded = float.decode(&float.encode(&values));
         for (index, bits) in [(0, 7), (1, 7), (2, 6)] {
-            let error = (kept[index] / values[index] - 1.0).abs();
-            assert!(error <= 0.5_f32.powi(bits), "{kept:?}");
+            let error = (decoded[index] / values[index] - 1.0).abs();
+            assert!(error <= 0.5_f32.powi(bits), "{decoded:?}");
         }
-        assert_eq!(kept[4..], [0.0, 65024.0, 0.0, 1.0]);
+        assert_eq!(decoded[4..], [0.0, 65024.0, 0.0, 1.0]);
     }
 }

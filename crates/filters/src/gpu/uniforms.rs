@@ -65,7 +65,7 @@ impl FrameValues {
         match (member, split_element(member)) {
             ("frames_per_second", _) => Some(self.frames_per_second),
             (_, Some(("size", index))) => self.size.get(index).copied().map(f64::from),
-            // A mat4x3 lies there column by column.
+            // The columns of a mat4x3 come one after the other.
             (_, Some(("reprojection", index))) => {
                 Some(self.reprojection.rows[index % 3][index / 3])
             }

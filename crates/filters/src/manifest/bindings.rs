@@ -38,11 +38,10 @@ pub(super) fn read_bindings(
     entries: &[Spanned<BindingEntry>],
     names: Names,
 ) -> Result<Vec<Binding>, FilterError> {
-    file.check_number("pass.binding", entries)?;
+    let lines = file.lines("pass.binding", entries)?;
     let mut bindings = Vec::<Binding>::new();
-    for spanned in entries {
+    for (spanned, line) in entries.iter().zip(lines) {
         let refuse = |reason: String| file.at(spanned, format!("binding: {reason}"));
-        let line = file.line(spanned.span().start);
         let binding = read_binding(spanned.get_ref(), names, line).map_err(refuse)?;
         if let BindingPlace::Named(name) = &binding.place {
             file.check_line(spanned, "binding: name", name)?;

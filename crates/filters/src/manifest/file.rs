@@ -49,10 +49,10 @@ impl File<'_> {
         }
     }
 
-    /// Refuses more than [`MAX_ENTRIES`] tables of one kind.
-    pub fn check_number<T>(&self, kind: &str, entries: &[Spanned<T>]) -> Result<(), FilterError> {
+    /// Finds the lines of the tables of one kind; refuses more than [`MAX_ENTRIES`].
+    pub fn lines<T>(&self, kind: &str, entries: &[Spanned<T>]) -> Result<Vec<usize>, FilterError> {
         match entries.get(MAX_ENTRIES) {
-            None => Ok(()),
+            None => Ok((entries.iter().map(|entry| self.line(entry.span().start))).collect()),
             Some(first_too_many) => Err(self.at(
                 first_too_many,
                 format!(
@@ -72,13 +72,5 @@ impl File<'_> {
     pub fn line(&self, offset: usize) -> usize {
         let before = self.text.as_bytes().iter().take(offset);
         before.filter(|byte| **byte == b'\n').count() + 1
-    }
-
-    /// Finds the lines of tables.
-    pub fn lines<T>(&self, entries: &[Spanned<T>]) -> Vec<usize> {
-        entries
-            .iter()
-            .map(|entry| self.line(entry.span().start))
-            .collect()
     }
 }

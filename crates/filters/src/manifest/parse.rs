@@ -57,10 +57,13 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         ));
     }
     check_method(&file, &manifest)?;
-    file.check_number("parameter", &manifest.parameter)?;
-    file.check_number("preset", &manifest.preset)?;
-    file.check_number("texture", &manifest.texture)?;
-    file.check_number("pass", &manifest.pass)?;
+    let lines = Lines {
+        path: path.to_owned(),
+        parameters: file.lines("parameter", &manifest.parameter)?,
+        presets: file.lines("preset", &manifest.preset)?,
+        textures: file.lines("texture", &manifest.texture)?,
+        passes: file.lines("pass", &manifest.pass)?,
+    };
     let check_sentence = |name: &str, text: Option<&Spanned<String>>| {
         text.map_or(Ok(String::new()), |text| {
             file.check_line(text, name, text.get_ref())
@@ -106,13 +109,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         alignment: manifest.alignment,
         mirror_symmetric: manifest.mirror_symmetric,
         shaders: Vec::new(),
-        lines: Lines {
-            path: path.to_owned(),
-            parameters: file.lines(&manifest.parameter),
-            presets: file.lines(&manifest.preset),
-            textures: file.lines(&manifest.texture),
-            passes: file.lines(&manifest.pass),
-        },
+        lines,
     })
 }
 

@@ -68,7 +68,7 @@ fn find_hidden(line: &str, is_resolved: bool) -> Option<String> {
     })
 }
 
-/// Lists what follows each `#` of a line, and blanks behind it.
+/// Lists what follows each `#` of a line, after its blanks.
 fn list_directives(line: &str) -> Vec<&str> {
     let marks = line.match_indices('#').chain(line.match_indices("%:"));
     // `##` joins words.

@@ -86,15 +86,15 @@ pub(super) fn compile(
         ),
         sources.texts.clone(),
     );
-    let kept = || COMPILED.lock().unwrap_or_else(|broken| broken.into_inner());
-    if let Some(module) = kept().get(&key) {
+    let cache = || COMPILED.lock().unwrap_or_else(|broken| broken.into_inner());
+    if let Some(module) = cache().get(&key) {
         return Ok(module.clone());
     }
     let program = compiler.program;
     let module = run(program, &arguments, folder, &sources, language)
         .unwrap_or_else(|error| Err((None, format!("{program}: {error}"))))
         .map_err(|(line, reason)| FilterError::in_file(&folder.join(&shader.file), line, reason))?;
-    kept().insert(key, module.clone());
+    cache().insert(key, module.clone());
     Ok(module)
 }
 

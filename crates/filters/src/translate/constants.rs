@@ -188,40 +188,27 @@ impl Constants<'_> {
         operands: &[u32],
         result: Option<Scalar>,
     ) -> Result<Value, String> {
-        let unknown = || {
-            format!(
-                "computes a constant by {operation:?} from others; allowed: arithmetic, comparisons and choices of \
-                 single numbers of 32 bits"
-            )
-        };
         let find = |id: &u32| self.values.get(id);
-        if operation == Op::CompositeExtract {
-            let [composite, index] = operands else {
-                return Err(unknown());
-            };
-            let parts = match find(composite) {
-                Some(Value::Composite(parts)) => parts,
-                _ => return Err(unknown()),
-            };
-            let part = parts.get(*index as usize).and_then(find);
-            return part.cloned().ok_or_else(unknown);
-        }
-        let scalars: Option<Vec<u32>> = (operands.iter())
-            .map(|id| match find(id) {
-                Some(Value::Scalar(bits)) => Some(*bits),
-                _ => None,
-            })
-            .collect();
-        let computed = match (&scalars.ok_or_else(unknown)?[..], result) {
-            (_, None) => None,
-            ([a], _) => compute_one(operation, *a),
-            ([a, b], _) => compute_two(operation, *a, *b),
-            ([condition, yes, no], _) if operation == Op::Select => {
-                Some(if *condition != 0 { *yes } else { *no })
-            }
+        let scalar = |id: &u32| match find(id) {
+            Some(Value::Scalar(bits)) => Some(*bits),
             _ => None,
         };
-        computed.map(Value::Scalar).ok_or_else(unknown)
+        let computed = match (operation, operands) {
+            (Op::CompositeExtract, [composite, index]) => match find(composite) {
+                Some(Value::Composite(parts)) => parts.get(*index as usize).and_then(find).cloned(),
+                _ => None,
+            },
+            _ => (operands.iter().map(scalar).collect::<Option<Vec<u32>>>())
+                .filter(|_| result.is_some())
+                .and_then(|operands| compute(operation, &operands))
+                .map(Value::Scalar),
+        };
+        computed.ok_or_else(|| {
+            format!(
+                "computes a constant by {operation:?} from others; allowed: arithmetic, comparisons and choices of single \
+                 numbers of 32 bits"
+            )
+        })
     }
 }
 
@@ -260,20 +247,26 @@ fn encode(scalar: Scalar, name: &str, value: f64) -> Result<u32, String> {
     })
 }
 
-fn compute_one(operation: Op, a: u32) -> Option<u32> {
-    match operation {
-        Op::SNegate => Some(a.wrapping_neg()),
-        Op::Not => Some(!a),
-        Op::LogicalNot => Some(u32::from(a == 0)),
-        Op::UConvert | Op::SConvert | Op::Bitcast => Some(a),
-        _ => None,
-    }
-}
-
-/// Computes an operation on two numbers; none for one that is unknown, or that divides by zero.
-fn compute_two(operation: Op, a: u32, b: u32) -> Option<u32> {
-    let (signed_a, signed_b) = (a as i32, b as i32);
+/// Computes an operation on numbers of 32 bits; none for one that is unknown, or that divides by zero.
+fn compute(operation: Op, operands: &[u32]) -> Option<u32> {
     let truth = |is: bool| Some(u32::from(is));
+    let (a, b) = match *operands {
+        [a] => {
+            return match operation {
+                Op::SNegate => Some(a.wrapping_neg()),
+                Op::Not => Some(!a),
+                Op::LogicalNot => truth(a == 0),
+                Op::UConvert | Op::SConvert | Op::Bitcast => Some(a),
+                _ => None,
+            };
+        }
+        [a, b] => (a, b),
+        [condition, yes, no] if operation == Op::Select => {
+            return Some(if condition != 0 { yes } else { no });
+        }
+        _ => return None,
+    };
+    let (signed_a, signed_b) = (a as i32, b as i32);
     match operation {
         Op::IAdd => Some(a.wrapping_add(b)),
         Op::ISub => Some(a.wrapping_sub(b)),
@@ -333,11 +326,12 @@ mod tests {
             (Op::Select, 1, 0, None),
         ] {
             assert_eq!(
-                compute_two(operation, a, b),
+                compute(operation, &[a, b]),
                 expected,
                 "{operation:?}: {a}, {b}"
             );
         }
-        assert_eq!(compute_one(Op::SNegate, 3), Some(minus(-3)));
+        assert_eq!(compute(Op::SNegate, &[3]), Some(minus(-3)));
+        assert_eq!(compute(Op::Select, &[0, 5, 7]), Some(7));
     }
 }

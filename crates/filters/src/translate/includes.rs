@@ -5,7 +5,7 @@
 pub(super) struct Include {
     /// Line, from 1.
     pub line: usize,
-    /// The path as it is written; none where a macro stands for it.
+    /// The path as it is written; none if a macro names it.
     pub path: Option<String>,
     /// True for a module of Slang.
     pub is_module: bool,
@@ -90,7 +90,7 @@ pub(super) fn make_plain(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Shortens `#line 3 "file"` to `#line 3`: no compiler shall look beside that file.
+/// Shortens `#line 3 "file"` to `#line 3`: no compiler shall look for files next to that one.
 fn drop_file_name(line: &str) -> &str {
     let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
     let is_number =
@@ -104,28 +104,28 @@ fn drop_file_name(line: &str) -> &str {
 /// Joins lines that end with `\`. Empty lines follow, so that the others keep their numbers.
 fn join_lines(text: &str) -> String {
     let mut joined = String::with_capacity(text.len());
-    let mut due = 0;
+    let mut pending = 0;
     for line in text.split_inclusive('\n') {
         match line.strip_suffix("\\\n") {
             Some(start) => {
                 joined.push_str(start);
-                due += 1;
+                pending += 1;
             }
             None => {
                 joined.push_str(line);
-                joined.extend(std::iter::repeat_n('\n', due));
-                due = 0;
+                joined.extend(std::iter::repeat_n('\n', pending));
+                pending = 0;
             }
         }
     }
     joined
 }
 
-/// Removes the comments of a text whose lines are joined, and keeps its lines. A directive goes on behind a comment of several lines,
+/// Removes the comments of a text whose lines are joined, and keeps its lines. A directive goes on after a comment of several lines,
 /// whose empty lines follow it.
 fn remove_comments(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
-    let mut due = 0;
+    let mut pending = 0;
     let mut rest = text.chars().peekable();
     let mut in_quotes = false;
     while let Some(c) = rest.next() {
@@ -139,7 +139,7 @@ fn remove_comments(text: &str) -> String {
                 let mut last = ' ';
                 for c in rest.by_ref() {
                     match (c, is_directive) {
-                        ('\n', true) => due += 1,
+                        ('\n', true) => pending += 1,
                         ('\n', false) => plain.push(c),
                         _ => {}
                     }
@@ -157,12 +157,12 @@ fn remove_comments(text: &str) -> String {
                 in_quotes = c != '\n' && in_quotes ^ (c == '"');
                 plain.push(c);
                 if c == '\n' {
-                    plain.extend(std::iter::repeat_n('\n', std::mem::take(&mut due)));
+                    plain.extend(std::iter::repeat_n('\n', std::mem::take(&mut pending)));
                 }
             }
         }
     }
-    plain.extend(std::iter::repeat_n('\n', due));
+    plain.extend(std::iter::repeat_n('\n', pending));
     plain
 }
 

@@ -28,7 +28,7 @@ const ENDINGS: [(&str, Language); 10] = [
 ];
 
 impl Language {
-    /// Tells the language of a file; fails with what is allowed.
+    /// Finds the language of a file; fails with what is allowed.
     pub fn of(file: &Path) -> Result<Self, String> {
         let ending = file.extension().and_then(|ending| ending.to_str());
         let known = ENDINGS.iter().find(|(known, _)| Some(*known) == ending);

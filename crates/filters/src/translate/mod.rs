@@ -114,9 +114,9 @@ pub(crate) fn specialise(
         let constants = list_constants(filter, shader, settings);
         let open = read(filter, shader, &made.path, compiled, &constants)?;
         let bound = bind(filter, shader, &made.path, open, &constants)?;
-        let kept = |name: &str, format| made.stored_format(name).unwrap_or(format);
+        let format_of = |name: &str, format| made.stored_format(name).unwrap_or(format);
         Ok(bound
-            .store_as(&kept)
+            .store_as(&format_of)
             .expect("it stored so with other constants"))
     })?;
     Ok(Shader {

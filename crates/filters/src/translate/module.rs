@@ -107,7 +107,7 @@ pub(super) fn read(
     Ok(open)
 }
 
-/// Tells the language of a shader.
+/// Finds the language of a shader.
 pub(super) fn find_language(shader: &PassShader, path: &Path) -> Result<Language, FilterError> {
     Language::of(&shader.file).map_err(|reason| FilterError::in_file(path, None, reason))
 }

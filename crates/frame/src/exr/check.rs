@@ -1,4 +1,4 @@
-//! Checks of OpenEXR files that this program wrote, and the checksum of their content, which tells a bit that flipped on a disk.
+//! Checks of OpenEXR files that this program wrote, and the checksum of their content, which shows a bit that flipped on a disk.
 
 use std::collections::BTreeMap;
 

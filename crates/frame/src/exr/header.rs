@@ -1,6 +1,7 @@
-//! Limits on the header of an OpenEXR file, checked before memory is allocated for its pixels.
+//! The header of an OpenEXR file: its limits, checked before memory is allocated for pixels, and its texts in UTF-8.
 
 use exr::math::Vec2;
+use exr::meta::attribute::Text;
 use exr::meta::header::Header;
 
 /// Upper limit on the columns and on the rows of an OpenEXR file.
@@ -49,7 +50,7 @@ pub(crate) fn check_header(headers: &[Header], file_bytes: u64) -> Result<(), St
     {
         return Err(format!(
             "channel \"{}\" has one sample per {}x{} pixels; one per pixel is needed",
-            super::text::from_exr(&sparse.name),
+            from_exr(&sparse.name),
             sparse.sampling.0,
             sparse.sampling.1
         ));
@@ -73,15 +74,34 @@ pub(crate) fn describe_padding(header: &Header) -> Option<String> {
     if display.position == place && display.size == size {
         return None;
     }
-    let window = |size: Vec2<usize>, place: Vec2<i32>| {
-        format!(
-            "of {}x{} pixels from ({}, {})",
-            size.0, size.1, place.0, place.1
-        )
+    let window = |Vec2(width, height): Vec2<usize>, Vec2(x, y): Vec2<i32>| {
+        format!("of {width}x{height} pixels from ({x}, {y})")
     };
     Some(format!(
         "its data window {} is not its display window {}",
         window(size, place),
         window(display.size, display.position)
     ))
+}
+
+/// Encodes a text as UTF-8. The encoder itself knows only Latin-1, and panics beyond it.
+pub(crate) fn to_exr(text: &str) -> Text {
+    Text::from_slice_unchecked(text.as_bytes())
+}
+
+/// Decodes UTF-8, or else the Latin-1 that older versions and other programs wrote.
+pub(crate) fn from_exr(text: &Text) -> String {
+    let utf_8 = std::str::from_utf8(text.as_slice());
+    utf_8.map_or_else(|_| text.to_string(), str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn latin_1_is_still_read() {
+        let latin_1 = Text::from_slice_unchecked(b"\xe9t\xe9");
+        assert_eq!(from_exr(&latin_1), "\u{e9}t\u{e9}");
+    }
 }

@@ -4,7 +4,6 @@ mod check;
 mod file;
 mod header;
 mod reading;
-mod text;
 mod writing;
 
 pub(crate) use file::in_layer;

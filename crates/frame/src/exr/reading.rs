@@ -7,8 +7,7 @@ use exr::meta::attribute::{AttributeValue, Text};
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 
 use super::file::{Channel, ExrFile, Samples};
-use super::header::{check_header, describe_padding};
-use super::text::from_exr;
+use super::header::{check_header, describe_padding, from_exr};
 use crate::FileError;
 use crate::file::open_regular;
 

@@ -11,7 +11,7 @@ use exr::prelude::{
 
 use super::check::CHECKSUM;
 use super::file::{ExrFile, Samples};
-use super::text::to_exr;
+use super::header::to_exr;
 use crate::FileError;
 use crate::file::write_atomically;
 

@@ -11,10 +11,11 @@ use crate::compare::pairing::Pair;
 pub struct Change {
     /// Scene.
     pub scene: SceneId,
-    /// `jump_flood:paper`; a bar with its alignment.
+    /// `jump_flood:paper`; a reference picture with its alignment.
     pub filter: String,
-    /// True for a bar, false for a filter.
-    pub bar: bool,
+    /// True for a reference picture, false for a filter.
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
     /// Score.
     pub metric: Metric,
     /// Score in the first run, in the metric's unit.
@@ -53,7 +54,7 @@ pub enum Basis {
 pub enum ChangeKind {
     /// Equal to the last bit.
     Same,
-    /// No more than the truth's noise could make.
+    /// No more than the truth's noise can explain.
     WithinNoise,
     /// More than noise, and less than the margin.
     BelowMargin,
@@ -104,10 +105,8 @@ impl Change {
         weight: f64,
         uncertainty: Option<Uncertainty>,
     ) -> Option<Self> {
-        let (Measured::Score(first), Measured::Score(second)) = (
-            pair.first.scores.get(metric),
-            pair.second.scores.get(metric),
-        ) else {
+        let [first, second] = [pair.first, pair.second].map(|case| case.scores.get(metric));
+        let (Measured::Score(first), Measured::Score(second)) = (first, second) else {
             return None;
         };
         let badness = |value: f64| metric.ideal().badness(value);
@@ -117,7 +116,7 @@ impl Change {
         Some(Self {
             scene: pair.first.scene.clone(),
             filter: pair.first.filter_id().to_string(),
-            bar: pair.first.is_reference,
+            is_reference: pair.first.is_reference,
             metric,
             first: first.value,
             second: second.value,
@@ -195,8 +194,27 @@ fn classify(worse: f64, [low, high]: [f64; 2]) -> ChangeKind {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// Makes a change from 0.5 of one filter.
+    pub fn change(scene: &str, metric: Metric, worse: f64, kind: ChangeKind) -> Change {
+        Change {
+            scene: SceneId::new(scene, None),
+            filter: "one:paper".to_owned(),
+            is_reference: false,
+            metric,
+            first: 0.5,
+            second: 0.5 + worse,
+            worse,
+            estimates: [0.5, 0.5 + worse],
+            weight: 1.0,
+            interval: None,
+            standard_error: None,
+            basis: Basis::Floor,
+            kind,
+        }
+    }
 
     #[test]
     fn a_change_is_what_its_interval_leaves_no_doubt_of() {

@@ -1,4 +1,4 @@
-//! Margins below which a change does not matter, however surely it is told from noise.
+//! Margins below which a change does not matter, however certain it is.
 
 use std::collections::BTreeMap;
 
@@ -21,14 +21,13 @@ impl RunComparison {
             own.or(usual.map(|(_, width)| *width)).unwrap_or(0.0)
         };
         for change in &mut self.changes {
-            let is_told = matches!(change.kind, ChangeKind::Better | ChangeKind::Worse);
-            if is_told && change.estimate().abs() < margin(change.metric) {
+            if change.is_beyond_noise() && change.estimate().abs() < margin(change.metric) {
                 change.kind = ChangeKind::BelowMargin;
             }
         }
         for mean in &mut self.means {
-            let is_told = matches!(mean.kind, MeanKind::Better | MeanKind::Worse);
-            if is_told && mean.worse.abs() < margin(mean.metric) {
+            let is_decided = matches!(mean.kind, MeanKind::Better | MeanKind::Worse);
+            if is_decided && mean.worse.abs() < margin(mean.metric) {
                 mean.kind = MeanKind::BelowMargin;
             }
         }
@@ -39,35 +38,17 @@ impl RunComparison {
 mod tests {
     use super::*;
     use crate::compare::COMPARE_FORMAT;
-    use crate::compare::change::{Basis, Change};
+    use crate::compare::change::tests::change;
     use suite::PROGRAM;
-
-    fn change(metric: Metric, worse: f64, kind: ChangeKind) -> Change {
-        Change {
-            scene: tracer::SceneId::new("fan", None),
-            filter: "one:paper".to_owned(),
-            bar: false,
-            metric,
-            first: 30.0,
-            second: 30.0 + worse,
-            worse,
-            estimates: [30.0, 30.0 + worse],
-            weight: 1.0,
-            interval: None,
-            standard_error: None,
-            basis: Basis::Floor,
-            kind,
-        }
-    }
 
     #[test]
     fn a_change_counts_from_its_margin_on() {
         let changes = vec![
-            change(Metric::PSNR, -4e-7, ChangeKind::Better),
-            change(Metric::PSNR, -0.2, ChangeKind::Better),
-            change(Metric::FLIP, 0.004, ChangeKind::Worse),
-            change(Metric::FLIP, 0.006, ChangeKind::Worse),
-            change(Metric::FLIP, 0.001, ChangeKind::WithinNoise),
+            change("fan", Metric::PSNR, -4e-7, ChangeKind::Better),
+            change("fan", Metric::PSNR, -0.2, ChangeKind::Better),
+            change("fan", Metric::FLIP, 0.004, ChangeKind::Worse),
+            change("fan", Metric::FLIP, 0.006, ChangeKind::Worse),
+            change("fan", Metric::FLIP, 0.001, ChangeKind::WithinNoise),
         ];
         let margin = Margin {
             width: 0.005,

@@ -41,7 +41,7 @@ pub enum MeanKind {
     Better,
     /// The second run is worse.
     Worse,
-    /// Told from 0, and smaller than matters.
+    /// Beyond noise, and smaller than matters.
     BelowMargin,
     /// The interval holds 0.
     Undecided,
@@ -63,25 +63,20 @@ impl MeanKind {
     }
 }
 
-/// Averages changes per filter, metric and frame rate, in the order of the changes; leaves out bars.
+/// Averages changes per filter, metric and frame rate, in the order of the changes; leaves out references.
 pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
-    let mut keys: Vec<(String, Metric)> = Vec::new();
-    for change in changes.iter().filter(|change| !change.bar) {
+    let mut groups: Vec<((String, Metric), Vec<&Change>)> = Vec::new();
+    for change in changes.iter().filter(|change| !change.is_reference) {
         let key = key(change);
-        if !keys.contains(&key) {
-            keys.push(key);
+        match groups.iter_mut().find(|(own, _)| *own == key) {
+            Some((_, group)) => group.push(change),
+            None => groups.push((key, vec![change])),
         }
     }
-    let of_key = |own: (String, Metric)| {
-        let of_it = changes
-            .iter()
-            .filter(|change| !change.bar && key(change) == own);
-        MeanChange {
-            filter: own.0.clone(),
-            ..average(&of_it.collect::<Vec<_>>())
-        }
+    let average = |((filter, metric), group): ((String, Metric), Vec<&Change>)| {
+        average(filter, metric, &group)
     };
-    keys.into_iter().map(of_key).collect()
+    groups.into_iter().map(average).collect()
 }
 
 /// Names filter and frame rate of a change, and its metric.
@@ -93,7 +88,7 @@ fn key(change: &Change) -> (String, Metric) {
     (filter, change.metric)
 }
 
-fn average(changes: &[&Change]) -> MeanChange {
+fn average(filter: String, metric: Metric, changes: &[&Change]) -> MeanChange {
     let count = changes.len();
     let mean = |value: fn(&Change) -> f64| {
         let weighted = changes.iter().map(|change| Weighted {
@@ -112,8 +107,8 @@ fn average(changes: &[&Change]) -> MeanChange {
         _ => MeanKind::Undecided,
     };
     MeanChange {
-        filter: changes[0].filter.clone(),
-        metric: changes[0].metric,
+        filter,
+        metric,
         scenes: count,
         better_worse: [of_kind(ChangeKind::Better), of_kind(ChangeKind::Worse)],
         first: mean(|change| change.estimates[0]).mean,
@@ -129,28 +124,17 @@ mod tests {
     use tracer::SceneId;
 
     use super::*;
-    use crate::compare::change::Basis;
+    use crate::compare::change::tests::change;
 
     /// One filter on as many scenes as there are numbers, by which each is worse.
     fn changes(worse: &[f64]) -> Vec<Change> {
-        let change = |(index, worse): (usize, &f64)| Change {
-            scene: SceneId::new(format!("scene_{index}"), None),
-            filter: "one:paper".to_owned(),
-            bar: false,
-            metric: Metric::FLIP,
-            first: 0.5,
-            second: 0.5 + worse,
-            worse: *worse,
-            estimates: [0.5, 0.5 + worse],
-            weight: 1.0,
-            interval: None,
-            standard_error: None,
-            basis: Basis::Floor,
-            kind: match *worse {
+        let change = |(index, worse): (usize, &f64)| {
+            let kind = match *worse {
                 0.0 => ChangeKind::Same,
                 worse if worse > 0.0 => ChangeKind::Worse,
                 _ => ChangeKind::Better,
-            },
+            };
+            change(&format!("scene_{index}"), Metric::FLIP, *worse, kind)
         };
         worse.iter().enumerate().map(change).collect()
     }
@@ -206,9 +190,9 @@ mod tests {
     }
 
     #[test]
-    fn bars_have_no_means() {
+    fn references_have_no_means() {
         let mut all = changes(&[0.1; 5]);
-        all[0].bar = true;
+        all[0].is_reference = true;
         assert_eq!(average_changes(&all)[0].scenes, 4);
     }
 }

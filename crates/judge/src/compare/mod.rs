@@ -46,7 +46,7 @@ pub struct RunComparison {
     pub only_in_first: Vec<String>,
     /// Cases of the second run that the first one lacks.
     pub only_in_second: Vec<String>,
-    /// Mean over scenes per metric and per filter that both have, without bars.
+    /// Mean over scenes per metric and per filter that both have, without references.
     pub means: Vec<MeanChange>,
     /// Change per metric and per case that both have, in the order of the first run.
     pub changes: Vec<Change>,

@@ -46,26 +46,17 @@ pub fn measure_changes(
         }
         let differs = (METRICS.iter())
             .any(|metric| pair.first.scores.get(*metric) != pair.second.scores.get(*metric));
-        let measured = match differs {
-            true => {
-                // Pairs of one truth follow one another.
-                if shared
-                    .as_ref()
-                    .is_none_or(|(hash, _)| *hash != pair.first.truth_hash)
-                {
-                    shared = Some((
-                        pair.first.truth_hash.clone(),
-                        TruthParts::read(sides, pair)?,
-                    ));
-                }
-                let parts = shared.as_ref().and_then(|(_, parts)| parts.as_ref());
-                parts
-                    .map(|parts| parts.compare(sides, pair))
-                    .transpose()?
-                    .flatten()
+        let mut measured = None;
+        if differs {
+            let hash = &pair.first.truth_hash;
+            // Pairs of one truth follow one another.
+            if shared.as_ref().is_none_or(|(own, _)| own != hash) {
+                shared = Some((hash.clone(), TruthParts::read(sides, pair)?));
             }
-            false => None,
-        };
+            if let Some((_, Some(parts))) = &shared {
+                measured = parts.compare(sides, pair)?;
+            }
+        }
         changes.extend(METRICS.iter().filter_map(|metric| {
             let uncertainty = measured.as_ref().and_then(|own| own.uncertainty(*metric));
             let weight = pair.first.weight(*metric, &sides[0].run.cases)?;
@@ -106,11 +97,8 @@ impl TruthParts {
         let replicates: Vec<PathBuf> = (0..count)
             .map(|index| path(RenderFile::Replicate(alignment, index)))
             .collect();
-        let there = [&truth, &frame]
-            .into_iter()
-            .chain(&replicates)
-            .all(|file| file.is_file());
-        if !there || count < FEWEST_REPLICATES {
+        let mut files = [&truth, &frame].into_iter().chain(&replicates);
+        if !files.all(|file| file.is_file()) || count < FEWEST_REPLICATES {
             return Ok(None);
         }
         let whole = Truth::read(&truth)?;
@@ -135,10 +123,7 @@ impl TruthParts {
 
     /// Scores both pictures; none if one is missing.
     fn compare(&self, sides: [&Side; 2], pair: &Pair) -> Result<Option<PairedScores>, Error> {
-        let files = [
-            sides[0].file(pair.first, "output.exr"),
-            sides[1].file(pair.second, "output.exr"),
-        ];
+        let files = pair.files(sides, "output.exr");
         if !files.iter().all(|file| file.is_file()) {
             return Ok(None);
         }
@@ -150,10 +135,8 @@ impl TruthParts {
             if let Some(sharp) = &self.sharp {
                 reference = reference.with_ends(sharp, &self.oracle)?;
             }
-            Ok([
-                reference.measure(&first)?.scores,
-                reference.measure(&second)?.scores,
-            ])
+            let [first, second] = [&first, &second].map(|own| reference.measure(own));
+            Ok([first?.scores, second?.scores])
         };
         Ok(Some(PairedScores {
             whole: scores(&self.whole)?,
@@ -166,9 +149,7 @@ impl TruthParts {
 fn read_picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
     let file = read_exr(path)?;
     file.expect_finite()?;
-    let mattes = objects
-        .iter()
-        .map(|object| file.plane(&format!("coverage.{object}")));
+    let mattes = (objects.iter()).map(|object| file.plane(&format!("coverage.{object}")));
     Ok(Picture {
         color: file.color("")?,
         coverage: mattes.collect::<Result<_, _>>()?,
@@ -182,7 +163,7 @@ struct PairedScores {
 }
 
 impl PairedScores {
-    /// Returns the uncertainty of the score's change; none if a part of the truth cannot tell the score.
+    /// Returns the uncertainty of the score's change; none if the score does not apply to a part of the truth.
     fn uncertainty(&self, metric: Metric) -> Option<Uncertainty> {
         let score = |side: usize| move |scores: &[Scores; 2]| scores[side].get(metric).value();
         let worse = |scores: &[Scores; 2]| {
@@ -190,13 +171,11 @@ impl PairedScores {
             Some(badness(1)? - badness(0)?)
         };
         let change = self.interval(worse)?;
+        let [first, second] = [0, 1].map(|side| self.interval(score(side)));
         Some(Uncertainty {
             interval: [change.low, change.high],
             standard_error: change.standard_error,
-            estimates: [
-                self.interval(score(0))?.center,
-                self.interval(score(1))?.center,
-            ],
+            estimates: [first?.center, second?.center],
         })
     }
 

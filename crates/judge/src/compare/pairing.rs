@@ -1,11 +1,11 @@
 //! Pairs of cases of two runs.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
 
-use suite::{Case, Error, Run};
+use suite::{Case, CaseId, Error, Run};
 
 use crate::compare::side::Side;
-use suite::CaseId;
 
 /// A case that two runs have.
 #[derive(Clone, Copy, Debug)]
@@ -16,48 +16,50 @@ pub struct Pair<'a> {
     pub second: &'a Case,
 }
 
+impl Pair<'_> {
+    /// Returns the paths of a file of both cases.
+    pub fn files(&self, [first, second]: [&Side; 2], name: &str) -> [PathBuf; 2] {
+        [first.file(self.first, name), second.file(self.second, name)]
+    }
+}
+
 /// Pairs the cases that both runs have, in the order of the first.
 pub fn pair_cases<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
     let partners = Partners::new(first, second);
-    let pair = |case: &'a Case| {
-        let second = partners.find(case)?;
+    let pair = |first| {
         Some(Pair {
-            first: case,
-            second,
+            first,
+            second: partners.find(first)?,
         })
     };
     first.cases.iter().filter_map(pair).collect()
 }
 
-/// Lists the cases that `run` lacks and `other` has.
+/// Lists the cases that `run` lacks and `other` has: `fan / jump_flood:paper`.
 pub fn cases_missing_from(run: &Run, other: &Run) -> Vec<String> {
     let partners = Partners::new(other, run);
     let missing = (other.cases.iter()).filter(|case| partners.find(case).is_none());
-    (missing.map(|case| format!("{} / {}", case.scene, case.filter_id()))).collect()
+    let label = |case: &Case| format!("{} / {}", case.scene, case.filter_id());
+    missing.map(label).collect()
 }
 
 /// Refuses runs whose scores do not compare.
 pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(), Error> {
     let refuse = |reason: String| Err(Error::Usage(format!("{}: {reason}", second.path.display())));
     let there = first.path.display();
-    let size = |side: &Side| (side.run.render.width, side.run.render.height);
-    if size(first) != size(second) {
-        let [(w, h), (width, height)] = [size(first), size(second)];
+    let size = |side: &Side| format!("{}x{}", side.run.render.width, side.run.render.height);
+    let [expected, found] = [first, second].map(size);
+    if found != expected {
         return refuse(format!(
-            "its pictures have {width}x{height} pixels, those of {there} {w}x{h}; scores of two sizes do not compare: make one \
-             run again at the other's size"
+            "its pictures have {found} pixels, those of {there} {expected}; scores of two sizes do not compare: make one run again \
+             at the other's size"
         ));
     }
     if pairs.is_empty() {
         let scenes = |side: &Side| names(side.run.cases.iter().map(|case| case.scene.to_string()));
         let filters = |side: &Side| {
-            names(
-                side.run
-                    .cases
-                    .iter()
-                    .filter(|case| !case.is_reference)
-                    .map(|case| case.filter.clone()),
-            )
+            let cases = side.run.cases.iter().filter(|case| !case.is_reference);
+            names(cases.map(|case| case.filter.clone()))
         };
         return refuse(format!(
             "it has no case in common with {there}: scenes {} there and {} here, filters {} there and {} here; run the same \
@@ -68,10 +70,8 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
             filters(second)
         ));
     }
-    match pairs
-        .iter()
-        .find(|pair| pair.first.truth_hash != pair.second.truth_hash)
-    {
+    let differs = |pair: &&Pair| pair.first.truth_hash != pair.second.truth_hash;
+    match pairs.iter().find(differs) {
         None => Ok(()),
         Some(Pair { first, .. }) => refuse(format!(
             "its truth of {} ({}) is another than that of {there}: scene, exposure, samples, seed or tracer have changed, and \
@@ -111,11 +111,8 @@ impl<'a> Partners<'a> {
         }
         let preset = case.of_preset();
         let is_single = self.own.get(&preset).is_some_and(Option::is_some);
-        self.other
-            .get(&preset)
-            .copied()
-            .flatten()
-            .filter(|_| is_single)
+        let other = self.other.get(&preset).copied().flatten();
+        other.filter(|_| is_single)
     }
 }
 

@@ -57,29 +57,27 @@ fn adapter_label(adapter: &Option<AdapterDescription>) -> String {
 }
 
 fn compare_parameters(pair: &Pair) -> Vec<SettingChange> {
-    let names: BTreeSet<&String> = [pair.first, pair.second]
-        .into_iter()
-        .flat_map(|case| case.parameters.keys())
-        .collect();
+    let [first, second] = [pair.first, pair.second];
+    let keys = first.parameters.keys().chain(second.parameters.keys());
+    let names: BTreeSet<&String> = keys.collect();
     let value = |case: &Case, name| {
-        case.parameters
-            .get(name)
-            .map_or_else(String::new, ToString::to_string)
+        let value = case.parameters.get(name);
+        value.map_or_else(String::new, ToString::to_string)
     };
     let width = |case: &Case| match case.reference_width {
         Some(width) => format!("{width} px"),
         None => "as written".to_owned(),
     };
     let widths = SettingChange {
-        name: format!("{} reference width", pair.first.name()),
-        first: width(pair.first),
-        second: width(pair.second),
+        name: format!("{} reference width", first.name()),
+        first: width(first),
+        second: width(second),
     };
     std::iter::once(widths)
         .chain(names.into_iter().map(|name| SettingChange {
-            name: format!("{}.{name}", pair.first.name()),
-            first: value(pair.first, name),
-            second: value(pair.second, name),
+            name: format!("{}.{name}", first.name()),
+            first: value(first, name),
+            second: value(second, name),
         }))
         .collect()
 }

@@ -107,17 +107,16 @@ fn compare_group(
         .filter(|own| own.score(metric).is_some())
         .map(|own| &own.scene)
         .collect();
-    let badness: Vec<Badness> = (results.iter())
-        .map(|results| {
-            (names.iter())
-                .map(|name| {
-                    (scenes.iter())
-                        .map(|scene| find(results, scene, name, metric))
-                        .collect()
-                })
+    let read = |results: &&Results| -> Result<Badness, Error> {
+        let filter = |name: &&str| {
+            let scenes = scenes.iter();
+            scenes
+                .map(|scene| find(results, scene, name, metric))
                 .collect()
-        })
-        .collect::<Result<_, Error>>()?;
+        };
+        names.iter().map(filter).collect()
+    };
+    let badness: Vec<Badness> = results.iter().map(read).collect::<Result<_, Error>>()?;
     let at_largest = badness.last().expect("there are results");
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let mut filters: Vec<FilterAtSizes> = (names.iter().enumerate())
@@ -144,16 +143,14 @@ fn compare_group(
 /// Finds how bad a filter is on a scene.
 fn find(results: &Results, scene: &SceneId, name: &str, metric: Metric) -> Result<f64, Error> {
     let found = (results.scores.iter()).find(|own| own.scene == *scene && own.name == name);
-    let value = found.and_then(|own| own.score(metric));
-    value
-        .map(|value| metric.ideal().badness(value))
-        .ok_or_else(|| {
-            Error::Usage(format!(
-                "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
-                results.file_name(),
-                metric.name()
-            ))
-        })
+    let value = found.and_then(|own| own.score(metric)).ok_or_else(|| {
+        Error::Usage(format!(
+            "{} has no {} of {name} on {scene}; run all sizes with the same scenes and filters",
+            results.file_name(),
+            metric.name()
+        ))
+    })?;
+    Ok(metric.ideal().badness(value))
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -192,11 +189,10 @@ fn compare_order(names: &[String], here: &Badness, largest: &Badness) -> Agreeme
                 (None, Some(_)) => agreement.only_at_largest += 1,
                 (Some(own), Some(others)) if own == others => agreement.alike += 1,
                 (Some(side), Some(_)) => {
-                    let (better, worse) = match side {
-                        Ordering::Greater => (first, second),
-                        _ => (second, first),
+                    let (better, worse, sign) = match side {
+                        Ordering::Greater => (first, second, 1.0),
+                        _ => (second, first, -1.0),
                     };
-                    let sign = if better == first { 1.0 } else { -1.0 };
                     agreement.reversed.push(Reversal {
                         better_here: names[better].clone(),
                         better_at_largest: names[worse].clone(),

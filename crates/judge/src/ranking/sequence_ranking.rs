@@ -3,11 +3,10 @@
 use std::collections::HashMap;
 
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
-use suite::{Case, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
+use suite::{Case, FilterId, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
 use tracer::SceneId;
 
 use crate::ranking::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};
-use suite::FilterId;
 
 /// The score that sequences are ranked by: the one that counts errors of single frames and of their changes together. Scores of changes
 /// alone rank a filter high that flickers little around a wrong picture.

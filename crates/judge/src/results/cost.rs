@@ -32,12 +32,8 @@ impl Results {
     /// The bench was made with pictures of another size, or on another adapter.
     pub fn add_costs(&mut self, bench: &Bench) -> Result<(), Error> {
         let name = |size: [u32; 2], adapter: Option<&str>| {
-            format!(
-                "{}x{} on {}",
-                size[0],
-                size[1],
-                adapter.unwrap_or("no adapter")
-            )
+            let adapter = adapter.unwrap_or("no adapter");
+            format!("{}x{} on {adapter}", size[0], size[1])
         };
         let own = name(self.size, self.adapter.as_deref());
         let other = name([bench.width, bench.height], Some(&bench.adapter.name));

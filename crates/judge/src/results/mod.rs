@@ -1,4 +1,4 @@
-//! Results: the scores of runs in short, to be kept beside the code and compared.
+//! Results: the scores of runs in short, as a file for version control.
 
 mod cost;
 
@@ -18,7 +18,7 @@ use crate::ranking::ranking::{RankedFilter, RankedScore, rank_by_score};
 /// Version of the layout of a file of results.
 pub const RESULTS_FORMAT: u32 = 2;
 
-/// Significant digits of a kept score.
+/// Significant digits of a score.
 const DIGITS: usize = 5;
 
 /// The scores of all filters on some scenes, at one picture size.
@@ -80,7 +80,7 @@ impl Results {
             adapter: adapter_of(first),
             size: [first.render.width, first.render.height],
             samples_per_pixel: first.render.samples_per_pixel,
-            seal: first.cases.first().and_then(|case| case.scene.seal),
+            seal: (first.cases.first()).and_then(|case| case.scene.seal),
             costs: BTreeMap::new(),
             scores: Vec::new(),
         };
@@ -181,10 +181,7 @@ impl Results {
         let mut files = Vec::new();
         for entry in std::fs::read_dir(folder).map_err(refuse)? {
             let path = entry.map_err(refuse)?.path();
-            if path
-                .extension()
-                .is_some_and(|extension| extension == "json")
-            {
+            if path.extension().is_some_and(|own| own == "json") {
                 files.push(path);
             }
         }
@@ -201,13 +198,8 @@ impl Results {
     pub fn file_name(&self) -> String {
         let adapter = self.adapter.as_deref().unwrap_or("none");
         let word = adapter.split_whitespace().next().unwrap_or("none");
-        let word: String = word
-            .chars()
-            .filter(|letter| letter.is_ascii_alphanumeric())
-            .collect();
-        let seal = self
-            .seal
-            .map_or(String::new(), |seed| format!("_seal{seed}"));
+        let word = word.replace(|letter: char| !letter.is_ascii_alphanumeric(), "");
+        let seal = (self.seal).map_or(String::new(), |seed| format!("_seal{seed}"));
         let [width, height] = self.size;
         format!("{width}x{height}_{}{seal}.json", word.to_lowercase())
     }
@@ -229,7 +221,8 @@ impl Results {
         let mut ranked = self.ranking(None).into_iter().flatten();
         let best = ranked.find(|own| own.filter == filter)?;
         let error = |own: &&ResultScores| {
-            Some((own.score(Metric::SKILL).is_some(), own.score(Metric::FLIP)?))
+            let has_skill = own.score(Metric::SKILL).is_some();
+            Some((has_skill, own.score(Metric::FLIP)?))
         };
         (self.scores.iter())
             .filter(|own| own.name == best.name && error(own).is_some())

@@ -157,23 +157,15 @@ fn layers(view: &CaseView) -> String {
     words.join(" ")
 }
 
-/// The profile's line as a path over the picture, with a ring around its place.
+/// Writes the profile's line as a path over the picture, with a ring around its place.
 fn line(profile: &Profile) -> String {
     let [x, y] = profile.place.map(|axis| axis as f32 + 0.5);
-    let end = |distance: Option<&f32>| {
-        let distance = distance.copied().unwrap_or(0.0);
-        let [right, down] = profile.direction.map(|axis| axis * distance);
-        format!("{:.1} {:.1}", x + right, y + down)
-    };
-    format!(
-        "M{} L{} M{:.1} {y:.1} a3 3 0 1 0 6 0 a3 3 0 1 0 -6 0",
-        end(profile.distances.first()),
-        end(profile.distances.last()),
-        x - 3.0
-    )
+    let [first, last] = profile.ends.map(|[x, y]| format!("{x:.1} {y:.1}"));
+    let left = x - 3.0;
+    format!("M{first} L{last} M{left:.1} {y:.1} a3 3 0 1 0 6 0 a3 3 0 1 0 -6 0")
 }
 
-/// The ways to the overview, to other filters of the scene, and to the same filter in other scenes.
+/// Links to the overview, to other filters of the scene, and to the same filter in other scenes.
 fn neighbours(view: &CaseView, table: &CaseTable) -> Markup {
     let (run, index) = (view.run, view.index);
     let scene = |index: usize| &run.cases[index].scene;

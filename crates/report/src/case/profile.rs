@@ -17,10 +17,8 @@ const LENGTHS: f32 = 1.5;
 pub struct Profile {
     /// The pixel in the middle.
     pub place: [u32; 2],
-    /// Unit vector of the line, along the motion; +x right, +y down.
-    pub direction: [f32; 2],
-    /// Distances from the place, in pixels along the motion.
-    pub distances: Vec<f32>,
+    /// Ends of the line, in pixels.
+    pub ends: [[f32; 2]; 2],
     /// Pictures, in the order of the chart.
     pub curves: Vec<Curve>,
 }
@@ -32,8 +30,8 @@ pub struct Curve {
     pub title: String,
     /// Class in the style sheet.
     pub class: &'static str,
-    /// Luminance (Rec.709) of the pixels nearest to the line, one per distance.
-    pub values: Vec<f32>,
+    /// Distances from the place, in pixels along the motion, each with the luminance (Rec.709) of the nearest pixel.
+    pub points: Vec<(f64, f64)>,
 }
 
 /// Follows the motion through `place` in the pictures of a case, and in the accumulation of its scene where the run has one.
@@ -58,8 +56,8 @@ pub fn trace_profile(
     let curve = |title: &str, class, image: &Image| Curve {
         title: title.to_owned(),
         class,
-        values: (pixels.iter())
-            .map(|(_, [x, y])| luminance(image.at(*x, *y)))
+        points: (pixels.iter())
+            .map(|(distance, [x, y])| (f64::from(*distance), luminance(image.at(*x, *y)).into()))
             .collect(),
     };
     let mut curves = vec![
@@ -69,10 +67,13 @@ pub fn trace_profile(
     ];
     let accumulation = scene.accumulations.get(&case.alignment);
     curves.extend(accumulation.map(|(title, image)| curve(title, "accumulation", image)));
+    let end = |pixel: Option<&(f32, [u32; 2])>| {
+        let distance = pixel.map_or(0.0, |(distance, _)| *distance);
+        [0, 1].map(|axis| place[axis] as f32 + 0.5 + direction[axis] * distance)
+    };
     Profile {
         place,
-        direction,
-        distances: pixels.iter().map(|(distance, _)| *distance).collect(),
+        ends: [end(pixels.first()), end(pixels.last())],
         curves,
     }
 }
@@ -132,7 +133,7 @@ fn pixel_at(place: [u32; 2], direction: [f32; 2], step: f32, size: [u32; 2]) -> 
 }
 
 /// Weighs the components as Rec.709 does.
-pub fn luminance([r, g, b]: &[f32; 3]) -> f32 {
+fn luminance([r, g, b]: &[f32; 3]) -> f32 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 

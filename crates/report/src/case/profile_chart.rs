@@ -8,22 +8,17 @@ use crate::charts::plot::{Axis, Plot};
 /// Draws a profile with its key; a screen reader hears the values in the middle.
 pub fn profile_chart(profile: &Profile) -> Markup {
     let [x, y] = profile.place;
-    let values = profile.curves.iter().flat_map(|curve| &curve.values);
-    let values = values.map(|value| f64::from(*value));
-    let distances = profile
-        .distances
-        .iter()
-        .map(|distance| f64::from(*distance));
+    let points = || profile.curves.iter().flat_map(|curve| &curve.points);
     let across = format!("pixels along the motion, from ({x}, {y})");
     let plot = Plot::wide(
-        Axis::linear(&across, distances),
-        Axis::linear("luminance", values.chain([0.0])),
+        Axis::linear(&across, points().map(|(distance, _)| *distance)),
+        Axis::linear("luminance", points().map(|(_, value)| *value).chain([0.0])),
     );
     let words = words_at_place(profile);
     let label = format!("Brightness along the motion through ({x}, {y}): {words}");
     let marks = html! {
         (plot.line("place", &[(0.0, plot.y.low), (0.0, plot.y.high)]))
-        @for curve in profile.curves.iter().rev() { (plot.line(curve.class, &points(profile, curve))) }
+        @for curve in profile.curves.iter().rev() { (plot.line(curve.class, &curve.points)) }
     };
     html! {
         figure.profile {
@@ -42,20 +37,14 @@ pub fn profile_chart(profile: &Profile) -> Markup {
     }
 }
 
-fn points(profile: &Profile, curve: &Curve) -> Vec<(f64, f64)> {
-    let points = profile.distances.iter().zip(&curve.values);
-    points
-        .map(|(distance, value)| (f64::from(*distance), f64::from(*value)))
-        .collect()
-}
-
 /// `truth 0.31, output 0.52 there`
 fn words_at_place(profile: &Profile) -> String {
-    let mut distances = profile.distances.iter();
-    let middle = distances.position(|distance| *distance == 0.0);
-    let middle = middle.expect("a line goes through its place");
-    let words: Vec<String> = (profile.curves.iter())
-        .map(|curve| format!("{} {:.3}", curve.title, curve.values[middle]))
-        .collect();
+    let at_place = |curve: &Curve| {
+        let mut points = curve.points.iter();
+        let middle = points.find(|(distance, _)| *distance == 0.0);
+        let (_, value) = middle.expect("a line goes through its place");
+        format!("{} {value:.3}", curve.title)
+    };
+    let words: Vec<String> = profile.curves.iter().map(at_place).collect();
     format!("{} there", words.join(", "))
 }

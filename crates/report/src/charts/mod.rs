@@ -4,7 +4,7 @@ pub mod plot;
 pub mod strip;
 
 /// Finds the least and the largest of some numbers; 0 and 1 where there are none.
-fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let pairs = values.map(|value| (value, value));
     pairs
         .reduce(|(low, high), (value, _)| (low.min(value), high.max(value)))

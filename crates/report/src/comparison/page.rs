@@ -12,7 +12,8 @@ use super::pictures::Pictures;
 use super::runs::both_runs;
 use crate::charts::strip::Strip;
 use crate::document::{Document, Siblings};
-use crate::table::{Column, scroll_table};
+use crate::table::Column::{Chart, Plain, Text};
+use crate::table::{grouped_table, scroll_table};
 
 /// Number of cases that are shown in pictures, those that changed most.
 const SHOWN: usize = 12;
@@ -83,23 +84,18 @@ fn differences(compared: &RunComparison) -> Markup {
         (&compared.only_in_first, &compared.runs[0]),
         (&compared.only_in_second, &compared.runs[1]),
     ];
-    let columns = [
-        Column::Plain("setting"),
-        Column::Text("first"),
-        Column::Text("second"),
-    ];
     let rows = html! {
-        tbody {
-            @for own in &compared.settings {
-                tr { th scope="row" { (own.name) } td.text { (own.first) } td.text { (own.second) } }
-            }
+        @for own in &compared.settings {
+            tr { th scope="row" { (own.name) } td.text { (own.first) } td.text { (own.second) } }
         }
     };
     html! {
         @if !compared.settings.is_empty() {
             section {
                 h2 { "Settings that differ" }
-                (scroll_table(None, "Settings that differ", None, &columns, &rows))
+                (scroll_table(None, "Settings that differ", None, &[
+                    Plain("setting"), Text("first"), Text("second"),
+                ], &rows))
             }
         }
         @for (cases, run) in sides {
@@ -122,15 +118,6 @@ fn means(means: &[MeanChange]) -> Markup {
     // The filters of one metric follow each other.
     let place = |metric: Metric| means.iter().position(|own| own.metric == metric);
     changed.sort_by_key(|mean| place(mean.metric));
-    let columns = [
-        Column::Plain("filter"),
-        Column::Plain("first"),
-        Column::Plain("second"),
-        Column::Text("change"),
-        Column::Plain("95 % CI"),
-        Column::Plain("scenes"),
-        Column::Chart("← better, worse →"),
-    ];
     let caption = "Filters that changed. 95 % CI: over scenes, by Student's t";
     let bodies = html! {
         @for own in changed.chunk_by(|a, b| a.metric == b.metric) { (metric_means(own)) }
@@ -139,7 +126,10 @@ fn means(means: &[MeanChange]) -> Markup {
         section {
             h2 { "Means over scenes" }
             @if changed.is_empty() { p { "No filter changed." } }
-            @else { (scroll_table(None, "Means over scenes", Some(caption), &columns, &bodies)) }
+            @else { (grouped_table(None, "Means over scenes", Some(caption), &[
+                Plain("filter"), Plain("first"), Plain("second"), Text("change"), Plain("95 % CI"),
+                Plain("scenes"), Chart("← better, worse →"),
+            ], &bodies)) }
         }
     }
 }
@@ -245,35 +235,29 @@ fn change_table<'a>(
     is_named: bool,
     changes: impl Iterator<Item = &'a Change>,
 ) -> Markup {
-    let columns = [
-        Column::Plain("scene / filter"),
-        Column::Text("metric"),
-        Column::Plain("first"),
-        Column::Plain("second"),
-        Column::Text("change"),
-        Column::Plain("95 % CI"),
-    ];
-    let columns = if is_named {
-        &columns[..]
-    } else {
-        &columns[1..]
-    };
     let rows = html! {
-        tbody {
-            @for change in changes {
-                @let cells = ChangeCells::from(change);
-                tr {
-                    @if is_named { th scope="row" { (change.scene) " / " (change.filter) } }
-                    th.text scope="row" { (change.metric) }
-                    td data-label="first" { (cells.first) }
-                    td data-label="second" { (cells.second) }
-                    td class=(change_class(change.kind)) { (cells.change) }
-                    td data-label="95 % CI" { (cells.interval) }
-                }
+        @for change in changes {
+            @let cells = ChangeCells::from(change);
+            tr {
+                @if is_named { th scope="row" { (change.scene) " / " (change.filter) } }
+                th.text scope="row" { (change.metric) }
+                td data-label="first" { (cells.first) }
+                td data-label="second" { (cells.second) }
+                td class=(change_class(change.kind)) { (cells.change) }
+                td data-label="95 % CI" { (cells.interval) }
             }
         }
     };
-    scroll_table(Some("stacked"), title, None, columns, &rows)
+    let columns = [
+        Text("metric"),
+        Plain("first"),
+        Plain("second"),
+        Text("change"),
+        Plain("95 % CI"),
+    ];
+    let named = is_named.then_some(Plain("scene / filter"));
+    let columns: Vec<_> = named.into_iter().chain(columns).collect();
+    scroll_table(Some("stacked"), title, None, &columns, &rows)
 }
 
 fn change_class(kind: ChangeKind) -> &'static str {

@@ -1,7 +1,5 @@
 //! Pictures of a case in two runs.
 
-use std::path::PathBuf;
-
 use frame::{Plane, read_exr};
 use judge::{Pair, Side};
 use store::RenderFile;
@@ -24,7 +22,7 @@ pub struct Pictures {
 impl Pictures {
     /// Reads the pictures; none where one of the runs has no picture of the case.
     pub fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
-        let [first, second] = files(sides, pair, "output.png");
+        let [first, second] = pair.files(sides, "output.png");
         let (Some(first), Some(second)) = (embed_file(&first)?, embed_file(&second)?) else {
             return Ok(None);
         };
@@ -43,12 +41,8 @@ impl Pictures {
     }
 }
 
-fn files([first, second]: [&Side; 2], pair: &Pair, name: &str) -> [PathBuf; 2] {
-    [first.file(pair.first, name), second.file(pair.second, name)]
-}
-
 fn change(sides: [&Side; 2], pair: &Pair) -> Result<Option<String>, Error> {
-    let files = files(sides, pair, "errors.exr");
+    let files = pair.files(sides, "errors.exr");
     if !files.iter().all(|file| file.is_file()) {
         return Ok(None);
     }

@@ -4,10 +4,9 @@ use std::path::Path;
 
 use filters::Value;
 use store::read_text;
-use suite::{BENCH_FORMAT, Bench, CaseCost, Error, REACHES, SIDES};
+use suite::{BENCH_FORMAT, Bench, CaseCost, Error, FilterId, REACHES, SIDES};
 
 use crate::case_table::CaseTable;
-use suite::FilterId;
 
 /// Name of the file that `shuttertruth bench` writes.
 const BENCH_FILE: &str = "bench.json";
@@ -81,15 +80,11 @@ const LONGEST: f64 = 86_400.0;
 
 /// Finds the cost of a filter; none for references, and for filters that were not timed with these very parameters. A bench of
 /// another width has its own values in pixels.
-pub fn cost_of<'a>(
-    table: &CaseTable,
-    bench: Option<&'a Bench>,
-    filter: &FilterId,
-) -> Option<&'a CaseCost> {
+pub fn cost_of<'a>(table: &'a CaseTable, filter: &FilterId) -> Option<&'a CaseCost> {
     let (_, case) = table.cases_of(filter).next()?;
-    let mut costs = bench?.cases.iter();
-    let ratio = f64::from(bench?.width) / f64::from(table.run.render.width);
-    costs.find(|cost| {
+    let bench = table.bench.as_ref()?;
+    let ratio = f64::from(bench.width) / f64::from(table.run.render.width);
+    bench.cases.iter().find(|cost| {
         let scaled = case.reference_width.is_some();
         (&cost.filter, &cost.preset, cost.reference_width)
             == (&case.filter, &case.preset, case.reference_width)
@@ -121,15 +116,12 @@ mod tests {
     #[test]
     fn values_in_pixels_belong_together_if_they_are_as_long_in_their_pictures() {
         // 20 pixels of 1920 are 3.3 of 320.
-        assert!(is_scaled(&Value::Integer(3), &Value::Integer(20), 6.0));
-        assert!(is_scaled(
-            &Value::Integer(20),
-            &Value::Integer(3),
-            1.0 / 6.0
-        ));
+        let whole = |first, second, ratio| {
+            is_scaled(&Value::Integer(first), &Value::Integer(second), ratio)
+        };
+        assert!(whole(3, 20, 6.0) && whole(20, 3, 1.0 / 6.0));
+        assert!(!whole(3, 40, 6.0) && !whole(8, 15, 1.0));
         assert!(is_scaled(&Value::Real(0.25), &Value::Real(1.5), 6.0));
-        assert!(!is_scaled(&Value::Integer(3), &Value::Integer(40), 6.0));
-        assert!(!is_scaled(&Value::Integer(8), &Value::Integer(15), 1.0));
         let [a, b] = ["a", "b"].map(|name| Value::Choice(name.to_owned()));
         assert!(!is_scaled(&a, &b, 1.0));
     }

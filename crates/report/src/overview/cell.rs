@@ -78,11 +78,8 @@ pub fn cell(metric: Metric, colors: &Colors, view: &CaseView) -> Markup {
 /// Finds the required bound on a case's score, and the score's status; none where it has no such bound, or does not apply.
 fn find_judged<'a>(metric: Metric, view: &'a CaseView) -> Option<(&'a Finding, Status)> {
     let metric = view.case.scores.behind(metric);
-    let mut required = view
-        .findings
-        .iter()
-        .filter(|own| own.level == Level::Required);
-    let finding = required.find(|finding| finding.metric == metric)?;
+    let mut findings = view.findings.iter();
+    let finding = findings.find(|own| own.level == Level::Required && own.metric == metric)?;
     Some((finding, Status::of(finding.outcome)?))
 }
 
@@ -108,9 +105,7 @@ mod tests {
         assert_eq!([good, bad], ["good", "bad"]);
         assert!(strong + weak > 40.0, "{strong} {weak}");
         assert_eq!(colors.of(9.0), Some(("bad", 100.0)));
-        assert_eq!(
-            Colors::over(Ideal::Highest, [3.0].into_iter()).of(3.0),
-            None
-        );
+        let single = Colors::over(Ideal::Highest, [3.0].into_iter());
+        assert_eq!(single.of(3.0), None);
     }
 }

@@ -10,7 +10,8 @@ use super::pareto::{Point, pareto_section};
 use crate::case_table::CaseTable;
 use crate::filter_id::mean;
 use crate::run_facts::adapter_text;
-use crate::table::{Column, scroll_table};
+use crate::table::Column::{self, Plain};
+use crate::table::{grouped_table, scroll_table};
 
 /// Writes `1.23`, in milliseconds; `-` where nothing was timed.
 pub fn cost_text(cost: Option<&CaseCost>) -> String {
@@ -18,17 +19,17 @@ pub fn cost_text(cost: Option<&CaseCost>) -> String {
 }
 
 /// Shows quality against time, passes, and cost against reach.
-pub fn costs(table: &CaseTable, bench: Option<&Bench>) -> Markup {
+pub fn costs(table: &CaseTable) -> Markup {
     html! {
         section.costs {
             h2 { "Costs" }
-            @match bench {
+            @match &table.bench {
                 None => p {
                     "Nothing was timed beside this run. " code { "shuttertruth bench --out FOLDER" }
                     ", with the run's folder, times its filters; then report again."
                 },
                 Some(bench) => {
-                    @let timed = list_timed(table, bench);
+                    @let timed = list_timed(table);
                     p.note { (provenance(bench)) }
                     (pareto_section(&points(table, &timed), &references(table)))
                     (passes(&timed))
@@ -55,10 +56,10 @@ fn provenance(bench: &Bench) -> String {
 }
 
 /// Lists the run's filters that were timed.
-fn list_timed<'a>(table: &'a CaseTable, bench: &'a Bench) -> Vec<(&'a FilterId, &'a CaseCost)> {
+fn list_timed<'a>(table: &'a CaseTable) -> Vec<(&'a FilterId, &'a CaseCost)> {
     let timed = table.filters.iter();
     timed
-        .filter_map(|filter| Some((filter, cost_of(table, Some(bench), filter)?)))
+        .filter_map(|filter| Some((filter, cost_of(table, filter)?)))
         .collect()
 }
 
@@ -92,13 +93,6 @@ fn mean_error(table: &CaseTable, filter: &FilterId) -> Option<f64> {
 }
 
 fn passes(timed: &[(&FilterId, &CaseCost)]) -> Markup {
-    let columns = [
-        "filter / pass",
-        "ms",
-        "quartiles",
-        "x baseline",
-        "bytes per pixel",
-    ];
     let bodies = html! {
         @for (filter, cost) in timed {
             tbody {
@@ -122,32 +116,27 @@ fn passes(timed: &[(&FilterId, &CaseCost)]) -> Markup {
         }
     };
     let caption = format!("Time of every pass; baseline: {BASELINE}");
-    scroll_table(
-        Some("passes"),
-        "Time of every pass",
-        Some(&caption),
-        &columns.map(Column::Plain),
-        &bodies,
-    )
+    html! {
+        (grouped_table(Some("passes"), "Time of every pass", Some(&caption), &[
+            Plain("filter / pass"), Plain("ms"), Plain("quartiles"), Plain("x baseline"), Plain("bytes per pixel"),
+        ], &bodies))
+    }
 }
 
 fn reaches(bench: &Bench) -> Markup {
-    let reaches = REACHES.map(|pixels| format!("{pixels} px"));
     let growth = format!("{} / {GROWTH_FROM}", REACHES[REACHES.len() - 1]);
-    let titles = std::iter::once("filter")
-        .chain(reaches.iter().map(String::as_str))
-        .chain([growth.as_str()]);
-    let columns: Vec<Column> = titles.map(Column::Plain).collect();
+    let mut titles = vec!["filter".to_owned()];
+    titles.extend(REACHES.map(|pixels| format!("{pixels} px")));
+    titles.push(growth);
+    let columns: Vec<Column> = titles.iter().map(|title| Plain(title)).collect();
     let rows = html! {
-        tbody {
-            @for cost in &bench.reaches {
-                tr {
-                    th scope="row" { (cost.filter) ":" (cost.preset) }
-                    @for point in &cost.points {
-                        td { (point.seconds.map_or("-".to_owned(), |own| milliseconds(own.median))) }
-                    }
-                    td { (cost.growth.map_or("-".to_owned(), |own| format!("{:.2}", own.median))) }
+        @for cost in &bench.reaches {
+            tr {
+                th scope="row" { (cost.filter) ":" (cost.preset) }
+                @for point in &cost.points {
+                    td { (point.seconds.map_or("-".to_owned(), |own| milliseconds(own.median))) }
                 }
+                td { (cost.growth.map_or("-".to_owned(), |own| format!("{:.2}", own.median))) }
             }
         }
     };

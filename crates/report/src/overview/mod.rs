@@ -14,7 +14,6 @@ use judge::{Level, lag_text};
 use maud::{Markup, html};
 use metrics::Metric;
 use score_table::score_table;
-use suite::Bench;
 use tracer::SceneId;
 use winners::{sequence_winners, winners};
 
@@ -27,12 +26,7 @@ use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
-pub fn overview(
-    table: &CaseTable,
-    views: &[CaseView],
-    thumbnails: &[String],
-    bench: Option<&Bench>,
-) -> Markup {
+pub fn overview(table: &CaseTable, views: &[CaseView], thumbnails: &[String]) -> Markup {
     let findings = || views.iter().flat_map(|view| &view.findings);
     let required = Tally::of(findings(), Level::Required);
     let is_checked = required.all > 0;
@@ -61,14 +55,14 @@ pub fn overview(
                 }
                 label.check { input type="checkbox" name="references"; " References" }
             }
-            @for score in TABLE_SCORES { (panel(table, views, thumbnails, score, bench)) }
+            @for score in TABLE_SCORES { (panel(table, views, thumbnails, score)) }
             p.nothing hidden { "No filter of this name." }
             (key(is_checked))
             div.peek hidden aria-hidden="true" {
                 p {}
                 @for title in ["truth", "output", "FLIP"] { figure { canvas width="48" height="48" {} figcaption { (title) } } }
             }
-            (costs(table, bench))
+            (costs(table))
             (provenance(table))
         }
     }
@@ -122,7 +116,6 @@ fn panel(
     views: &[CaseView],
     thumbnails: &[String],
     (metric, title): (Metric, &str),
-    bench: Option<&Bench>,
 ) -> Markup {
     // One copy of the pictures is enough: the script moves them to the table that is seen.
     let is_first = metric == TABLE_SCORES[0].0;
@@ -131,7 +124,7 @@ fn panel(
             strong { (title) } ": " (metric.meaning()) "; " (better(metric)) "."
             @if let Some(lag) = lag_text(&table.run.cases).filter(|_| metric == Metric::SKILL) { " " (lag) }
         }
-        (score_table(table, views, if is_first { thumbnails } else { &[] }, (metric, title), bench))
+        (score_table(table, views, if is_first { thumbnails } else { &[] }, (metric, title)))
     };
     html! {
         div.panel data-metric=(metric.name()) {

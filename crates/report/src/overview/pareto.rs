@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use crate::charts::is_undominated;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::three_digits;
-use crate::table::{Column, scroll_table};
+use crate::table::Column::Plain;
+use crate::table::scroll_table;
 
 /// Width of a letter of a label, and height of its line, in the chart's units.
 const LETTER: f64 = 5.8;
@@ -102,36 +103,31 @@ fn chart(points: &[(&Point, bool)], references: &[(String, f64)]) -> Markup {
 }
 
 fn numbers(points: &[(&Point, bool)], references: &[(String, f64)]) -> Markup {
-    let columns = ["filter", "ms", "quartiles", "mean FLIP*", "undominated"];
     let rows = html! {
-        tbody {
-            @for (point, leads) in points {
-                tr {
-                    th scope="row" { (point.title) }
-                    td { (three_digits(point.milliseconds)) }
-                    td { (three_digits(point.quartiles[0])) "–" (three_digits(point.quartiles[1])) }
-                    td { (three_digits(point.error)) }
-                    td { @if *leads { "✓" } }
-                }
+        @for (point, leads) in points {
+            tr {
+                th scope="row" { (point.title) }
+                td { (three_digits(point.milliseconds)) }
+                td { (three_digits(point.quartiles[0])) "–" (three_digits(point.quartiles[1])) }
+                td { (three_digits(point.error)) }
+                td { @if *leads { "✓" } }
             }
-            @for (title, error) in references {
-                tr.reference {
-                    th scope="row" { (title) }
-                    td { "-" }
-                    td { "-" }
-                    td { (three_digits(*error)) }
-                    td {}
-                }
+        }
+        @for (title, error) in references {
+            tr.reference {
+                th scope="row" { (title) }
+                td { "-" }
+                td { "-" }
+                td { (three_digits(*error)) }
+                td {}
             }
         }
     };
-    scroll_table(
-        None,
-        "Quality against time",
-        None,
-        &columns.map(Column::Plain),
-        &rows,
-    )
+    html! {
+        (scroll_table(None, "Quality against time", None, &[
+            Plain("filter"), Plain("ms"), Plain("quartiles"), Plain("mean FLIP*"), Plain("undominated"),
+        ], &rows))
+    }
 }
 
 fn make_plot(points: &[(&Point, bool)], references: &[(String, f64)]) -> Plot {

@@ -3,9 +3,8 @@
 use judge::{Level, list_summarized};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
-use suite::{Bench, Case, FilterId, Overall};
-use tracer::FrameRate;
-use tracer::SceneId;
+use suite::{Case, FilterId, Overall};
+use tracer::{FrameRate, SceneId};
 
 use super::bench_file::cost_of;
 use super::cell::{Colors, cell};
@@ -78,7 +77,6 @@ pub fn score_table(
     views: &[CaseView],
     thumbnails: &[String],
     (metric, title): (Metric, &str),
-    bench: Option<&Bench>,
 ) -> Markup {
     let scenes = &table.scenes;
     let ideal = metric.ideal();
@@ -88,7 +86,8 @@ pub fn score_table(
     let colors = Colors::over(ideal, own.filter_map(|view| view.case.estimate(metric)));
     let has_means = rows().any(|row| row.overall.is_some());
     let strip = strip_over(rows().filter(|row| !row.filter.is_reference), ideal);
-    let columns = 1 + scenes.len() + 3 * usize::from(has_means) + usize::from(bench.is_some());
+    let columns =
+        1 + scenes.len() + 3 * usize::from(has_means) + usize::from(table.bench.is_some());
     // What a reader looks for comes first.
     let order = match ideal {
         Ideal::Highest => "descending",
@@ -98,7 +97,7 @@ pub fn score_table(
         div.scroll tabindex="0" role="region" aria-label=(format!("{title} of every case")) {
             table.sortable.many[scenes.len() > MANY] data-first=(order) {
                 caption { (caption(metric, has_means, scenes.len())) }
-                thead { (heading(scenes, thumbnails, has_means.then(|| ends(metric, &strip)), bench)) }
+                thead { (heading(table, thumbnails, has_means.then(|| ends(metric, &strip)))) }
                 @for group in &groups {
                     @if !metric.spans_alignments() {
                         tbody.group {
@@ -116,7 +115,7 @@ pub fn score_table(
                                         None => td { "-" },
                                     }
                                 }
-                                @if bench.is_some() { (cost(table, bench, &row.filter)) }
+                                @if table.bench.is_some() { (cost(table, &row.filter)) }
                             }
                         }
                     }
@@ -127,12 +126,7 @@ pub fn score_table(
 }
 
 /// Writes the headings of the columns; `ends` of the means' scale are none where there are no means.
-fn heading(
-    scenes: &[&SceneId],
-    thumbnails: &[String],
-    ends: Option<Markup>,
-    bench: Option<&Bench>,
-) -> Markup {
+fn heading(table: &CaseTable, thumbnails: &[String], ends: Option<Markup>) -> Markup {
     html! {
         tr {
             th scope="col" { button { "filter" } }
@@ -141,13 +135,13 @@ fn heading(
                 th.note scope="col" { "95 % CI" }
                 th.chart scope="col" { (ends) }
             }
-            @for (index, scene) in scenes.iter().enumerate() {
+            @for (index, scene) in table.scenes.iter().enumerate() {
                 th.scene scope="col" {
                     img src=[thumbnails.get(index)] alt="";
                     button { (breakable(&scene.to_string())) }
                 }
             }
-            @if bench.is_some() { th scope="col" { button { "cost, ms" } } }
+            @if table.bench.is_some() { th scope="col" { button { "cost, ms" } } }
         }
     }
 }
@@ -251,7 +245,7 @@ fn strip_over<'a>(rows: impl Iterator<Item = &'a Row<'a>>, ideal: Ideal) -> Stri
 }
 
 /// Writes the cost of a filter, which sorts as the scores do.
-fn cost(table: &CaseTable, bench: Option<&Bench>, filter: &FilterId) -> Markup {
-    let cost = cost_of(table, bench, filter);
+fn cost(table: &CaseTable, filter: &FilterId) -> Markup {
+    let cost = cost_of(table, filter);
     html! { td.cost data-value=[cost.map(|own| own.seconds.median)] { (cost_text(cost)) } }
 }

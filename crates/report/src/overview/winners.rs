@@ -3,12 +3,11 @@
 use judge::{RANKED_BY, RankedFilter, rank_for_summary, rank_sequences};
 use maud::{Markup, html};
 use metrics::Metric;
-use suite::Run;
+use suite::{FilterId, Run};
 
 use crate::case_table::CaseTable;
 use crate::filter_id::{case_anchor, section_anchor};
 use crate::sequence::SEQUENCES_PAGE;
-use suite::FilterId;
 
 /// Names the best filters of every shutter, the scene that the first is weakest on, and the last filter of the ranking.
 pub fn winners(table: &CaseTable) -> Markup {

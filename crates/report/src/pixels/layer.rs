@@ -2,32 +2,20 @@
 
 use serde::Serialize;
 
-/// One picture of a case.
+/// One picture of a case, which its hint explains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Layer {
-    /// Picture through the open shutter.
     Truth,
-    /// The tracer's picture of a scene that an engine drew, through the same shutter.
     TracedTruth,
-    /// Output of the filter.
     Output,
-    /// Frame that the filter got.
     Instant,
-    /// Visible difference.
     Flip,
-    /// Output minus truth.
     SignedError,
-    /// Mover where it never was, by the side of it.
     Bleed,
-    /// Share of the shutter given to the wrong object.
     LabelTotalVariation,
-    /// Share of the shutter that the instant hides.
     Knowability,
-    /// Motion of the instant.
     Velocity,
-    /// Distance along the view axis.
     Depth,
-    /// Velocity that a filter carried to each pixel before it gathered.
     Dilated,
 }
 

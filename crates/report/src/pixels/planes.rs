@@ -103,66 +103,22 @@ fn compress<'a>(bits: &[u16], others: impl IntoIterator<Item = &'a u16>) -> Vec<
 
 #[cfg(test)]
 mod tests {
-    use std::io::Read;
-
-    use flate2::read::ZlibDecoder;
     use frame::Raster;
 
     use super::*;
 
     #[test]
-    fn a_plane_is_stored_once() {
-        let instant = Raster::from_fn(20, 10, |x, y| {
-            [0.5, 0.6, 0.7].map(|part| part * (x + y) as f32)
-        });
-        let output = instant.map(|pixel| pixel.map(|value| 1.0 + value));
+    fn planes_that_differ_little_are_stored_as_differences() {
         let mut planes = Planes::default();
-        let numbers = [&instant, &output, &instant].map(|image| planes.add_image(image));
-        assert_eq!(numbers, [vec![0, 1, 2], vec![3, 4, 5], vec![0, 1, 2]]);
-        let json: Vec<String> = serde_json::from_str(&planes.json()).unwrap();
-        assert_eq!(json.len(), 6);
-    }
-
-    /// Reads texts as the page's script does it.
-    fn unpack(texts: &[String]) -> Vec<Vec<u16>> {
-        let mut planes: Vec<Vec<u16>> = Vec::new();
-        for text in texts {
-            let (reference, stream) = text.split_once(' ').unwrap();
-            let stream = STANDARD.decode(stream).unwrap();
-            let mut bytes = Vec::new();
-            ZlibDecoder::new(&stream[..])
-                .read_to_end(&mut bytes)
-                .unwrap();
-            let reference = reference.parse().ok().map(|at: usize| &planes[at]);
-            let count = bytes.len() / 2;
-            let mut plane: Vec<u16> = Vec::new();
-            for at in 0..count {
-                let before = plane.last().copied().unwrap_or(0);
-                let other = reference.map_or(before, |reference| reference[at]);
-                let step = u16::from_le_bytes([bytes[at], bytes[at + count]]);
-                plane.push(other.wrapping_add(step));
-            }
-            planes.push(plane);
-        }
-        planes
-    }
-
-    #[test]
-    fn compressed_numbers_come_back_bit_for_bit() {
-        let mut planes = Planes::default();
-        for count in 0..7_u32 {
+        for changed in 0..7 {
             let plane = Raster::from_fn(40, 25, |x, y| {
-                let at = 40 * y + x;
-                let is_moved = at % 11 < count;
-                let bits = (at + count * u32::from(is_moved)).wrapping_mul(2_654_435_761) >> 13;
-                f16::from_bits(bits as u16 & 0x7bff).to_f32()
+                let at = 40 * y + x + u32::from(x < changed);
+                (at.wrapping_mul(2_654_435_761) >> 20) as f32
             });
             planes.add(&plane);
         }
         let texts: Vec<String> = serde_json::from_str(&planes.json()).unwrap();
-        assert_eq!(unpack(&texts), planes.planes);
-        assert!(texts[0].starts_with(' '));
-        let others = texts[1..].iter().filter(|text| !text.starts_with(' '));
-        assert_eq!(others.count(), 6, "each is the difference to another one");
+        assert!(texts[0].starts_with(' '), "a whole plane");
+        assert!(!texts[1..].iter().any(|text| text.starts_with(' ')));
     }
 }

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
-use serde::Serialize;
+use serde_json::{Value, json};
 use store::RenderFile;
-use suite::{CHANGE_PICTURE, Run, Sequence};
+use suite::{CHANGE_PICTURE, Run, Sequence, SequenceFrame};
 use tracer::SceneId;
 
 use super::ranking::ranking_tables;
@@ -15,27 +15,6 @@ use crate::document::{Document, Siblings, script_data};
 
 /// Name of the page, beside run.json: it shows pictures that lie below.
 pub const SEQUENCES_PAGE: &str = "sequences.html";
-
-/// What the player needs of one sequence. Paths are relative to the page.
-#[derive(Serialize)]
-struct Played {
-    name: String,
-    frames: Vec<PlayedFrame>,
-}
-
-#[derive(Serialize)]
-struct PlayedFrame {
-    instant: String,
-    truth: String,
-    output: String,
-    error: String,
-    /// None for the first frame.
-    change: Option<String>,
-    /// Root mean squared error in thousandths of white.
-    mse: Option<f64>,
-    /// Root mean squared error of the change along the motion, likewise.
-    flicker: Option<f64>,
-}
 
 /// Pictures of a frame: the name in attributes, and the title.
 const PICTURES: [(&str, &str); 5] = [
@@ -52,8 +31,8 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
     if run.sequences.is_empty() {
         return None;
     }
-    let played: Vec<Played> = run.sequences.iter().map(play).collect();
-    let data = serde_json::to_string(&played).expect("it is plain data");
+    let played: Vec<Value> = run.sequences.iter().map(play).collect();
+    let data = Value::from(played).to_string();
     let mut scenes: Vec<&SceneId> = run.sequences.iter().map(|own| &own.scene).collect();
     scenes.dedup();
     let frames = run.frames;
@@ -68,7 +47,7 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
             main {
                 section #overview {
                     noscript { p { "The pictures need scripts; the tables below do not." } }
-                    (player(run, &played))
+                    (player(run))
                     (ranking_tables(run, scenes.len()))
                     h2 { "Scores over time" }
                     p.note {
@@ -90,15 +69,15 @@ pub fn sequences_page(run: &Run, findings: &[Finding]) -> Option<String> {
 }
 
 /// Writes the controls, and the places of the pictures.
-fn player(run: &Run, played: &[Played]) -> Markup {
+fn player(run: &Run) -> Markup {
     let mut sequences = run.sequences.iter();
     let first_filter = (sequences.position(|own| !own.is_reference)).unwrap_or(0);
     let rates = rates(run.frames.per_second);
     html! {
         div.toolbar #player data-rate=(run.frames.per_second) {
             select #sequence aria-label="Sequence" {
-                @for (index, own) in played.iter().enumerate() {
-                    option value=(index) selected[index == first_filter] { (own.name) }
+                @for (index, own) in run.sequences.iter().enumerate() {
+                    option value=(index) selected[index == first_filter] { (name(own)) }
                 }
             }
             button #play type="button" { "Play" }
@@ -135,7 +114,12 @@ fn rates(own: f64) -> Vec<f64> {
     rates
 }
 
-fn play(own: &Sequence) -> Played {
+fn name(own: &Sequence) -> String {
+    format!("{} / {} ({})", own.scene, own.filter, own.alignment)
+}
+
+/// Lists what the player needs of a sequence. Paths are relative to the page; errors are roots of squares in thousandths of white.
+fn play(own: &Sequence) -> Value {
     let truth = RenderFile::Truth(own.alignment).picture();
     let path = |folder: &Path, name: &str| {
         let path = folder.join(name);
@@ -143,17 +127,17 @@ fn play(own: &Sequence) -> Played {
         parts.collect::<Vec<_>>().join("/")
     };
     let root = |square: Option<f64>| square.map(|square| 1000.0 * square.max(0.0).sqrt());
-    let frames = (own.frames.iter().enumerate()).map(|(index, frame)| PlayedFrame {
-        instant: path(&frame.scene, "frame.png"),
-        truth: path(&frame.scene, &truth),
-        output: path(&frame.folder, "output.png"),
-        error: path(&frame.folder, "flip.png"),
-        change: (index > 0).then(|| path(&frame.folder, CHANGE_PICTURE)),
-        mse: root(frame.error),
-        flicker: root(frame.flicker),
-    });
-    Played {
-        name: format!("{} / {} ({})", own.scene, own.filter, own.alignment),
-        frames: frames.collect(),
-    }
+    let frame = |(index, frame): (usize, &SequenceFrame)| {
+        json!({
+            "instant": path(&frame.scene, "frame.png"),
+            "truth": path(&frame.scene, &truth),
+            "output": path(&frame.folder, "output.png"),
+            "error": path(&frame.folder, "flip.png"),
+            "change": (index > 0).then(|| path(&frame.folder, CHANGE_PICTURE)),
+            "mse": root(frame.error),
+            "flicker": root(frame.flicker),
+        })
+    };
+    let frames: Vec<Value> = own.frames.iter().enumerate().map(frame).collect();
+    json!({ "name": name(own), "frames": frames })
 }

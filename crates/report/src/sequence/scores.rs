@@ -40,21 +40,17 @@ fn order_rows<'a>(
     scene: &SceneId,
     alignment: Alignment,
 ) -> Vec<(usize, String, &'a Sequence)> {
-    let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene)
-        .into_iter()
-        .flatten()
-        .collect();
+    let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene).concat();
     let place = |own: &Sequence| {
         let mut ranked = ranked.iter().map(|own| &own.ranked);
         ranked.position(|it| it.name == own.filter && it.alignment == own.alignment)
     };
     let all = run.sequences.iter().enumerate();
-    let mut rows: Vec<(usize, &Sequence)> = all
-        .filter(|(_, own)| own.scene == *scene && own.alignment == alignment)
-        .collect();
-    rows.sort_by_key(|(_, own)| (!own.is_reference, place(own).unwrap_or(usize::MAX)));
-    let with_rank = rows.into_iter().map(|(index, own)| {
-        let place = place(own).filter(|_| !own.is_reference);
+    let rows = all.filter(|(_, own)| own.scene == *scene && own.alignment == alignment);
+    let mut rows: Vec<_> = rows.map(|(index, own)| (place(own), index, own)).collect();
+    rows.sort_by_key(|(place, _, own)| (!own.is_reference, place.unwrap_or(usize::MAX)));
+    let with_rank = rows.into_iter().map(|(place, index, own)| {
+        let place = place.filter(|_| !own.is_reference);
         let rank = place.map(|at| ranked[at].ranked.rank_text() + " ");
         (index, rank.unwrap_or_default(), own)
     });
@@ -96,10 +92,8 @@ fn finding_about<'a>(
     findings: &'a [Finding],
 ) -> Option<&'a Finding> {
     findings.iter().find(|finding| {
-        !own.is_reference
-            && (finding.metric == Metric::Sequence(metric)
-                && finding.scene == own.scene
-                && finding.filter == own.filter)
+        let key = (finding.metric, &finding.scene, &finding.filter);
+        !own.is_reference && key == (Metric::Sequence(metric), &own.scene, &own.filter)
     })
 }
 

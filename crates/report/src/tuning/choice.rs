@@ -4,7 +4,8 @@ use maud::{Markup, html};
 use tune::{Advice, Preference, Tuning};
 
 use crate::numbers::percent;
-use crate::table::{Column, scroll_table};
+use crate::table::Column::{Plain, Text};
+use crate::table::scroll_table;
 
 /// Writes the outcome in a few sentences.
 pub fn summary(tuning: &Tuning) -> Markup {
@@ -58,29 +59,23 @@ pub fn values(tuning: &Tuning) -> Markup {
         true => "chosen".to_owned(),
         false => format!("trial {}", tuning.choice.trial),
     };
-    let columns = [
-        Column::Plain("parameter"),
-        Column::Plain("start"),
-        Column::Plain(&trial),
-        Column::Text("tried"),
-    ];
     let rows = html! {
-        tbody {
-            @for (name, range) in &tuning.journal.vary {
-                @let (start, chosen) = (tuning.start.values.get(name), tuning.chosen.values.get(name));
-                tr {
-                    th scope="row" { (name) }
-                    td data-label="start" { @if let Some(value) = start { (value) } }
-                    td data-label=(trial) { @if let Some(value) = chosen { @if start == chosen || !is_offered { (value) } @else { strong { (value) } } } }
-                    td.text data-label="tried" { (range) }
-                }
+        @for (name, range) in &tuning.journal.vary {
+            @let (start, chosen) = (tuning.start.values.get(name), tuning.chosen.values.get(name));
+            tr {
+                th scope="row" { (name) }
+                td data-label="start" { @if let Some(value) = start { (value) } }
+                td data-label=(trial) { @if let Some(value) = chosen { @if start == chosen || !is_offered { (value) } @else { strong { (value) } } } }
+                td.text data-label="tried" { (range) }
             }
         }
     };
     html! {
         section {
             h2 { "Values" }
-            (scroll_table(Some("stacked"), "Values", Some("Varied parameters"), &columns, &rows))
+            (scroll_table(Some("stacked"), "Values", Some("Varied parameters"), &[
+                Plain("parameter"), Plain("start"), Plain(&trial), Text("tried"),
+            ], &rows))
             p.note {
                 "In the folder, params.json holds these values for " code { "evaluate --params" }
                 @if is_offered { ", and preset.toml holds them for a filter.toml" }

@@ -5,7 +5,8 @@ use tune::Fold;
 
 use crate::charts::strip::Strip;
 use crate::numbers::percent;
-use crate::table::{Column, scroll_table};
+use crate::table::Column::{Chart, Plain};
+use crate::table::scroll_table;
 
 /// Lists the families; nothing where there were no two.
 pub fn folds(folds: &[Fold]) -> Markup {
@@ -17,27 +18,16 @@ pub fn folds(folds: &[Fold]) -> Markup {
         .flat_map(|fold| [fold.others.abs(), fold.held_out.abs()]);
     let most = sizes.fold(0.0, f64::max);
     let bar = |value: f64| change_bar(value, most);
-    let columns = [
-        Column::Plain("family left out"),
-        Column::Plain("scenes"),
-        Column::Plain("trial"),
-        Column::Plain("on the others"),
-        Column::Plain("on the family"),
-        Column::Plain("gap"),
-        Column::Chart("others above, family below"),
-    ];
     let rows = html! {
-        tbody {
-            @for fold in folds {
-                tr {
-                    th scope="row" { (fold.family) }
-                    td { (fold.scenes) }
-                    td { (fold.trial) }
-                    td { (percent(fold.others)) }
-                    td { (percent(fold.held_out)) }
-                    td class=[(fold.gap > 0.0).then_some("worse")] { (format!("{:+.3}", fold.gap)) }
-                    td.chart { (bar(fold.others)) (bar(fold.held_out)) }
-                }
+        @for fold in folds {
+            tr {
+                th scope="row" { (fold.family) }
+                td { (fold.scenes) }
+                td { (fold.trial) }
+                td { (percent(fold.others)) }
+                td { (percent(fold.held_out)) }
+                td class=[(fold.gap > 0.0).then_some("worse")] { (format!("{:+.3}", fold.gap)) }
+                td.chart { (bar(fold.others)) (bar(fold.held_out)) }
             }
         }
     };
@@ -48,7 +38,10 @@ pub fn folds(folds: &[Fold]) -> Markup {
                 "Each family of scenes is left out of the choice in turn. A gap above 0 means that the choice is worse on the family that \
                  it was made without. The search itself saw every scene: only held-out scenes show how much it overfits."
             }
-            (scroll_table(None, "Cross-validation", None, &columns, &rows))
+            (scroll_table(None, "Cross-validation", None, &[
+                Plain("family left out"), Plain("scenes"), Plain("trial"), Plain("on the others"),
+                Plain("on the family"), Plain("gap"), Chart("others above, family below"),
+            ], &rows))
         }
     }
 }

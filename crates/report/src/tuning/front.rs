@@ -9,30 +9,17 @@ use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
 use crate::table::{Column, scroll_table};
 
-/// A measure that a chart shows against the error.
-struct Against {
-    title: &'static str,
-    value: fn(&Trial) -> Option<f64>,
-}
-
-const AGAINST: [Against; 2] = [
-    Against {
-        title: "GPU time, start = 1",
-        value: |trial| trial.cost,
-    },
-    Against {
-        title: "lateral bleed, worst scene, px",
-        value: |trial| trial.bleed.map(round_bleed),
-    },
+/// Measures that a chart shows against the error, with their titles.
+const AGAINST: [(&str, fn(&Trial) -> Option<f64>); 2] = [
+    ("GPU time, start = 1", |trial| trial.cost),
+    ("lateral bleed, worst scene, px", |trial| {
+        trial.bleed.map(round_bleed)
+    }),
 ];
 
 /// Draws all trials, and lists those that no other one beats.
 pub fn front_section(folder: &TuneFolder) -> Markup {
-    let done: Vec<&Trial> = folder
-        .trials
-        .iter()
-        .filter(|trial| trial.is_done())
-        .collect();
+    let done: Vec<&Trial> = (folder.trials.iter()).filter(|own| own.is_done()).collect();
     let tuning = folder.tuning.as_ref();
     // A choice that is not worth taking is a trial as any other.
     let taken = tuning.filter(|tuning| tuning.advice() == Advice::Take);
@@ -46,71 +33,62 @@ pub fn front_section(folder: &TuneFolder) -> Markup {
                 ". Down and left is good."
             }
             div.drawings {
-                @for against in &AGAINST { (chart(&done, chosen, against)) }
+                @for (title, measure) in AGAINST { (chart(&done, chosen, title, measure)) }
             }
             @if let Some(tuning) = tuning { (table(&tuning.front, &tuning.start, chosen)) }
         }
     }
 }
 
-fn chart(done: &[&Trial], chosen: Option<usize>, against: &Against) -> Markup {
-    let points: Vec<(&Trial, f64, f64)> = (done.iter())
-        .filter_map(|trial| Some((*trial, change(trial)?, (against.value)(trial)?)))
+fn chart(
+    done: &[&Trial],
+    chosen: Option<usize>,
+    title: &str,
+    measure: fn(&Trial) -> Option<f64>,
+) -> Markup {
+    // Trial, change of the error in percent, and the other measure.
+    let points: Vec<(&Trial, [f64; 2])> = (done.iter())
+        .filter_map(|trial| Some((*trial, [100.0 * trial.error?.exp_m1(), measure(trial)?])))
         .collect();
     if points.is_empty() {
         return html! {};
     }
+    let places: Vec<[f64; 2]> = points.iter().map(|(_, place)| *place).collect();
+    let along = |axis: usize| places.iter().map(move |place| place[axis]);
     let plot = Plot::small(
-        Axis::linear(
-            "change of the error, %",
-            points.iter().map(|(_, error, _)| *error),
-        ),
-        Axis::linear(against.title, points.iter().map(|(_, _, other)| *other)),
+        Axis::linear("change of the error, %", along(0)),
+        Axis::linear(title, along(1)),
     );
-    let rows: Vec<[f64; 2]> = (points.iter())
-        .map(|(_, error, other)| [*error, *other])
-        .collect();
     let marks = html! {
-        @for (trial, error, other) in &points {
+        @for (trial, [error, other]) in &points {
             @let words = format!("trial {}: {error:+.1} %, {other:.3}", trial.trial);
-            @let class = if is_undominated([*error, *other], &rows) { "" } else { "faint" };
+            @let class = if is_undominated([*error, *other], &places) { "" } else { "faint" };
             @let radius = if Some(trial.trial) == chosen { 6.0 } else { 3.0 };
             (plot.mark((*error, *other), class, radius, &words))
             @if trial.trial == 0 { (plot.mark((*error, *other), "ring", 5.0, "the start")) }
         }
     };
-    let label = format!(
-        "{} trials by change of the error and {}",
-        points.len(),
-        against.title
-    );
+    let label = format!("{} trials by change of the error and {title}", points.len());
     html! { figure { (plot.draw(&label, &marks)) } }
 }
 
-/// Writes the change of the error in percent.
-fn change(trial: &Trial) -> Option<f64> {
-    Some(100.0 * trial.error?.exp_m1())
-}
-
 fn table(front: &[Trial], start: &Trial, chosen: Option<usize>) -> Markup {
-    let number =
-        |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.3}"));
     // Only what the tuning measured has a column.
-    let [timed, bled] = AGAINST.map(|own| front.iter().any(|trial| (own.value)(trial).is_some()));
+    let [timed, bled] =
+        AGAINST.map(|(_, measure)| front.iter().any(|trial| measure(trial).is_some()));
     let mut columns = vec![Column::Plain("trial"), Column::Plain("error")];
     columns.extend(bled.then_some(Column::Plain("lateral bleed, px")));
     columns.extend(timed.then_some(Column::Plain("GPU time")));
     columns.push(Column::Text("values that differ from the start"));
     let rows = html! {
-        tbody {
-            @for trial in front {
-                tr {
-                    th scope="row" data-label="trial" { (trial.trial) @if Some(trial.trial) == chosen { " (chosen)" } @else if trial.trial == 0 { " (start)" } }
-                    td data-label="error" { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
-                    @if bled { td data-label="lateral bleed, px" { (number(trial.bleed)) } }
-                    @if timed { td data-label="GPU time" { (number(trial.cost)) } }
-                    td.text data-label="values" { (differing(trial, start)) }
-                }
+        @for trial in front {
+            tr {
+                th scope="row" data-label="trial" { (trial.trial) @if Some(trial.trial) == chosen { " (chosen)" } @else if trial.trial == 0 { " (start)" } }
+                td data-label="error" { (trial.error.map_or_else(|| "-".to_owned(), percent)) }
+                @if bled { td data-label="lateral bleed, px" { (number(trial.bleed)) } }
+                @if timed { td data-label="GPU time" { (number(trial.cost)) } }
+                td.text data-label="values" { (differing(trial, start)) }
             }
         }
     };
@@ -126,10 +104,8 @@ fn table(front: &[Trial], start: &Trial, chosen: Option<usize>) -> Markup {
 
 /// Writes `samples 16, jitter start_offset`.
 fn differing(trial: &Trial, start: &Trial) -> String {
-    let differ = trial
-        .values
-        .iter()
-        .filter(|(name, value)| start.values.get(*name) != Some(value));
+    let differ =
+        (trial.values.iter()).filter(|(name, value)| start.values.get(*name) != Some(value));
     let words: Vec<String> = differ
         .map(|(name, value)| format!("{name} {value}"))
         .collect();

@@ -4,19 +4,13 @@ use maud::{Markup, html};
 use tune::{ParameterSensitivity, Sensitivity};
 
 use crate::charts::strip::Strip;
-use crate::table::{Column, scroll_table};
+use crate::table::Column::{Chart, Plain, Text};
+use crate::table::scroll_table;
 
 /// Lists the parameters, those that matter most first.
 pub fn importance(found: &Sensitivity) -> Markup {
     let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
     rows.sort_by(|(_, a), (_, b)| b.indices.total.value.total_cmp(&a.indices.total.value));
-    let columns = [
-        Column::Plain("parameter"),
-        Column::Text("constant?"),
-        Column::Plain("first"),
-        Column::Plain("total"),
-        Column::Chart("total, 0 to 1"),
-    ];
     let rows = html! { tbody { @for (name, own) in rows { (row(name, own)) } } };
     html! {
         section {
@@ -26,7 +20,10 @@ pub fn importance(found: &Sensitivity) -> Markup {
                 "First and total (Sobol): share of the error's variance that the parameter causes alone, and with all others. "
                 "Lines are 95 % CIs."
             }
-            (scroll_table(None, "Sensitivity", None, &columns, &rows))
+            (scroll_table(None, "Sensitivity", None, &[
+                Plain("parameter"), Text("constant?"), Plain("first"), Plain("total"),
+                Chart("total, 0 to 1"),
+            ], &rows))
         }
     }
 }

@@ -7,7 +7,8 @@ use tune::{HeldOutResult, SceneScore, Tuning, log_ratio, pair_scores};
 
 use super::folds::change_bar;
 use crate::numbers::percent;
-use crate::table::{Column, scroll_table};
+use crate::table::Column::{Chart, Plain};
+use crate::table::scroll_table;
 
 /// Lists the scenes that were tuned on, those with the largest error of the start first.
 pub fn tuned_on(tuning: &Tuning) -> Markup {
@@ -49,29 +50,23 @@ fn table(caption: &str, pairs: &BTreeMap<String, [SceneScore; 2]>) -> Markup {
         Some(bleed) => format!("{bleed:.3}"),
         None => "n/a".to_owned(),
     };
-    let columns = [
-        Column::Plain("scene"),
-        Column::Plain("FLIP, start"),
-        Column::Plain("FLIP, chosen"),
-        Column::Plain("change"),
-        Column::Chart("← better, worse →"),
-        Column::Plain("lateral bleed px, start"),
-        Column::Plain("lateral bleed px, chosen"),
-    ];
     let rows = html! {
-        tbody {
-            @for (scene, [start, chosen], log) in &rows {
-                tr {
-                    th scope="row" { (scene) }
-                    td { (format!("{:.4}", start.flip)) }
-                    td { (format!("{:.4}", chosen.flip)) }
-                    td { (percent(*log)) }
-                    td.chart { (change_bar(*log, most)) }
-                    td { (bleed(start)) }
-                    td { (bleed(chosen)) }
-                }
+        @for (scene, [start, chosen], log) in &rows {
+            tr {
+                th scope="row" { (scene) }
+                td { (format!("{:.4}", start.flip)) }
+                td { (format!("{:.4}", chosen.flip)) }
+                td { (percent(*log)) }
+                td.chart { (change_bar(*log, most)) }
+                td { (bleed(start)) }
+                td { (bleed(chosen)) }
             }
         }
     };
-    scroll_table(None, caption, Some(caption), &columns, &rows)
+    html! {
+        (scroll_table(None, caption, Some(caption), &[
+            Plain("scene"), Plain("FLIP, start"), Plain("FLIP, chosen"), Plain("change"),
+            Chart("← better, worse →"), Plain("lateral bleed px, start"), Plain("lateral bleed px, chosen"),
+        ], &rows))
+    }
 }

@@ -3,7 +3,8 @@
 use maud::{Markup, html};
 use tune::JournalHeader;
 
-use crate::table::{Column, scroll_table};
+use crate::table::Column::{Plain, Text};
+use crate::table::scroll_table;
 
 /// Lists all that the trials depended on, and the hashes of the truths.
 pub fn settings(header: &JournalHeader) -> Markup {
@@ -25,11 +26,8 @@ pub fn settings(header: &JournalHeader) -> Markup {
         ("racing", racing.to_owned()),
         ("seed of the search", header.seed.to_string()),
     ];
-    let columns = [Column::Plain("scene"), Column::Text("hash of the truth")];
     let scenes = html! {
-        tbody {
-            @for (scene, hash) in &header.scenes { tr { th scope="row" { (scene) } td.text { code { (hash) } } } }
-        }
+        @for (scene, hash) in &header.scenes { tr { th scope="row" { (scene) } td.text { code { (hash) } } } }
     };
     html! {
         section.provenance {
@@ -40,7 +38,9 @@ pub fn settings(header: &JournalHeader) -> Markup {
                     @if !header.vary.contains_key(name) { div { dt { (name) } dd { (value) ", not varied" } } }
                 }
             }
-            (scroll_table(Some("stacked"), "Scenes", Some("Scenes in the order in which candidates meet them"), &columns, &scenes))
+            (scroll_table(Some("stacked"), "Scenes", Some("Scenes in the order in which candidates meet them"), &[
+                Plain("scene"), Text("hash of the truth"),
+            ], &scenes))
         }
     }
 }

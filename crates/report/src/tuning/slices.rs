@@ -7,6 +7,7 @@ use maud::{Markup, html};
 use tune::Trial;
 
 use super::folder::TuneFolder;
+use crate::charts::ends;
 use crate::charts::plot::{Axis, Plot};
 
 /// Ranges of more than this factor have an axis of equal factors.
@@ -16,18 +17,15 @@ const MOST_ERROR: f64 = 1.0;
 
 /// One chart per parameter: every trial, and the line along which all others stay at the start, where there is one.
 pub fn slices(folder: &TuneFolder) -> Markup {
-    let trials: Vec<&Trial> = folder
-        .trials
+    let trials = folder.trials.iter().filter(|trial| trial.error.is_some());
+    let studied = folder
+        .sensitivity
         .iter()
-        .filter(|trial| trial.error.is_some())
-        .collect();
-    let mut names: BTreeSet<&String> = trials
-        .iter()
+        .flat_map(|found| found.parameters.keys());
+    let names: BTreeSet<&String> = trials
         .flat_map(|trial| trial.values.keys())
+        .chain(studied)
         .collect();
-    if let Some(found) = &folder.sensitivity {
-        names.extend(found.parameters.keys());
-    }
     if names.is_empty() {
         return html! {};
     }
@@ -40,49 +38,53 @@ pub fn slices(folder: &TuneFolder) -> Markup {
                  start; those above 1 are drawn at 1."
             }
             div.drawings {
-                @for name in names { (slice(folder, &trials, name)) }
+                @for name in names { (slice(folder, name)) }
             }
         }
     }
 }
 
-fn slice(folder: &TuneFolder, trials: &[&Trial], name: &str) -> Markup {
-    let points: Vec<(&Value, f64, bool)> = (trials.iter())
-        .filter_map(|trial| {
+fn slice(folder: &TuneFolder, name: &str) -> Markup {
+    let trials = folder.trials.iter();
+    let points: Vec<(&Value, f64, bool)> = trials
+        .filter_map(|own| {
             Some((
-                trial.values.get(name)?,
-                trial.error?.min(MOST_ERROR),
-                trial.is_done(),
+                own.values.get(name)?,
+                own.error?.min(MOST_ERROR),
+                own.is_done(),
             ))
         })
         .collect();
-    let study = folder
+    let studies = folder
         .sensitivity
-        .as_ref()
-        .and_then(|found| found.parameters.get(name));
-    let line: Vec<(&Value, f64)> = (study.iter())
+        .iter()
+        .filter_map(|found| found.parameters.get(name));
+    let line: Vec<(&Value, f64)> = studies
         .flat_map(|own| &own.slice)
         .map(|(value, error)| (value, error.min(MOST_ERROR)))
         .collect();
     // A line has the order of the filter's own choices.
-    let values: Vec<&Value> = (line.iter().map(|(value, _)| *value))
-        .chain(points.iter().map(|(value, _, _)| *value))
-        .collect();
-    let errors = points
-        .iter()
-        .map(|(_, error, _)| *error)
-        .chain(line.iter().map(|(_, error)| *error));
+    let all = || {
+        let points = points.iter().map(|(value, error, _)| (*value, *error));
+        line.iter().copied().chain(points)
+    };
+    let values: Vec<&Value> = all().map(|(value, _)| value).collect();
     let words = distinct_words(&values);
-    let plot = Plot::small(axis(name, &values, &words), Axis::linear("error", errors));
+    let plot = Plot::small(
+        axis(name, &values, &words),
+        Axis::linear("error", all().map(|(_, error)| error)),
+    );
     let at = |value: &Value| place(value, &words);
+    let places: Vec<(f64, f64)> = line
+        .iter()
+        .map(|(value, error)| (at(value), *error))
+        .collect();
     let marks = html! {
         @for (value, error, done) in &points {
             @let class = if *done { "" } else { "faint" };
             (plot.mark((at(value), *error), class, 2.5, &format!("{value}: {error:.4}")))
         }
-        @if line.len() > 1 {
-            (plot.line("", &line.iter().map(|(value, error)| (at(value), *error)).collect::<Vec<_>>()))
-        }
+        @if places.len() > 1 { (plot.line("", &places)) }
     };
     html! { figure { (plot.draw(&format!("Error against {name}"), &marks)) } }
 }
@@ -113,10 +115,7 @@ fn axis(name: &str, values: &[&Value], words: &[String]) -> Axis {
         return Axis::words(name, words);
     }
     let numbers = || values.iter().map(|value| place(value, words));
-    let (low, high) = (
-        numbers().fold(f64::INFINITY, f64::min),
-        numbers().fold(0.0, f64::max),
-    );
+    let (low, high) = ends(numbers());
     match low > 0.0 && high / low > LOG_FROM {
         true => Axis::log(name, numbers()),
         false => Axis::linear(name, numbers()),

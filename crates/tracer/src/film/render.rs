@@ -168,7 +168,7 @@ impl<'a> Film<'a> {
         let stage = self.integrator.stage;
         let then = &mut eye.instant;
         let shades_again =
-            self.instant.is_some() && sampler.index().is_multiple_of(self.shaded_again);
+            self.instant.is_some() && sampler.index.is_multiple_of(self.shaded_again);
         sample.clear(self.canvas.place(pixel, [0.5; 2]));
         sample.shift = shades_again.then_some(Vec3::ZERO);
         visit_layers(stage, &mut eye.poses, &ray, |poses, layer| {

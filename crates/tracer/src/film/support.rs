@@ -33,7 +33,7 @@ struct PixelProbe {
 }
 
 /// Probes the scene over the canvas and each of the times of `film`, which must have a view of the instant; nothing else of
-/// it is used. `moving` tells for each of the times, per object id, that it moves on screen.
+/// it is used. `moving` holds per time and object id whether the object moves on screen.
 pub(crate) fn trace_supports(
     film: &Film,
     moving: &[&[bool]],
@@ -67,12 +67,12 @@ pub(crate) fn trace_supports(
         .collect())
 }
 
-/// Adds samples to what earlier ones found, in each pixel at those of the film's times that `is_due` names.
+/// Adds samples to what earlier ones found, in each pixel at those of the film's times that `is_probed` names.
 fn probe_pixels(
     film: &Film,
     before: &[Vec<PixelProbe>],
     samples: Range<u32>,
-    is_due: impl Fn(u32, usize) -> bool + Sync,
+    is_probed: impl Fn(u32, usize) -> bool + Sync,
     meter: &Meter,
 ) -> Result<Vec<Vec<PixelProbe>>, TraceError> {
     let tasks = (film.canvas.pixels())
@@ -85,14 +85,15 @@ fn probe_pixels(
             Ok((task.iter())
                 .map(|&pixel| {
                     let mut probes = before[pixel as usize].clone();
-                    let mut due: Vec<(&Times, &mut PixelProbe)> = (film.times.iter().enumerate())
-                        .zip(&mut probes)
-                        .filter(|((number, _), _)| is_due(pixel, *number))
-                        .map(|((_, times), probe)| (times, probe))
-                        .collect();
-                    if !due.is_empty() {
+                    let mut probed: Vec<(&Times, &mut PixelProbe)> =
+                        (film.times.iter().enumerate())
+                            .zip(&mut probes)
+                            .filter(|((number, _), _)| is_probed(pixel, *number))
+                            .map(|((_, times), probe)| (times, probe))
+                            .collect();
+                    if !probed.is_empty() {
                         for index in samples.clone() {
-                            probe_once(film, &mut eye, pixel, index, &mut due);
+                            probe_once(film, &mut eye, pixel, index, &mut probed);
                         }
                     }
                     probes
@@ -131,7 +132,7 @@ fn probe_once(
     eye: &mut Eye,
     pixel: u32,
     index: u32,
-    due: &mut [(&Times, &mut PixelProbe)],
+    probed: &mut [(&Times, &mut PixelProbe)],
 ) {
     let stage = film.integrator.stage;
     let instant = film
@@ -146,7 +147,7 @@ fn probe_once(
     let mut probed_at = None;
     // Objects, and whether the instant hides the point that was seen of each.
     let mut found: Vec<(usize, bool)> = Vec::new();
-    for (times, probe) in due {
+    for (times, probe) in probed {
         let time = times.at(part, row, film.canvas.height);
         if probed_at != Some(time) {
             let own = eye.ray_at(time, [left + x, top + y], &sampler);

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec3, Vec3};
 
-use crate::light::light_sample::LightSample;
+use crate::light::lights::LightSample;
 use crate::scene::EnvironmentMap;
 
 impl EnvironmentMap {

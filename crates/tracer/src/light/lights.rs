@@ -4,15 +4,38 @@ use std::f64::consts::TAU;
 
 use glam::{DVec3, Vec3};
 
-use crate::light::light_sample::{LightSample, density_per_steradian};
 use crate::material::surface::{emission, find_material};
 use crate::motion::poses::Poses;
 use crate::scene::{Scene, Sun};
 
+/// A point drawn on a light, as seen from a surface.
+pub(crate) struct LightSample {
+    /// Unit vector to the point.
+    pub direction: DVec3,
+    /// Metres; infinite for the sun and the background.
+    pub distance: f64,
+    /// Radiance that arrives if nothing is in between.
+    pub radiance: Vec3,
+    /// Probability per steradian of having drawn this direction.
+    pub density: f64,
+}
+
+/// Probability per steradian of a point drawn uniformly on an area, seen at a distance and a cosine.
+pub(crate) fn density_per_steradian(area: f64, distance: f64, cosine: f64) -> f64 {
+    distance * distance / (area * cosine.abs())
+}
+
+/// Weight of a sample drawn with density `own` that `other` might have drawn as well: the power heuristic
+/// (Veach 1997, section 9.2).
+pub(crate) fn power_heuristic(own: f64, other: f64) -> f64 {
+    let ratio = other / own;
+    1.0 / (1.0 + ratio * ratio)
+}
+
 /// All emissive triangles, drawn in proportion to their area and emission at one reference time.
 pub(crate) struct Emitters {
     /// Object and triangle of each.
-    triangles: Vec<(usize, u32)>,
+    pub triangles: Vec<(usize, u32)>,
     /// Sums of the chances up to each triangle, rising to 1.
     cumulative: Vec<f64>,
     /// Chance of being drawn, per object and triangle; empty for objects that do not emit.
@@ -73,8 +96,8 @@ impl Emitters {
         [u, v]: [f64; 2],
     ) -> Option<LightSample> {
         let last = self.triangles.len().checked_sub(1)?;
-        let drawn = self.cumulative.partition_point(|&sum| sum <= choice);
-        let (object, triangle) = self.triangles[drawn.min(last)];
+        let chosen = self.cumulative.partition_point(|&sum| sum <= choice);
+        let (object, triangle) = self.triangles[chosen.min(last)];
         let mesh = &scene.meshes[scene.objects[object].mesh];
         let shape = mesh.at(poses.time());
         // The square's upper half is folded onto the triangle.
@@ -101,11 +124,6 @@ impl Emitters {
             radiance: emission(scene, object, triangle, weights),
             density,
         })
-    }
-
-    /// Returns true if nothing emits.
-    pub fn is_empty(&self) -> bool {
-        self.triangles.is_empty()
     }
 
     /// The probability of drawing this triangle.

@@ -1,6 +1,5 @@
 //! Lights: the sky, the sun and emissive triangles.
 
 pub(crate) mod environment;
-pub(crate) mod light_sample;
 pub(crate) mod lights;
 pub(crate) mod sky;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DVec3, Vec3};
 
 use crate::light::environment::EnvironmentSampler;
-use crate::light::light_sample::LightSample;
+use crate::light::lights::LightSample;
 use crate::scene::Background;
 
 /// Ratio of the brightest to the darkest level above which a sky is sampled as a light. A more even sky is left to the BRDFs,
@@ -178,13 +178,13 @@ mod tests {
             let mut moment = 0.0;
             for at in 0..SIDE * SIDE {
                 let middle = |cell: usize| (cell as f64 + 0.5) / SIDE as f64;
-                let drawn = sky.sample([middle(at % SIDE), middle(at / SIDE)]).unwrap();
-                assert_eq!(drawn.density, sky.density(drawn.direction));
-                assert_eq!(drawn.radiance, background.radiance(drawn.direction));
-                assert!((drawn.direction.length() - 1.0).abs() < 1e-12);
-                let weighted = drawn.radiance.as_dvec3() / drawn.density;
+                let sampled = sky.sample([middle(at % SIDE), middle(at / SIDE)]).unwrap();
+                assert_eq!(sampled.density, sky.density(sampled.direction));
+                assert_eq!(sampled.radiance, background.radiance(sampled.direction));
+                assert!((sampled.direction.length() - 1.0).abs() < 1e-12);
+                let weighted = sampled.radiance.as_dvec3() / sampled.density;
                 estimate += weighted / (SIDE * SIDE) as f64;
-                moment += weighted.y * drawn.direction.y / (SIDE * SIDE) as f64;
+                moment += weighted.y * sampled.direction.y / (SIDE * SIDE) as f64;
             }
             // A linear profile's mean is that of its ends; both halves have a solid angle of 2 pi.
             let [ground, horizon, zenith] = [DVec3::NEG_Y, DVec3::X, DVec3::Y]

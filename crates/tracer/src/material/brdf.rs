@@ -157,14 +157,11 @@ mod tests {
                 DVec3::new(-0.7, 0.1, 0.3).normalize(),
             ];
             let color = Vec3::new(0.9, 0.5, 0.1);
-            let there = make_brdf(&material, color, DVec3::Z, a)
-                .evaluate(b)
-                .scattered
-                / b.z as f32;
-            let back = make_brdf(&material, color, DVec3::Z, b)
-                .evaluate(a)
-                .scattered
-                / a.z as f32;
+            let scatter = |to_viewer: DVec3, light: DVec3| {
+                let brdf = make_brdf(&material, color, DVec3::Z, to_viewer);
+                brdf.evaluate(light).scattered / light.z as f32
+            };
+            let [there, back] = [scatter(a, b), scatter(b, a)];
             assert!(there.distance(back) < 1e-5 * there.length(), "{finish:?}");
         }
     }
@@ -182,24 +179,26 @@ mod tests {
                 let brdf = make_brdf(&material, Vec3::new(0.8, 0.4, 0.2), normal, to_viewer);
                 let weight = |direction: DVec3| 1.0 + direction.x + 0.5 * direction.y * direction.z;
                 let [scattered, density] = integral(&brdf, weight);
-                let mut drawn = [0.0; 2];
+                let mut sampled = [0.0; 2];
                 let choices = 40;
                 for choice in (0..choices).map(|step| (f64::from(step) + 0.5) / f64::from(choices))
                 {
                     for [u, v] in grid(100) {
                         if let Some(sample) = brdf.sample(choice, [u, v]) {
                             assert!(sample.direction.z >= 0.0 && sample.weight.is_finite());
-                            drawn[0] += f64::from(sample.weight.x) * weight(sample.direction);
-                            drawn[1] += weight(sample.direction);
+                            sampled[0] += f64::from(sample.weight.x) * weight(sample.direction);
+                            sampled[1] += weight(sample.direction);
                         }
                     }
                 }
-                let drawn = drawn.map(|sum| sum / (10_000.0 * f64::from(choices)));
+                let sampled = sampled.map(|sum| sum / (10_000.0 * f64::from(choices)));
                 // Forty choices step over the border between both parts by at most 1/80.
-                let error = (drawn[0] - scattered).abs().max((drawn[1] - density).abs());
+                let error = (sampled[0] - scattered)
+                    .abs()
+                    .max((sampled[1] - density).abs());
                 assert!(
                     error < 0.02,
-                    "{finish:?} {normal}: {drawn:?} {scattered} {density}"
+                    "{finish:?} {normal}: {sampled:?} {scattered} {density}"
                 );
             }
         }

@@ -109,14 +109,14 @@ mod tests {
                 let moments = |incoming: DVec3| {
                     glam::DVec4::new(1.0, incoming.x, incoming.z, incoming.z * incoming.z)
                 };
-                let mut drawn = glam::DVec4::ZERO;
+                let mut sampled = glam::DVec4::ZERO;
                 let mut integral = glam::DVec4::ZERO;
                 for row in 0..side {
                     for column in 0..side {
                         let normal = ggx.sample(outgoing, [middle(row), middle(column)]);
                         let incoming = reflect(outgoing, normal);
                         if incoming.z > 0.0 {
-                            drawn += moments(incoming);
+                            sampled += moments(incoming);
                         }
                         let [height, azimuth] = [middle(row), TAU * middle(column)];
                         let radius = (1.0 - height * height).sqrt();
@@ -126,7 +126,7 @@ mod tests {
                         integral += TAU * density * moments(incoming);
                     }
                 }
-                let difference = (drawn - integral).abs().max_element() / f64::from(side * side);
+                let difference = (sampled - integral).abs().max_element() / f64::from(side * side);
                 // The midpoint rule's error, greatest at grazing angles.
                 assert!(difference < 3e-3, "{alpha} {cosine}: {difference}");
             }

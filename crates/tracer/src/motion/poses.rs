@@ -172,16 +172,16 @@ impl<'a> Poses<'a> {
     /// Poses an object, and before it those of its parents that are out of date. A loop, because chains of parents may be
     /// deeper than a thread's stack.
     fn update(&mut self, object: usize) {
-        let mut due = Vec::new();
+        let mut outdated = Vec::new();
         let mut outermost = object;
         while let Parent::Object(parent) = self.scene.objects[outermost].parent
             && !self.is_current(parent)
         {
-            due.push(outermost);
+            outdated.push(outermost);
             outermost = parent;
         }
         self.update_one(outermost);
-        for object in due.into_iter().rev() {
+        for object in outdated.into_iter().rev() {
             self.update_one(object);
         }
     }

@@ -3,8 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use crate::geometry::ray::{Hit, LIFT, Ray};
-use crate::light::light_sample::{LightSample, density_per_steradian, power_heuristic};
-use crate::light::lights::Emitters;
+use crate::light::lights::{Emitters, LightSample, density_per_steradian, power_heuristic};
 use crate::material::brdf::Brdf;
 use crate::material::brdf_sample::{BrdfSample, BrdfValue};
 use crate::material::passage::Passage;
@@ -62,7 +61,7 @@ impl<'a> Integrator<'a> {
             // The greatest length that the position was computed from.
             let magnitude = surface.position.abs().max_element().max(hit.t);
             let start = surface.position + LIFT * magnitude * surface.facet;
-            let drawn = if mirrors {
+            let sampled = if mirrors {
                 let passage = Passage::at(scene, poses, &ray, &hit);
                 let weight = passage.map_or(Vec3::ZERO, |passage| passage.reflected);
                 let direction = ray.direction.reflect(surface.facet);
@@ -77,15 +76,15 @@ impl<'a> Integrator<'a> {
                 let Some(brdf) = surface.brdf(glossy, &ray) else {
                     return (radiance, depth);
                 };
-                let ([lights, sky], drawn) = self.scatter(poses, start, &brdf, depth, sampler);
+                let ([lights, sky], sampled) = self.scatter(poses, start, &brdf, depth, sampler);
                 radiance += throughput * lights;
                 radiance += throughput * sky;
-                let Some(drawn) = drawn else {
+                let Some(sampled) = sampled else {
                     return (radiance, depth + 1);
                 };
-                drawn
+                sampled
             };
-            throughput *= drawn.weight;
+            throughput *= sampled.weight;
             if depth >= ROULETTE_FROM {
                 let [_, _, roulette, _] = sampler.bounce(depth);
                 let survival = f64::from(throughput.max_element()).min(1.0);
@@ -94,10 +93,10 @@ impl<'a> Integrator<'a> {
                 }
                 throughput /= survival as f32;
             }
-            density = drawn.density;
+            density = sampled.density;
             ray = Ray {
                 origin: start,
-                direction: drawn.direction,
+                direction: sampled.direction,
             };
             let passed;
             (next_stop, passed) = find_stop(self.stage, poses, &ray, || sampler.passage(depth));
@@ -123,7 +122,7 @@ impl<'a> Integrator<'a> {
         };
         let [sky_u, sky_v, lobe_choice, _] = sky_numbers;
         let mut light = [Vec3::ZERO; 2];
-        if self.stage.scene.sun.is_some() || !self.emitters.is_empty() {
+        if self.stage.scene.sun.is_some() || !self.emitters.triangles.is_empty() {
             let points = sampler.lights(depth);
             light[0] = self.direct_light(poses, start, brdf, choice, points);
         }
@@ -179,8 +178,8 @@ impl<'a> Integrator<'a> {
             let by_surface = sun.angular_radius > 0.0;
             light += self.light_from(poses, start, brdf, &sun.sample([sun_u, sun_v]), by_surface);
         }
-        if let Some(drawn) = self.emitters.sample(scene, poses, start, choice, [u, v]) {
-            light += self.light_from(poses, start, brdf, &drawn, true);
+        if let Some(sampled) = self.emitters.sample(scene, poses, start, choice, [u, v]) {
+            light += self.light_from(poses, start, brdf, &sampled, true);
         }
         light
     }

@@ -1,0 +1,68 @@
+//! Inputs as lists of pieces: lines, words, chunks, instructions. One set of changes suits all of them.
+
+use fastrand::Rng;
+
+use super::{Source, magnitude};
+
+/// How inputs of one format are cut, changed and put together.
+pub struct Format {
+    /// Bytes before the first piece.
+    pub header: usize,
+    /// Cuts what follows the header.
+    pub cut: fn(&[u8], &mut Rng) -> Vec<Vec<u8>>,
+    /// Appends a piece, with its length and checksum.
+    pub write: fn(&mut Vec<u8>, &[u8]),
+    /// Changes the content of one of the pieces, of which there is at least one.
+    pub edit: fn(&mut Vec<Vec<u8>>, &Source, &mut Rng),
+    /// Of eight changes so many add, remove or move pieces; the others edit one.
+    pub moves: u8,
+}
+
+/// Most bytes that a repetition adds.
+const MAX_REPEATED: usize = 100_000;
+
+impl Format {
+    /// Changes an input.
+    pub fn change(&self, input: &mut Vec<u8>, source: &Source, random: &mut Rng) {
+        let head = self.header.min(input.len());
+        let mut pieces = (self.cut)(&input[head..], random);
+        if pieces.is_empty() {
+            pieces.push(Vec::new());
+        }
+        match random.u8(..8) < self.moves {
+            true => {
+                let other = source.other.get(self.header..).unwrap_or_default();
+                change_list(&mut pieces, &(self.cut)(other, random), random);
+            }
+            false => (self.edit)(&mut pieces, source, random),
+        }
+        input.truncate(head);
+        for piece in &pieces {
+            (self.write)(input, piece);
+        }
+    }
+}
+
+/// Removes, repeats, moves, borrows or cuts off pieces.
+fn change_list(pieces: &mut Vec<Vec<u8>>, others: &[Vec<u8>], random: &mut Rng) {
+    let (at, to) = (random.usize(..pieces.len()), random.usize(..pieces.len()));
+    match random.u8(..6) {
+        0 => drop(pieces.remove(at)),
+        1 => {
+            let piece = pieces[at].clone();
+            let count = magnitude(2_000, random).min(1 + MAX_REPEATED / piece.len().max(1));
+            pieces.splice(at..at, vec![piece; count]);
+        }
+        2 => pieces.insert(to, pieces[at].clone()),
+        3 => pieces.swap(at, to),
+        4 if !others.is_empty() => pieces.insert(to, others[random.usize(..others.len())].clone()),
+        _ => {
+            pieces.truncate(at);
+            // Half of the inputs go on as another does.
+            if random.bool() {
+                let from = random.usize(..=others.len());
+                pieces.extend_from_slice(&others[from..]);
+            }
+        }
+    }
+}

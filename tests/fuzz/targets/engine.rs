@@ -1,0 +1,44 @@
+//! Captures of an engine: their description, and what `ingest` leaves for a run.
+
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::{Component, Path};
+
+use engine::{Capture, ingest};
+use frame::Display;
+use suite::{EngineScene, INGESTED_FILE};
+
+use crate::place::Place;
+
+/// Reads a capture.toml beside pictures of 16 x 16 pixels.
+pub fn capture(place: &mut Place, input: &[u8]) -> Option<()> {
+    let folder = place.copy("capture");
+    place.write("capture/capture.toml", input);
+    let capture = Capture::read(&folder, None).ok()?;
+    let out = place.folder.join("scene");
+    let watch = &|_| ControlFlow::Continue(());
+    let ingested = ingest(&capture, (Display::default(), None), &out, watch);
+    if ingested.is_ok() {
+        check_names(&EngineScene::read(&out).expect("what was ingested is read"));
+    }
+    fs::remove_dir_all(out).ok()
+}
+
+/// Reads an ingested.json, whoever wrote it.
+pub fn ingested(place: &mut Place, input: &[u8]) -> Option<()> {
+    place.write(&format!("scene/{INGESTED_FILE}"), input);
+    let scene = EngineScene::read(&place.folder.join("scene")).ok()?;
+    check_names(&scene);
+    Some(())
+}
+
+/// Panics if a run would write elsewhere than into one folder of a scene, and in it one of the engine.
+fn check_names(scene: &EngineScene) {
+    for name in [scene.id.to_string(), scene.filter_name().to_owned()] {
+        let parts: Vec<Component> = Path::new(&name).components().collect();
+        assert!(
+            matches!(parts.as_slice(), [Component::Normal(_)]),
+            "\"{name}\" is no name of a folder"
+        );
+    }
+}

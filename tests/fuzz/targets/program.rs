@@ -1,0 +1,135 @@
+//! The program itself: words of its command line, and records of earlier measurements that a `run` reads back.
+
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::fs;
+use std::os::unix::ffi::OsStrExt;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+use serde_json::Value;
+use suite::Case;
+
+use crate::fixture::{PROGRAM, RENDER, files};
+use crate::place::Place;
+
+/// Exit codes that the README names.
+const CODES: [i32; 5] = [0, 1, 2, 3, 4];
+
+/// Time limit for a program with much work; it is then ended.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// Runs a command line in a folder with scenes, a run and a tuning.
+pub fn command_line(place: &mut Place, input: &[u8]) -> Option<()> {
+    for name in ["scenes", "out", "tuned", "study", "base.json"] {
+        place.copy(name);
+    }
+    let words = input.strip_suffix(b"\n").unwrap_or(input);
+    let words = words.split(|byte| *byte == b'\n');
+    let words = words.filter(|word| !word.contains(&0) && *word != b"/");
+    let words: Vec<&OsStr> = words.map(OsStr::from_bytes).collect();
+    shuttertruth(place, &words, Stdio::null());
+    Some(())
+}
+
+/// Runs the program where one of its records is the input, with a valid seal.
+pub fn records(place: &mut Place, input: &[u8]) -> Option<()> {
+    let _ = fs::remove_dir_all(place.folder.join("out"));
+    place.copy("scenes");
+    let end = match input.windows(9).any(|it| it == b"frame.exr") {
+        true => "frame.json",
+        false => "case.json",
+    };
+    let found = files(&place.copy("out"), end);
+    let sealed = add_seal(input).unwrap_or(input.to_vec());
+    fs::write(found.first().expect("a run leaves records"), sealed).unwrap();
+    let line = format!("run {RENDER} --filters velocity_gather:departure,mcguire:paper --out out");
+    run_line(place, &line);
+    Some(())
+}
+
+/// Writes lines to the standard input of `serve`, and then a request that is refused at once: its answer means that all have
+/// been read.
+pub fn serve(place: &mut Place, input: &[u8]) -> Option<()> {
+    place.copy("scenes");
+    place.copy("out");
+    let last = "\n{\"id\": 123456789, \"params\": {}, \"scenes\": [\"none\"]}\n";
+    let lines = place.write("lines", [input, last.as_bytes()].concat());
+    let line = format!("tune serve {RENDER} --filter velocity_gather --objective flip --out out");
+    let words: Vec<&OsStr> = line.split(' ').map(OsStr::new).collect();
+    shuttertruth(place, &words, fs::File::open(lines).unwrap().into());
+    let answers = fs::read(place.folder.join("stdout")).unwrap_or_default();
+    let is_answered = String::from_utf8_lossy(&answers).contains("\"id\":123456789");
+    assert!(is_answered, "serve ended, or reads no more");
+    Some(())
+}
+
+/// Gives a record a valid seal; none for anything else.
+fn add_seal(input: &[u8]) -> Option<Vec<u8>> {
+    let mut record: Value = serde_json::from_slice(input).ok()?;
+    let files: BTreeMap<String, String> = serde_json::from_value(record["files"].clone()).ok()?;
+    let inputs = record["inputs"].as_str()?;
+    let seal = match serde_json::from_value::<Case>(record["made"].clone()) {
+        Ok(case) => seal(inputs, &files, &case),
+        Err(_) => seal(inputs, &files, &()),
+    };
+    record["seal"] = seal.into();
+    serde_json::to_vec(&record).ok()
+}
+
+/// Computes the seal as the program does.
+fn seal(inputs: &str, files: &BTreeMap<String, String>, made: &impl Serialize) -> String {
+    let bytes = serde_json::to_vec(&(inputs, files, made)).expect("records are plain data");
+    blake3::hash(&bytes).to_hex().to_string()
+}
+
+/// Runs a line of the program, and returns its code.
+pub fn run_line(place: &Place, line: &str) -> i32 {
+    let words: Vec<&OsStr> = line.split(' ').map(OsStr::new).collect();
+    shuttertruth(place, &words, Stdio::null())
+}
+
+/// Runs the program, whose output goes to the file `stdout`. Panics unless it ends with a documented code, and returns it.
+fn shuttertruth(place: &Place, words: &[&OsStr], stdin: Stdio) -> i32 {
+    let [stdout, stderr] = ["stdout", "stderr"].map(|name| place.write(name, ""));
+    let open = |path| fs::File::options().append(true).open(path).unwrap();
+    let mut child = Command::new(PROGRAM)
+        .current_dir(&place.folder)
+        .args(words)
+        .env("GITHUB_STEP_SUMMARY", place.folder.join("summary.md"))
+        .stdin(stdin)
+        .stdout(open(&stdout))
+        .stderr(open(&stderr))
+        .spawn()
+        .expect("the program can be started");
+    let began = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        if began.elapsed() > PATIENCE && asks_for_much(words) {
+            let _ = child.kill();
+            let _ = child.wait();
+            return 0;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    };
+    let text = fs::read(stderr).unwrap_or_default();
+    let text = String::from_utf8_lossy(&text);
+    let last: Vec<&str> = text.lines().rev().take(3).collect();
+    let code = status.code().filter(|code| CODES.contains(code));
+    code.unwrap_or_else(|| panic!("{status}: {}", last.join(" / ")))
+}
+
+/// Returns whether a number is large enough for much work, or all scenes and filters are asked for.
+fn asks_for_much(words: &[&OsStr]) -> bool {
+    let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
+    let is_large = |word: &str| {
+        let digits = word.split(|c: char| !c.is_ascii_digit());
+        digits.map(str::len).max().unwrap_or(0) > 2
+    };
+    let small = ["--size", "16x16", "--samples-per-pixel", "--filters"];
+    let is_given = |flag: &&str| words.iter().any(|word| word == flag);
+    words.iter().any(|word| is_large(word)) || !small.iter().all(is_given)
+}
