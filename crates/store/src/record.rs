@@ -147,28 +147,4 @@ mod tests {
             assert_eq!(look_up::<()>(&record, "these"), None, "{name}");
         }
     }
-
-    #[test]
-    fn a_record_is_read_back_until_anything_about_it_changes() {
-        let folder = tempfile::tempdir().unwrap();
-        let (record, picture) = (folder.path().join("case.json"), folder.path().join("a.png"));
-        let read_back = || look_up::<f64>(&record, "these");
-        assert_eq!(read_back(), None, "nothing is there yet");
-        std::fs::write(&picture, "picture").unwrap();
-        let files = ["a.png".to_owned()];
-        put(&record, "these".to_owned(), &files, &0.1).unwrap();
-        assert_eq!(read_back(), Some(0.1));
-        assert_eq!(look_up::<f64>(&record, "others"), None);
-
-        std::fs::write(&picture, "picturE").unwrap();
-        assert_eq!(read_back(), None, "a picture was altered");
-        std::fs::remove_file(&picture).unwrap();
-        assert_eq!(read_back(), None, "a picture is missing");
-        std::fs::write(&picture, "picture").unwrap();
-        assert_eq!(read_back(), Some(0.1));
-
-        let text = std::fs::read_to_string(&record).unwrap();
-        std::fs::write(&record, &text[..text.len() / 2]).unwrap();
-        assert_eq!(read_back(), None, "the record was cut short");
-    }
 }

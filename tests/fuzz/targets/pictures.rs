@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use filters::Convention;
 use frame::{ExrFile, Frame, Ladder, Replicate, Truth, read_exr, write_exr};
 use suite::{
-    Monitor, TRAVERSALS, Verification, list_scene_renders, read_finished_picture, score, verify_scene,
+    Monitor, TRAVERSALS, Verification, list_scene_renders, read_finished_picture, score,
+    verify_scene,
 };
 use tracer::load_scene;
 

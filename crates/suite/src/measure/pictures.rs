@@ -53,13 +53,12 @@ pub fn write_truth(
 }
 
 /// Writes a case: the output, with the dilated velocity of filters that have one, and the error maps; returns the names of the
-/// files. `ended` hears of the end of each part.
+/// files.
 pub fn write_case(
     folder: &Path,
     frame: &Frame,
     (output, dilated_velocity): (&Picture, Option<&Vectors>),
     measurement: &Measurement,
-    ended: fn(&'static str),
 ) -> Result<Vec<String>, FileError> {
     let maps = &measurement.maps;
     let [output_png, flip, label_tv, bleed, output_exr, errors] =
@@ -68,11 +67,9 @@ pub fn write_case(
     write_png(&flip, &magma(&maps.flip))?;
     write_png(&label_tv, &magma(&maps.label_total_variation))?;
     write_png(&bleed, &magma(&maps.bleed))?;
-    ended("PNG files");
     let file = output_file(&frame.objects, output, dilated_velocity);
     write_exr(&output_exr, &file)?;
     write_half_exr(&errors, errors_file(measurement))?;
-    ended("OpenEXR files");
     Ok(CASE_FILES.map(str::to_owned).into())
 }
 

@@ -23,7 +23,6 @@ pub struct TruthReferences<'a> {
 impl<'a> TruthReferences<'a> {
     /// Prepares the truth, and the same truth without each pair of its replicates. The rungs of the ladder come one after another,
     /// since all of them take more memory than all else; `read_sharp` reads the one that is the sharp picture of the shutter's middle.
-    /// `ended` hears of the end of each part of measuring a picture against the truth.
     pub fn new(
         frame: &Frame,
         truth: &'a Truth,
@@ -31,7 +30,6 @@ impl<'a> TruthReferences<'a> {
         rungs: impl Iterator<Item = Result<Ladder, Error>>,
         without_pairs: &'a [Truth],
         viewing: &Viewing,
-        ended: fn(&'static str),
     ) -> Result<Self, Error> {
         let oracle = make_oracle(frame, truth);
         let frame = frame.cropped();
@@ -39,7 +37,7 @@ impl<'a> TruthReferences<'a> {
         let reference = |truth: &'a Truth| {
             Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)
         };
-        let mut own = reference(truth)?.with_listener(ended);
+        let mut own = reference(truth)?;
         let mut without_pairs: Vec<Reference> = (without_pairs.iter())
             .map(reference)
             .collect::<Result<_, _>>()?;

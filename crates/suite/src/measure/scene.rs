@@ -75,15 +75,15 @@ impl SceneContext<'_> {
         let forms = self.plan.inputs.len();
         self.scene.check(&self.plan.render, truths, forms)?;
         let frame = self.render(advance)?;
-        let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
-        let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();
+        let missing = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
+        let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
         let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
-        let measured = monitor.watch(&label, |watch| self.measure(&due, &frame, advance, watch))?;
+        let measured = monitor.watch(&label, |watch| self.measure(&missing, &frame, advance, watch))?;
         let mut measured = measured.into_iter();
         let cases = found.into_iter().map(|found| match found {
             Some(case) => Ok(case),
-            None => measured.next().expect("every case that is due was tried"),
+            None => measured.next().expect("every missing case was tried"),
         });
         Ok((cases.collect(), read_back))
     }
@@ -168,8 +168,8 @@ impl SceneContext<'_> {
         u64::from(self.plan.render.replicates) + 1
     }
 
-    /// Reads a case that was measured before, without its intervals where the plan asks for none. One that lacks intervals, or was
-    /// measured without a ladder, is no case for a plan that asks for them.
+    /// Reads a case that was measured before, without its intervals where the plan asks for none. A plan that asks for intervals or ladders
+    /// takes no case without them.
     fn read_case(&self, planned: &PlannedCase) -> Option<Case> {
         let record = self.case_record(planned);
         let keys = self.keys_to_read(planned);

@@ -48,8 +48,8 @@ pub(super) fn measure_sequences(
         .map(|frame| trace_points(&scene.at_frame(frame), &plan.render))
         .collect::<Result<_, _>>()?;
     for alignment in Alignment::ALL {
-        let is_due = |case: &&Case| case.alignment == alignment;
-        let first: Vec<&Case> = frames.cases[0].iter().filter(is_due).collect();
+        let is_own = |case: &&Case| case.alignment == alignment;
+        let first: Vec<&Case> = frames.cases[0].iter().filter(is_own).collect();
         if first.is_empty() {
             continue;
         }
@@ -108,13 +108,13 @@ impl SequenceTruths<'_> {
         sequences: &[Sequence],
         all: &[Vec<&Case>],
     ) -> Result<Vec<Intervals>, Error> {
-        let is_due = |own: &Sequence| self.plan.intervals && !own.is_reference;
+        let has_intervals = |own: &Sequence| self.plan.intervals && !own.is_reference;
         let mut without: Vec<Vec<SequenceScores>> = vec![Vec::new(); sequences.len()];
-        if sequences.iter().any(is_due) {
+        if sequences.iter().any(has_intervals) {
             for pair in 0..count_pairs(self.plan.render.replicates as usize) {
                 let reference = self.without_pair(pair)?;
-                let due = sequences.iter().zip(all).zip(&mut without);
-                for ((_, cases), scores) in due.filter(|((own, _), _)| is_due(own)) {
+                let all = sequences.iter().zip(all).zip(&mut without);
+                for ((_, cases), scores) in all.filter(|((own, _), _)| has_intervals(own)) {
                     scores.push(reference.measure(&self.plan.read_outputs(cases)?)?.scores);
                 }
             }

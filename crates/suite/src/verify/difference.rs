@@ -57,11 +57,11 @@ fn find_sample(found: &ExrFile, tile: Tile, made: &ExrFile) -> Option<String> {
             .map(|(index, channel)| (channel.name.clone(), index))
             .collect()
     };
-    let (there, due) = (by_name(found), by_name(made));
-    if let Some(name) = (there.keys().chain(due.keys()))
-        .find(|name| there.contains_key(*name) != due.contains_key(*name))
+    let (there, expected) = (by_name(found), by_name(made));
+    if let Some(name) = (there.keys().chain(expected.keys()))
+        .find(|name| there.contains_key(*name) != expected.contains_key(*name))
     {
-        let verb = match due.contains_key(name) {
+        let verb = match expected.contains_key(name) {
             true => "lacks",
             false => "has",
         };
@@ -70,14 +70,14 @@ fn find_sample(found: &ExrFile, tile: Tile, made: &ExrFile) -> Option<String> {
         ));
     }
     let pixels = tile.pixels(found.width);
-    for (name, index) in &due {
+    for (name, index) in &expected {
         let [own, other] = [&found.channels[there[name]], &made.channels[*index]];
         for (place, &pixel) in pixels.iter().enumerate() {
-            let [held, due] = [Sample::of(own, pixel as usize), Sample::of(other, place)];
-            if held != due {
+            let [held, expected] = [Sample::of(own, pixel as usize), Sample::of(other, place)];
+            if held != expected {
                 let (x, y) = (pixel % found.width, pixel / found.width);
                 return Some(format!(
-                    "pixel ({x}, {y}) of its channel {name} holds {held}, and this program makes {due}"
+                    "pixel ({x}, {y}) of its channel {name} holds {held}, and this program makes {expected}"
                 ));
             }
         }
