@@ -72,6 +72,20 @@ struct MeasuredPicture {
     dilated_velocity: Option<Vectors>,
 }
 
+impl MeasuredPicture {
+    /// Joins a picture that no filter of ours made with its measurement.
+    fn new(picture: Picture, measurement: Measurement) -> Self {
+        Self {
+            picture,
+            measurement,
+            nonlinearity: None,
+            jitter: None,
+            intervals: Intervals::new(),
+            dilated_velocity: None,
+        }
+    }
+}
+
 impl CaseContext<'_> {
     /// Makes the picture, measures it, and writes it with its error maps; returns the names of the files as well.
     pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
@@ -91,14 +105,8 @@ impl CaseContext<'_> {
     }
 
     fn measure_reference(&self, picture: Picture) -> Result<MeasuredPicture, Error> {
-        Ok(MeasuredPicture {
-            measurement: self.references.reference.measure(&picture)?,
-            picture,
-            nonlinearity: None,
-            jitter: None,
-            intervals: Intervals::new(),
-            dilated_velocity: None,
-        })
+        let measurement = self.references.reference.measure(&picture)?;
+        Ok(MeasuredPicture::new(picture, measurement))
     }
 
     /// Measures the engine's own picture, with intervals as the pictures of filters have them.
@@ -112,11 +120,7 @@ impl CaseContext<'_> {
         let measurement = measure(&self.references.reference)?;
         Ok(MeasuredPicture {
             intervals: self.measure_intervals(&measurement, measure)?,
-            nonlinearity: None,
-            jitter: None,
-            dilated_velocity: None,
-            measurement,
-            picture,
+            ..MeasuredPicture::new(picture, measurement)
         })
     }
 

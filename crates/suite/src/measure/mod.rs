@@ -3,10 +3,10 @@
 pub mod case;
 mod check_plan;
 pub mod dilated_velocity;
-mod missing_cases;
 pub mod earlier;
 pub mod estimate;
 mod frames;
+mod missing_cases;
 pub mod part;
 pub mod pictures;
 pub mod plan;

@@ -79,7 +79,9 @@ impl SceneContext<'_> {
         let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
         let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
-        let measured = monitor.watch(&label, |watch| self.measure(&missing, &frame, advance, watch))?;
+        let measured = monitor.watch(&label, |watch| {
+            self.measure(&missing, &frame, advance, watch)
+        })?;
         let mut measured = measured.into_iter();
         let cases = found.into_iter().map(|found| match found {
             Some(case) => Ok(case),

@@ -21,26 +21,14 @@ pub const CHANGE_PICTURE: &str = "change.png";
 /// Animation of a sequence, beside the pictures of its first frame.
 pub const SEQUENCE_PICTURE: &str = "sequence.png";
 
-/// Cases of all frames of one scene, in the order of the frames.
-#[derive(Default)]
-pub(super) struct FrameCases {
-    /// Cases of each frame.
-    pub cases: Vec<Vec<Case>>,
-}
-
-/// Measures the sequences of a scene whose frames were measured: one per case that every frame has.
+/// Measures the sequences of a scene, one per case that every frame has. `frames` lists the cases of each frame.
 pub(super) fn measure_sequences(
     plan: &RunPlan,
-    frames: &FrameCases,
+    frames: &[Vec<Case>],
 ) -> Result<Vec<Sequence>, Error> {
     let mut sequences = Vec::new();
-    let name = |case: &Case| case.scene.clone();
-    let name = frames.cases[0].first().map(name);
-    let Some(scene) = plan
-        .scenes
-        .iter()
-        .find(|scene| Some(&scene.id) == name.as_ref())
-    else {
+    let id = frames[0].first().map(|case| &case.scene);
+    let Some(scene) = plan.scenes.iter().find(|scene| Some(&scene.id) == id) else {
         // No case of the first frame was measured.
         return Ok(sequences);
     };
@@ -49,8 +37,8 @@ pub(super) fn measure_sequences(
         .collect::<Result<_, _>>()?;
     for alignment in Alignment::ALL {
         let is_own = |case: &&Case| case.alignment == alignment;
-        let first: Vec<&Case> = frames.cases[0].iter().filter(is_own).collect();
-        if first.is_empty() {
+        let mut first = frames[0].iter().filter(is_own).peekable();
+        if first.peek().is_none() {
             continue;
         }
         let truths = SequenceTruths {
@@ -60,22 +48,17 @@ pub(super) fn measure_sequences(
             layers: &layers,
         };
         // Those that failed in a frame, which the run says, have no sequence.
-        let all: Vec<Vec<&Case>> = (first.into_iter())
-            .filter_map(|case| frames.all_of(case))
-            .collect();
+        let all: Vec<Vec<&Case>> = first.filter_map(|case| find_in_all(frames, case)).collect();
         sequences.extend(truths.measure(&all)?);
     }
     Ok(sequences)
 }
 
-impl FrameCases {
-    /// Lists the cases of all frames that are like one of the first; none where a frame lacks it.
-    fn all_of<'a>(&'a self, first: &'a Case) -> Option<Vec<&'a Case>> {
-        let like = |case: &&Case| case.filter_id() == first.filter_id();
-        (self.cases.iter())
-            .map(|cases| cases.iter().find(like))
-            .collect()
-    }
+/// Lists the cases of all frames that are like one of the first; none where a frame lacks it.
+fn find_in_all<'a>(frames: &'a [Vec<Case>], first: &Case) -> Option<Vec<&'a Case>> {
+    let is_like = |case: &&Case| case.filter_id() == first.filter_id();
+    let found = frames.iter().map(|cases| cases.iter().find(is_like));
+    found.collect()
 }
 
 /// The truths of one scene and shutter, frame after frame.

@@ -257,6 +257,9 @@ mod tests {
             widths += (high - low) / 2.0 / 2000.0;
         }
         let expected = 2.074 * (2.0f64 / 23.0).sqrt();
-        assert!((widths / expected - 1.0).abs() < 0.03, "{widths} {expected}");
+        assert!(
+            (widths / expected - 1.0).abs() < 0.03,
+            "{widths} {expected}"
+        );
     }
 }
