@@ -211,7 +211,7 @@ fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
         let texts = [stdout(&output), page].map(|text| squeeze(&text));
         let start = "Lengths in pixels are scaled";
         let found = texts.map(|text| {
-            let note = text.split_once(start)?.1.split_once("--as-written.")?.0;
+            let note = text.split_once(start)?.1.split_once("as written.")?.0;
             Some(note.to_owned())
         });
         assert_eq!(found[0], found[1], "terminal and page");
@@ -221,7 +221,7 @@ fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
     bench.write_filter("mine", &manifest, &one_kernel("radius: i32", BODY));
     let filters = "./mine,mcguire:paper,identity";
     let says = " to pictures 64 wide for mcguire:paper, and are as written for mine:engine, whose filter.toml names no \
-                reference_width. Give its lengths unit = \"pixels\" and name one, or compare all with ";
+                reference_width. Give its lengths unit = \"pixels\" and name one, or compare all ";
     for more in [&[][..], &["--table"]] {
         assert_eq!(note(filters, more).as_deref(), Some(says));
     }

@@ -246,7 +246,9 @@ fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
         (
             "[margin]\nflicker = 0.1",
             "",
-            &["scenes/bounds.toml:2: margin of flicker: is a score of a sequence"],
+            &[
+                "scenes/bounds.toml:2: margin of flicker: baselines hold scores of single frames only",
+            ],
         ),
         (
             "[default]\nflip_moving = { limit = nan, why = \"w\" }",

@@ -8,7 +8,7 @@ use filters::Gpu;
 use judge::{RunBounds, read_bounds, size_for_bounds};
 use suite::{Error, FilterChoice, Run, RunPlan, measure_scenes};
 use tests::scenes;
-use tracer::{RenderSettings, Scene};
+use tracer::{RenderSettings, Scene, SceneId};
 
 use crate::journal::Place;
 use crate::options::Options;
@@ -111,6 +111,6 @@ impl Bench {
 }
 
 /// Names a mutant on a scene.
-pub fn mutant_place(subject: &Subject, mutant: &MutantFilter, scene: &str) -> Place {
-    (subject.key.clone(), mutant.name.clone(), scene.to_owned())
+pub fn mutant_place(subject: &Subject, mutant: &MutantFilter, scene: &SceneId) -> Place {
+    (subject.key.clone(), mutant.name.clone(), scene.to_string())
 }

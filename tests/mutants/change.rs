@@ -3,7 +3,7 @@
 use filters::{Blur, FilterError, Gpu, Input, Kernels};
 use frame::{Frame, Image, Region, Regions, regions};
 use suite::{Error, FilterChoice, Monitor, render_frame, render_truth};
-use tracer::Scene;
+use tracer::{Scene, SceneId};
 
 use crate::bench::{Bench, SEED, mutant_place};
 use crate::journal::{Change, Journal};
@@ -14,7 +14,7 @@ const COMPARED: [Region; 2] = [Region::Moving, Region::Full];
 
 /// A scene's frame, and the picture that the filter makes of it without a change.
 struct SoundPicture {
-    scene: String,
+    scene: SceneId,
     frame: Frame,
     regions: Regions,
     /// Noise floors of the truth.
@@ -29,7 +29,7 @@ pub fn measure_changes(
     journal: &mut Journal,
     due: &dyn Fn() -> bool,
 ) -> Result<(), Error> {
-    let is_new = |journal: &Journal, mutant: &MutantFilter, scene: &str| {
+    let is_new = |journal: &Journal, mutant: &MutantFilter, scene: &SceneId| {
         journal
             .changes
             .get(&mutant_place(subject, mutant, scene))
@@ -89,7 +89,7 @@ fn compare(
         if let Some(error) = &given_up {
             return Err(error.clone());
         }
-        let change = blur(&kernels, choice, &scene.id.frame).and_then(|picture| {
+        let change = blur(&kernels, choice, &scene.frame).and_then(|picture| {
             let change = scene.compare(&picture);
             change.ok_or(FilterError::Input {
                 filter: choice.filter.name.clone(),

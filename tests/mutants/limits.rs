@@ -6,7 +6,7 @@ use judge::{Level, Outcome, SceneBounds, default_metrics, judge_scores};
 use metrics::Metric;
 use suite::{Case, Error, Run};
 use tests::limits::calibrate_scene;
-use tracer::Scene;
+use tracer::{Scene, SceneId};
 
 use crate::bench::{Bench, SEED};
 use crate::journal::{Journal, Place};
@@ -16,7 +16,7 @@ use crate::subject::Subject;
 const CALIBRATED_WITH: [u64; 2] = [SEED, SEED + 1];
 
 /// Limits on one filter preset, by scene.
-pub type Limits = BTreeMap<String, SceneLimits>;
+pub type Limits = BTreeMap<SceneId, SceneLimits>;
 
 /// Limits on one filter preset on one scene.
 pub struct SceneLimits {
@@ -118,11 +118,11 @@ fn measure_sound_runs(
 }
 
 /// Names a filter without a change on a scene.
-pub fn sound_place(subject: &Subject, scene: &str, seed: u64) -> Place {
+pub fn sound_place(subject: &Subject, scene: &SceneId, seed: u64) -> Place {
     (
         subject.key.clone(),
         format!("seed {seed}"),
-        scene.to_owned(),
+        scene.to_string(),
     )
 }
 
@@ -155,5 +155,5 @@ pub fn find_broken(case: &Case, bounds: &SceneBounds) -> Vec<String> {
     let broken = judged.filter(|judged| {
         judged.outcome == Outcome::Broken && judged.bound.level == Level::Required
     });
-    broken.map(|judged| judged.metric).collect()
+    broken.map(|judged| judged.metric.to_string()).collect()
 }

@@ -40,7 +40,7 @@ pub fn measure_mutants(
             let change = |at: &usize| {
                 let found = journal
                     .changes
-                    .get(&mutant_place(subject, mutant, &scenes[*at].name));
+                    .get(&mutant_place(subject, mutant, &scenes[*at].id));
                 found.map_or(0.0, |found| {
                     found.as_ref().map_or(0.0, |change| change.floors)
                 })
@@ -163,8 +163,7 @@ fn take_case(bench: &Bench, subject: &Subject, run: &Run, label: &str) -> Result
     };
     // A folder that stays is no harm.
     let _ = fs::remove_dir_all(bench.truths(SEED).join(&case.folder));
-    Ok(Case {
-        preset: subject.sound.preset.clone(),
-        ..case.clone()
-    })
+    let mut case = case.clone();
+    case.id.preset = subject.sound.preset.clone();
+    Ok(case)
 }

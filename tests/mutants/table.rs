@@ -160,9 +160,9 @@ fn format_survivor(subject: &Subject, verdict: &Verdict) -> String {
             error.unwrap_or_default()
         );
     }
-    let mut by_metric: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    let mut by_metric: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for (metric, scene) in &verdict.noticed_by {
-        by_metric.entry(metric).or_default().push(scene);
+        by_metric.entry(metric).or_default().push(scene.to_string());
     }
     if !by_metric.is_empty() {
         let noticed = by_metric

@@ -2,6 +2,7 @@
 
 use metrics::Measured;
 use suite::Case;
+use tracer::SceneId;
 
 use crate::bench::{Bench, SEED, mutant_place};
 use crate::journal::{Change, Journal, Place};
@@ -18,15 +19,15 @@ pub struct Verdict<'s> {
     /// Error of a mutant that makes no picture, on which a check fails by itself.
     pub failure: Option<String>,
     /// Largest change of a picture, and its scene; none as long as a scene was not tried.
-    pub change: Option<(Change, String)>,
+    pub change: Option<(Change, SceneId)>,
     /// Mean squared error over what moves in that scene, divided by that of the filter without a change.
     pub error: Option<f64>,
     /// First scene on which limits are broken, and their metrics.
-    pub killed: Option<(String, Vec<String>)>,
+    pub killed: Option<(SceneId, Vec<String>)>,
     /// True if every scene was tried, or a limit broke.
     pub is_decided: bool,
     /// Metrics that would notice a survivor if they had limits, each with a scene.
-    pub noticed_by: Vec<(String, String)>,
+    pub noticed_by: Vec<(String, SceneId)>,
 }
 
 /// Size of a mutant's change.
@@ -205,7 +206,7 @@ fn find_error(
     subject: &Subject,
     journal: &Journal,
     mutant: &MutantFilter,
-    scene: &str,
+    scene: &SceneId,
 ) -> Option<f64> {
     let sound = journal.sound.get(&sound_place(subject, scene, SEED))?;
     let case = journal.cases.get(&mutant_place(subject, mutant, scene))?;

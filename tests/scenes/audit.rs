@@ -64,7 +64,7 @@ fn expect(audit: &CaptureAudit, object: Option<&str>, is_cause: impl Fn(&Cause) 
         object.is_none_or(|object| named == Some(object)),
         "{defect:#?}"
     );
-    let mut causes = std::iter::once(&defect.cause).chain(&defect.looks_like);
+    let mut causes = std::iter::once(&defect.found.cause).chain(&defect.found.looks_like);
     assert!(causes.any(is_cause), "{}: {defect:#?}", audit.scene);
 }
 
@@ -107,8 +107,9 @@ fn other_motion_is_named() {
             let velocity = trace(&scene, motion).velocity;
             let found = audit(&scene, &capture(&layers, velocity));
             seen += usize::from(!found.findings.is_empty());
-            let is_named =
-                |defect: &Defect| defect.cause == cause || defect.looks_like.contains(&cause);
+            let is_named = |defect: &Defect| {
+                defect.found.cause == cause || defect.found.looks_like.contains(&cause)
+            };
             assert!(
                 found.findings.iter().all(is_named),
                 "{name}, {cause:?}: {:#?}",
@@ -185,7 +186,7 @@ fn other_numbers_are_named() {
         |it| matches!(it, Cause::Steps(found) if is_near(*found, f64::from(step))),
     );
     let nonsense = changed(&|[x, y]| [x.sin() * 9.0, (y * x).cos() * 9.0]);
-    let is_unknown = |defect: &Defect| defect.cause == Cause::Unknown;
+    let is_unknown = |defect: &Defect| defect.found.cause == Cause::Unknown;
     assert!(nonsense.findings.iter().all(is_unknown), "{nonsense:#?}");
     assert_eq!(nonsense.findings.len(), 2, "village and background");
 }

@@ -2,6 +2,7 @@
 
 mod appearance;
 mod audit;
+mod audit_buffers;
 mod audit_planted;
 mod built_in;
 mod catalogue;

@@ -8,13 +8,13 @@ use suite::Run;
 use tracer::SceneId;
 
 /// Makes the bounds of a scene that `calibrate` proposes after several runs of sound filters.
-pub fn calibrate_scene(runs: &[Run], metrics: &[Metric], scene: &str) -> SceneBounds {
+pub fn calibrate_scene(runs: &[Run], metrics: &[Metric], scene: &SceneId) -> SceneBounds {
     assert!(!metrics.is_empty(), "limits are for metrics");
     let none = SceneBounds::default();
     let calibration = calibrate(runs, |_| &none, metrics);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("bounds.toml");
-    fs::write(&path, calibration.toml(&SceneId::new(scene, None))).unwrap();
+    fs::write(&path, calibration.toml(scene)).unwrap();
     SceneBounds {
         files: vec![read_bounds_file(&path).unwrap()],
     }

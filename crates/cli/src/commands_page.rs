@@ -17,7 +17,7 @@ const INTRODUCTION: &str = "\
 
 | exit code | meaning |
 |---|---|
-| 0 | done; `check`: every required bound is kept; `tune search`: also where it advises to keep the start, and writes no preset.toml |
+| 0 | done; `check`: every required bound is met; `tune search`: also where it advises to keep the start, and writes no preset.toml |
 | 1 | `check`: a required bound is broken, a score is worse than the baseline's by more than its margin, or a case failed; `engine audit`: velocity, depth or colour is wrong |
 | 2 | usage or bad input; bounds that are wrong, missing, or stricter than the noise of the truth can carry; `engine audit`: the capture does not show the scene |
 | 3 | no adapter |

@@ -25,24 +25,19 @@ use std::process::ExitCode;
 use commands::ending::Ending;
 use environment::set_environment;
 use filters::FilterError;
-use output::interrupts::{INTERRUPTED_TEXT, catch_interrupts, interrupted_code};
-use output::print::{print_error, print_failure};
-use output::verbosity::set_output;
+use output::{
+    INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
+};
 use program::{Cli, execute, find_new_place};
 use store::printable;
 use suite::Error;
 
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
-pub use tables::annotations::{annotations, summary};
-pub use tables::cases::{run_table, score_table};
-pub use tables::check::check_text;
-pub use tables::comparison::compare_table;
-pub use tables::junit::junit;
-pub use tables::preferences::preferences_table;
-pub use tables::ranking::ranking_text;
-pub use tables::results_filter_page::{picture_name, results_filter_pages};
-pub use tables::results_page::{main_results, results_page};
-pub use tables::tuning::paired_table;
+pub use tables::{
+    annotations, check_text, compare_table, junit, main_results, paired_table, picture_name,
+    preferences_table, ranking_text, results_filter_pages, results_page, run_table, score_table,
+    summary,
+};
 
 /// Runs the command of the command line and returns its exit code.
 pub fn run_program() -> ExitCode {

@@ -9,7 +9,7 @@ use suite::Error;
 use crate::commands::ending::Ending;
 use crate::commands::threads::work_on_threads;
 use crate::commands::*;
-use crate::output::verbosity::OutputArgs;
+use crate::output::OutputArgs;
 
 /// Version, commit and target of the program.
 const VERSION: &str = env!("SHUTTERTRUTH_VERSION");

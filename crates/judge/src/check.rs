@@ -86,8 +86,7 @@ impl Check {
                 counted("a required bound is", "required bounds are")
             ))),
             Decision::Misconfigured if count == 0 => Err(Error::Usage(
-                "a case has no bound that applies, and no check is no success; see above"
-                    .to_owned(),
+                "a case has no bound that applies, and cannot pass; see above".to_owned(),
             )),
             Decision::Misconfigured => Err(Error::Usage(format!(
                 "{} stricter than three noise floors; raise the limit, or the samples per pixel, as said above",

@@ -5,29 +5,25 @@
 pub enum MeasureError {
     /// Two rasters that should have one size.
     #[error(
-        "{what} is {found_width}x{found_height}, the truth is {width}x{height}; render or filter both at one size"
+        "{what} is {}x{}, the truth is {}x{}; render or filter both at one size",
+        found.0, found.1, truth.0, truth.1
     )]
     Size {
         /// Which input.
         what: String,
-        /// Its width.
-        found_width: u32,
-        /// Its height.
-        found_height: u32,
-        /// The truth's width.
-        width: u32,
-        /// The truth's height.
-        height: u32,
+        /// Its columns and rows.
+        found: (u32, u32),
+        /// The truth's columns and rows.
+        truth: (u32, u32),
     },
     /// More pixels than FLIP takes.
     #[error(
-        "the truth is {width}x{height}; at most {limit} pixels can be measured: render it smaller"
+        "the truth is {}x{}; at most {limit} pixels can be measured: render it smaller",
+        truth.0, truth.1
     )]
     TooLarge {
-        /// The truth's width.
-        width: u32,
-        /// The truth's height.
-        height: u32,
+        /// The truth's columns and rows.
+        truth: (u32, u32),
         /// Number of pixels that are allowed.
         limit: u64,
     },
@@ -45,21 +41,19 @@ pub enum MeasureError {
     },
     /// Infinity or NaN.
     #[error(
-        "{what} holds {found} at pixel ({x}, {y}); every value must be finite: look for a division by zero there"
+        "{what} holds {found} at pixel {at:?}; every value must be finite: look for a division by zero there"
     )]
     NotFinite {
         /// Which raster of which input.
         what: String,
         /// The value.
         found: f32,
-        /// Column.
-        x: u32,
-        /// Row.
-        y: u32,
+        /// Column and row.
+        at: (u32, u32),
     },
     /// Radiance that no comparison can square.
     #[error(
-        "the colour of {what} holds {found} at pixel ({x}, {y}); at the scene's exposures at most {limit:e} can be compared: \
+        "the colour of {what} holds {found} at pixel {at:?}; at the scene's exposures at most {limit:e} can be compared: \
          lower the light, or [display] stops"
     )]
     TooBright {
@@ -67,10 +61,8 @@ pub enum MeasureError {
         what: String,
         /// The value.
         found: f32,
-        /// Column.
-        x: u32,
-        /// Row.
-        y: u32,
+        /// Column and row.
+        at: (u32, u32),
         /// The largest radiance allowed, either sign.
         limit: f32,
     },

@@ -10,7 +10,7 @@
 //! | `metric` | names of all metrics, and a row for each |
 //! | `color`, `label`, `object`, `probe` | formulas: errors of colour, of labels, of one object's matte, of probes |
 //! | `picture` | errors of a whole picture, pooled over regions |
-//! | `worth` | error put into proportion: skill and equivalent sub-frames |
+//! | `skill`, `subframes` | error put into proportion: skill and equivalent sub-frames |
 //! | `reference` | the truth, ready to measure pictures against |
 //! | `sequence` | errors from frame to frame |
 //! | `math` | means, convolutions and powers |
@@ -31,9 +31,9 @@ mod reference;
 mod score;
 mod scores;
 mod sequence;
+mod skill;
 mod subframes;
 mod viewing;
-mod worth;
 
 pub use color::absolute_error::SMAPE_EPSILON;
 pub use color::cross_error::{PSNR_LIMIT, RELATIVE_EPSILON};
@@ -41,14 +41,14 @@ pub use color::flip::{flip_hdr, flip_ldr};
 pub use error::MeasureError;
 pub use frame::{Region, Regions, regions};
 pub use interval::{Interval, jackknife, jackknife_of_percentile};
-pub use maps::{ErrorMap, Maps};
+pub use maps::{ErrorMap, Maps, ProbeMaps};
 pub use metric::{
     EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, Group, ImageMetric,
     ImageScores, LabelMetric, LabelScores, Metric, ObjectMetric, ObjectScores, ProbeMetric,
     ProbeScores, Row, SkillMetric, SkillScores,
 };
 pub use object::sides::{Side, object_sides};
-pub use probe::{ProbeMaps, ProbeMeasurement, Probes};
+pub use probe::{ProbeMeasurement, Probes};
 pub use reference::{ColorReference, Jitter, Measurement, Reference};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;

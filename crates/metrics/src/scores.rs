@@ -94,8 +94,12 @@ impl Scores {
     /// Finds the largest of the three bleeds of the worst moving objects, and its metric; `None` if no bleed applies. Of equal ones,
     /// lateral comes before leading and trailing.
     pub fn largest_bleed(&self) -> Option<(ObjectMetric, Score)> {
-        let bleeds = ObjectMetric::BLEEDS.into_iter();
-        let found = bleeds.filter_map(|bleed| {
+        let bleeds = [
+            ObjectMetric::BleedLateral,
+            ObjectMetric::BleedLeading,
+            ObjectMetric::BleedTrailing,
+        ];
+        let found = bleeds.into_iter().filter_map(|bleed| {
             let (_, score) = self.worst_object(Metric::Object(bleed))?;
             Some((bleed, score))
         });

@@ -169,16 +169,16 @@ pub fn way_out(finding: &Finding) -> Option<String> {
             number(finding.floor?),
             number(finding.strictest?),
             match finding.subframes {
-                None => "--samples-per-pixel".to_owned(),
+                None => "render more samples per pixel".to_owned(),
                 Some(count) => format!("capture more sub-frames than {count}"),
             }
         )),
         Outcome::Inconclusive => Some(match finding.settled_by {
-            None => "too noisy for a confidence interval; raise --samples-per-pixel".to_owned(),
+            None => "too noisy for a confidence interval; render more samples per pixel".to_owned(),
             Some(MOST_SAMPLES..) => {
                 "too close to the limit for any number of samples; move the limit".to_owned()
             }
-            Some(samples) => format!("--samples-per-pixel {samples} would settle it"),
+            Some(samples) => format!("{samples} samples per pixel would settle it"),
         }),
         _ => None,
     }

@@ -34,7 +34,7 @@ pub fn refuse_long_names(folders: &Path) -> Result<(), Error> {
     match names.max_by_key(|name| name.len()) {
         Some(name) if name.len() > LONGEST_FOLDER_NAME => Err(Error::Refused(format!(
             "the output folder \"{}...\" would have a name of {} bytes; allowed: up to {LONGEST_FOLDER_NAME}; it is made of the names of \
-             scene and variant, or of filter, preset and what --set changes: give them shorter ones",
+             scene and variant, or of filter, preset and overrides: give them shorter ones",
             name.chars().take(SHOWN).collect::<String>(),
             name.len()
         ))),

@@ -45,14 +45,9 @@ pub fn make_study(
     let items = choose_items(run, choice)?;
     let scenes = list_once(items.iter().map(|item| item.scene.clone()));
     let mut shutters = Vec::new();
-    let mut clips: Vec<Vec<ClipFiles>> = Vec::new();
-    for scene in &scenes {
-        let own = items.iter().find(|item| item.scene == *scene);
-        let frames = &own.expect("it is that of an item").frames;
-        clips.push(vec![list_files(frames, |own| {
-            folder.join(&own.scene).join("frame.png")
-        })]);
-    }
+    let mut clips: Vec<Vec<ClipFiles>> = (scenes.iter())
+        .map(|scene| vec![sharp_frames(&items, scene, folder)])
+        .collect();
     for alignment in list_once(items.iter().map(|item| item.alignment)) {
         let own: Vec<&Item> = (items.iter())
             .filter(|item| item.alignment == alignment)
@@ -98,6 +93,12 @@ pub fn make_study(
         ))
     })?;
     Ok((study, clips.into_iter().flatten().collect()))
+}
+
+fn sharp_frames(items: &[Item], scene: &str, folder: &Path) -> ClipFiles {
+    let own = items.iter().find(|item| item.scene == *scene);
+    let frames = &own.expect("it is that of an item").frames;
+    list_files(frames, |own| folder.join(&own.scene).join("frame.png"))
 }
 
 fn list_files(frames: &[SequenceFrame], file: impl Fn(&SequenceFrame) -> PathBuf) -> ClipFiles {

@@ -1,6 +1,5 @@
 //! Agreement of scores with people.
 
-use frame::Alignment;
 use metrics::{Metric, SequenceMetric};
 use serde::Serialize;
 use suite::{Case, Run, Sequence, TWO_SIDED, Weighted, scene_mean};

@@ -113,7 +113,7 @@ impl EngineScene {
         match self.subframes {
             0 => Err(Error::Usage(format!(
                 "{}: {} drew no sub-frames, and there is no truth to measure against; capture sub-frames and ingest them, or \
-                 score its picture against a truth of ours: shuttertruth score --image {}",
+                 score its picture against a truth of ours: {}",
                 self.folder.display(),
                 engine_name(&self.engine),
                 self.folder.join(BLURRED).display()
@@ -128,7 +128,7 @@ impl EngineScene {
             true => Ok(()),
             false => Err(Error::Usage(format!(
                 "{}: was drawn at {}x{} pixels, and the pictures of this run are to have {width}x{height}; scenes of one run \
-                 have one size: run it apart, or leave --size out",
+                 have one size: run it apart, or at its own size",
                 self.folder.display(),
                 self.size[0],
                 self.size[1]

@@ -27,7 +27,7 @@ pub enum Error {
     /// Required bounds are broken, scores are worse than the baseline's, or cases failed; the report says which.
     #[error("{0}")]
     Broken(String),
-    /// The truth is too noisy to decide whether required bounds are kept.
+    /// The truth is too noisy to decide whether required bounds are met.
     #[error("{0}")]
     Inconclusive(String),
     /// A setting, or a file that a user wrote, is not allowed.

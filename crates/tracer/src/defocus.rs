@@ -120,10 +120,7 @@ fn find_recipe(
                 reads.push(row * canvas.width + column);
             }
             None => {
-                let stop = hit.map(|hit| Stop {
-                    hit,
-                    mirrors: false,
-                });
+                let stop = hit.map(Stop::scattering);
                 let path = integrator.follow_path(&mut eye.poses, own.ray, stop, &sampler);
                 hidden += path.0.as_dvec3();
                 hidden_objects.push(hit.map_or(0, |hit| hit.object as u32 + 1));

@@ -222,7 +222,7 @@ fn sample_points(
                     let depth = hit.map_or(f64::INFINITY, |_| f64::from(depth));
                     camera_velocity(&before, centre, depth)
                 } else {
-                    let tracked = TrackedPoint::of(hit.as_ref(), ray.direction);
+                    let tracked = TrackedPoint::of(hit, ray.direction);
                     tracked.velocity(scene, size, options.velocity, motion)
                 };
                 PointSample {

@@ -112,7 +112,8 @@ impl FromStr for SceneId {
         let id = id.at_frame(frame);
         let is_name = !["", ".", ".."].contains(&id.name.as_str())
             && !text.contains(|letter| letter == '\\' || is_hidden(letter));
-        match is_name && id.to_string() == text {
+        let written = id.to_string();
+        match is_name && written == text {
             true => Ok(id),
             false => Err(format!(
                 "scene \"{text}\": allowed: names of a folder, such as fan, fan@fast, fan@seal7@24fps or fan/0003"
@@ -149,7 +150,7 @@ impl PartialOrd for SceneId {
 
 impl PartialEq<&str> for SceneId {
     fn eq(&self, text: &&str) -> bool {
-        self.to_string() == *text
+        text.parse::<Self>().is_ok_and(|other| other == *self)
     }
 }
 

@@ -13,7 +13,7 @@ pub enum Advice {
     Take,
     /// Keep the start: no trial beats it.
     NoneIsBetter,
-    /// Keep the start: the scenes tuned on cannot tell the choice from it.
+    /// Keep the start: the scenes tuned on do not show that the choice is better.
     CannotTell(Difference),
     /// Keep the start: it is better on the held-out scenes.
     StartIsBetter(Difference),
@@ -42,7 +42,7 @@ impl Tuning {
     }
 }
 
-/// Tells whether the scenes tell the choice from the start.
+/// Tells whether the scenes show that the choice is better than the start.
 fn is_better(difference: &Difference) -> bool {
     difference.verdict == Preference::Second && difference.mean < -LEAST_CHANGE
 }

@@ -33,7 +33,7 @@ pub struct Difference {
     pub interval: [f64; 2],
     /// Number of scenes.
     pub scenes: usize,
-    /// The better one, as far as the interval tells.
+    /// The better one, if the interval shows it.
     pub verdict: Preference,
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use filters::Value;
 use serde::{Deserialize, Serialize};
 
-use crate::options::Objective;
+use crate::objective::Objective;
 
 /// Version of the layout of a journal.
 pub const JOURNAL_FORMAT: u32 = 1;

@@ -119,7 +119,7 @@ fn check_header(path: &Path, line: &str, expected: &JournalHeader) -> Result<(),
     };
     let (found, expected) = first_difference(&found[name], &fields[name]);
     let way_out = match name.as_str() {
-        "seed" => format!("; to go on with it, give --search-seed {found}"),
+        "seed" => format!("; to go on with it, search with the seed {found}"),
         _ => "; to go on with it, run the command that began it".to_owned(),
     };
     let reason = format!(
@@ -130,24 +130,23 @@ fn check_header(path: &Path, line: &str, expected: &JournalHeader) -> Result<(),
 
 /// Finds the first part of two values that differs, as short texts.
 fn first_difference(found: &Value, expected: &Value) -> (String, String) {
-    match (found, expected) {
+    let inner = match (found, expected) {
         (Value::Array(one), Value::Array(other)) if one.len() == other.len() => {
             let mut pairs = one.iter().zip(other);
-            let pair = pairs.find(|(one, other)| one != other);
-            pair.map_or_else(Default::default, |(one, other)| {
-                first_difference(one, other)
-            })
+            let differs = pairs.find(|(one, other)| one != other);
+            differs.map(|(one, other)| first_difference(one, other))
         }
         (Value::Object(one), Value::Object(other)) if one.keys().eq(other.keys()) => {
             let mut pairs = one.iter().zip(other.values());
-            let Some(((name, one), other)) = pairs.find(|((_, one), other)| one != other) else {
-                return Default::default();
-            };
-            let (one, other) = first_difference(one, other);
-            (format!("{name} {one}"), format!("{name} {other}"))
+            let differs = pairs.find(|((_, one), other)| one != other);
+            differs.map(|((name, one), other)| {
+                let (one, other) = first_difference(one, other);
+                (format!("{name} {one}"), format!("{name} {other}"))
+            })
         }
-        _ => (short_text(found), short_text(expected)),
-    }
+        _ => None,
+    };
+    inner.unwrap_or_else(|| (short_text(found), short_text(expected)))
 }
 
 /// Writes a value, or as much of it as a line has room for.

@@ -5,25 +5,14 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use judge::SceneBounds;
-use suite::{Error, FilterChoice, Monitor, named};
+use suite::{Error, FilterChoice, Monitor};
 use tracer::{RenderSettings, Scene};
 
 use crate::loss::LEAST_BLEED;
+use crate::objective::Objective;
 use crate::selection::ChoiceLimits;
 use crate::space::Space;
 use crate::trial::Trial;
-
-named! {
-    /// A score that trials are judged by, apart from the others.
-    pub enum Objective {
-        /// `flip_moving`; always measured.
-        Flip = "flip",
-        /// `bleed_lateral` of the worst scene.
-        Bleed = "bleed",
-        /// GPU time.
-        Cost = "cost",
-    }
-}
 
 /// Filter, scenes, limits and effort of a tuning.
 pub struct TuneOptions {
@@ -117,10 +106,8 @@ impl TuneOptions {
     pub fn families(&self) -> BTreeMap<&'static str, Vec<String>> {
         let mut families: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
         for (scene, _) in &self.scenes {
-            families
-                .entry(scene.family.name())
-                .or_default()
-                .push(scene.id.to_string());
+            let names = families.entry(scene.family.name()).or_default();
+            names.push(scene.id.to_string());
         }
         families
     }

@@ -12,12 +12,12 @@ pub fn pareto_front(rows: &[Vec<f64>]) -> Vec<usize> {
         let no_worse = a.iter().zip(b).all(|(a, b)| a <= b);
         no_worse && a != b
     };
-    let kept = |index: &usize| {
+    let is_unbeaten = |index: &usize| {
         let row = &rows[*index];
         let beaten = rows.iter().any(|other| beats(other, row));
         !beaten && !rows[..*index].contains(row)
     };
-    (0..rows.len()).filter(kept).collect()
+    (0..rows.len()).filter(is_unbeaten).collect()
 }
 
 #[test]

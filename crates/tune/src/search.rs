@@ -6,7 +6,7 @@ use cmaes::{CMAESOptions, DVector};
 
 /// Standard deviation of the first generation, in lengths of the cube.
 const STEP: f64 = 0.2;
-/// Points of the initial design per axis, beside the presets.
+/// Points of the initial design per axis, added to the presets.
 const DESIGN_PER_AXIS: usize = 2;
 /// Differences between losses that count as none: less than any truth's noise.
 const LOSS_STEP: f64 = 1e-5;

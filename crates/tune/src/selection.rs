@@ -21,14 +21,14 @@ pub struct ChoiceLimits {
 impl ChoiceLimits {
     /// Returns true if a trial ran on every scene and keeps the limits.
     pub fn allow(&self, trial: &Trial) -> bool {
-        let kept = |value: Option<f64>, limit: Option<f64>| match limit {
+        let holds = |value: Option<f64>, limit: Option<f64>| match limit {
             Some(limit) => value.is_some_and(|value| value <= limit),
             None => true,
         };
         // The limits are relative to the start; noise of the clock must not exclude it.
         let is_start = trial.trial == 0;
         trial.is_done()
-            && (is_start || kept(trial.cost, self.cost) && kept(trial.bleed, self.bleed))
+            && (is_start || holds(trial.cost, self.cost) && holds(trial.bleed, self.bleed))
     }
 }
 

@@ -5,7 +5,7 @@ use suite::Random;
 
 use crate::search::sobol_point;
 
-/// Bootstrap samples behind an interval.
+/// Bootstrap samples of an interval.
 const SAMPLES: usize = 1000;
 
 /// Shares of the variance that one axis causes.

@@ -47,24 +47,17 @@ impl<'a> Target<'a> {
         })
     }
 
-    /// Scores a picture, and its mattes if there are any.
+    /// Scores a picture by `flip_moving` alone, and its mattes, if there are any, by their bleed.
     pub fn score(&self, color: &Image, mattes: Option<&[Plane]>) -> SceneScore {
-        SceneScore {
-            flip: self.flip(color),
-            bleed: mattes.and_then(|mattes| self.reference.measure_bleed_lateral(mattes)),
-        }
-    }
-
-    /// Measures `flip_moving` and nothing else.
-    fn flip(&self, color: &Image) -> f64 {
         let errors = flip_ldr(&self.mean, color, &self.scene.viewing);
-        let inside = errors
-            .pixels
-            .iter()
-            .zip(&self.reference.regions.moving.pixels);
+        let moving = &self.reference.regions.moving.pixels;
+        let inside = errors.pixels.iter().zip(moving);
         let inside = inside.filter_map(|(error, moves)| moves.then_some(f64::from(*error)));
         let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));
-        sum / count
+        SceneScore {
+            flip: sum / count,
+            bleed: mattes.and_then(|mattes| self.reference.measure_bleed_lateral(mattes)),
+        }
     }
 
     /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they keep all of them. A bound

@@ -86,10 +86,7 @@ impl Trial {
                  first is done",
                 self.scenes.len(),
                 header.scenes.len(),
-                match self.error {
-                    Some(_) => "an",
-                    None => "no",
-                }
+                if self.error.is_some() { "an" } else { "no" }
             )),
         }
     }

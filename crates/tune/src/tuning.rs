@@ -14,7 +14,8 @@ use crate::header::{JOURNAL_FORMAT, JournalHeader};
 use crate::held_out::{HeldOutResult, record_held_out_result};
 use crate::journal::{Journal, journal_error};
 use crate::next_trial::run_next_trial;
-use crate::options::{Objective, TuneOptions};
+use crate::objective::Objective;
+use crate::options::TuneOptions;
 use crate::pareto::{pareto_front, round_bleed};
 use crate::rendered_scene::render_scenes;
 use crate::search::Search;
@@ -170,7 +171,11 @@ fn conclude(
     let choice = choose_trial(trials, space, limits, |_| true)
         .expect("the start is always allowed, and has scenes");
     let done: Vec<&Trial> = trials.iter().filter(|trial| trial.is_done()).collect();
-    let rows: Vec<Vec<f64>> = done.iter().map(|trial| objective_values(trial)).collect();
+    let measured = |it: &&Trial| [it.error, it.bleed.map(round_bleed), it.cost].into_iter();
+    let rows: Vec<Vec<f64>> = done
+        .iter()
+        .map(|it| measured(it).flatten().collect())
+        .collect();
     let mut front: Vec<Trial> = (pareto_front(&rows).into_iter())
         .map(|index| done[index].clone())
         .collect();
@@ -197,12 +202,6 @@ fn conclude(
         folds: cross_validate(trials, space, limits, &options.families()),
         held_out: Vec::new(),
     })
-}
-
-/// Returns the measured objectives of a finished trial, in the same order for all trials.
-fn objective_values(trial: &Trial) -> Vec<f64> {
-    let measured = [trial.error, trial.bleed.map(round_bleed), trial.cost];
-    measured.into_iter().flatten().collect()
 }
 
 /// Compares start and choice on the held-out scenes, and records the result.

@@ -108,7 +108,7 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
         4,
         &[
             "UNDECIDED flip_moving",
-            "--samples-per-pixel 1024 would settle it",
+            "1024 samples per pixel would settle it",
         ],
     );
     assert!(verdict(&output).contains("raise the samples per pixel"));

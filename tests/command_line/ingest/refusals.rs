@@ -102,7 +102,10 @@ fn folders_that_are_no_captures_are_refused() {
         ),
         (
             "engine = \"e\"\nscene = \"../up\"\n",
-            ["scene = \"../up\"", "allowed: the name"],
+            [
+                "capture.toml:2: scene \"../up\"",
+                "allowed: names of a folder",
+            ],
         ),
         (
             "engine = \"e\"\nexposure = 0.5\n",
@@ -136,7 +139,7 @@ fn folders_that_are_no_captures_are_refused() {
     assert_refused(
         &bench.shuttertruth(&words),
         2,
-        &["--out out/a@b", "allowed: letters"],
+        &["out/a@b: its last part", "allowed: letters"],
     );
 }
 
@@ -251,7 +254,7 @@ fn sub_frames_that_make_no_truth_are_refused() {
     ]);
     fs::remove_file(capture.path("subframes/0002.exr")).unwrap();
     refuse(&[
-        "subframes/0003.exr: stands in the place of 0002.exr",
+        "subframes/0003.exr: is in the place of 0002.exr",
         "without a gap",
     ]);
     fs::rename(

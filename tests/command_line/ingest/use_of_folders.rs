@@ -25,7 +25,7 @@ fn what_an_engine_drew_is_not_rendered_otherwise() {
     for (words, parts) in [
         (
             "run --scenes out/engine/mine --size 64x32",
-            ["was drawn at 96x54", "leave --size out"],
+            ["was drawn at 96x54", "at its own size"],
         ),
         (
             "run --scenes out/engine/mine --exposure 1",
@@ -117,7 +117,7 @@ fn frames_of_a_run_are_not_overwritten() {
         &refusal,
         2,
         &[
-            "--out out/plate",
+            "out/plate: holds",
             "a frame that was not ingested",
             "new folder",
         ],

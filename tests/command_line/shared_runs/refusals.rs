@@ -139,7 +139,10 @@ fn missing_cases_are_named() {
     refused(
         &bench,
         &["other"],
-        &["references of the trailing shutter", "--part references"],
+        &[
+            "references of the trailing shutter",
+            "the part with the references",
+        ],
     );
 }
 

@@ -67,7 +67,7 @@ fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently()
     let output = bench.shuttertruth(&other);
     let parts = [
         "journal.jsonl:1: it was begun with another seed: found 1, this command has 2",
-        "to go on with it, give --search-seed 1",
+        "to go on with it, search with the seed 1",
         "another output folder",
     ];
     assert_refused(&output, 2, &parts);

@@ -117,7 +117,6 @@ fn a_failing_candidate_is_reported_and_the_tuning_goes_on() {
         let words = [
             "tune",
             "search",
-            "search",
             "--quiet",
             "--allow-commands",
             "--filter",

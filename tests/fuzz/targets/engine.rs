@@ -34,8 +34,8 @@ pub fn ingested(place: &mut Place, input: &[u8]) -> Option<()> {
 
 /// Panics if a run would write elsewhere than into one folder of a scene, and in it one of the engine.
 fn check_names(scene: &EngineScene) {
-    for name in [scene.id.to_string(), scene.filter_name().to_owned()] {
-        let parts: Vec<Component> = Path::new(&name).components().collect();
+    for name in [&*scene.id.to_string(), scene.filter_name()] {
+        let parts: Vec<Component> = Path::new(name).components().collect();
         assert!(
             matches!(parts.as_slice(), [Component::Normal(_)]),
             "\"{name}\" is no name of a folder"

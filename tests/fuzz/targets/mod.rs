@@ -71,7 +71,7 @@ pub static ALL: [Target; 33] = [
         let filter = filter::write(place, input).display().to_string();
         place.copy("out");
         let out = "--out blurred.exr --exposure 0.5";
-        let line = format!("blur --filter {filter} --frame out/plate/frame.exr {out}");
+        let line = format!("engine blur --filter {filter} --frame out/plate/frame.exr {out}");
         program::run_line(place, &line);
         Some(())
     })

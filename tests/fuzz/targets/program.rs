@@ -1,17 +1,13 @@
 //! The program itself: words of its command line, and records of earlier measurements that a `run` reads back.
 
-use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use serde::Serialize;
-use serde_json::Value;
-use suite::Case;
-
-use crate::fixture::{PROGRAM, RENDER, files};
+use super::commands;
+use crate::fixture::{PROGRAM, RENDER};
 use crate::place::Place;
 
 /// Exit codes that the README names.
@@ -33,20 +29,14 @@ pub fn command_line(place: &mut Place, input: &[u8]) -> Option<()> {
     Some(())
 }
 
-/// Runs the program where one of its records is the input, with a valid seal.
+/// Runs the program where one of its records is the input.
 pub fn records(place: &mut Place, input: &[u8]) -> Option<()> {
-    let _ = fs::remove_dir_all(place.folder.join("out"));
-    place.copy("scenes");
-    let end = match input.windows(9).any(|it| it == b"frame.exr") {
-        true => "frame.json",
-        false => "case.json",
+    let file = match input.windows(9).any(|it| it == b"frame.exr") {
+        true => "out/plate/frame.json",
+        false => "out/plate/mcguire_paper/case.json",
     };
-    let found = files(&place.copy("out"), end);
-    let sealed = add_seal(input).unwrap_or(input.to_vec());
-    fs::write(found.first().expect("a run leaves records"), sealed).unwrap();
     let line = format!("run {RENDER} --filters velocity_gather:departure,mcguire:paper --out out");
-    run_line(place, &line);
-    Some(())
+    commands::run(place, file, input, &[line])
 }
 
 /// Writes lines to the standard input of `serve`, and then a request that is refused at once: its answer means that all have
@@ -63,25 +53,6 @@ pub fn serve(place: &mut Place, input: &[u8]) -> Option<()> {
     let is_answered = String::from_utf8_lossy(&answers).contains("\"id\":123456789");
     assert!(is_answered, "serve ended, or reads no more");
     Some(())
-}
-
-/// Gives a record a valid seal; none for anything else.
-fn add_seal(input: &[u8]) -> Option<Vec<u8>> {
-    let mut record: Value = serde_json::from_slice(input).ok()?;
-    let files: BTreeMap<String, String> = serde_json::from_value(record["files"].clone()).ok()?;
-    let inputs = record["inputs"].as_str()?;
-    let seal = match serde_json::from_value::<Case>(record["made"].clone()) {
-        Ok(case) => seal(inputs, &files, &case),
-        Err(_) => seal(inputs, &files, &()),
-    };
-    record["seal"] = seal.into();
-    serde_json::to_vec(&record).ok()
-}
-
-/// Computes the seal as the program does.
-fn seal(inputs: &str, files: &BTreeMap<String, String>, made: &impl Serialize) -> String {
-    let bytes = serde_json::to_vec(&(inputs, files, made)).expect("records are plain data");
-    blake3::hash(&bytes).to_hex().to_string()
 }
 
 /// Runs a line of the program, and returns its code.

@@ -82,8 +82,9 @@ impl Bench {
             .collect();
         let metrics = METRICS.map(|name| name.parse::<Metric>().unwrap());
         for name in NAMES {
-            let bounds = calibrate_scene(&runs, &metrics, name);
-            bench.bounds.insert(SceneId::new(name, None), bounds);
+            let scene = SceneId::new(name, None);
+            let bounds = calibrate_scene(&runs, &metrics, &scene);
+            bench.bounds.insert(scene, bounds);
         }
         bench
     }

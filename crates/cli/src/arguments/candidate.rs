@@ -3,10 +3,7 @@
 use clap::Args;
 use tune::Objective;
 
-use super::adapter::AdapterArgs;
-use super::parse::{parse_objective, parse_size};
-use super::programs::ProgramArgs;
-use super::scenes::SceneArgs;
+use super::{AdapterArgs, ProgramArgs, SceneArgs, parse_objective, parse_size};
 
 /// Choice of a filter, and of the scenes that it is scored on.
 #[derive(Debug, Args)]

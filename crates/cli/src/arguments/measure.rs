@@ -4,10 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::input_forms::InputFormArgs;
-use super::parse::{parse_size, within};
-use super::programs::ProgramArgs;
-use super::scenes::SceneArgs;
+use super::{InputFormArgs, ProgramArgs, SceneArgs, parse_size, within};
 
 /// Choice of scenes, filters and inputs to measure.
 #[derive(Clone, Debug, Args)]

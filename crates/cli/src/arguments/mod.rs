@@ -1,13 +1,21 @@
 //! Arguments that commands share.
 
-pub mod adapter;
-pub mod candidate;
-pub mod frame_rates;
-pub mod input_forms;
-pub mod measure;
-pub mod parse;
-pub mod programs;
-pub mod run_options;
-pub mod scenes;
-pub mod scenes_root;
-pub mod sequence;
+mod candidate;
+mod frame_rates;
+mod input_forms;
+mod measure;
+mod parse;
+mod programs;
+mod run_options;
+mod scenes;
+mod scenes_root;
+
+pub use self::candidate::*;
+pub use self::frame_rates::*;
+pub use self::input_forms::*;
+pub use self::measure::*;
+pub use self::parse::*;
+pub use self::programs::*;
+pub use self::run_options::*;
+pub use self::scenes::*;
+pub use self::scenes_root::*;

@@ -1,4 +1,4 @@
-//! Permission for filters that are programs.
+//! What filters run on: the adapter, and programs of their own.
 
 use clap::Args;
 
@@ -21,4 +21,13 @@ impl ProgramArgs {
             false => Programs::Refused,
         }
     }
+}
+
+/// Choice of the adapter.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Adapter")]
+pub struct AdapterArgs {
+    /// Adapter that filters run on: its number in `list adapters`, or part of its name [default: the fastest].
+    #[arg(long, value_name = "ADAPTER")]
+    pub adapter: Option<String>,
 }

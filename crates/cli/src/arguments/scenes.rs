@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use frame::{ColorSampling, FrameOptions, VelocityKind};
 use suite::Error;
-use tracer::{Location, RenderSettings, SceneId};
+use tracer::{RenderSettings, SceneId};
 
-use super::frame_rates::FrameRateArgs;
-use super::scenes_root::{default_scenes_root, scenes_root_parser};
+use super::{FrameRateArgs, RootArgs};
 use crate::selection::split_scene;
 
 /// On or off.
@@ -38,10 +37,8 @@ pub struct SceneArgs {
     pub seal: Option<u64>,
     #[command(flatten)]
     pub rates: FrameRateArgs,
-    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
-    /// built-in where there is no such folder].
-    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
-    pub scenes_dir: Location,
+    #[command(flatten)]
+    pub root: RootArgs,
     /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of
     /// the picture get more, quiet ones fewer.
     #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel)]

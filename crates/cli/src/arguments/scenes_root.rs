@@ -2,19 +2,29 @@
 
 use std::path::PathBuf;
 
+use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use tracer::Location;
 
 /// Folder that holds the scenes where no other is named.
 const DEFAULT: &str = "scenes";
 
+/// Choice of the folder of scenes.
+#[derive(Clone, Debug, Args)]
+pub struct RootArgs {
+    /// Folder that holds the scenes, and bounds.toml with limits and margins; built-in names the program's own [default: scenes, or
+    /// built-in where there is no such folder].
+    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    pub scenes_dir: Location,
+}
+
 /// Makes the parser of `--scenes-dir`: the name of the program's own scenes, or the path of any folder.
-pub fn scenes_root_parser() -> impl TypedValueParser<Value = Location> {
+fn scenes_root_parser() -> impl TypedValueParser<Value = Location> {
     PathBufValueParser::new().map(scenes_root)
 }
 
 /// Finds the folder of scenes where none is named: `scenes`, or the program's own where there is no such folder.
-pub fn default_scenes_root() -> Location {
+fn default_scenes_root() -> Location {
     let folder = PathBuf::from(DEFAULT);
     match folder.exists() {
         true => folder.into(),

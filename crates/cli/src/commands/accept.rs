@@ -7,11 +7,9 @@ use judge::{Acceptance, Baseline, accept_scores};
 use store::printable_path;
 use suite::{Error, Run, find_newer_sizes, refuse_failures};
 
-use crate::arguments::parse::parse_glob;
-use crate::output::count::count_text;
-use crate::output::print::{print, print_note};
+use crate::arguments::parse_glob;
+use crate::output::{count_text, print, print_note};
 
-/// `shuttertruth limits accept`
 #[derive(Debug, Args)]
 pub struct AcceptArgs {
     /// Folder of the finished run: --out of `run` or `check`.

@@ -10,11 +10,9 @@ use store::printable_path;
 use study::{Question, SECONDS_PER_QUESTION, Study, StudyChoice, draw_session, make_study};
 use suite::Error;
 
-use crate::arguments::parse::{parse_glob, parse_named};
-use crate::output::print::{print, print_json};
-use crate::output::wrap::push_wrapped;
+use crate::arguments::{parse_glob, parse_named};
+use crate::output::{count_text, print, print_json, push_wrapped};
 
-/// `shuttertruth people ask`
 #[derive(Debug, Args)]
 pub struct AskArgs {
     /// run.json of a finished run, or its folder, with the pictures. Clips need a run with --frames.
@@ -46,15 +44,6 @@ pub struct AskArgs {
     pub json: bool,
 }
 
-/// What was written, as JSON.
-#[derive(serde::Serialize)]
-struct Written<'a> {
-    page: &'a std::path::Path,
-    pairs: usize,
-    questions: usize,
-    study: &'a Study,
-}
-
 /// Reads a finished run, and writes a page that asks people about its pictures.
 pub fn execute(args: &AskArgs) -> Result<(), Error> {
     let side = Side::read(&args.run)?;
@@ -70,13 +59,12 @@ pub fn execute(args: &AskArgs) -> Result<(), Error> {
     let session = draw_session(&study, asked[0], 0);
     let pairs = session.iter().filter(|pair| !pair.is_check()).count();
     if args.json {
-        let questions = session.len();
-        return print_json(&Written {
-            page: &page,
-            pairs,
-            questions,
-            study: &study,
-        });
+        return print_json(&serde_json::json!({
+            "page": page,
+            "pairs": pairs,
+            "questions": session.len(),
+            "study": study,
+        }));
     }
     let mut text = String::new();
     push_wrapped(&mut text, 0, &describe(&study, pairs, session.len()));
@@ -93,10 +81,7 @@ pub fn execute(args: &AskArgs) -> Result<(), Error> {
 
 fn describe(study: &Study, pairs: usize, questions: usize) -> String {
     let minutes = (questions as f64 * SECONDS_PER_QUESTION / 60.0).ceil();
-    let scenes = match study.scenes.len() {
-        1 => "1 scene".to_owned(),
-        count => format!("{count} scenes"),
-    };
+    let scenes = count_text(study.scenes.len(), "scene", "scenes");
     let shutters = study.shutters.iter().map(|own| {
         format!(
             "{} filters of the {} shutter",

@@ -6,15 +6,14 @@ use clap::Args;
 use engine::{Capture, CaptureAudit, audit_capture, write_audit_picture};
 use store::{Sharing, claim, printable_path};
 use suite::Error;
-use tracer::{Location, SceneId};
+use tracer::SceneId;
 
 use super::capture::{load_drawn_scene, name_folder};
 use super::ending::Ending;
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_note};
-use crate::tables::audit::audit_table;
+use crate::arguments::RootArgs;
+use crate::output::{print, print_note};
+use crate::tables::audit_table;
 
-/// `shuttertruth engine audit`
 #[derive(Debug, Args)]
 pub struct AuditArgs {
     /// Folder of a capture, as for `engine ingest`: capture.toml, color.exr, velocity.exr, depth.exr; object.exr makes the audit sharper.
@@ -26,10 +25,8 @@ pub struct AuditArgs {
     /// Scene that the engine drew, with @VARIANT [default: the one that capture.toml names].
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,
-    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
-    /// built-in where there is no such folder].
-    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
-    pub scenes_dir: Location,
+    #[command(flatten)]
+    pub root: RootArgs,
     /// Folder for audit.json, and for a picture of the worst place of each object that is wrong [default: out/audit/<name of DIR>].
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -51,7 +48,7 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
             args.capture.join("capture.toml").display()
         );
     };
-    let scene = load_drawn_scene(&args.scenes_dir, &name)?;
+    let scene = load_drawn_scene(&args.root.scenes_dir, &name)?;
     let (audit, expected) = audit_capture(&capture, &scene)?;
     let out = name_folder(&args.capture, args.out.as_ref(), "out/audit")?;
     let _claim = claim(&out, [], Sharing::Alone)?;

@@ -8,14 +8,11 @@ use store::printable_path;
 use suite::{Bench, BenchPlan, Error, bench, open_adapter};
 
 use super::expected::print_expected_time;
-use crate::arguments::adapter::AdapterArgs;
-use crate::arguments::parse::{parse_size, within};
-use crate::output::print::print;
-use crate::output::progress::make_monitor;
+use crate::arguments::{AdapterArgs, parse_size, within};
+use crate::output::{make_monitor, print};
 use crate::selection::{Programs, select_filters};
-use crate::tables::bench::bench_table;
+use crate::tables::bench_table;
 
-/// `shuttertruth bench`
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset; repeatable, or separated by commas

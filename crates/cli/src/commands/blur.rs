@@ -12,14 +12,10 @@ use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu}
 
 use super::convention::read_convention;
 use super::render_settings::check_exposure;
-use crate::arguments::adapter::AdapterArgs;
-use crate::arguments::parse::frame_count;
-use crate::arguments::programs::ProgramArgs;
-use crate::output::print::print;
-use crate::output::progress::make_silent_monitor;
+use crate::arguments::{AdapterArgs, ProgramArgs, frame_count};
+use crate::output::{make_silent_monitor, print};
 use crate::selection::select_filters;
 
-/// `shuttertruth engine blur`
 #[derive(Debug, Args)]
 pub struct BlurArgs {
     /// Filter: a name or a folder, with an optional :preset.

@@ -11,12 +11,9 @@ use super::expected::print_expected_time;
 use super::kept_truths::take_packed_truths;
 use super::run_files::write_run;
 use super::run_plan::{check_replicates_for_intervals, claim_out, make_plan};
-use crate::arguments::measure::MeasureArgs;
-use crate::arguments::parse::within;
-use crate::arguments::sequence::SequenceArgs;
-use crate::output::print::print;
+use crate::arguments::{MeasureArgs, SequenceArgs, within};
+use crate::output::print;
 
-/// `shuttertruth limits calibrate`
 #[derive(Debug, Args)]
 pub struct CalibrateArgs {
     #[command(flatten)]
@@ -62,7 +59,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         metrics => (metrics.iter()).any(|metric| matches!(metric, Metric::Equivalent(_))),
     };
     check_names(
-        &args.measure.scenes.scenes_dir,
+        &args.measure.scenes.root.scenes_dir,
         bounds.values(),
         &plan.filters,
     )?;

@@ -10,10 +10,8 @@ use tune::{RenderedScene, render_scenes};
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
 use super::run_plan::load_scenes;
-use crate::arguments::candidate::CandidateArgs;
-use crate::arguments::scenes::SceneArgs;
-use crate::output::count::count_text;
-use crate::output::progress::make_monitor;
+use crate::arguments::{CandidateArgs, SceneArgs};
+use crate::output::{count_text, make_monitor};
 use crate::selection::select_filters;
 
 /// Selects the filter with the preset to start from, for pictures of the size that is asked for.
@@ -27,7 +25,7 @@ pub fn select_candidate(args: &CandidateArgs) -> Result<FilterChoice, Error> {
 /// Loads the scenes that candidates are scored on, with their bounds for pictures of the size that is asked for.
 pub fn load_candidate_scenes(args: &CandidateArgs) -> Result<Vec<(Scene, SceneBounds)>, Error> {
     load_scenes(
-        &args.scenes.scenes_dir,
+        &args.scenes.root.scenes_dir,
         &args.scenes.names()?,
         Some(args.size),
     )

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, Command, Id};
 use frame::FileError;
 use judge::{
     BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
@@ -17,50 +17,28 @@ use tracer::Location;
 use super::ending::Ending;
 use super::margins::{Margins, read_margins};
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
+use super::pages::{WrittenFile, page_lines, page_path, refuse_folder, write_run_page};
 use super::run_files::write_judged_run;
 use super::run_plan::{check_replicates_for_intervals, make_plan, read_case_bounds};
-use crate::arguments::adapter::AdapterArgs;
-use crate::arguments::measure::MeasureArgs;
-use crate::arguments::sequence::SequenceArgs;
-use crate::output::print::{print, print_json, print_note};
-use crate::output::verbosity::is_verbose;
-use crate::tables::adapter::adapter_text;
-use crate::tables::annotations::{annotations, summary};
-use crate::tables::check::{check_text, verdict_text};
-use crate::tables::junit::junit;
+use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
+use crate::output::{is_verbose, print, print_json, print_note};
+use crate::tables::{adapter_text, annotations, check_text, junit, summary, verdict_text};
 
-/// Arguments that only a check that measures may have.
-const MEASURING: [&str; 22] = [
-    "scenes",
-    "frame_rate",
-    "shutter_time",
-    "samples_per_pixel",
-    "exposure",
-    "velocity",
-    "frame_sampling",
-    "sky_velocity",
-    "guard_band",
-    "seed",
-    "out",
-    "filters",
-    "preset",
-    "set",
-    "as_written",
-    "size",
-    "replicates",
-    "input",
-    "jitter_frames",
-    "frames",
-    "fps",
-    "adapter",
-];
+/// Names the arguments that only a check that measures may have.
+fn list_measuring() -> Vec<Id> {
+    let all = MeasureArgs::augment_args(Command::new("check"));
+    let all = AdapterArgs::augment_args(SequenceArgs::augment_args(all));
+    let ids = all
+        .get_arguments()
+        .map(|argument| argument.get_id().clone());
+    ids.filter(|id| *id != "scenes_dir" && *id != "threads")
+        .collect()
+}
 
-/// `shuttertruth check`
 #[derive(Debug, Args)]
 pub struct CheckArgs {
     /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter [default: measure now].
-    #[arg(value_name = "RUN", conflicts_with_all = MEASURING)]
+    #[arg(value_name = "RUN", conflicts_with_all = list_measuring())]
     pub run: Option<PathBuf>,
     /// For every broken bound of RUN, find the worst place and the known failure that the picture is most like. A check that
     /// measures always does.
@@ -95,7 +73,7 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
     refuse_folder("--html", args.html.as_ref())?;
     refuse_folder("--junit", args.junit.as_ref())?;
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
-    let margins = read_margins(&args.measure.scenes.scenes_dir)?;
+    let margins = read_margins(&args.measure.scenes.root.scenes_dir)?;
     let summary_file = args.github.then(find_summary_file).transpose()?;
     let Judged {
         run,
@@ -179,7 +157,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     plan.ladders = bound_subframes(bounds.values(), &plan.filters)
         || (margins.keys()).any(|metric| matches!(metric, Metric::Equivalent(_)));
     check_replicates_for_intervals(plan.render.replicates)?;
-    let root = &args.measure.scenes.scenes_dir;
+    let root = &args.measure.scenes.root.scenes_dir;
     check_names(root, bounds.values(), &plan.filters)?;
     // With a baseline, nothing else need be bounded.
     if !compared {
@@ -204,10 +182,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     let mut findings = judge(&whole, &bounds);
     add_evidence(&whole, &mut findings, &plan.out)?;
     write_judged_run(&whole, &findings, &plan.out)?;
-    let html = args
-        .html
-        .clone()
-        .unwrap_or_else(|| plan.out.join("report.html"));
+    let html = page_path(args.html.as_ref(), &plan.out);
     let pages = write_run_page(&whole, &findings, &plan.out, &html)?;
     findings.retain(|finding| run.cases.iter().any(|case| finding.is_of(case)));
     Ok(Judged {
@@ -230,13 +205,13 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
         _ => PathBuf::from("."),
     };
     refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;
-    let root = &args.measure.scenes.scenes_dir;
+    let root = &args.measure.scenes.root.scenes_dir;
     let bounds = read_run_bounds(&run, root)?;
     let mut findings = judge(&run, &bounds);
     if findings.is_empty() && !compared {
         refuse!(
-            "{}: no score of it has a bound, and no check is no success; bounds are looked for in {} and beside each scene \
-             below it: name another folder with --scenes-dir",
+            "{}: none of its scores has a bound, and a check without bounds fails; bounds are read from {} and from the \
+             folder of each scene below it: name another folder with --scenes-dir",
             path.display(),
             root.join(BOUNDS_FILE)
         );

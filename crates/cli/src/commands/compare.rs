@@ -6,16 +6,13 @@ use clap::Args;
 use judge::{Side, compare_runs};
 use report::compare_page;
 use suite::Error;
-use tracer::Location;
 
 use super::margins::read_margins;
 use super::pages::write_page;
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_json};
-use crate::output::progress::make_monitor;
-use crate::tables::comparison::compare_table;
+use crate::arguments::RootArgs;
+use crate::output::{make_monitor, print, print_json};
+use crate::tables::compare_table;
 
-/// `shuttertruth compare`
 #[derive(Debug, Args)]
 pub struct CompareArgs {
     /// run.json of the first run, or its folder.
@@ -27,10 +24,8 @@ pub struct CompareArgs {
     /// Write the comparison as an HTML page with the pictures that changed.
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
-    /// Folder that holds the scenes, and bounds.toml with the margins from which a change counts; built-in names the program's own [default: scenes, or
-    /// built-in where there is no such folder].
-    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
-    pub scenes_dir: Location,
+    #[command(flatten)]
+    pub root: RootArgs,
     /// Print all changes as JSON instead of the table.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
@@ -42,7 +37,7 @@ pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     let mut compared = make_monitor().watch("cases that changed", |watch| {
         compare_runs(&first, &second, watch)
     })?;
-    compared.apply_margins(&read_margins(&args.scenes_dir)?);
+    compared.apply_margins(&read_margins(&args.root.scenes_dir)?);
     let written = match &args.html {
         Some(html) => write_page(&compare_page(&compared, &first, &second)?, html)?.line("written"),
         None => String::new(),

@@ -10,11 +10,10 @@ use super::candidate::{
     print_expected_scoring, select_candidate,
 };
 use super::result::CommandResult;
-use crate::arguments::candidate::CandidateArgs;
-use crate::output::progress::make_monitor;
-use crate::tables::tuning::paired_table;
+use crate::arguments::CandidateArgs;
+use crate::output::make_monitor;
+use crate::tables::paired_table;
 
-/// `shuttertruth tune compare`
 #[derive(Debug, Args)]
 pub struct ComparePresetsArgs {
     /// The first preset.

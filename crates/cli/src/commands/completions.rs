@@ -6,7 +6,6 @@ use clap::Args;
 use clap_complete::Shell;
 use suite::Error;
 
-/// `shuttertruth completions`
 #[derive(Debug, Args)]
 pub struct CompletionsArgs {
     /// Shell: bash, elvish, fish, powershell or zsh.

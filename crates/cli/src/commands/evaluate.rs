@@ -13,11 +13,9 @@ use tune::{Evaluator, Objective, evaluate_candidate};
 use super::candidate::{
     claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,
 };
-use crate::arguments::candidate::CandidateArgs;
-use crate::output::print::print_json;
-use crate::output::progress::make_monitor;
+use crate::arguments::CandidateArgs;
+use crate::output::{make_monitor, print_json};
 
-/// `shuttertruth tune evaluate`
 #[derive(Debug, Args)]
 pub struct EvaluateArgs {
     #[command(flatten)]

@@ -6,8 +6,7 @@ use std::time::Duration;
 use store::printable_path;
 use suite::RunEstimate;
 
-use crate::output::print::print_error;
-use crate::output::verbosity::is_quiet;
+use crate::output::{is_quiet, print_error};
 
 /// Time from which work is announced, in seconds.
 const LONG: f64 = 5.0;

@@ -6,22 +6,18 @@ use clap::Args;
 use engine::{Manifest, export_gltf};
 use store::printable_path;
 use suite::{Error, PROGRAM};
-use tracer::Location;
 
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::print;
+use crate::arguments::RootArgs;
+use crate::output::print;
 use crate::selection::select_scenes;
 
-/// `shuttertruth engine export`
 #[derive(Debug, Args)]
 pub struct ExportArgs {
     /// Scenes: names, folders or patterns such as 'rail*', each with an optional @variant or @all.
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<String>,
-    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
-    /// built-in where there is no such folder].
-    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
-    pub scenes_dir: Location,
+    #[command(flatten)]
+    pub root: RootArgs,
     /// Folder for glTF 2.0: each scene gets one of its own there.
     #[arg(long, value_name = "DIR", default_value = "out/gltf")]
     pub gltf: PathBuf,
@@ -39,7 +35,7 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
             .collect::<Result<_, _>>()?,
         false => args.scenes.clone(),
     };
-    let choices = select_scenes(&args.scenes_dir, &names)?;
+    let choices = select_scenes(&args.root.scenes_dir, &names)?;
     let mut text = String::new();
     for choice in &choices {
         let folder = args.gltf.join(&choice.scene.id.folder());

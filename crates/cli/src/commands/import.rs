@@ -8,10 +8,9 @@ use store::printable_path;
 use suite::Error;
 
 use super::render_settings::check_exposure;
-use crate::arguments::parse::{parse_degrees_per_frame, parse_named, parse_pixels_per_frame};
-use crate::output::print::print;
+use crate::arguments::{parse_degrees_per_frame, parse_named, parse_pixels_per_frame};
+use crate::output::print;
 
-/// `shuttertruth engine import`
 #[derive(Debug, Args)]
 pub struct ImportArgs {
     /// OBJ file. It is copied, with the MTL and PNG files that it names.

@@ -11,11 +11,9 @@ use suite::{EngineScene, Error};
 use tracer::{Location, Scene};
 
 use super::capture::{load_drawn_scene, name_folder};
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_note};
-use crate::output::progress::make_monitor;
+use crate::arguments::RootArgs;
+use crate::output::{make_monitor, print, print_note};
 
-/// `shuttertruth engine ingest`
 #[derive(Debug, Args)]
 pub struct IngestArgs {
     /// Folder of a capture: capture.toml, color.exr, velocity.exr, depth.exr; optionally subframes/0000.exr and on, and
@@ -29,10 +27,8 @@ pub struct IngestArgs {
     /// Folder to write, which gives the scene its name [default: out/engine/<name of DIR>].
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Folder that holds the scenes, for the display exposure of the one that capture.toml names; built-in names the program's own [default: scenes, or
-    /// built-in where there is no such folder].
-    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
-    pub scenes_dir: Location,
+    #[command(flatten)]
+    pub root: RootArgs,
 }
 
 /// Motion between two sub-frames beyond which more are advised, in pixels.
@@ -49,7 +45,7 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
     for note in &capture.notes {
         print_note(note);
     }
-    let traced = find_scene(&capture, &args.scenes_dir);
+    let traced = find_scene(&capture, &args.root.scenes_dir);
     let display = find_display(&capture, traced.as_ref());
     let names = traced.as_ref().map(Scene::object_names);
     let ingested = make_monitor().watch("sub-frames", |watch| {

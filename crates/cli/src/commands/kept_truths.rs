@@ -7,8 +7,7 @@ use std::path::Path;
 use store::{Pack, printable_path};
 use suite::{Error, RunPlan, Unpacked, Verification, take_pack};
 
-use crate::output::count::count_text;
-use crate::output::print::print_note;
+use crate::output::{count_text, print_note};
 
 /// Files that a note names before it counts the others.
 const MOST_NAMED: usize = 4;

@@ -3,18 +3,16 @@
 use clap::Args;
 use filters::{AdapterDescription, Filter, list_adapters};
 use suite::{Error, InputFormat};
-use tracer::{Location, SceneListing, list_scenes};
+use tracer::{SceneListing, list_scenes};
 
 use super::try_filters::try_filters;
-use crate::arguments::adapter::AdapterArgs;
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_json, print_note};
+use crate::arguments::{AdapterArgs, RootArgs};
+use crate::output::{print, print_json, print_note};
 use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
-use crate::tables::listing::{
+use crate::tables::{
     details_text, filter_json, filters_text, input_json, inputs_text, scene_json, scenes_text,
 };
 
-/// `shuttertruth list`
 #[derive(Debug, Args)]
 pub struct ListArgs {
     /// Things to list: scenes, filters, inputs, adapters, or names or patterns of scenes and filters, which are shown in detail
@@ -30,10 +28,8 @@ pub struct ListArgs {
         value_name = "FILTERS"
     )]
     pub filters: Vec<String>,
-    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
-    /// built-in where there is no such folder].
-    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
-    pub scenes_dir: Location,
+    #[command(flatten)]
+    pub root: RootArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
     /// Print JSON.
@@ -93,13 +89,13 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
 fn list_all(args: &ListArgs) -> Result<Listing, Error> {
     let wants = |what: &str| args.what.is_empty() || args.what.iter().any(|own| own == what);
     let mut listing = Listing::default();
-    if args.what.is_empty() && !args.scenes_dir.is_dir() {
-        let folder = &args.scenes_dir;
+    if args.what.is_empty() && !args.root.scenes_dir.is_dir() {
+        let folder = &args.root.scenes_dir;
         print_note(&format!(
             "no scenes: there is no folder {folder}; --scenes-dir names another one"
         ));
     } else if wants("scenes") {
-        listing.scenes = list_scenes(&args.scenes_dir)?;
+        listing.scenes = list_scenes(&args.root.scenes_dir)?;
     }
     if wants("filters") {
         listing.filters = builtin_filters()?;
@@ -112,8 +108,8 @@ fn list_named(args: &ListArgs) -> Result<Listing, Error> {
     let builtin = Filter::builtin_names();
     // Built-in filters can be listed where there are no scenes.
     let needs_scenes = args.what.iter().any(|what| !builtin.contains(what));
-    let scenes = match needs_scenes && args.scenes_dir.is_dir() {
-        true => list_scenes(&args.scenes_dir)?,
+    let scenes = match needs_scenes && args.root.scenes_dir.is_dir() {
+        true => list_scenes(&args.root.scenes_dir)?,
         false => Vec::new(),
     };
     let mut listing = Listing::default();

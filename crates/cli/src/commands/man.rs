@@ -7,9 +7,8 @@ use frame::FileError;
 use store::printable_path;
 use suite::Error;
 
-use crate::output::print::print;
+use crate::output::print;
 
-/// `shuttertruth man`
 #[derive(Debug, Args)]
 pub struct ManArgs {
     /// Folder for the pages: shuttertruth.1, and one for each command.

@@ -7,9 +7,7 @@ use suite::{EarlierCases, Error, Run, RunPlan, estimate_run, folder_for_size, me
 use super::expected::print_expected;
 use super::kept_truths::take_packed_truths;
 use super::run_plan::claim_out;
-use crate::output::count::count_text;
-use crate::output::print::print_note;
-use crate::output::verbosity::is_quiet;
+use crate::output::{count_text, is_quiet, print_note};
 
 /// A finished run.
 pub struct MeasuredRun {

@@ -8,11 +8,9 @@ use store::printable_path;
 use suite::{Error, holds_run, merge, merge_runs, refuse_failures};
 
 use super::run_files::write_run;
-use crate::output::count::count_text;
-use crate::output::print::print;
-use crate::tables::failures::failures_text;
+use crate::output::{count_text, print};
+use crate::tables::failures_text;
 
-/// `shuttertruth truths merge`
 #[derive(Debug, Args)]
 pub struct MergeArgs {
     /// Folders that `render --replicates A..B` wrote; or those of finished runs, each with other scenes or filters.

@@ -6,12 +6,9 @@ use clap::Args;
 use store::printable_path;
 use suite::{Error, Run, find_newer_sizes, write_pack};
 
-use crate::output::count::count_text;
-use crate::output::print::{print, print_json, print_note};
-use crate::output::progress::make_monitor;
+use crate::output::{count_text, make_monitor, print, print_json, print_note};
 use crate::selection::choose_names;
 
-/// `shuttertruth truths pack`
 #[derive(Debug, Args)]
 pub struct PackArgs {
     /// Folder of a finished run: --out of `run` or `check`.

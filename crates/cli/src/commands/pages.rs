@@ -48,6 +48,11 @@ pub fn refuse_folder(option: &str, path: Option<&PathBuf>) -> Result<(), Error> 
     }
 }
 
+/// Returns the page that is asked for, or report.html in a folder.
+pub fn page_path(html: Option<&PathBuf>, folder: &Path) -> PathBuf {
+    html.cloned().unwrap_or_else(|| folder.join("report.html"))
+}
+
 /// Writes the page of a run whose pictures lie below `folder`, and the files beside the page.
 pub fn write_run_page(
     run: &Run,

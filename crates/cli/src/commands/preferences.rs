@@ -8,10 +8,9 @@ use judge::Side;
 use study::{Study, StudyChoice, find_preferences, make_study, read_sessions, refuse_other_run};
 use suite::{Error, Run};
 
-use crate::output::print::{print, print_json};
-use crate::tables::preferences::preferences_table;
+use crate::output::{print, print_json};
+use crate::tables::preferences_table;
 
-/// `shuttertruth people preferences`
 #[derive(Debug, Args)]
 pub struct PreferencesArgs {
     /// Files of answers that the page of `people ask` saved, one per session.

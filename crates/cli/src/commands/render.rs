@@ -11,14 +11,12 @@ use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
-use crate::arguments::parse::{Replicates, above_zero, frame_count, parse_replicates, parse_size};
-use crate::arguments::scenes::SceneArgs;
-use crate::output::count::count_text;
-use crate::output::print::{print, print_scene_notes};
-use crate::output::progress::make_monitor;
+use crate::arguments::{
+    Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size,
+};
+use crate::output::{count_text, make_monitor, print, print_scene_notes};
 use crate::selection::{SceneChoice, select_scenes};
 
-/// `shuttertruth truths render`
 #[derive(Debug, Args)]
 pub struct RenderArgs {
     #[command(flatten)]
@@ -69,7 +67,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
         );
     }
     let mut noisy = Vec::new();
-    let choices = select_scenes(&args.scenes.scenes_dir, &args.scenes.names()?)?;
+    let choices = select_scenes(&args.scenes.root.scenes_dir, &args.scenes.names()?)?;
     print_scene_notes(choices.iter().map(|choice| &choice.scene));
     check_frames(args, &choices)?;
     print_expected_renders(args, &choices)?;

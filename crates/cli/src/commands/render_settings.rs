@@ -4,7 +4,7 @@ use store::MOST_REPLICATES;
 use suite::Error;
 use tracer::{MOST_SAMPLES, RenderSettings};
 
-use crate::arguments::scenes::SceneArgs;
+use crate::arguments::SceneArgs;
 
 /// Makes the settings of a render, for pictures of one size.
 pub fn make_render_settings(

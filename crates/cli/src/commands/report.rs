@@ -8,11 +8,9 @@ use report::{TuneFolder, tuning_page, write_gallery};
 use store::printable_path;
 use suite::{Error, Run, write_layers};
 
-use super::pages::{WrittenFile, page_lines, write_page, write_run_page};
-use crate::output::print::{print, print_json};
-use crate::output::progress::make_monitor;
+use super::pages::{WrittenFile, page_lines, page_path, write_page, write_run_page};
+use crate::output::{make_monitor, print, print_json};
 
-/// `shuttertruth report`
 #[derive(Debug, Args)]
 pub struct ReportArgs {
     /// run.json of a finished `run` or `check`, or its folder; or the folder of a `tune search`.
@@ -88,7 +86,7 @@ fn write_run_report(
     let mut pages = match &args.html {
         None if is_other_asked => Vec::new(),
         html => {
-            let html = html.clone().unwrap_or_else(|| folder.join("report.html"));
+            let html = page_path(html.as_ref(), folder);
             let judgement = Judgement::read(&run, folder)?;
             let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
             write_run_page(&run, &findings, folder, &html)?
@@ -119,9 +117,6 @@ fn write_tuning_report(args: &ReportArgs, folder: &Path) -> Result<Vec<WrittenFi
         );
     }
     let page = tuning_page(&TuneFolder::read(folder)?)?;
-    let html = args
-        .html
-        .clone()
-        .unwrap_or_else(|| folder.join("report.html"));
+    let html = page_path(args.html.as_ref(), folder);
     Ok(vec![write_page(&page, &html)?])
 }

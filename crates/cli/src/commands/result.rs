@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use store::printable_path;
 use suite::Error;
 
-use crate::output::print::print;
+use crate::output::print;
 
 /// A result, for people and for machines.
 pub struct CommandResult {

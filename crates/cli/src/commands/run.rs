@@ -9,23 +9,15 @@ use store::{printable, printable_path};
 use suite::{Error, Part, Run, open_gpu, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, refuse_folder, write_run_page};
+use super::pages::{WrittenFile, page_lines, page_path, refuse_folder, write_run_page};
 use super::run_files::{write_judged_run, write_run};
 use super::run_plan::{apply_options, make_plan, read_case_bounds};
-use crate::arguments::adapter::AdapterArgs;
-use crate::arguments::measure::MeasureArgs;
-use crate::arguments::parse::parse_named;
-use crate::arguments::run_options::RunOptions;
-use crate::output::print::print;
-use crate::output::progress::clock_text;
-use crate::tables::adapter::adapter_text;
-use crate::tables::cases::run_table;
-use crate::tables::columns::legend_text;
-use crate::tables::failures::failures_text;
-use crate::tables::ranking::ranking_text;
-use crate::tables::sequence::sequences_text;
+use crate::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
+use crate::output::{clock_text, print};
+use crate::tables::{
+    adapter_text, failures_text, legend_text, ranking_text, run_table, sequences_text,
+};
 
-/// `shuttertruth run`
 #[derive(Debug, Args)]
 pub struct RunArgs {
     #[command(flatten)]
@@ -76,7 +68,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         return refuse_failures(&run.failures);
     }
     // Cases of an earlier run keep their targets.
-    let root = &args.measure.scenes.scenes_dir;
+    let root = &args.measure.scenes.root.scenes_dir;
     for case in &whole.cases {
         if !bounds.contains_key(&case.scene)
             && let Some(earlier) = read_case_bounds(root, case, size)?
@@ -90,10 +82,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
         finding.level = Level::Report;
     }
     let json = write_judged_run(&whole, &findings, &plan.out)?;
-    let html = args
-        .html
-        .clone()
-        .unwrap_or_else(|| plan.out.join("report.html"));
+    let html = page_path(args.html.as_ref(), &plan.out);
     let pages = write_run_page(&whole, &findings, &plan.out, &html)?;
     if args.json {
         print(&format!("{json}\n"))?;

@@ -13,17 +13,13 @@ use tracer::{Location, RenderSettings, Scene, SceneId};
 
 use super::kept_truths::check_truths;
 use super::render_settings::make_render_settings;
-use crate::arguments::measure::MeasureArgs;
-use crate::arguments::run_options::RunOptions;
-use crate::arguments::scenes::SceneArgs;
-use crate::output::count::count_text;
-use crate::output::print::{print_note, print_scene_notes};
-use crate::output::progress::make_monitor;
+use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
+use crate::output::{count_text, make_monitor, print_note, print_scene_notes};
 use crate::selection::{select_engine_scenes, select_filters, select_scenes};
 
 /// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.
 pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
-    let scenes_dir = &args.scenes.scenes_dir;
+    let scenes_dir = &args.scenes.root.scenes_dir;
     let (engine_scenes, names) = select_engine_scenes(scenes_dir, &args.scenes.names()?)?;
     if let Some(scene) = engine_scenes.first() {
         refuse_render_options(&args.scenes, scene)?;

@@ -7,16 +7,13 @@ use frame::{Frame, Ladder, Truth};
 use metrics::Metric;
 use store::printable;
 use suite::{Error, Frames, Scored, engine_name, missing_scores, read_finished_picture, score};
-use tracer::Location;
 
 use super::convention::read_convention;
 use super::score_sequence;
-use crate::arguments::parse::{above_zero, frame_count};
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::print::{print, print_json};
-use crate::tables::cases::score_table;
+use crate::arguments::{RootArgs, above_zero, frame_count};
+use crate::output::{print, print_json};
+use crate::tables::score_table;
 
-/// `shuttertruth score`
 #[derive(Debug, Args)]
 pub struct ScoreArgs {
     /// The truth: truth_<alignment>.exr of `truths render` or `run`; of a sequence that of the first frame.
@@ -43,10 +40,8 @@ pub struct ScoreArgs {
     /// Frames per second at which the sequence is shown. No score but JOD depends on it. A scene at a frame rate is shown at that.
     #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = above_zero(1000.0))]
     pub fps: f64,
-    /// Folder that holds the scene, whose motion the scores of a sequence follow; built-in names the program's own [default: scenes,
-    /// or built-in where there is no such folder].
-    #[arg(help_heading = "Sequences", long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
-    pub scenes_dir: Location,
+    #[command(flatten, next_help_heading = "Sequences")]
+    pub root: RootArgs,
     /// Print all scores as JSON instead of the table.
     #[arg(help_heading = "Output", long)]
     pub json: bool,
@@ -66,7 +61,9 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let scored = score(&picture, &frame, &truth, ladder.as_ref())
         .map_err(|error| Error::Usage(format!("{}: {error}", args.image.display())))?;
     if args.json {
-        print_json(&scores_json(args, &truth, &scored))
+        let mut json = scored_json(args, &truth, &scored.notes, &scored.scores);
+        json["truth_hash"] = truth.provenance.content_hash.as_str().into();
+        print_json(&json)
     } else {
         print(&scores_text(args, &truth, &scored))
     }
@@ -131,10 +128,12 @@ fn names_ladder(metrics: &[Metric]) -> bool {
     (metrics.iter()).any(|metric| matches!(metric, Metric::Equivalent(_) | Metric::Skill(_)))
 }
 
-fn scores_json(
+/// Describes what was scored as JSON.
+pub fn scored_json(
     args: &ScoreArgs,
     truth: &Truth,
-    Scored { scores, notes }: &Scored,
+    notes: &[String],
+    scores: impl serde::Serialize,
 ) -> serde_json::Value {
     serde_json::json!({
         "format": suite::FORMAT,
@@ -143,7 +142,6 @@ fn scores_json(
         "scene": truth.provenance.scene,
         "exposure": truth.shutter.exposure(),
         "alignment": truth.alignment.name(),
-        "truth_hash": truth.provenance.content_hash,
         "notes": notes,
         "scores": scores,
     })

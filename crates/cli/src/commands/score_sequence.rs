@@ -10,10 +10,10 @@ use suite::{
 use tracer::Scene;
 
 use super::convention::read_convention;
-use super::score::ScoreArgs;
-use crate::output::print::{print, print_json};
+use super::score::{ScoreArgs, scored_json};
+use crate::output::{print, print_json};
 use crate::selection::select_scenes;
-use crate::tables::sequence::score_sequence_table;
+use crate::tables::score_sequence_table;
 
 /// Scores the numbered pictures of a folder, and prints their scores over time.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
@@ -80,7 +80,7 @@ fn load_scene(args: &ScoreArgs, first: &SequenceTruth) -> Result<Scene, Error> {
             "is the truth of a later frame, {name}; name that of the first frame"
         ));
     }
-    let choices = select_scenes(args.scenes_dir.clone(), std::slice::from_ref(&name));
+    let choices = select_scenes(args.root.scenes_dir.clone(), std::slice::from_ref(&name));
     let mut choices = choices.map_err(|error| {
         Error::Usage(format!(
             "{}: is of the scene {name}, whose motion the scores of a sequence follow; name the folder that holds it with \
@@ -139,17 +139,9 @@ fn scores_json(
             "flicker": flicker,
         })
     });
-    serde_json::json!({
-        "format": suite::FORMAT,
-        "program": suite::PROGRAM,
-        "image": args.image,
-        "scene": first.provenance.scene,
-        "exposure": first.shutter.exposure(),
-        "alignment": first.alignment.name(),
-        "per_second": per_second,
-        "notes": notes,
-        "scores": scored.scores,
-        "worst_frames": worst_frames(scored),
-        "frames": frames.collect::<Vec<_>>(),
-    })
+    let mut json = scored_json(args, first, notes, &scored.scores);
+    json["per_second"] = per_second.into();
+    json["worst_frames"] = serde_json::json!(worst_frames(scored));
+    json["frames"] = frames.collect();
+    json
 }

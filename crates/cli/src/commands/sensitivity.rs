@@ -10,12 +10,10 @@ use super::candidate::{
     print_expected_scoring, select_candidate,
 };
 use super::result::CommandResult;
-use crate::arguments::candidate::CandidateArgs;
-use crate::arguments::parse::within;
-use crate::output::progress::make_monitor;
-use crate::tables::sensitivity::sensitivity_table;
+use crate::arguments::{CandidateArgs, within};
+use crate::output::make_monitor;
+use crate::tables::sensitivity_table;
 
-/// `shuttertruth tune sensitivity`
 #[derive(Debug, Args)]
 pub struct SensitivityArgs {
     #[command(flatten)]

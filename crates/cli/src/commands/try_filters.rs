@@ -3,8 +3,7 @@
 use filters::{Filter, FilterError, Limits, try_out};
 use suite::{Error, open_adapter};
 
-use crate::output::print::print_note;
-use crate::output::progress::make_silent_monitor;
+use crate::output::{make_silent_monitor, print_note};
 
 /// Holds kernels to the adapter's limits and runs them with every preset and at both ends of every range. Without an adapter,
 /// holds them to the lowest common limits, and says so.

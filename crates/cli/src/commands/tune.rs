@@ -18,14 +18,10 @@ use super::candidate::{
 use super::render_settings::make_render_settings;
 use super::result::CommandResult;
 use super::run_plan::load_scenes;
-use crate::arguments::candidate::CandidateArgs;
-use crate::arguments::parse::{above_zero, parse_ratio, parse_size, within};
-use crate::output::print::print_error;
-use crate::output::progress::make_monitor;
-use crate::output::verbosity::is_quiet;
-use crate::tables::tuning::{advice_text, tuning_table};
+use crate::arguments::{CandidateArgs, above_zero, parse_ratio, parse_size, within};
+use crate::output::{is_quiet, make_monitor, print_error};
+use crate::tables::{advice_text, tuning_table};
 
-/// `shuttertruth tune search`
 #[derive(Debug, Args)]
 pub struct TuneArgs {
     #[command(flatten)]
@@ -119,7 +115,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     let space = Space::new(&choice.filter, choice.settings.clone(), &args.vary)?;
     let held_out = match args.held_out.as_slice() {
         [] => Vec::new(),
-        words => load_scenes(&scene_args.scenes_dir, words, Some(args.held_out_size))?,
+        words => load_scenes(&scene_args.root.scenes_dir, words, Some(args.held_out_size))?,
     };
     let mut open = load_candidate_scenes(candidate)?;
     if scene_args.scenes.is_empty() {

@@ -5,23 +5,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use frame::{FileError, Tile};
-use serde::Serialize;
+use serde_json::json;
 use store::{Pack, printable_path};
 use suite::{
     Error, SceneRenders, TILE_SIDE, Verification, Verified, list_scene_renders, verify_scene,
 };
-use tracer::Location;
 
 use super::ending::Ending;
 use super::kept_truths::choose_seed;
-use crate::arguments::parse::within;
-use crate::arguments::scenes_root::{default_scenes_root, scenes_root_parser};
-use crate::output::count::count_text;
-use crate::output::print::{print, print_json};
-use crate::output::progress::make_monitor;
+use crate::arguments::{RootArgs, within};
+use crate::output::{count_text, make_monitor, print, print_json};
 use crate::selection::{choose_names, select_scenes};
 
-/// `shuttertruth truths verify`
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
     /// Pack, or folder into which `run`, `check` or `truths render` wrote.
@@ -35,10 +30,8 @@ pub struct VerifyArgs {
         value_name = "SCENES"
     )]
     pub scenes: Vec<String>,
-    /// Folder that holds the scenes; built-in names the program's own [default: scenes, or
-    /// built-in where there is no such folder].
-    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
-    pub scenes_dir: Location,
+    #[command(flatten)]
+    pub root: RootArgs,
     /// Seed of the choice of replicates, rungs and tiles [default: another one each time, which is printed].
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
@@ -76,7 +69,7 @@ pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
         differences => Err(Error::Broken(differences.join("\n"))),
     };
     if args.json {
-        print_json(&Json::new(&verified, &verification))?;
+        print_json(&verified_json(&verified, &verification))?;
         return match result {
             Ok(()) => Ok(Ending::Done),
             Err(error) => Ok(Ending::Failed(error)),
@@ -115,7 +108,7 @@ fn verify_named(
     verification: &Verification,
 ) -> Result<Verified, Error> {
     let mut verified = Verified::default();
-    let choices = select_scenes(&args.scenes_dir, &[name.to_owned()]).map_err(|error| {
+    let choices = select_scenes(&args.root.scenes_dir, &[name.to_owned()]).map_err(|error| {
         Error::Usage(format!(
             "{}: cannot be traced again: {error}; truths of an engine only that engine can draw again: name the scenes to verify with \
              --scenes",
@@ -141,43 +134,21 @@ fn verified_text(truths: &Path, verified: &Verified, verification: &Verification
     )
 }
 
-/// What was verified, for machines.
-#[derive(Serialize)]
-struct Json<'a> {
-    /// Seed of the choice.
-    seed: u64,
-    /// Truths that are equal to the mean of their replicates.
-    truths: usize,
-    /// Tiles that are equal.
-    tiles: Vec<JsonTile<'a>>,
-    /// What differs, and what to do.
-    differences: &'a [String],
-}
-
-/// A tile of a file, in pixels from the top left.
-#[derive(Serialize)]
-struct JsonTile<'a> {
-    file: &'a Path,
-    x: u32,
-    y: u32,
-    width: u32,
-    height: u32,
-}
-
-impl<'a> Json<'a> {
-    fn new(verified: &'a Verified, verification: &Verification) -> Self {
-        let tile = |(file, tile): &'a (PathBuf, Tile)| JsonTile {
-            file,
-            x: tile.x,
-            y: tile.y,
-            width: tile.width,
-            height: tile.height,
-        };
-        Self {
-            seed: verification.seed,
-            truths: verified.truths,
-            tiles: verified.tiles.iter().map(tile).collect(),
-            differences: &verified.differences,
-        }
-    }
+/// Describes what was verified as JSON, tiles in pixels from the top left.
+fn verified_json(verified: &Verified, verification: &Verification) -> serde_json::Value {
+    let tiles = verified.tiles.iter().map(|(file, tile)| {
+        let Tile {
+            x,
+            y,
+            width,
+            height,
+        } = tile;
+        json!({"file": file, "x": x, "y": y, "width": width, "height": height})
+    });
+    json!({
+        "seed": verification.seed,
+        "truths": verified.truths,
+        "tiles": tiles.collect::<Vec<_>>(),
+        "differences": verified.differences,
+    })
 }

@@ -1,9 +1,15 @@
 //! Text for terminals, logs and services that read checks.
 
-pub mod colors;
-pub mod count;
-pub mod interrupts;
-pub mod print;
-pub mod progress;
-pub mod verbosity;
-pub mod wrap;
+mod colors;
+mod interrupts;
+mod print;
+mod progress;
+mod verbosity;
+mod wrap;
+
+pub use self::colors::*;
+pub use self::interrupts::*;
+pub use self::print::*;
+pub use self::progress::*;
+pub use self::verbosity::*;
+pub use self::wrap::*;

@@ -7,7 +7,7 @@ use store::{printable, printable_lines, printable_table};
 use suite::Error;
 use tracer::Scene;
 
-use super::wrap::push_wrapped;
+use super::push_wrapped;
 
 /// Prints to standard output, in colours where that is a terminal that shows them; other control characters become escapes. A
 /// reader that has read enough, such as `head`, is no error.

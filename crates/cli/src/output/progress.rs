@@ -11,9 +11,7 @@ use suite::{Monitor, Step};
 use terminal_size::{Width, terminal_size_of};
 use tracer::Progress;
 
-use super::interrupts::was_interrupted;
-use super::print::print_error;
-use super::verbosity::is_quiet;
+use super::{is_quiet, print_error, was_interrupted};
 
 /// Time between two lines of a log, where no terminal shows a bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);

@@ -1,11 +1,11 @@
-//! Lines that fit a terminal.
+//! Lines that fit a terminal, and counts in them.
 
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 
 use terminal_size::{Width, terminal_size_of};
 
-use crate::output::colors::width;
+use super::width;
 
 /// Columns of printed text where no terminal tells its own.
 const USUAL_COLUMNS: usize = 80;
@@ -44,6 +44,14 @@ pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
         column += length;
     }
     *text += "\n";
+}
+
+/// Counts things: `1 case`, `2 cases`.
+pub fn count_text(count: usize, one: &str, many: &str) -> String {
+    match count {
+        1 => format!("1 {one}"),
+        count => format!("{count} {many}"),
+    }
 }
 
 #[cfg(test)]

@@ -5,8 +5,7 @@ use std::path::Path;
 use filters::Filter;
 use suite::{Error, FilterChoice};
 
-use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};
-use super::path::is_path;
+use super::names::{is_path, is_pattern, match_names, refuse_empty_names, suggest_names};
 
 /// Permission to select filters that are programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,6 +11,11 @@ pub fn is_pattern(text: &str) -> bool {
     text.contains(['*', '?', '['])
 }
 
+/// Tells whether a text is a path. A path has a separator; a text without one is a name, whatever lies in the current folder.
+pub fn is_path(text: &str) -> bool {
+    text.contains(['/', '\\'])
+}
+
 /// Lists the known names that a pattern matches.
 ///
 /// # Errors

@@ -5,8 +5,7 @@ use std::path::Path;
 use suite::{EngineScene, Error};
 use tracer::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 
-use super::names::{is_pattern, match_names, refuse_empty_names, suggest_names};
-use super::path::is_path;
+use super::names::{is_path, is_pattern, match_names, refuse_empty_names, suggest_names};
 
 /// A loaded scene and the folder that it came from.
 pub struct SceneChoice {

@@ -6,7 +6,7 @@ use judge::{Check, Decision, Finding, number};
 use report::{finding_line, length_text, limit_text, way_out};
 use store::printable;
 
-use super::check::{comparison_line, count_lines, verdict_word};
+use super::{comparison_line, count_lines, verdict_word};
 
 /// Upper limit that GitHub sets on the annotations of a step.
 const MOST_ANNOTATIONS: usize = 10;
@@ -79,7 +79,7 @@ pub fn summary(check: &Check) -> String {
         let _ = writeln!(text, "\nand {} more", notable.len() - MOST_ROWS);
     }
     if !check.comparisons.is_empty() {
-        text += "\n### RunComparison with the baseline\n\n";
+        text += "\n### Comparison with the baseline\n\n";
         for comparison in &check.comparisons {
             let _ = writeln!(text, "- {}", escape_cell(&comparison_line(comparison)));
         }

@@ -3,15 +3,16 @@
 use engine::{CaptureAudit, ObjectAudit, ObjectShown};
 use suite::engine_name;
 
-use super::columns::number_table;
-use crate::output::wrap::push_wrapped;
+use super::Table;
+use crate::output::push_wrapped;
 
 /// Lists, per object, what the engine shows of it and the error of its velocity, then the error of depth, then what is wrong.
 pub fn audit_table(audit: &CaptureAudit) -> String {
     let [width, height] = audit.size;
-    let mut table = number_table(&[
-        "object", "pixels", "shown", "compared", "speed", "error", "95 %", "worst", "at", "scale",
-    ]);
+    let columns = [
+        "pixels", "shown", "compared", "speed", "error", "95 %", "worst", "at", "scale",
+    ];
+    let mut table = Table::new("object", columns);
     let mut compared = 0;
     for ObjectShown {
         object,
@@ -19,19 +20,12 @@ pub fn audit_table(audit: &CaptureAudit) -> String {
         shown,
     } in &audit.objects
     {
-        let mut row = vec![
-            object.clone(),
-            pixels.to_string(),
-            format!("{:.1} %", 100.0 * shown),
-        ];
-        match audit.velocity.iter().find(|own| own.object == *object) {
-            Some(velocity) => {
-                compared += velocity.pixels;
-                row.extend(list_errors(velocity));
-            }
-            None => row.extend(["0", "n/a", "n/a", "n/a", "n/a", "n/a", "n/a"].map(str::to_owned)),
-        }
-        table.push(row);
+        let velocity = audit.velocity.iter().find(|own| own.object == *object);
+        compared += velocity.map_or(0, |own| own.pixels);
+        let none = || ["0", "n/a", "n/a", "n/a", "n/a", "n/a", "n/a"].map(str::to_owned);
+        let errors = velocity.map_or_else(none, list_errors);
+        let shown = [pixels.to_string(), format!("{:.1} %", 100.0 * shown)];
+        table.push(object, shown.into_iter().chain(errors));
     }
     let pixels = f64::from(width) * f64::from(height);
     let mut text = format!(

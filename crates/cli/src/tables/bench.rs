@@ -1,11 +1,10 @@
 //! Tables of a bench.
 
 use filters::Clock;
-use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, ReachCost, Spread};
+use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
 
-use super::columns::number_table;
-use super::layout::Table;
-use crate::output::wrap::push_wrapped;
+use super::Table;
+use crate::output::push_wrapped;
 
 /// Makes the tables: cost per filter and pass, then cost against reach.
 pub fn bench_table(bench: &Bench) -> String {
@@ -27,24 +26,23 @@ pub fn bench_table(bench: &Bench) -> String {
 
 fn push_costs(text: &mut String, bench: &Bench) {
     *text += &format!("panels that move {} pixels\n", bench.speed);
-    let mut table = number_table(&["filter / pass", "ms", "x baseline", "B/px", "of copy"]);
+    let mut table = Table::new("filter / pass", ["ms", "x baseline", "B/px", "of copy"]);
     for case in &bench.cases {
-        table.push(vec![
-            filter_name(&case.filter, &case.preset),
+        let cells = [
             spread_text(&case.seconds, 1e3),
             spread_text(&case.ratio, 1.0),
             format!("{:.0}", case.bytes_per_pixel),
             format!("{:.0}%", 100.0 * case.part_of_copy),
-        ]);
+        ];
+        table.push(format!("{}:{}", case.filter, case.preset), cells);
         push_passes(&mut table, case);
     }
-    table.push(vec![
-        "copy of a buffer".to_owned(),
-        spread_text(&bench.copy.seconds, 1e3),
-        String::new(),
-        String::new(),
-        format!("{:.1} GB/s", bench.copy.bytes_per_second * 1e-9),
-    ]);
+    let copy = spread_text(&bench.copy.seconds, 1e3);
+    let speed = format!("{:.1} GB/s", bench.copy.bytes_per_second * 1e-9);
+    table.push(
+        "copy of a buffer",
+        [copy, String::new(), String::new(), speed],
+    );
     *text += &table.text();
     *text += "\n";
     let legend = format!(
@@ -61,45 +59,32 @@ fn push_passes(table: &mut Table, case: &CaseCost) {
             1 => String::new(),
             iterations => format!(" x {iterations}"),
         };
-        table.push(vec![
-            format!("  {}{times}", pass.entry),
-            spread_text(&pass.seconds, 1e3),
-            String::new(),
-            format!("{:.0}", pass.bytes_per_pixel),
-            String::new(),
-        ]);
+        let time = spread_text(&pass.seconds, 1e3);
+        let bytes = format!("{:.0}", pass.bytes_per_pixel);
+        let name = format!("  {}{times}", pass.entry);
+        table.push(name, [time, String::new(), bytes, String::new()]);
     }
 }
 
 fn push_reaches(text: &mut String, bench: &Bench) {
     let last = REACHES[REACHES.len() - 1];
-    let mut titles = vec!["ms at a reach of (pixels)".to_owned()];
-    titles.extend(REACHES.iter().map(u32::to_string));
-    titles.push(format!("{last} / {GROWTH_FROM}"));
-    let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
-    let mut table = number_table(&titles);
+    let reaches = REACHES.iter().map(u32::to_string);
+    let growth = format!("{last} / {GROWTH_FROM}");
+    let mut table = Table::new("ms at a reach of (pixels)", reaches.chain([growth]));
     for cost in &bench.reaches {
-        table.push(reach_cells(cost));
+        let times = cost.points.iter().map(|point| match &point.seconds {
+            Some(seconds) if seconds.median < 0.1 => format!("{:.2}", 1e3 * seconds.median),
+            Some(seconds) => format!("{:.0}", 1e3 * seconds.median),
+            None => "n/a".to_owned(),
+        });
+        let growth = cost.growth.as_ref();
+        let growth = growth.map_or("n/a".to_owned(), |growth| spread_text(growth, 1.0));
+        table.push(
+            format!("{}:{}", cost.filter, cost.preset),
+            times.chain([growth]),
+        );
     }
     *text += &table.text();
-}
-
-fn reach_cells(cost: &ReachCost) -> Vec<String> {
-    let mut cells = vec![filter_name(&cost.filter, &cost.preset)];
-    cells.extend(cost.points.iter().map(|point| match &point.seconds {
-        Some(seconds) if seconds.median < 0.1 => format!("{:.2}", 1e3 * seconds.median),
-        Some(seconds) => format!("{:.0}", 1e3 * seconds.median),
-        None => "n/a".to_owned(),
-    }));
-    cells.push(match &cost.growth {
-        Some(growth) => spread_text(growth, 1.0),
-        None => "n/a".to_owned(),
-    });
-    cells
-}
-
-fn filter_name(filter: &str, preset: &str) -> String {
-    format!("{filter}:{preset}")
 }
 
 fn spread_text(spread: &Spread, factor: f64) -> String {

@@ -5,11 +5,8 @@ use metrics::{Metric, Scores};
 use store::printable;
 use suite::{Case, Run};
 
-use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
-use super::layout::Table;
-use super::missing::Missing;
-use super::scene_means::means_table;
-use crate::output::colors;
+use super::{Column, Missing, Table, bracket_name, legend_text, list_once, means_table};
+use crate::output::heading;
 
 const CASE_COLUMNS: [Column; 7] = [
     ("FLIP", Metric::FLIP),
@@ -32,16 +29,15 @@ pub fn run_table(run: &Run) -> String {
         let name = scene.to_string();
         let of_scene = || run.cases.iter().filter(|case| case.scene == *scene);
         for alignment in list_once(of_scene().map(|case| case.alignment)) {
-            table.push_text(&colors::heading(&format!("{scene}, {alignment} shutter")));
+            table.push_text(heading(&format!("{scene}, {alignment} shutter")));
             for case in of_scene().filter(|case| case.alignment == alignment) {
                 let row = bracket_name(&case.name(), case.is_reference);
-                let mut cells = case_cells(&row, &case.scores);
-                cells.extend([noise_cell(case), case.score_text(Metric::CommonFlip)]);
+                let more = [noise_cell(case), case.score_text(Metric::CommonFlip)];
                 let columns = CASE_COLUMNS.into_iter();
                 for (title, metric) in columns.chain([(COMMON_FLIP, Metric::CommonFlip)]) {
                     missing.note(title, &case.measured(metric), [&name, &row]);
                 }
-                table.push_styled(cells, row_style(case.is_reference));
+                table.push_row(case.is_reference, row, case_cells(&case.scores).chain(more));
             }
         }
     }
@@ -67,25 +63,19 @@ const KEY: &str = "Skill by FLIP: 0 is a sharp picture of the shutter's middle, 
 /// Makes the table of one picture's scores, in the manner of [`run_table`].
 pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {
     let mut table = case_table("scene / picture", &[]);
-    table.push_text(&printable(scene));
-    table.push(case_cells(&printable(picture), scores));
+    table.push_text(printable(scene));
+    table.push(printable(picture), case_cells(scores));
     table.text() + &legend_text(KEY)
 }
 
-fn case_table(title: &str, more: &[&str]) -> Table {
+fn case_table(title: &str, more: &[&'static str]) -> Table {
     let scores = CASE_COLUMNS.iter().map(|(title, _)| *title);
-    let titles: Vec<&str> = std::iter::once(title)
-        .chain(scores)
-        .chain(more.iter().copied())
-        .collect();
-    number_table(&titles)
+    Table::new(title, scores.chain(more.iter().copied()))
 }
 
-fn case_cells(name: &str, scores: &Scores) -> Vec<String> {
-    let texts = CASE_COLUMNS
-        .iter()
-        .map(|(_, metric)| scores.text(*metric, scores.get(*metric).value()));
-    std::iter::once(name.to_owned()).chain(texts).collect()
+fn case_cells(scores: &Scores) -> impl Iterator<Item = String> {
+    let metrics = CASE_COLUMNS.iter().map(|(_, metric)| *metric);
+    metrics.map(|metric| scores.text(metric, scores.get(metric).value()))
 }
 
 /// Formats the part of the squared error that is the filter's noise.

@@ -7,10 +7,8 @@ use judge::{BaselineComparison, Check, Decision, Finding, Level, Outcome, number
 use report::{finding_score, finding_status, length_text, way_out, worst_frame_text};
 use store::printable_path;
 
-use crate::output::colors::{bad, doubtful, good, heading};
-use crate::output::count::count_text;
-use crate::output::wrap::push_wrapped;
-use crate::tables::failures::failures_text;
+use super::failures_text;
+use crate::output::{bad, count_text, doubtful, good, heading, push_wrapped};
 
 /// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then comparisons, then counts. Targets, which
 /// fail nothing, are listed where `targets` asks for them. `out` is the folder of the run's pictures.
@@ -129,10 +127,7 @@ pub fn comparison_line(comparison: &BaselineComparison) -> String {
         margin,
         ..
     } = comparison;
-    let scenes = match scenes {
-        1 => "1 scene".to_owned(),
-        count => format!("{count} scenes"),
-    };
+    let scenes = count_text(*scenes, "scene", "scenes");
     format!(
         "{}: {filter} {metric}, worse by {} over {scenes}, one-sided 95 % bounds {} and {}; margin {}",
         comparison.kind.label(),

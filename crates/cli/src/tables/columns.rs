@@ -2,9 +2,11 @@
 
 use metrics::Metric;
 
-use super::layout::{Align, Table};
-use crate::output::colors;
-use crate::output::wrap::push_wrapped;
+use super::Table;
+use crate::output::{faint, push_wrapped};
+
+/// Columns side by side of a table that has many.
+const ABREAST: usize = 3;
 
 /// A column: its title and its score.
 pub type Column = (&'static str, Metric);
@@ -21,22 +23,7 @@ pub fn bracket_name(name: &str, is_reference: bool) -> String {
 pub fn legend_text(text: &str) -> String {
     let mut lines = String::new();
     push_wrapped(&mut lines, 0, text);
-    colors::faint(&lines)
-}
-
-/// Chooses the style of a row: references are dimmed.
-pub fn row_style(is_reference: bool) -> fn(&str) -> String {
-    match is_reference {
-        true => colors::faint,
-        false => str::to_owned,
-    }
-}
-
-/// Begins a table: names, then numbers.
-pub fn number_table(titles: &[&str]) -> Table {
-    let mut align = vec![Align::Right; titles.len()];
-    align[0] = Align::Left;
-    Table::new(titles, &align)
+    faint(&lines)
 }
 
 /// Lists each thing once, in order.
@@ -48,4 +35,22 @@ pub fn list_once<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
         }
     }
     listed
+}
+
+/// Makes tables with a few columns side by side, so that a row fits a terminal.
+pub fn abreast_text<R>(
+    title: &str,
+    columns: &[&str],
+    rows: &[R],
+    name: impl Fn(&R) -> String,
+    cell: impl Fn(&R, &str) -> String,
+) -> String {
+    let tables = columns.chunks(ABREAST).map(|columns| {
+        let mut table = Table::new(title, columns.iter().copied());
+        for row in rows {
+            table.push(name(row), columns.iter().map(|column| cell(row, column)));
+        }
+        table.text()
+    });
+    tables.collect()
 }

@@ -7,10 +7,8 @@ use metrics::Metric;
 use report::ChangeCells;
 use store::printable;
 
-use super::layout::{Align, Table};
-use crate::output::colors::{bad, doubtful, faint, good};
-use crate::output::count::count_text;
-use crate::output::wrap::push_wrapped;
+use super::Table;
+use crate::output::{bad, count_text, doubtful, faint, good, push_wrapped};
 
 /// Upper limit on changed cases in the table; `--json` and the page have all.
 const CASES: usize = 12;
@@ -58,7 +56,7 @@ fn means_table(means: &[MeanChange]) -> String {
     for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
         if filter != mean.filter {
             filter = &mean.filter;
-            table.push_text(&format!(
+            table.push_text(format!(
                 "{filter}, {}",
                 count_text(mean.scenes, "scene", "scenes")
             ));
@@ -101,7 +99,7 @@ fn changes_table(changes: &[Change]) -> String {
     }
     let mut table = change_table("scene / filter");
     for (scene, filter) in ranked.iter().take(CASES) {
-        table.push_text(&format!("{scene} / {filter}"));
+        table.push_text(format!("{scene} / {filter}"));
         let own = changes
             .iter()
             .filter(|change| change.scene == **scene && change.filter == *filter);
@@ -124,26 +122,15 @@ fn changes_table(changes: &[Change]) -> String {
 }
 
 fn change_table(title: &str) -> Table {
-    Table::new(
-        &[title, "first", "second", "change", "95 % CI"],
-        &[
-            Align::Left,
-            Align::Right,
-            Align::Right,
-            Align::Left,
-            Align::Right,
-        ],
-    )
+    Table::new(title, ["first", "second", "change", "95 % CI"]).with_words_in(3)
 }
 
 fn push_change(table: &mut Table, metric: Metric, cells: ChangeCells, style: fn(&str) -> String) {
-    table.push(vec![
+    let change = style(&cells.change);
+    table.push(
         metric.name(),
-        cells.first,
-        cells.second,
-        style(&cells.change),
-        cells.interval,
-    ]);
+        [cells.first, cells.second, change, cells.interval],
+    );
 }
 
 fn counts(changes: &[Change]) -> String {

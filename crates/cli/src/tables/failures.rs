@@ -3,8 +3,7 @@
 use store::{printable, printable_lines};
 use suite::Failure;
 
-use crate::output::colors::{bad, heading};
-use crate::output::wrap::push_wrapped;
+use crate::output::{bad, heading, push_wrapped};
 
 /// Lists every failure with its reason; empty where there is none.
 pub fn failures_text(failures: &[Failure]) -> String {

@@ -4,10 +4,7 @@ use metrics::Metric;
 use suite::{Case, InputFormat};
 use tracer::FrameRate;
 
-use super::columns::{legend_text, list_once, number_table};
-
-/// Columns side by side, so that a row fits a terminal.
-const COLUMNS_ABREAST: usize = 3;
+use super::{abreast_text, legend_text, list_once};
 
 /// Makes a row per frame rate and rule of the shutter, and a column per filter and per picture of doing nothing: the mean FLIP over the
 /// scenes. Empty for a run of one rate.
@@ -17,18 +14,10 @@ pub fn frame_rates_text(cases: &[Case]) -> String {
         return String::new();
     }
     let columns: Vec<String> = cases.iter().filter_map(column).collect();
-    let mut text = String::from("\n");
-    for columns in list_once(columns.iter().map(String::as_str)).chunks(COLUMNS_ABREAST) {
-        let titles: Vec<&str> = std::iter::once("frame rate")
-            .chain(columns.iter().copied())
-            .collect();
-        let mut table = number_table(&titles);
-        for row in &rows {
-            let means = columns.iter().map(|name| mean_flip(cases, row, name));
-            table.push(std::iter::once(row.title()).chain(means).collect());
-        }
-        text += &table.text();
-    }
+    let columns = list_once(columns.iter().map(String::as_str));
+    let cell = |row: &Row, name: &str| mean_flip(cases, row, name);
+    let mut text = "\n".to_owned();
+    text += &abreast_text("frame rate", &columns, &rows, Row::title, cell);
     text += "\n";
     text += &legend_text(
         "Mean FLIP at each frame rate, against the truths of that rate. [identity] is doing nothing. Compare the filters of one row, \

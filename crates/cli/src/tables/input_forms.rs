@@ -4,10 +4,7 @@ use judge::list_summarized;
 use metrics::Metric;
 use suite::{Case, InputFormat};
 
-use super::columns::{legend_text, list_once, number_table};
-
-/// Filters side by side, so that a row fits a terminal.
-const FILTERS_ABREAST: usize = 3;
+use super::{abreast_text, legend_text, list_once};
 
 /// Makes a row per form of the input and a column per filter: the change of mean FLIP against the full form. Empty for a run that
 /// tried no other form. Rules of the shutter, which change nothing at the frame rate of the scenes' files, stand in the table of
@@ -30,25 +27,14 @@ pub fn input_forms_text(cases: &[Case]) -> String {
         .copied()
         .collect();
     let names: Vec<String> = full.iter().map(|case| case.name()).collect();
-    let mut text = String::from("\n");
-    for names in list_once(names.iter().map(String::as_str)).chunks(FILTERS_ABREAST) {
-        let titles: Vec<&str> = std::iter::once("form of the input")
-            .chain(names.iter().copied())
-            .collect();
-        let mut table = number_table(&titles);
-        for change in &changes {
-            let cost = |name: &&str| {
-                mean_cost(&cases, &full, name, change)
-                    .map_or("n/a".to_owned(), |cost| format!("{cost:+.3}"))
-            };
-            table.push(
-                std::iter::once((*change).to_owned())
-                    .chain(names.iter().map(cost))
-                    .collect(),
-            );
-        }
-        text += &table.text();
-    }
+    let names = list_once(names.iter().map(String::as_str));
+    let cell = |change: &&str, name: &str| {
+        mean_cost(&cases, &full, name, change)
+            .map_or("n/a".to_owned(), |cost| format!("{cost:+.3}"))
+    };
+    let name = |change: &&str| (*change).to_owned();
+    let mut text = "\n".to_owned();
+    text += &abreast_text("form of the input", &names, &changes, name, cell);
     text += "\n";
     text += &legend_text("Change of the mean FLIP against the full form of the input; + is worse.");
     text

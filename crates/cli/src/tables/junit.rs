@@ -4,7 +4,7 @@ use judge::{Check, Decision, Finding, Level, Outcome};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use report::{finding_line, way_out, worst_frame_text};
 
-use super::check::comparison_line;
+use super::comparison_line;
 
 /// Makes the document. A case that failed and a broken required bound are failures; an inconclusive one and one whose limit lies within the noise are
 /// errors; what does not apply or was not judged, and what is broken but only reported, is skipped.

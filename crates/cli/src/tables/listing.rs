@@ -5,8 +5,7 @@ use store::printable;
 use suite::InputKind;
 use tracer::SceneListing;
 
-use crate::output::colors::heading;
-use crate::output::wrap::push_wrapped;
+use crate::output::{heading, push_wrapped};
 
 /// Lists scenes, one short paragraph each.
 pub fn scenes_text(scenes: &[SceneListing]) -> String {

@@ -3,7 +3,7 @@
 use metrics::Measured;
 use store::printable;
 
-use super::columns::legend_text;
+use super::legend_text;
 
 /// Scores that a table lacks, by their reasons.
 #[derive(Default)]

@@ -5,9 +5,8 @@ use study::{
     FEWEST_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
 };
 
-use super::columns::{legend_text, number_table};
-use crate::output::colors;
-use crate::output::wrap::push_wrapped;
+use super::{Table, legend_text};
+use crate::output::{count_text, heading, push_wrapped};
 
 /// Meaning of the columns of a scale.
 const SCALE_KEY: &str = "Scale: 1 more means that three of four would choose the filter (Bradley and Terry, with Jeffreys' prior); \
@@ -31,11 +30,11 @@ pub fn preferences_table(found: &Preferences) -> String {
 }
 
 fn push_question(text: &mut String, found: &QuestionResult) {
-    *text += &format!("{}\n", colors::heading(found.question.text()));
+    *text += &format!("{}\n", heading(found.question.text()));
     let answers: usize = found.sessions.iter().map(|own| own.answers).sum();
     let mut facts = format!(
         "{}, {answers} answers",
-        count(found.sessions.len(), "session")
+        count_text(found.sessions.len(), "session", "sessions")
     );
     if let Some(left) = found.left {
         facts += &format!("; {:.0} % of the choices of a side were left", 100.0 * left);
@@ -56,7 +55,10 @@ fn push_checks(text: &mut String, found: &QuestionResult) {
     let sum =
         |count: fn(&study::SessionFacts) -> usize| found.sessions.iter().map(count).sum::<usize>();
     let (checks, failed) = (sum(|own| own.checks), sum(|own| own.failed_checks));
-    let mut line = format!("{failed} of {} failed", count(checks, "check"));
+    let mut line = format!(
+        "{failed} of {} failed",
+        count_text(checks, "check", "checks")
+    );
     let names = found
         .sessions
         .iter()
@@ -73,24 +75,18 @@ fn push_checks(text: &mut String, found: &QuestionResult) {
 }
 
 fn push_scale(text: &mut String, scale: &ShutterScale) {
-    let mut table = number_table(&[
-        &format!("{} shutter", scale.alignment),
-        "scale",
-        "95 % CI",
-        "over mean",
-        "chosen",
-        "of",
-    ]);
+    let title = format!("{} shutter", scale.alignment);
+    let mut table = Table::new(title, ["scale", "95 % CI", "over mean", "chosen", "of"]);
     for own in &scale.filters {
-        table.push(vec![
-            printable(&own.filter).into_owned(),
+        let cells = [
             signed(own.scale),
             own.interval
                 .map_or("n/a".to_owned(), |ends| range(ends.map(signed))),
             format!("{:.0} %", 100.0 * own.chosen_over_mean),
-            format!("{}", own.chosen),
-            format!("{}", own.compared),
-        ]);
+            own.chosen.to_string(),
+            own.compared.to_string(),
+        ];
+        table.push(printable(&own.filter), cells);
     }
     *text += &format!("\n{}", table.text());
     for line in describe(scale) {
@@ -105,8 +101,8 @@ fn push_scale(text: &mut String, scale: &ShutterScale) {
 fn describe(scale: &ShutterScale) -> Vec<String> {
     let answers = format!(
         "{} of {}, {} of them neither",
-        count(scale.comparisons, "comparison"),
-        count(scale.people, "session"),
+        count_text(scale.comparisons, "comparison", "comparisons"),
+        count_text(scale.people, "session", "sessions"),
         scale.neither
     );
     let has_intervals = scale.filters.iter().all(|own| own.interval.is_some());
@@ -123,7 +119,7 @@ fn describe(scale: &ShutterScale) -> Vec<String> {
         lines.push(format!(
             "people chose alike in {:.0} % of {}; coins give 50 %",
             100.0 * agreement.share,
-            count(agreement.pairs, "pair of answers")
+            count_text(agreement.pairs, "pair of answers", "pairs of answers")
         ));
     }
     if !scale.separated.is_empty() {
@@ -142,19 +138,12 @@ fn describe(scale: &ShutterScale) -> Vec<String> {
 }
 
 fn score_table(scores: &[ScoreAgreement]) -> String {
-    let mut table = number_table(&[
-        "score",
-        "rank",
-        "95 % CI",
-        "predicted",
-        "95 % CI",
-        "choices",
-    ]);
+    let columns = ["rank", "95 % CI", "predicted", "95 % CI", "choices"];
+    let mut table = Table::new("score", columns);
     let none = || "n/a".to_owned();
     for own in scores {
         let percent = |share: f64| format!("{:.0}", 100.0 * share);
-        table.push(vec![
-            own.score.name(),
+        let cells = [
             own.correlation.map_or_else(none, signed),
             own.correlation_interval
                 .map_or_else(none, |ends| range(ends.map(signed))),
@@ -163,7 +152,8 @@ fn score_table(scores: &[ScoreAgreement]) -> String {
             own.predicted_interval
                 .map_or_else(none, |ends| range(ends.map(percent)) + " %"),
             own.choices.to_string(),
-        ]);
+        ];
+        table.push(own.score.name(), cells);
     }
     table.text()
 }
@@ -176,13 +166,4 @@ fn signed(value: f64) -> String {
 
 fn range([low, high]: [String; 2]) -> String {
     format!("{low} to {high}")
-}
-
-/// Counts things: `1 session`, `2 sessions`, `3 pairs of answers`.
-fn count(count: usize, one: &str) -> String {
-    match (count, one.split_once(' ')) {
-        (1, _) => format!("1 {one}"),
-        (_, Some((first, rest))) => format!("{count} {first}s {rest}"),
-        (_, None) => format!("{count} {one}s"),
-    }
 }

@@ -6,11 +6,7 @@ use metrics::Metric;
 use suite::Case;
 use tracer::FrameRate;
 
-use super::columns::{legend_text, list_once};
-use super::frame_rates::frame_rates_text;
-use super::input_forms::input_forms_text;
-use super::layout::{Align, Table};
-use crate::output::colors::faint;
+use super::{Table, frame_rates_text, input_forms_text, legend_text, list_once};
 
 /// Makes the summary of cases, in at most 40 lines: filters ranked within each shutter, then references.
 pub fn ranking_text(cases: &[Case]) -> String {
@@ -68,18 +64,16 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     let cases = cases.filter(|case| case.rate == first);
     let scenes = list_once(cases.map(|case| &case.scene));
     let (title, columns) = match scenes.as_slice() {
-        [scene] => (scene.to_string(), 2),
-        scenes => (format!("mean over {} scenes", scenes.len()), 4),
+        [scene] => (scene.to_string(), 1),
+        scenes => (format!("mean over {} scenes", scenes.len()), 3),
     };
-    let titles = [title.as_str(), "FLIP", "95 % CI", "worst scene"];
-    let align = [Align::Left, Align::Right, Align::Right, Align::Left];
-    let mut table = Table::new(&titles[..columns], &align[..columns]);
+    let titles = ["FLIP", "95 % CI", "worst scene"];
+    let mut table = Table::new(title, titles.into_iter().take(columns)).with_words_in(3);
     for group in groups {
-        table.push_text(&group_text(&group[0]));
+        table.push_text(group_text(&group[0]));
         for ranked in group {
-            let mut cells = ranking_cells(ranked, scenes.len());
-            cells.truncate(columns);
-            table.push(cells);
+            let cells = ranking_cells(ranked, scenes.len(), |value| Metric::FLIP.number(value));
+            table.push(ranked_name(ranked), cells.into_iter().take(columns));
         }
     }
     table
@@ -90,19 +84,22 @@ pub fn ranked_name(ranked: &RankedFilter) -> String {
     format!("{:>4} {}", ranked.rank_text(), ranked.name)
 }
 
-/// ` 2-4 jimenez:hdrp`, its FLIP, the interval, and the worst scene.
-fn ranking_cells(ranked: &RankedFilter, scenes: usize) -> Vec<String> {
-    let number = |value: f64| Metric::FLIP.number(value);
+/// Returns the mean that ranks, its interval, and the worst scene.
+pub fn ranking_cells(
+    ranked: &RankedFilter,
+    scenes: usize,
+    number: impl Fn(f64) -> String,
+) -> [String; 3] {
     let interval = match ranked.interval {
         Some([low, high]) => format!("{} to {}", number(low), number(high)),
         None => "-".to_owned(),
     };
     let (scene, worst) = &ranked.worst;
-    let mut worst = format!("{scene} {}", number(*worst));
+    let mut worst = format!("{} {}", scene, number(*worst));
     if ranked.scenes < scenes {
         worst += &format!(" ({} of {scenes} scenes)", ranked.scenes);
     }
-    vec![ranked_name(ranked), number(ranked.mean), interval, worst]
+    [number(ranked.mean), interval, worst]
 }
 
 /// Name of the row of the lag.
@@ -121,27 +118,18 @@ fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
         .iter()
         .map(|group| (group[0].alignment, group[0].rate))
         .collect();
-    let columns: Vec<String> = (shutters.iter())
-        .map(|(alignment, rate)| match rate {
-            None => alignment.to_string(),
-            Some(rate) => format!("{alignment} {}", rate.word()),
-        })
-        .collect();
-    let titles: Vec<&str> = std::iter::once("references")
-        .chain(columns.iter().map(String::as_str))
-        .collect();
-    let align: Vec<Align> = std::iter::once(Align::Left)
-        .chain(columns.iter().map(|_| Align::Right))
-        .collect();
-    let mut table = Table::new(&titles, &align);
+    let columns = shutters.iter().map(|(alignment, rate)| match rate {
+        None => alignment.to_string(),
+        Some(rate) => format!("{alignment} {}", rate.word()),
+    });
+    let mut table = Table::new("references", columns);
     let of_shutter = |(alignment, rate): &(Alignment, Option<FrameRate>)| -> Vec<&Case> {
         let is_own = |case: &&Case| case.alignment == *alignment && case.rate == *rate;
         references().filter(is_own).collect()
     };
     let of_shutters: Vec<Vec<&Case>> = shutters.iter().map(of_shutter).collect();
     let mut push = |name: &str, cells: Vec<String>| {
-        let cells = std::iter::once(format!("     {name}")).chain(cells);
-        table.push_styled(cells.collect(), faint);
+        table.push_row(true, format!("     {name}"), cells);
     };
     for name in names {
         let mean = |own: &Vec<&Case>| mean_flip(own.iter().filter(|case| case.name() == name));

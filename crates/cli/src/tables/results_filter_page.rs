@@ -8,7 +8,7 @@ use judge::{RankedFilter, ResultScores, Results};
 use metrics::Metric;
 use tracer::{Location, SceneId, SceneListing, list_scenes};
 
-use super::results_page::{cost_text, list_filters, main_results, mean, sealed_of};
+use super::{cost_text, list_filters, main_results, mean, sealed_of};
 
 /// Number of scenes that a page names for each preset, the worst first.
 const WORST: usize = 3;

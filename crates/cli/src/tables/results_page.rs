@@ -9,7 +9,7 @@ use metrics::Metric;
 use suite::{Error, FEWEST_SCENES};
 use tracer::{Family, Location, SceneId, list_scenes};
 
-use super::columns::list_once;
+use super::list_once;
 
 const FAMILIES: [Family; 7] = [
     Family::Translation,

@@ -4,10 +4,8 @@ use frame::Alignment;
 use metrics::{Metric, SkillMetric};
 use suite::{Overall, rank_filters};
 
-use super::columns::{Column, bracket_name, legend_text, list_once, number_table, row_style};
-use super::layout::Table;
-use super::ranking::shutter_text;
-use crate::output::colors;
+use super::{Column, Table, bracket_name, legend_text, list_once, shutter_text};
+use crate::output::heading;
 
 /// Columns behind FLIP, which ranks filters of one alignment.
 const MEAN_COLUMNS: [Column; 5] = [
@@ -32,8 +30,8 @@ pub fn means_table(overall: &[Overall]) -> String {
     }
     let mut by_flip = means_heading(overall, "FLIP", &MEAN_COLUMNS, None);
     for group in groups {
-        let heading = shutter_text(group[0].alignment, group[0].rate);
-        by_flip.push_text(&colors::heading(&heading));
+        let shutter = shutter_text(group[0].alignment, group[0].rate);
+        by_flip.push_text(heading(&shutter));
         for row in group {
             push_mean(
                 &mut by_flip,
@@ -48,7 +46,7 @@ pub fn means_table(overall: &[Overall]) -> String {
     for group in rank_filters(overall, Metric::SKILL) {
         let mut by_skill = means_heading(overall, "skill", &SKILL_COLUMNS, Some("shutter"));
         if let Some(rate) = group[0].rate {
-            by_skill.push_text(&colors::heading(&rate.text()));
+            by_skill.push_text(heading(&rate.text()));
         }
         for row in group {
             let columns = (Metric::SKILL, &SKILL_COLUMNS[..]);
@@ -95,11 +93,11 @@ fn fewer_scenes_note(overall: &[Overall]) -> String {
 
 fn means_heading(overall: &[Overall], by: &str, others: &[Column], last: Option<&str>) -> Table {
     let scenes = overall.iter().map(|mean| mean.scenes).max().unwrap_or(0);
-    let title = format!("mean over {scenes} scenes");
-    let mut titles = vec![title.as_str(), by, "95 % CI"];
-    titles.extend(others.iter().map(|(title, _)| *title));
-    titles.extend(last);
-    number_table(&titles)
+    let titles = [by, "95 % CI"].into_iter();
+    let titles = titles
+        .chain(others.iter().map(|(title, _)| *title))
+        .chain(last);
+    Table::new(format!("mean over {scenes} scenes"), titles)
 }
 
 /// Adds a row: the mean that ranks with its interval, other means, and a last cell.
@@ -111,15 +109,12 @@ fn push_mean(
     last: Option<&str>,
 ) {
     let [low, high] = row.interval.map(|end| by.number(end));
-    let mut cells = vec![
-        bracket_name(&row.filter, row.is_reference),
-        by.number(row.mean),
-        format!("{low} to {high}"),
-    ];
-    for (_, metric) in others {
+    let ranked_by = [by.number(row.mean), format!("{low} to {high}")];
+    let means = others.iter().map(|(_, metric)| {
         let own = (overall.iter()).find(|mean| mean.metric == *metric && mean.is_of_same(row));
-        cells.push(own.map_or("n/a".to_owned(), |own| metric.number(own.mean)));
-    }
-    cells.extend(last.map(str::to_owned));
-    table.push_styled(cells, row_style(row.is_reference));
+        own.map_or("n/a".to_owned(), |own| metric.number(own.mean))
+    });
+    let cells = (ranked_by.into_iter().chain(means)).chain(last.map(str::to_owned));
+    let name = bracket_name(&row.filter, row.is_reference);
+    table.push_row(row.is_reference, name, cells);
 }

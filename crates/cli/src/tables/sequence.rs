@@ -6,10 +6,8 @@ use store::printable;
 use suite::{Run, Sequence};
 use tracer::SceneId;
 
-use super::columns::{bracket_name, legend_text, list_once, number_table, row_style};
-use super::layout::{Align, Table};
-use super::ranking::{group_text, ranked_name};
-use crate::output::colors;
+use super::{Table, bracket_name, group_text, legend_text, list_once, ranked_name, ranking_cells};
+use crate::output::heading;
 
 /// Columns, each with its title.
 const COLUMNS: [(&str, SequenceMetric); 8] = [
@@ -50,27 +48,24 @@ pub fn sequences_text(run: &Run, all: bool) -> String {
 fn ranking_table(run: &Run, scenes: usize) -> String {
     let groups = rank_sequences(run);
     let title = format!("{scenes} scenes, {} frames", run.frames.count);
-    let titles = [
-        title.as_str(),
-        "JOD",
-        "95 % CI",
-        "error",
-        "along",
-        "worst scene",
-    ];
-    let align = [
-        Align::Left,
-        Align::Right,
-        Align::Right,
-        Align::Right,
-        Align::Right,
-        Align::Left,
-    ];
-    let mut table = Table::new(&titles, &align);
+    let titles = ["JOD", "95 % CI", "error", "along", "worst scene"];
+    let mut table = Table::new(title, titles).with_words_in(5);
     for group in &groups {
-        table.push_text(&group_text(&group[0].ranked));
+        table.push_text(group_text(&group[0].ranked));
         for own in group {
-            table.push(ranking_cells(own, scenes));
+            let number = |value| RANKED_BY.shown_text(value);
+            let [jod, interval, worst] = ranking_cells(&own.ranked, scenes, number);
+            let [error, along] =
+                [SequenceMetric::Error, SequenceMetric::FlickerAlong].map(|metric| {
+                    let mut means = own.means.iter();
+                    let mean =
+                        means.find_map(|(known, mean)| (*known == metric).then_some(*mean)?);
+                    mean.map_or("n/a".to_owned(), |mean| metric.shown_text(mean.mean))
+                });
+            table.push(
+                ranked_name(&own.ranked),
+                [jod, interval, error, along, worst],
+            );
         }
     }
     let mut notes = "Sequences, ranked by JOD: quality by ColorVideoVDP, 10 at most, higher is better. Error: of single frames; along: of \
@@ -83,46 +78,15 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
     format!("\n{}{}", table.text(), legend_text(&notes))
 }
 
-fn ranking_cells(own: &RankedSequence, scenes: usize) -> Vec<String> {
-    let ranked = &own.ranked;
-    let number = |value: f64| RANKED_BY.shown_text(value);
-    let interval = match ranked.interval {
-        Some([low, high]) => format!("{} to {}", number(low), number(high)),
-        None => "-".to_owned(),
-    };
-    let mean = |wanted: SequenceMetric| {
-        let mut means = own.means.iter();
-        let found = means.find_map(|(metric, mean)| (*metric == wanted).then_some(*mean)?);
-        found.map_or("n/a".to_owned(), |mean| wanted.shown_text(mean.mean))
-    };
-    let (scene, worst) = &ranked.worst;
-    let mut worst = format!("{} {}", scene, number(*worst));
-    if ranked.scenes < scenes {
-        worst += &format!(" ({} of {scenes} scenes)", ranked.scenes);
-    }
-    vec![
-        ranked_name(ranked),
-        number(ranked.mean),
-        interval,
-        mean(SequenceMetric::Error),
-        mean(SequenceMetric::FlickerAlong),
-        worst,
-    ]
-}
-
 /// Makes the tables of scenes: per shutter the references, then the filters by their ranks, then those without a rank.
 fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
-    let title = format!("{} frames", run.sequences[0].frames.len());
-    let titles: Vec<&str> = std::iter::once(title.as_str())
-        .chain(COLUMNS.iter().map(|(title, _)| *title))
-        .collect();
-    let mut table = number_table(&titles);
+    let mut table = score_columns(run.sequences[0].frames.len());
     for scene in scenes {
         let of_scene = || run.sequences.iter().filter(|own| own.scene == **scene);
         let groups = rank_sequences_on(run, scene);
         for alignment in list_once(of_scene().map(|own| own.alignment)) {
-            let heading = format!("{scene}, {alignment} shutter");
-            table.push_text(&colors::heading(&heading));
+            let title = format!("{}, {alignment} shutter", printable(&scene.to_string()));
+            table.push_text(heading(&title));
             let of_shutter: Vec<&Sequence> = of_scene()
                 .filter(|own| own.alignment == alignment)
                 .collect();
@@ -130,11 +94,7 @@ fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
                 .filter(|own| own.ranked.alignment == alignment)
                 .collect();
             for (name, own) in order_rows(&of_shutter, &ranked) {
-                let scores = COLUMNS
-                    .iter()
-                    .map(|(_, metric)| metric.text(own.scores.get(*metric)));
-                let cells = std::iter::once(name).chain(scores).collect();
-                table.push_styled(cells, row_style(own.is_reference));
+                table.push_row(own.is_reference, name, score_cells(&own.scores));
             }
         }
     }
@@ -149,17 +109,18 @@ pub fn score_sequence_table(
     frames: u32,
     scores: &SequenceScores,
 ) -> String {
-    let title = format!("{frames} frames");
-    let titles: Vec<&str> = std::iter::once(title.as_str())
-        .chain(COLUMNS.iter().map(|(title, _)| *title))
-        .collect();
-    let mut table = number_table(&titles);
-    table.push_text(&printable(scene));
-    let texts = COLUMNS
-        .iter()
-        .map(|(_, metric)| metric.text(scores.get(*metric)));
-    table.push(std::iter::once(name.to_owned()).chain(texts).collect());
+    let mut table = score_columns(frames as usize);
+    table.push_text(printable(&scene.to_string()));
+    table.push(name, score_cells(scores));
     table.text() + &legend_text(&format!("Sequences: {KEY}"))
+}
+
+fn score_columns(frames: usize) -> Table {
+    Table::new(format!("{frames} frames"), COLUMNS.map(|(title, _)| title))
+}
+
+fn score_cells(scores: &SequenceScores) -> [String; 8] {
+    COLUMNS.map(|(_, metric)| metric.text(scores.get(metric)))
 }
 
 /// Orders the sequences of one scene and shutter, each with its name as the table shows it.

@@ -3,10 +3,8 @@
 use suite::FEWEST_SCENES;
 use tune::{Advice, Difference, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning};
 
-use super::columns::number_table;
-use crate::output::colors::heading;
-use crate::output::count::count_text;
-use crate::output::wrap::push_wrapped;
+use super::Table;
+use crate::output::{count_text, heading, push_wrapped};
 
 /// Upper limit on rows of the front; `tune.json` has all.
 const ROWS: usize = 12;
@@ -144,23 +142,19 @@ fn trial_row(trial: &Trial, start: &Trial, chosen: usize) -> String {
 
 /// Compares two candidates scene by scene.
 pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
+    let [first, second] = names;
     let titles = [
-        "scene".to_owned(),
-        format!("FLIP {}", names[0]),
-        names[1].to_owned(),
-        format!("bleed {}", names[0]),
-        names[1].to_owned(),
+        &format!("FLIP {first}"),
+        second,
+        &format!("bleed {first}"),
+        second,
     ];
-    let mut table = number_table(&titles.each_ref().map(String::as_str));
+    let mut table = Table::new("scene", titles);
     let bleed = |bleed: Option<f64>| bleed.map_or("n/a".to_owned(), |bleed| format!("{bleed:.3}"));
     for (scene, [first, second]) in &paired.scenes {
-        table.push(vec![
-            scene.clone(),
-            format!("{:.4}", first.flip),
-            format!("{:.4}", second.flip),
-            bleed(first.bleed),
-            bleed(second.bleed),
-        ]);
+        let flips = [first.flip, second.flip].map(|flip| format!("{flip:.4}"));
+        let bleeds = [first.bleed, second.bleed].map(bleed);
+        table.push(scene, flips.into_iter().chain(bleeds));
     }
     let mut text = table.text();
     let flip = format!(

@@ -1,7 +1,5 @@
 //! Audit of a capture.
 
-use filters::DepthKind;
-use frame::Raster;
 use serde::Serialize;
 use suite::Error;
 use tracer::Scene;
@@ -12,15 +10,12 @@ use crate::audit::color_audit::audit_color;
 use crate::audit::defect::{Buffer, Defect, Explanation};
 use crate::audit::depth_audit::{DepthAudit, DepthPair};
 use crate::audit::expected_motion::ExpectedMotion;
-use crate::audit::shown::{LEAST_SHOWN, ObjectShown, count_shown};
+use crate::audit::shown::{LEAST_SHOWN, ObjectShown, Shown};
 use crate::audit::velocity_audit::{ObjectAudit, audit_velocity};
 use crate::audit::views::find_other_views;
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::Capture;
 use crate::files::refuse;
-
-/// Part of the pixels whose depth must be known before it tells, without ids, what the engine shows there.
-const LEAST_KNOWN: f64 = 0.3;
 
 /// Part of the pixels that must agree before single objects are named.
 const LEAST_ALIKE: f64 = 0.5;
@@ -60,25 +55,12 @@ pub fn audit_capture(
     capture: &Capture,
     scene: &Scene,
 ) -> Result<(CaptureAudit, ExpectedMotion), Error> {
-    let instant = capture.description.instant;
-    if instant != 0.0 {
-        return refuse(
-            &capture.folder.join(CAPTURE_FILE),
-            &format!(
-                "instant = {instant}; allowed for an audit: 0, the `instant` of the exported manifest"
-            ),
-        );
-    }
+    check_instant(capture)?;
     let size = [capture.color.width, capture.color.height];
     let expected = ExpectedMotion::trace(scene, size)?;
     let right = &expected.right;
     let names = scene.object_names();
-    let is_linear = capture.convention.depth == DepthKind::Linear;
-    let pair = DepthPair {
-        found: &capture.depth,
-        right,
-        near: capture.convention.near.filter(|_| !is_linear),
-    };
+    let pair = DepthPair::of(capture, right);
     let ids = capture.object_id.as_ref();
     let is_same = |at: usize| ids.is_none_or(|ids| ids.pixels[at] == right.object_id.pixels[at]);
     let clear = select_clear_pixels(right, names.len(), &is_same);
@@ -88,17 +70,9 @@ pub fn audit_capture(
         None if from == at => known.pixels[at],
         None => pair.is_close(capture.depth.pixels[from], right.depth.pixels[at]),
     };
-    let pixels = right.object_id.pixels.len();
-    let alike = (0..pixels).filter(|at| shows(*at, *at)).count() as f64 / pixels as f64;
-    let objects = count_shown(&right.object_id, ids, &names, &shows);
-    let is_missed = |name: &str| (objects.iter()).any(|it| it.is_missed() && it.object == name);
-    let is_clear = |at: usize| {
-        let object = right.object_id.pixels[at] as usize;
-        (alike < LEAST_KNOWN || shows(at, at)) && !is_missed(&names[object])
-    };
-    let regions = select_clear_pixels(right, names.len(), &is_clear);
-    let (velocity, wrong_velocity) = audit_velocity(&capture.velocity, &expected, &regions, &names);
-    let depth = pair.compare(&regions);
+    let shown = Shown::compare(right, ids, &names, &shows);
+    let regions = &shown.regions;
+    let (velocity, wrong_velocity) = audit_velocity(&capture.velocity, &expected, regions, &names);
 
     let views = find_other_views(capture, &pair, scene)?;
     let is_view = |buffer: Buffer| views.iter().any(|finding| finding.buffer == buffer);
@@ -107,19 +81,17 @@ pub fn audit_capture(
         || is_view(Buffer::Depth) && ids.is_none();
     let missed = match shows_other_view {
         true => Vec::new(),
-        false => word_missed(&objects, alike, ids),
+        false => word_missed(&shown, ids.is_some()),
     };
     let mut wrong = Vec::new();
     // Whatever else differs follows from another view, or from a picture of something else.
     if !shows_other_view && missed.iter().all(|finding| finding.object.is_some()) {
         wrong.extend(wrong_velocity);
         if !is_view(Buffer::Depth) {
-            let of_shown = |it: &Defect| it.object.as_deref().is_none_or(|name| !is_missed(name));
-            let depth = wrong_depth.into_iter().filter(of_shown);
-            wrong.extend(depth.map(|it| doubt_depth(it, ids.is_some())));
+            wrong.extend(list_wrong_depth(wrong_depth, &shown, ids.is_some()));
         }
         if !is_view(Buffer::Color) {
-            wrong.extend(audit_color(&capture.color, scene, &regions, &names)?);
+            wrong.extend(audit_color(&capture.color, scene, regions, &names)?);
         }
     }
     let audit = CaptureAudit {
@@ -127,51 +99,69 @@ pub fn audit_capture(
         engine: capture.description.engine.clone(),
         size,
         has_ids: ids.is_some(),
-        alike,
+        alike: shown.alike,
         shows_scene: !shows_other_view && missed.is_empty(),
         velocity,
-        depth,
+        depth: pair.compare(regions),
         compares_color: scene.is_unlit(),
         findings: [missed, views, wrong].concat(),
-        objects,
+        objects: shown.objects,
     };
     Ok((audit, expected))
 }
 
-/// Adds to a wrong depth of an object that the object may not be drawn, if no ids say so.
-fn doubt_depth(finding: Defect, has_ids: bool) -> Defect {
-    match has_ids || finding.object.is_none() {
-        true => finding,
-        false => finding.with("or the engine does not draw it there: object.exr would tell"),
+/// Refuses a capture of another instant than the scene's.
+fn check_instant(capture: &Capture) -> Result<(), Error> {
+    match capture.description.instant {
+        0.0 => Ok(()),
+        instant => refuse(
+            &capture.folder.join(CAPTURE_FILE),
+            &format!(
+                "instant = {instant}; allowed for an audit: 0, the `instant` of the exported manifest"
+            ),
+        ),
     }
 }
 
+/// Leaves out the depth of objects that the engine does not show. Without ids nobody knows whether it draws the others there.
+fn list_wrong_depth(
+    wrong: Vec<Defect>,
+    shown: &Shown,
+    has_ids: bool,
+) -> impl Iterator<Item = Defect> {
+    let is_shown = |it: &Defect| (it.object.as_deref()).is_none_or(|name| !shown.is_missed(name));
+    let of_shown = wrong.into_iter().filter(is_shown);
+    of_shown.map(move |it| match has_ids || it.object.is_none() {
+        true => it,
+        false => it.with("or the engine does not draw it there: object.exr would show it"),
+    })
+}
+
 /// Words what the engine shows too little of: all of the picture, or single objects.
-fn word_missed(objects: &[ObjectShown], alike: f64, ids: Option<&Raster<u32>>) -> Vec<Defect> {
-    let mut missed = objects
-        .iter()
+fn word_missed(shown: &Shown, has_ids: bool) -> Vec<Defect> {
+    let other = |object: Option<&str>, part: f64, text: &str| {
+        let found = Explanation::by(Cause::OtherView, 1.0 - part);
+        Defect::new(Buffer::Picture, object, found).with(text)
+    };
+    let by = match has_ids {
+        true => "by its ids",
+        false => "by its depth, as the convention has it; object.exr would show more",
+    };
+    let mut missed = (shown.objects.iter())
         .filter(|object| object.is_missed())
         .peekable();
-    let other = |object: Option<&str>, shown: f64| {
-        let found = Explanation::by(Cause::OtherView, 1.0 - shown);
-        Defect::new(Buffer::Picture, object, found)
-    };
-    let by = match ids {
-        Some(_) => "by its ids",
-        None => "by its depth, as the convention has it; object.exr would tell more",
-    };
-    let least = 100.0 * LEAST_SHOWN;
-    if missed.peek().is_some() && alike < LEAST_ALIKE {
-        let text = format!("{:.1} % of the pixels agree, {by}", 100.0 * alike);
-        return vec![other(None, alike).with(&text)];
+    if missed.peek().is_some() && shown.alike < LEAST_ALIKE {
+        let text = format!("{:.1} % of the pixels agree, {by}", 100.0 * shown.alike);
+        return vec![other(None, shown.alike, &text)];
     }
     let findings = missed.map(|object| {
         let text = format!(
-            "{:.1} % of its {} pixels agree, {by}; needed: {least} %",
+            "{:.1} % of its {} pixels agree, {by}; needed: {} %",
             100.0 * object.shown,
-            object.pixels
+            object.pixels,
+            100.0 * LEAST_SHOWN
         );
-        other(Some(&object.object), object.shown).with(&text)
+        other(Some(&object.object), object.shown, &text)
     });
     findings.collect()
 }

@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-/// Frames per second of an exported animation.
-pub(super) const ANIMATION_RATE: f64 = 24.0;
+use crate::export::FRAMES_PER_SECOND;
 
 /// Known cause of a wrong picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -17,7 +16,7 @@ pub enum Cause {
     FlippedY,
     /// The x axis points the other way.
     FlippedX,
-    /// x stands for y.
+    /// x and y are exchanged.
     SwappedAxes,
     /// The camera's motion alone.
     ObjectMotionMissing,
@@ -115,7 +114,7 @@ impl Cause {
             Self::ClippedAxes(limit) => format!("is clipped at {limit:.1} px on each axis"),
             Self::Steps(step) => format!("comes in steps of {step:.3} px, as of few bits"),
             Self::MotionOver(per_second) => format!(
-                "is the motion over 1/{per_second} s, not over a frame, which is 1/{ANIMATION_RATE} s of the exported animation"
+                "is the motion over 1/{per_second} s, not over a frame, which is 1/{FRAMES_PER_SECOND} s of the exported animation"
             ),
             Self::UpsideDown => "has its rows upside down".to_owned(),
             Self::DrawnLate(count) => format!("is drawn {} late", frames(count)),
@@ -160,8 +159,8 @@ impl Cause {
             ))
         };
         match self {
-            Self::WrongSign => key("turn `velocity_sign` round"),
-            Self::FlippedY => key("turn `velocity_y` round"),
+            Self::WrongSign => key("reverse `velocity_sign`"),
+            Self::FlippedY => key("reverse `velocity_y`"),
             Self::Scale(scale) => key(&format!(
                 "`velocity_scale` {:.3} times what it is would fit, or another unit in `velocity` or `velocity_per`",
                 scale

@@ -21,12 +21,12 @@ pub enum Buffer {
 }
 
 /// A cause that was found, and how well it explains what is wrong.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Explanation {
-    /// A sign or an axis that is wrong as well.
-    pub turned: Option<Cause>,
     /// The cause.
     pub cause: Cause,
+    /// A sign or an axis that is wrong as well.
+    pub turned: Option<Cause>,
     /// Other causes that would look the same in this scene.
     pub looks_like: Vec<Cause>,
     /// Part of the pixels that the cause explains.
@@ -53,13 +53,8 @@ pub struct Defect {
     /// Object that has it; none if all do.
     pub object: Option<String>,
     /// Its cause.
-    pub cause: Cause,
-    /// A sign or an axis that is wrong as well.
-    pub turned: Option<Cause>,
-    /// Other causes that would look the same in this scene.
-    pub looks_like: Vec<Cause>,
-    /// Part of the pixels that the cause explains.
-    pub explained: f64,
+    #[serde(flatten)]
+    pub found: Explanation,
     /// Part of the object that has the defect; none if all of it has.
     pub part: Option<f64>,
     /// The defect in words, and the way out.
@@ -69,36 +64,29 @@ pub struct Defect {
 impl Defect {
     /// Words a defect.
     pub fn new(buffer: Buffer, object: Option<&str>, found: Explanation) -> Self {
-        let Explanation {
-            turned,
-            cause,
-            looks_like,
-            explained,
-        } = found;
         let whose = match object {
             Some(object) => format!("of `{object}` "),
             None => String::new(),
         };
-        let turn = turned.map_or(String::new(), |turn| format!("{} and ", turn.name()));
-        let mut text = format!("{} {whose}{turn}{}", buffer.name(), cause.name());
-        if !looks_like.is_empty() {
-            let others: Vec<String> = looks_like.iter().map(|cause| cause.name()).collect();
+        let turn = found
+            .turned
+            .map_or(String::new(), |turn| format!("{} and ", turn.name()));
+        let mut text = format!("{} {whose}{turn}{}", buffer.name(), found.cause.name());
+        if !found.looks_like.is_empty() {
+            let others: Vec<String> = found.looks_like.iter().map(|cause| cause.name()).collect();
             text += &format!(
                 "; in this scene that looks the same as: {}",
                 others.join(", ")
             );
         }
-        let advice = turned.into_iter().chain([cause]);
+        let advice = found.turned.into_iter().chain([found.cause]);
         for advice in advice.filter_map(|cause| cause.advice(object.is_some())) {
             text += &format!("; {advice}");
         }
         Self {
             buffer,
             object: object.map(str::to_owned),
-            cause,
-            turned,
-            looks_like,
-            explained,
+            found,
             part: None,
             text,
         }

@@ -1,5 +1,6 @@
 //! Audit of depth: the difference, and what is wrong in all of it or in single objects.
 
+use filters::DepthKind;
 use frame::{FAR_DEPTH, Plane, Raster};
 use serde::Serialize;
 use tracer::{PointLayers, Scene};
@@ -7,6 +8,7 @@ use tracer::{PointLayers, Scene};
 use crate::audit::cause::Cause;
 use crate::audit::clear_pixels::{ClearPixels, select_judged};
 use crate::audit::defect::{Buffer, Defect, Explanation};
+use crate::capture::folder::Capture;
 use crate::statistics::{median, percentile};
 
 /// Relative difference of depths that are taken for equal.
@@ -34,12 +36,22 @@ pub struct DepthPair<'a> {
     /// The engine's, in metres.
     pub found: &'a Plane,
     /// The scene's.
-    pub right: &'a PointLayers,
+    right: &'a PointLayers,
     /// Near plane of a buffer that is not linear: far away such a buffer is coarse, and its planes may be wrong.
-    pub near: Option<f64>,
+    near: Option<f64>,
 }
 
-impl DepthPair<'_> {
+impl<'a> DepthPair<'a> {
+    /// Pairs the depth of a capture with the scene's.
+    pub fn of(capture: &'a Capture, right: &'a PointLayers) -> Self {
+        let is_linear = capture.convention.depth == DepthKind::Linear;
+        Self {
+            found: &capture.depth,
+            right,
+            near: capture.convention.near.filter(|_| !is_linear),
+        }
+    }
+
     /// Tells whether two depths are within 1 % or within the rounding of the buffer, or both the background's.
     pub fn is_close(&self, found: f32, expected: f32) -> bool {
         let steps = (1.0 / f64::from(found) - 1.0 / f64::from(expected)).abs();
@@ -91,7 +103,7 @@ impl DepthPair<'_> {
         let (findings, explained) = self.explain_objects(&wrong, names, &along_ray);
         let unknown = findings
             .iter()
-            .filter(|it| it.cause == Cause::Unknown)
+            .filter(|it| it.found.cause == Cause::Unknown)
             .count();
         if findings.len() == 1 || 2 * unknown <= findings.len() {
             return (findings, explained);
@@ -120,9 +132,11 @@ impl DepthPair<'_> {
             let causes = self.list_causes(&region.pixels, along_ray, false);
             let found = find_cause(causes, &|plane| self.share(&region.pixels, plane));
             if let Some((_, plane)) = &found {
-                let ids = &self.right.object_id.pixels;
-                let own = (0..ids.len()).filter(|at| ids[*at] == region.object);
-                own.for_each(|at| explained.pixels[at] = self.is_explained(at, plane));
+                let ids = self.right.object_id.pixels.iter();
+                let marks = self.mark(plane).pixels;
+                let own = explained.pixels.iter_mut().zip(ids.zip(marks));
+                own.filter(|(_, (id, _))| **id == region.object)
+                    .for_each(|(explained, (_, mark))| *explained = mark);
             }
             let unknown = Explanation::by(Cause::Unknown, 0.0);
             let found = found.map_or(unknown, |(found, _)| found);
@@ -142,9 +156,9 @@ impl DepthPair<'_> {
     ) -> Vec<(Cause, Plane)> {
         let right = &self.right.depth;
         let pairs = (pixels.iter()).map(|at| [self.found.pixels[*at], right.pixels[*at]]);
-        let (behind, surfaces): (Vec<_>, Vec<_>) =
+        let (background, surfaces): (Vec<_>, Vec<_>) =
             (pairs.map(|it| it.map(f64::from))).partition(|[_, right]| is_far(*right as f32));
-        let background = median(behind.iter().map(|[found, _]| *found));
+        let metres = median(background.iter().map(|[found, _]| *found));
         let of_surfaces = |depth: &dyn Fn(f64) -> f64| {
             right.map(|right| match is_far(*right) {
                 true => f32::NAN,
@@ -152,12 +166,12 @@ impl DepthPair<'_> {
             })
         };
         let mut causes = Vec::new();
-        if background.is_finite() {
+        if metres.is_finite() {
             let plane = right.map(|right| match is_far(*right) {
-                true => background as f32,
+                true => metres as f32,
                 false => *right,
             });
-            causes.push((Cause::DepthOfBackground(background), plane));
+            causes.push((Cause::DepthOfBackground(metres), plane));
         }
         if surfaces.is_empty() {
             return causes;
@@ -190,23 +204,22 @@ impl DepthPair<'_> {
         })
     }
 
-    fn is_explained(&self, at: usize, plane: &Plane) -> bool {
-        let expected = plane.pixels[at];
-        expected.is_nan() || self.is_close(self.found.pixels[at], expected)
+    /// Tells whether a plane explains a depth; NaN allows any.
+    fn is_explained(&self, found: f32, expected: f32) -> bool {
+        expected.is_nan() || self.is_close(found, expected)
     }
 
     fn mark(&self, plane: &Plane) -> Raster<bool> {
-        let places = 0..plane.pixels.len();
-        Raster {
-            width: plane.width,
-            height: plane.height,
-            pixels: places.map(|at| self.is_explained(at, plane)).collect(),
-        }
+        (self.found).zip(plane, |found, expected| {
+            self.is_explained(*found, *expected)
+        })
     }
 
     /// Computes the part of some pixels at which the engine has the depth of a plane.
     fn share(&self, pixels: &[usize], plane: &Plane) -> f64 {
-        let explained = pixels.iter().filter(|at| self.is_explained(**at, plane));
+        let is_explained =
+            |at: &&usize| self.is_explained(self.found.pixels[**at], plane.pixels[**at]);
+        let explained = pixels.iter().filter(is_explained);
         explained.count() as f64 / pixels.len().max(1) as f64
     }
 }

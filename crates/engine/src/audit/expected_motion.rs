@@ -1,9 +1,10 @@
 //! Velocity that an engine should have handed over, and what known mistakes make of it.
 
-use frame::{FrameOptions, Raster, Vectors, VelocityKind};
+use frame::{Raster, Vectors, VelocityKind};
 use tracer::{PointLayers, PointMotion, RenderSettings, Scene, TraceError, trace_motion};
 
-use crate::audit::cause::{ANIMATION_RATE, Cause};
+use crate::audit::cause::Cause;
+use crate::export::FRAMES_PER_SECOND;
 
 /// Rates at which engines draw by the clock, in frames per second.
 const CLOCK_RATES: [f64; 3] = [60.0, 30.0, 120.0];
@@ -19,16 +20,12 @@ pub struct ExpectedMotion {
 impl ExpectedMotion {
     /// Traces all of them: a dozen rays per pixel.
     pub fn trace(scene: &Scene, [width, height]: [u32; 2]) -> Result<Self, TraceError> {
-        let settings = |velocity| RenderSettings {
+        let mut since_last = RenderSettings {
             width,
             height,
-            options: FrameOptions {
-                velocity,
-                ..FrameOptions::default()
-            },
             ..RenderSettings::default()
         };
-        let since_last = settings(VelocityKind::PreviousFrame);
+        since_last.options.velocity = VelocityKind::PreviousFrame;
         let trace = |motion: PointMotion| trace_motion(scene, &since_last, &motion);
         let right = trace(PointMotion::RIGHT)?;
         let mut mistaken = vec![(Cause::Zero, right.velocity.map(|_| [0.0; 2]))];
@@ -55,13 +52,14 @@ impl ExpectedMotion {
         }
         for rate in CLOCK_RATES {
             let motion = PointMotion {
-                over: ANIMATION_RATE / rate,
+                over: FRAMES_PER_SECOND / rate,
                 ..PointMotion::RIGHT
             };
             mistaken.push((Cause::MotionOver(rate), trace(motion)?.velocity));
         }
         mistaken.push((Cause::UpsideDown, upside_down(&right.velocity)));
-        let instantaneous = settings(VelocityKind::Instantaneous);
+        let mut instantaneous = since_last;
+        instantaneous.options.velocity = VelocityKind::Instantaneous;
         let derivative = trace_motion(scene, &instantaneous, &PointMotion::RIGHT)?;
         mistaken.push((Cause::HalfFrameOff, derivative.velocity));
         Ok(Self { right, mistaken })

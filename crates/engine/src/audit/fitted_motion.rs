@@ -17,16 +17,7 @@ const NO_SCALE: f64 = 1e-3;
 /// Lists causes that have a number, fitted to some pixels, with the velocity that each leads to; the simplest first.
 pub fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec<(Cause, Vectors)> {
     let mut candidates = Vec::new();
-    let fit = |axes: &[usize]| {
-        let product = |a: &Vectors, b: &Vectors| -> f64 {
-            let terms = pixels.iter().flat_map(|at| {
-                axes.iter()
-                    .map(|axis| f64::from(a.pixels[*at][*axis]) * f64::from(b.pixels[*at][*axis]))
-            });
-            terms.sum()
-        };
-        product(found, right) / product(right, right)
-    };
+    let fit = |axes: &[usize]| fit_scale(found, right, pixels, axes);
     let scaled = |scales: [f64; 2]| {
         right.map(|right| [0, 1].map(|axis| (scales[axis] * f64::from(right[axis])) as f32))
     };
@@ -43,6 +34,18 @@ pub fn fit_candidates(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Vec
     candidates.extend(list_cut(found, right, pixels));
     candidates.extend(find_steps(found, right, pixels));
     candidates
+}
+
+/// Fits the factor that makes the found velocity of the right one, on some axes.
+pub fn fit_scale(found: &Vectors, right: &Vectors, pixels: &[usize], axes: &[usize]) -> f64 {
+    let product = |a: &Vectors, b: &Vectors| -> f64 {
+        let terms = pixels.iter().flat_map(|at| {
+            axes.iter()
+                .map(|axis| f64::from(a.pixels[*at][*axis]) * f64::from(b.pixels[*at][*axis]))
+        });
+        terms.sum()
+    };
+    product(found, right) / product(right, right)
 }
 
 /// Fits one vector that is added to all.

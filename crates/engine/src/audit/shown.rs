@@ -2,8 +2,14 @@
 
 use frame::Raster;
 use serde::Serialize;
+use tracer::PointLayers;
 
-use crate::audit::clear_pixels::{FEWEST_PIXELS, is_inside, neighbours};
+use crate::audit::clear_pixels::{
+    ClearPixels, FEWEST_PIXELS, is_inside, neighbours, select_clear_pixels,
+};
+
+/// Part of the pixels whose depth must be known before it shows, without ids, what the engine shows there.
+const LEAST_KNOWN: f64 = 0.3;
 
 /// Part of each object that must be where the scene has it, at its edges within a pixel.
 pub const LEAST_SHOWN: f64 = 0.9;
@@ -26,9 +32,52 @@ impl ObjectShown {
     }
 }
 
-/// Counts per object the pixels that the engine shows; `shows(from, at)` tells whether its pixel `from` shows what the scene has at
-/// `at`. At edges a neighbouring pixel will do, since two rasterisers may differ there.
-pub fn count_shown(
+/// What an engine shows of a scene.
+pub struct Shown {
+    /// Part of the pixels at which it shows what the scene shows.
+    pub alike: f64,
+    /// The same, object by object.
+    pub objects: Vec<ObjectShown>,
+    /// Pixels of each object that can be compared; none of one that is missed.
+    pub regions: Vec<ClearPixels>,
+}
+
+impl Shown {
+    /// Compares what an engine shows with the scene; `shows(from, at)` tells whether its pixel `from` shows what the scene has at `at`.
+    pub fn compare(
+        right: &PointLayers,
+        ids: Option<&Raster<u32>>,
+        names: &[String],
+        shows: &dyn Fn(usize, usize) -> bool,
+    ) -> Self {
+        let own = &right.object_id;
+        let count = own.pixels.len();
+        let alike = (0..count).filter(|at| shows(*at, *at)).count() as f64 / count as f64;
+        let objects = count_shown(own, ids, names, shows);
+        let is_clear = |at: usize| {
+            let name = &names[own.pixels[at] as usize];
+            (alike < LEAST_KNOWN || shows(at, at)) && !is_missed(&objects, name)
+        };
+        let regions = select_clear_pixels(right, names.len(), &is_clear);
+        Self {
+            alike,
+            regions,
+            objects,
+        }
+    }
+
+    /// Tells whether the engine shows too little of an object.
+    pub fn is_missed(&self, object: &str) -> bool {
+        is_missed(&self.objects, object)
+    }
+}
+
+fn is_missed(objects: &[ObjectShown], name: &str) -> bool {
+    (objects.iter()).any(|object| object.is_missed() && object.object == name)
+}
+
+/// Counts per object the pixels that the engine shows. At edges a neighbouring pixel will do, since two rasterisers may differ there.
+fn count_shown(
     right: &Raster<u32>,
     ids: Option<&Raster<u32>>,
     names: &[String],
@@ -42,10 +91,7 @@ pub fn count_shown(
         });
     }
     let in_scene = counts.clone();
-    let found = ids
-        .into_iter()
-        .flat_map(|ids| ids.pixels.iter().enumerate());
-    for (at, object) in found {
+    for (at, object) in ids.iter().flat_map(|ids| ids.pixels.iter().enumerate()) {
         // The place of an object that is missing shows what is behind it.
         let is_laid_bare = in_scene[right.pixels[at] as usize].share() < LEAST_SHOWN;
         if let Some(count) = counts.get_mut(*object as usize)

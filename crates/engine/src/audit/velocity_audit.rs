@@ -10,7 +10,7 @@ use crate::audit::clear_pixels::{ClearPixels, select_judged};
 use crate::audit::defect::{Buffer, Defect, Explanation};
 use crate::audit::depth_audit::LEAST_EXPLAINED;
 use crate::audit::expected_motion::ExpectedMotion;
-use crate::audit::fitted_motion::{TOLERANCE, find_offset, fit_candidates, length};
+use crate::audit::fitted_motion::{TOLERANCE, find_offset, fit_candidates, fit_scale, length};
 use crate::statistics::{median, percentile};
 
 /// The same as a part of the speed.
@@ -149,11 +149,6 @@ fn audit_object(
     let worst = (region.pixels.iter().copied())
         .max_by(|a, b| error(*a).total_cmp(&error(*b)))
         .expect("a judged object has pixels");
-    let product = |a: &Vectors, b: &Vectors| -> f64 {
-        (region.pixels.iter())
-            .map(|at| dot(a.pixels[*at], b.pixels[*at]))
-            .sum()
-    };
     let speed = |at: &usize| length(right.pixels[*at].map(f64::from));
     let speed = median(region.pixels.iter().map(speed));
     let at_part = |part: f64| percentile(&errors, part).expect("a judged object has pixels");
@@ -166,7 +161,7 @@ fn audit_object(
         p95: at_part(0.95),
         worst: error(worst),
         worst_at: [(worst % width) as u32, (worst / width) as u32],
-        scale: (speed > TOLERANCE).then(|| product(found, right) / product(right, right)),
+        scale: (speed > TOLERANCE).then(|| fit_scale(found, right, &region.pixels, &[0, 1])),
         is_right: share(found, right, &region.pixels) >= LEAST_EXPLAINED,
     }
 }
@@ -208,8 +203,4 @@ fn is_close(a: [f32; 2], b: [f32; 2]) -> bool {
 
 fn difference(a: [f32; 2], b: [f32; 2]) -> [f64; 2] {
     [0, 1].map(|axis| f64::from(a[axis]) - f64::from(b[axis]))
-}
-
-fn dot(a: [f32; 2], b: [f32; 2]) -> f64 {
-    f64::from(a[0]) * f64::from(b[0]) + f64::from(a[1]) * f64::from(b[1])
 }

@@ -1,6 +1,6 @@
 //! Views of the scene that a capture may show instead of the right one: other frames, and rows upside down.
 
-use frame::{ColorSampling, Frame, Image, Plane, Raster};
+use frame::{ColorSampling, Image, Plane, Raster};
 use tracer::{Scene, TraceError};
 
 use crate::audit::cause::Cause;
@@ -13,7 +13,7 @@ use crate::statistics::median;
 
 /// Greatest number of frames, late or early, that is looked for.
 const MOST_FRAMES: u32 = 2;
-/// Fewest pixels at which two views must differ before a buffer tells one from the other.
+/// Fewest pixels at which two views must differ before a buffer shows which one it has.
 const FEWEST_PIXELS: usize = 16;
 /// Part of these pixels that must show a view.
 const LEAST_SHOWING: f64 = 0.8;
@@ -31,14 +31,6 @@ struct View {
     color: Image,
 }
 
-/// What one pixel shows of two views that differ there.
-#[derive(Clone, Copy, PartialEq)]
-enum Shows {
-    Right,
-    Other,
-    Neither,
-}
-
 /// Pixels at which a view differs from the right one, as one buffer shows them.
 #[derive(Clone, Copy, Default)]
 struct Tally {
@@ -48,10 +40,12 @@ struct Tally {
 }
 
 impl Tally {
-    fn of(pixels: impl Iterator<Item = Shows>) -> Self {
-        pixels.fold(Self::default(), |tally, shows| Self {
-            right: tally.right + usize::from(shows == Shows::Right),
-            other: tally.other + usize::from(shows == Shows::Other),
+    /// Counts pixels that show the right view, the other one, or neither. Those that show both do not count.
+    fn of(pixels: impl Iterator<Item = [bool; 2]>) -> Self {
+        let distinct = pixels.filter(|[right, other]| !(*right && *other));
+        distinct.fold(Self::default(), |tally, [right, other]| Self {
+            right: tally.right + usize::from(right),
+            other: tally.other + usize::from(other),
             all: tally.all + 1,
         })
     }
@@ -124,28 +118,23 @@ const BUFFERS: [Buffer; 3] = [Buffer::ObjectId, Buffer::Depth, Buffer::Color];
 fn tally_buffers(capture: &Capture, depth: &DepthPair, right: &View, view: &View) -> [Tally; 3] {
     let places = 0..right.depth.pixels.len();
     let ids = capture.object_id.as_ref().map_or(Tally::default(), |ids| {
-        Tally::of(places.clone().filter_map(|at| {
-            let [right, other] = [right, view].map(|view| view.object_id.pixels[at]);
-            let found = ids.pixels[at];
-            compare(found == right, found == other).filter(|_| right != other)
-        }))
+        let pairs = places
+            .clone()
+            .map(|at| [right, view].map(|view| view.object_id.pixels[at]));
+        let pixels = pairs
+            .zip(&ids.pixels)
+            .filter(|([right, other], _)| right != other);
+        Tally::of(pixels.map(|(pair, found)| pair.map(|id| id == *found)))
     });
-    let depths = Tally::of(places.filter_map(|at| {
-        let [right, other] = [right, view].map(|view| view.depth.pixels[at]);
-        let found = depth.found.pixels[at];
-        let shows = [right, other].map(|expected| depth.is_close(found, expected));
-        compare(shows[0], shows[1]).filter(|_| !depth.is_close(right, other))
-    }));
-    [ids, depths, tally_colors(&capture.color, right, view)]
-}
-
-fn compare(is_right: bool, is_other: bool) -> Option<Shows> {
-    Some(match (is_right, is_other) {
-        (true, true) => return None,
-        (true, false) => Shows::Right,
-        (false, true) => Shows::Other,
-        (false, false) => Shows::Neither,
-    })
+    let pairs = places.map(|at| [right, view].map(|view| view.depth.pixels[at]));
+    let pixels = pairs.zip(&depth.found.pixels);
+    let depths = pixels.filter(|([right, other], _)| !depth.is_close(*right, *other));
+    let depths = depths.map(|(pair, found)| pair.map(|own| depth.is_close(*found, own)));
+    [
+        ids,
+        Tally::of(depths),
+        tally_colors(&capture.color, right, view),
+    ]
 }
 
 /// Counts what colour shows. The light, which an engine may have as it likes, is fitted to the whole picture, and to each object: the
@@ -161,10 +150,8 @@ fn tally_colors(found: &Image, right: &View, view: &View) -> Tally {
             let [right, other] = [right.pixels[at], other.pixels[at]];
             let [from_right, from_other] =
                 [right, other].map(|color| distance(found.pixels[at], color));
-            is_other_color(right, other).then_some(match from_right < from_other {
-                true => Shows::Right,
-                false => Shows::Other,
-            })
+            let is_right = from_right < from_other;
+            is_other_color(right, other).then_some([is_right, !is_right])
         }))
     });
     let decided = |tally: &Tally| tally.part(tally.right.max(tally.other)).unwrap_or(0.0);
@@ -235,16 +222,11 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
 /// Traces what a rasteriser writes some frames after the instant. Unlit colours have no noise.
 fn trace_view(scene: &Scene, size: [u32; 2], time: i32, cause: Cause) -> Result<View, TraceError> {
     let scene = scene.clone().pinhole().unlit().later_by(f64::from(time));
-    let Frame {
-        object_id,
-        depth,
-        color,
-        ..
-    } = render_view(&scene, size, 1, ColorSampling::Point)?;
+    let frame = render_view(&scene, size, 1, ColorSampling::Point)?;
     Ok(View {
         cause,
-        object_id,
-        depth,
-        color,
+        object_id: frame.object_id,
+        depth: frame.depth,
+        color: frame.color,
     })
 }

@@ -25,7 +25,6 @@ pub struct CaptureDescription {
     #[serde(default)]
     pub scene: Option<SceneId>,
     /// Exposure of the blurred picture and of the sub-frames, in frames.
-    #[serde(default)]
     pub exposure: Option<f64>,
     /// Alignment of their shutter: `trailing`, `centred` or `leading`.
     #[serde(default)]
@@ -34,10 +33,8 @@ pub struct CaptureDescription {
     #[serde(default)]
     pub instant: f64,
     /// Number of sub-frames, if the writer says it.
-    #[serde(default)]
     pub subframes: Option<usize>,
     /// Display exposure of the pictures, in stops; if left out that of the scene, or 0.
-    #[serde(default)]
     pub stops: Option<f32>,
 }
 
@@ -67,18 +64,16 @@ impl CaptureDescription {
     /// Refuses texts that would disturb a terminal or a page, and numbers that make no sense.
     fn check(&self) -> Result<(), String> {
         let length = self.engine.trim().chars().count();
+        let refuse_engine =
+            |allowed: String| Err(format!("engine = {:?}; allowed: {allowed}", self.engine));
         if !(1..=LONGEST_ENGINE).contains(&length) || self.engine.contains(is_hidden) {
-            return Err(format!(
-                "engine = {:?}; allowed: a name of 1 to {LONGEST_ENGINE} characters on one line",
-                self.engine
+            return refuse_engine(format!(
+                "a name of 1 to {LONGEST_ENGINE} characters on one line"
             ));
         }
         // Its first word becomes a folder.
         if !self.engine.trim().starts_with(char::is_alphanumeric) {
-            return Err(format!(
-                "engine = {:?}; allowed: a name that begins with a letter or a digit",
-                self.engine
-            ));
+            return refuse_engine("a name that begins with a letter or a digit".to_owned());
         }
         if let Some(exposure) = self.exposure {
             (Alignment::Trailing.shutter(exposure))

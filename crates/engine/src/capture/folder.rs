@@ -53,10 +53,7 @@ impl Capture {
         if !folder.is_dir() {
             return refuse(
                 folder,
-                &format!(
-                    "there is no such folder; name one that holds an engine's {CAPTURE_FILE}, color.exr, velocity.exr and \
-                     depth.exr"
-                ),
+                "there is no such folder; name one that holds an engine's capture.toml, color.exr, velocity.exr and depth.exr",
             );
         }
         let description = CaptureDescription::read(folder)?;
@@ -85,17 +82,18 @@ impl Capture {
         let depth = convention.restore_depth(&depth);
 
         let path = folder.join("object.exr");
-        let object_id = (path.is_file().then(|| read_objects(&path))).transpose()?;
-        if let Some(ids) = &object_id {
-            check_size(&path, ids, &color)?;
+        let mut object_id = None;
+        if path.is_file() {
+            let ids = read_objects(&path)?;
+            check_size(&path, &ids, &color)?;
+            object_id = Some(ids);
         }
-        let blurred_path = find_picture(folder, "blurred")?;
-        let blurred = (blurred_path.as_ref())
-            .map(|path| read_color(path, &convention, stops))
-            .transpose()?;
-        if let (Some(path), Some(blurred)) = (&blurred_path, &blurred) {
-            check_size(path, blurred, &color)?;
-            notes.extend(is_png(path).then(|| png_note("blurred.png")));
+        let mut blurred = None;
+        if let Some(path) = find_picture(folder, "blurred")? {
+            let picture = read_color(&path, &convention, stops)?;
+            check_size(&path, &picture, &color)?;
+            notes.extend(is_png(&path).then(|| png_note("blurred.png")));
+            blurred = Some(picture);
         }
         Ok(Self {
             subframes: list_subframes(folder, &description, &color_path)?,
@@ -153,7 +151,7 @@ fn read_convention(folder: &Path, path: Option<&Path>) -> Result<Convention, Err
         return refuse(
             &default,
             "there is no such file; it says in a table [convention] which velocity and depth the engine has; write one, or name \
-             one with --convention",
+             another file",
         );
     }
     let path = path.unwrap_or(&default);
@@ -235,7 +233,7 @@ fn list_subframes(
             return refuse(
                 path,
                 &format!(
-                    "stands in the place of {expected}; allowed: sub-frames numbered from 0000 without a gap"
+                    "is in the place of {expected}; allowed: sub-frames numbered from 0000 without a gap"
                 ),
             );
         }

@@ -1,12 +1,12 @@
-//! Numbers that an engine kept as half floats.
+//! Numbers that an engine stores as half floats.
 
 use half::f16;
 
-/// Least part of the numbers that lie between halves if they were kept as floats.
+/// Least part of the numbers that lie between halves if they were stored as floats.
 const LEAST_BETWEEN: f64 = 1e-3;
 
 /// Tells whether numbers came from half floats: the file has them, or the engine's texture had them before they were read back as
-/// floats. Numbers that are all alike do not tell.
+/// floats. Numbers that are all alike may be either.
 pub fn are_halves(numbers: impl Iterator<Item = f32>) -> bool {
     let (mut all, mut between, mut fractional) = (0_u64, 0_u64, 0_u64);
     for number in numbers {

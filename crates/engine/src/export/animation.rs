@@ -8,8 +8,9 @@ use crate::export::document::{Document, widen};
 use crate::export::motion::{Track, Tracks};
 use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
 
-/// The animation of a scene: channels and samplers.
+/// Nodes that move, and the channels of their animation.
 pub struct Channels<'a> {
+    document: &'a mut Document,
     timeline: &'a Timeline,
     channels: Vec<Value>,
     samplers: Vec<Value>,
@@ -17,8 +18,9 @@ pub struct Channels<'a> {
 
 impl<'a> Channels<'a> {
     /// Begins an animation in which nothing moves.
-    pub fn new(timeline: &'a Timeline) -> Self {
+    pub fn new(document: &'a mut Document, timeline: &'a Timeline) -> Self {
         Self {
+            document,
             timeline,
             channels: Vec::new(),
             samplers: Vec::new(),
@@ -26,12 +28,7 @@ impl<'a> Channels<'a> {
     }
 
     /// Adds a node in its pose at the start of the timeline, and a channel for each part of its pose that changes.
-    pub fn push_node(
-        &mut self,
-        document: &mut Document,
-        mut node: Value,
-        motion: &Motion,
-    ) -> usize {
+    pub fn push_node(&mut self, mut node: Value, motion: &Motion) -> usize {
         let Tracks {
             translation,
             rotation,
@@ -40,40 +37,39 @@ impl<'a> Channels<'a> {
         node["translation"] = json!(floats(first_of(&translation)).map(widen));
         node["rotation"] = json!(turn(first_of(&rotation)).map(widen));
         node["scale"] = json!(floats(first_of(&scale)).map(widen));
-        let node = document.push("nodes", node);
-        self.add_track(document, node, "translation", &translation, floats);
-        self.add_track(document, node, "rotation", &rotation, turn);
-        self.add_track(document, node, "scale", &scale, floats);
+        let node = self.document.push("nodes", node);
+        self.add_track(node, "translation", &translation, floats);
+        self.add_track(node, "rotation", &rotation, turn);
+        self.add_track(node, "scale", &scale, floats);
         node
     }
 
     /// Adds the weights of a node's morph targets: between two shapes those of the two, and beyond the ends as between the nearest
     /// two, so that one weight is below 0 or above 1 there.
-    pub fn add_shapes(&mut self, document: &mut Document, node: usize, shapes: &[Shape]) {
+    pub fn add_shapes(&mut self, node: usize, shapes: &[Shape]) {
         let times = self.timeline.cut(shapes.iter().map(|shape| shape.time));
         let weights: Vec<[f32; 1]> = (times.iter())
             .flat_map(|time| weigh_shapes(shapes, *time).into_iter().skip(1))
             .map(|weight| [weight as f32])
             .collect();
-        let output = document.push_floats(&weights, None);
-        self.add(document, node, "weights", "LINEAR", &times, output);
+        let output = self.document.push_floats(&weights, None);
+        self.add(node, "weights", "LINEAR", &times, output);
     }
 
     /// Adds the animation, if anything moves.
-    pub fn finish(self, document: &mut Document) {
+    pub fn finish(self) {
         if !self.channels.is_empty() {
             let animation = json!({
                 "channels": self.channels,
                 "name": "scene",
                 "samplers": self.samplers,
             });
-            document.push("animations", animation);
+            self.document.push("animations", animation);
         }
     }
 
     fn add_track<T: Copy, const N: usize>(
         &mut self,
-        document: &mut Document,
         node: usize,
         path: &str,
         track: &Track<T>,
@@ -96,24 +92,16 @@ impl<'a> Channels<'a> {
                 (times, triples.collect(), "CUBICSPLINE")
             }
         };
-        let output = document.push_floats(&values, None);
-        self.add(document, node, path, interpolation, &times, output);
+        let output = self.document.push_floats(&values, None);
+        self.add(node, path, interpolation, &times, output);
     }
 
     /// Adds a channel whose values are in the accessor `output`.
-    fn add(
-        &mut self,
-        document: &mut Document,
-        node: usize,
-        path: &str,
-        interpolation: &str,
-        times: &[f64],
-        output: usize,
-    ) {
+    fn add(&mut self, node: usize, path: &str, interpolation: &str, times: &[f64], output: usize) {
         let seconds: Vec<[f32; 1]> = (times.iter())
             .map(|time| [self.timeline.seconds(*time) as f32])
             .collect();
-        let input = document.push_limited(&seconds, None);
+        let input = self.document.push_limited(&seconds, None);
         self.channels.push(json!({
             "sampler": self.samplers.len(),
             "target": { "node": node, "path": path },

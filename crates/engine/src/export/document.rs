@@ -12,22 +12,13 @@ use crate::files::write_json;
 const DOCUMENT: &str = "scene.gltf";
 /// Name of the file that holds vertices and keys.
 const BUFFER: &str = "scene.bin";
+/// Name of the list of views of the buffer as numbers.
+const ACCESSORS: &str = "accessors";
 
-/// Use of a buffer's part.
-#[derive(Clone, Copy)]
-pub enum Target {
-    /// Vertices.
-    Vertices = 34962,
-    /// Corners of triangles.
-    Indices = 34963,
-}
-
-/// Type of a number.
-#[derive(Clone, Copy)]
-enum Component {
-    U32 = 5125,
-    F32 = 5126,
-}
+/// Use of a part of the buffer, by its number in glTF: vertices.
+pub const VERTICES: Option<u32> = Some(34962);
+/// Corners of triangles.
+const INDICES: Option<u32> = Some(34963);
 
 /// Lists of a document, and the bytes of its one buffer.
 #[derive(Debug, Default)]
@@ -55,7 +46,7 @@ impl Document {
     pub fn push_limited<const N: usize>(
         &mut self,
         values: &[[f32; N]],
-        target: Option<Target>,
+        target: Option<u32>,
     ) -> usize {
         let limit = |pick: fn(f32, f32) -> f32| -> Vec<f32> {
             let part = |part: usize| values.iter().map(move |value| value[part]);
@@ -63,69 +54,54 @@ impl Document {
                 .map(|at| part(at).reduce(pick).unwrap_or(0.0))
                 .collect()
         };
-        let limits = json!({ "min": limit(f32::min), "max": limit(f32::max) });
-        self.push_vectors(values, target, limits)
+        let index = self.push_floats(values, target);
+        let accessor = &mut self.lists.get_mut(ACCESSORS).expect("one was just added")[index];
+        accessor["min"] = limit(f32::min).into();
+        accessor["max"] = limit(f32::max).into();
+        index
     }
 
     /// Adds vectors of one to four floats.
     pub fn push_floats<const N: usize>(
         &mut self,
         values: &[[f32; N]],
-        target: Option<Target>,
+        target: Option<u32>,
     ) -> usize {
-        self.push_vectors(values, target, json!({}))
+        let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1];
+        let bytes = values
+            .iter()
+            .flatten()
+            .flat_map(|value| value.to_le_bytes());
+        let float = 5126;
+        let accessor = json!({ "componentType": float, "count": values.len(), "type": kind });
+        self.push_accessor(bytes, target, accessor)
     }
 
     /// Adds corners of triangles.
     pub fn push_indices(&mut self, indices: &[u32]) -> usize {
         let bytes = indices.iter().flat_map(|index| index.to_le_bytes());
-        let view = self.push_view(bytes, Some(Target::Indices));
-        self.push(
-            "accessors",
-            json!({
-                "bufferView": view,
-                "componentType": Component::U32 as u32,
-                "count": indices.len(),
-                "type": "SCALAR",
-            }),
-        )
+        let unsigned = 5125;
+        let accessor =
+            json!({ "componentType": unsigned, "count": indices.len(), "type": "SCALAR" });
+        self.push_accessor(bytes, INDICES, accessor)
     }
 
-    fn push_vectors<const N: usize>(
+    fn push_accessor(
         &mut self,
-        values: &[[f32; N]],
-        target: Option<Target>,
-        limits: Value,
+        bytes: impl Iterator<Item = u8>,
+        target: Option<u32>,
+        mut accessor: Value,
     ) -> usize {
-        let bytes = values
-            .iter()
-            .flatten()
-            .flat_map(|value| value.to_le_bytes());
-        let view = self.push_view(bytes, target);
-        let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1];
-        self.push(
-            "accessors",
-            json!({
-                "bufferView": view,
-                "componentType": Component::F32 as u32,
-                "count": values.len(),
-                "type": kind,
-                "min": limits["min"],
-                "max": limits["max"],
-            }),
-        )
-    }
-
-    fn push_view(&mut self, bytes: impl Iterator<Item = u8>, target: Option<Target>) -> usize {
         let start = self.bytes.len();
         self.bytes.extend(bytes);
         let view = json!({
             "buffer": 0,
             "byteLength": self.bytes.len() - start,
             "byteOffset": start,
-            "target": target.map(|target| target as u32),
+            "target": target,
         });
-        self.push("bufferViews", view)
+        accessor["bufferView"] = self.push("bufferViews", view).into();
+        self.push(ACCESSORS, accessor)
     }
 
     /// Writes the document, whose other fields are given, and its buffer.

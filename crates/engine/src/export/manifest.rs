@@ -81,7 +81,6 @@ impl Manifest {
             let times = [shutter.open, shutter.close].map(|time| timeline.seconds(time));
             (alignment.name(), times)
         };
-        let objects = scene.objects.iter().map(|object| object.name.clone());
         Self {
             format: MANIFEST_FORMAT,
             program: program.to_owned(),
@@ -104,9 +103,7 @@ impl Manifest {
                 Background::Constant(radiance) => Some(radiance.to_array()),
                 _ => None,
             },
-            objects: std::iter::once("background".to_owned())
-                .chain(objects)
-                .collect(),
+            objects: scene.object_names(),
             conventions: CONVENTIONS.to_vec(),
         }
     }

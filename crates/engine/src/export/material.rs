@@ -1,7 +1,7 @@
 //! Materials: metallic-roughness, emissive, with holes, translucent.
 
 use glam::Vec3;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use suite::Error;
 use tracer::{Finish, Material, Translucency};
 
@@ -11,8 +11,7 @@ use crate::export::textures::Textures;
 /// Opacity below which a surface has a hole.
 const HOLE: f32 = 0.5;
 
-/// Adds a material. A translucent one blends; glass and filters transmit in the colour of what passes. A texture of the document is
-/// that of the colour, or of colour and opacity.
+/// Adds a material. A translucent one blends; glass and filters transmit in the colour of what passes.
 pub fn push_material(
     document: &mut Document,
     textures: &mut Textures,
@@ -21,19 +20,15 @@ pub fn push_material(
     check_translucency(material)?;
     let clear = material.translucency.filter(|_| is_clear(material));
     let mode = alpha_mode(material);
-    let base_color_texture = match (material.diffuse_texture, material.opacity_texture) {
-        _ if clear.is_some() => None,
-        (color, Some(opacity)) => Some(textures.add_cut_out(document, color, opacity)?),
-        (Some(color), None) => Some(textures.add_file(document, color)?),
-        (None, None) => None,
+    let base_color_texture = match clear {
+        Some(_) => None,
+        None => textures.add(document, material.diffuse_texture, material.opacity_texture)?,
     };
     // What is not opaque at all sends out nothing.
     let emission = clear.map_or(material.emission, |_| Vec3::ZERO);
     let strength = emission.max_element().max(1.0);
-    let emissive_texture = match material.emission_texture {
-        Some(texture) if emission != Vec3::ZERO => Some(textures.add_file(document, texture)?),
-        _ => None,
-    };
+    let emissive_texture = material.emission_texture.filter(|_| emission != Vec3::ZERO);
+    let emissive_texture = textures.add(document, emissive_texture, None)?;
     let color = clear.map_or(material.diffuse, |clear| clear.filter);
     let alpha = clear.map_or(material.opacity, |_| 1.0);
     let [metallic, roughness] = match (clear, material.finish) {
@@ -42,7 +37,6 @@ pub fn push_material(
         (None, Finish::Conductor { roughness }) => [1.0, roughness],
         (None, Finish::Coated { roughness, .. }) => [0.0, roughness],
     };
-    let extensions = list_extensions(material, clear, strength);
     let texture = |index: Option<usize>| index.map(|index| json!({ "index": index }));
     let entry = json!({
         "alphaCutoff": (mode == "MASK").then_some(HOLE),
@@ -50,7 +44,7 @@ pub fn push_material(
         "doubleSided": true,
         "emissiveFactor": (emission / strength).to_array().map(widen),
         "emissiveTexture": texture(emissive_texture),
-        "extensions": (!extensions.is_empty()).then_some(extensions),
+        "extensions": describe_extensions(material, clear, strength),
         "name": material.name,
         "pbrMetallicRoughness": {
             "baseColorFactor": color.extend(alpha).to_array().map(widen),
@@ -62,41 +56,22 @@ pub fn push_material(
     Ok(document.push("materials", entry))
 }
 
-/// Lists the extensions of a material by their names. Glass and filters have the index of refraction 1 where nothing is reflected. A
-/// diffuse one has no specular reflection at all: without `KHR_materials_specular` a dielectric of index 1.5 reflects 4 %.
-fn list_extensions(
-    material: &Material,
-    clear: Option<Translucency>,
-    strength: f32,
-) -> Map<String, Value> {
+/// Describes what takes an extension. Glass and filters have the index of refraction 1 where nothing is reflected. A diffuse material
+/// has no specular reflection at all: without `KHR_materials_specular` a dielectric of index 1.5 reflects 4 %.
+fn describe_extensions(material: &Material, clear: Option<Translucency>, strength: f32) -> Value {
     let index = match (clear, material.finish) {
         (Some(clear), _) => Some(clear.glass.unwrap_or(1.0)),
         (None, Finish::Coated { index, .. }) => Some(index),
         _ => None,
     };
     let is_matt = clear.is_none() && material.finish == Finish::Diffuse;
-    let listed = [
-        (
-            "KHR_materials_emissive_strength",
-            (strength > 1.0).then(|| json!({ "emissiveStrength": widen(strength) })),
-        ),
-        (
-            "KHR_materials_ior",
-            index.map(|index| json!({ "ior": widen(index) })),
-        ),
-        (
-            "KHR_materials_specular",
-            is_matt.then(|| json!({ "specularFactor": 0.0 })),
-        ),
-        (
-            "KHR_materials_transmission",
-            clear.map(|_| json!({ "transmissionFactor": 1.0 })),
-        ),
-    ];
-    let used = listed
-        .into_iter()
-        .filter_map(|(name, own)| Some((name.to_owned(), own?)));
-    used.collect()
+    let emission = (strength > 1.0).then(|| json!({ "emissiveStrength": widen(strength) }));
+    json!({
+        "KHR_materials_emissive_strength": emission,
+        "KHR_materials_ior": index.map(|index| json!({ "ior": widen(index) })),
+        "KHR_materials_specular": is_matt.then(|| json!({ "specularFactor": 0.0 })),
+        "KHR_materials_transmission": clear.map(|_| json!({ "transmissionFactor": 1.0 })),
+    })
 }
 
 /// Returns the word for the way in which alpha counts.

@@ -6,7 +6,7 @@ use glam::Vec3;
 use serde_json::{Value, json};
 use tracer::{Mesh, Shape};
 
-use crate::export::document::{Document, Target};
+use crate::export::document::{Document, VERTICES};
 
 /// Adds a mesh with a material per slot. Shapes become morph targets: what each has more than the first.
 pub fn push_mesh(document: &mut Document, name: &str, mesh: &Mesh, materials: &[usize]) -> usize {
@@ -66,9 +66,8 @@ fn push_primitive(
             .map(|vertex| values[*vertex as usize].to_array())
             .collect()
     };
-    let array = Some(Target::Vertices);
-    let positions = document.push_limited(&pick(&mesh.positions), array);
-    let normals = is_smooth.then(|| document.push_floats(&pick(&mesh.normals), array));
+    let positions = document.push_limited(&pick(&mesh.positions), VERTICES);
+    let normals = is_smooth.then(|| document.push_floats(&pick(&mesh.normals), VERTICES));
     let is_textured = !mesh.texcoords.is_empty() && is_textured(document, material);
     let texcoords = is_textured.then(|| {
         // Down from the top there, up from the bottom here.
@@ -76,7 +75,7 @@ fn push_primitive(
             .map(|vertex| mesh.texcoords[*vertex as usize])
             .map(|texcoord| [texcoord.x, 1.0 - texcoord.y])
             .collect();
-        document.push_floats(&texcoords, array)
+        document.push_floats(&texcoords, VERTICES)
     });
     let targets: Vec<Value> = (mesh.shapes.iter().skip(1))
         .map(|shape| push_target(document, mesh, shape, is_smooth, &pick))
@@ -108,11 +107,10 @@ fn push_target(
             .map(|(own, first)| own - first)
             .collect()
     };
-    let array = Some(Target::Vertices);
     let normals = is_smooth.then(|| {
         let normals = pick(&difference(&shape.normals, &mesh.normals));
-        document.push_floats(&normals, array)
+        document.push_floats(&normals, VERTICES)
     });
     let positions = pick(&difference(&shape.positions, &mesh.positions));
-    json!({ "POSITION": document.push_limited(&positions, array), "NORMAL": normals })
+    json!({ "POSITION": document.push_limited(&positions, VERTICES), "NORMAL": normals })
 }

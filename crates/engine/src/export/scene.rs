@@ -87,26 +87,26 @@ fn push_nodes(document: &mut Document, scene: &Scene, timeline: &Timeline) {
         "type": "perspective",
     });
     let children = |parent| Some(list_children(scene, parent)).filter(|own| !own.is_empty());
-    let mut channels = Channels::new(timeline);
     let node = json!({
         "camera": document.push("cameras", camera),
         "children": children(Parent::Camera),
         "name": "camera",
     });
-    channels.push_node(document, node, &scene.camera.motion);
+    let mut channels = Channels::new(document, timeline);
+    channels.push_node(node, &scene.camera.motion);
     for (index, (object, mesh)) in scene.objects.iter().zip(meshes).enumerate() {
         let node = json!({
             "children": children(Parent::Object(index)),
             "mesh": mesh,
             "name": object.name,
         });
-        let node = channels.push_node(document, node, &object.motion);
+        let node = channels.push_node(node, &object.motion);
         let shapes = &scene.meshes[object.mesh].shapes;
         if shapes.len() > 1 {
-            channels.add_shapes(document, node, shapes);
+            channels.add_shapes(node, shapes);
         }
     }
-    channels.finish(document);
+    channels.finish();
 }
 
 /// Lists the nodes of the objects that move with a parent.

@@ -34,36 +34,39 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// Adds the file of a texture as it is; returns its index in the document.
-    pub fn add_file(
-        &mut self,
-        document: &mut Document,
-        texture: usize,
-    ) -> Result<usize, FileError> {
-        let key = [Some(texture), None];
-        if let Some(known) = self.known.get(&key) {
-            return Ok(*known);
-        }
-        let path = &self.scene.textures[texture].path;
-        let bytes = self.origin.at(path).read(LARGEST_IMAGE_FILE)?;
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let name = format!("{texture}_{}", plain_name(&name));
-        self.write(&name, &bytes)?;
-        Ok(self.push(document, key, name))
-    }
-
-    /// Adds a texture whose colour is one file's and whose alpha is another's: glTF has one for both. It is as large as the larger
-    /// of the two, of which the other takes the nearest texel.
-    pub fn add_cut_out(
+    /// Adds the texture of a colour, an opacity or both; returns its index in the document, and none of neither.
+    pub fn add(
         &mut self,
         document: &mut Document,
         color: Option<usize>,
-        opacity: usize,
-    ) -> Result<usize, FileError> {
-        let key = [color, Some(opacity)];
+        opacity: Option<usize>,
+    ) -> Result<Option<usize>, FileError> {
+        let key = [color, opacity];
         if let Some(known) = self.known.get(&key) {
-            return Ok(*known);
+            return Ok(Some(*known));
         }
+        let (name, bytes) = match key {
+            [None, None] => return Ok(None),
+            [Some(color), None] => self.read_file(color)?,
+            [color, Some(opacity)] => self.join(color, opacity),
+        };
+        write_atomically(&self.folder.join(FOLDER).join(&name), &bytes)?;
+        let texture = push_texture(document, &name);
+        self.known.insert(key, texture);
+        Ok(Some(texture))
+    }
+
+    /// Reads the file of a texture as it is, and names its copy.
+    fn read_file(&self, texture: usize) -> Result<(String, Vec<u8>), FileError> {
+        let path = &self.scene.textures[texture].path;
+        let bytes = self.origin.at(path).read(LARGEST_IMAGE_FILE)?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        Ok((format!("{texture}_{}", plain_name(&name)), bytes))
+    }
+
+    /// Makes the file of a texture whose colour is one file's and whose alpha is another's: glTF has one for both. It is as large as
+    /// the larger of the two, of which the other takes the nearest texel.
+    fn join(&self, color: Option<usize>, opacity: usize) -> (String, Vec<u8>) {
         let color_texture = color.map(|index| &self.scene.textures[index]);
         let opacity_texture = &self.scene.textures[opacity];
         let sides = |texture: &Texture| [texture.width, texture.height];
@@ -94,27 +97,20 @@ impl<'a> Textures<'a> {
         let mut bytes = std::io::Cursor::new(Vec::new());
         (picture.write_to(&mut bytes, image::ImageFormat::Png))
             .expect("a picture in memory can be encoded");
-        self.write(&name, &bytes.into_inner())?;
-        Ok(self.push(document, key, name))
+        (name, bytes.into_inner())
     }
+}
 
-    fn write(&self, name: &str, bytes: &[u8]) -> Result<(), FileError> {
-        write_atomically(&self.folder.join(FOLDER).join(name), bytes)
+fn push_texture(document: &mut Document, name: &str) -> usize {
+    if document.list("samplers").is_empty() {
+        // Linear, and linear between mipmaps; textures repeat by default.
+        let sampler = json!({ "magFilter": 9729, "minFilter": 9987 });
+        document.push("samplers", sampler);
     }
-
-    fn push(&mut self, document: &mut Document, key: [Option<usize>; 2], name: String) -> usize {
-        if document.list("samplers").is_empty() {
-            // Linear, and linear between mipmaps; textures repeat by default.
-            let sampler = json!({ "magFilter": 9729, "minFilter": 9987 });
-            document.push("samplers", sampler);
-        }
-        let image = json!({ "name": name, "uri": format!("{FOLDER}/{name}") });
-        let image = document.push("images", image);
-        let texture = json!({ "name": name, "sampler": 0, "source": image });
-        let texture = document.push("textures", texture);
-        self.known.insert(key, texture);
-        texture
-    }
+    let image = json!({ "name": name, "uri": format!("{FOLDER}/{name}") });
+    let image = document.push("images", image);
+    let texture = json!({ "name": name, "sampler": 0, "source": image });
+    document.push("textures", texture)
 }
 
 /// Replaces what needs an escape in a URI.

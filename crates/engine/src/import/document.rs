@@ -37,7 +37,7 @@ pub fn scene_toml(plan: &ImportPlan, model: &Model) -> String {
         exposes = toml::Value::from(exposes),
         family = motions.family().name(),
         exposure = number(plan.exposure),
-        path = camera_path(model.half_size()[1], distance, motions.orbit),
+        path = camera_path(model.half_size().y, distance, motions.orbit),
         set = set_objects(model.radius()),
         stand = stand_motion(motions.spin, motions.slide.map(|speed| speed * pixel)),
         object = model_object(model),
@@ -78,15 +78,11 @@ fn set_objects(radius: f64) -> String {
 /// Writes the model, whose lowest point stands on the stand's middle.
 fn model_object(model: &Model) -> String {
     let [low, high] = model.corners;
-    let below_middle = [
-        -0.5 * (low[0] + high[0]),
-        -low[1],
-        -0.5 * (low[2] + high[2]),
-    ];
+    let middle = 0.5 * (low + high);
     format!(
         "[object.model]\nmesh = {}\nparent = \"stand\"\ntranslation = {}\n{}",
         toml::Value::from(model.mesh.as_str()),
-        vector(below_middle),
+        vector([-middle.x, -low.y, -middle.z]),
         match model.up {
             Up::Y => "",
             Up::Z => "rotation = { axis = [1, 0, 0], degrees = -90 }\n",

@@ -33,7 +33,7 @@ pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
-    let fail = |source| FileError::io(parent, "create a folder in", source);
+    let fail = |source| FileError::io(parent, "write", source);
     fs::create_dir_all(parent).map_err(fail)?;
     let staging = tempfile::tempdir_in(parent).map_err(fail)?;
     // The inner folder is renamed at the end; the temporary one vanishes whatever happens.

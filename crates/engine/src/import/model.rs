@@ -5,9 +5,10 @@ use std::ops::RangeInclusive;
 use std::path::{Component, Path, PathBuf};
 
 use frame::{FileError, read_bounded, write_atomically};
+use glam::DVec3;
 use suite::{Error, named};
 use tracer::limits::LARGEST_MESH_FILE;
-use tracer::{SceneError, load_scene_and_files};
+use tracer::{Mesh, SceneError, load_scene_and_files};
 
 use crate::files::refuse;
 
@@ -32,7 +33,7 @@ pub struct Model {
     /// The OBJ file, below the scene's folder, with slashes.
     pub mesh: String,
     /// Smallest and largest x, y and z once `up` points up, in metres.
-    pub corners: [[f64; 3]; 2],
+    pub corners: [DVec3; 2],
     /// The axis of the file that points up.
     pub up: Up,
 }
@@ -44,7 +45,7 @@ impl Model {
         let path = (path.canonicalize()).map_err(|source| FileError::io(path, "read", source))?;
         let name = path.file_name().unwrap_or_default();
         let copy = folder.join(name);
-        let loaded = match plain {
+        let (mesh, files) = match plain {
             true => {
                 write_plain(&path, &copy)?;
                 // Lines are where they were.
@@ -53,30 +54,26 @@ impl Model {
                     ..error
                 })?
             }
-            false => {
-                let loaded =
-                    load(scene, &path).map_err(|error| suggest_plain(error, &path, scene))?;
-                copy_all(&loaded.files, &path, &folder)?;
-                loaded
-            }
+            false => load(scene, &path).map_err(|error| suggest_plain(error, &path, scene))?,
         };
+        if !plain {
+            copy_all(&files, &path, &folder)?;
+        }
         let Some(name) = name.to_str() else {
             return refuse(&path, "the name is not Unicode; rename the file");
         };
-        let upright = |p: [f64; 3]| match up {
+        let upright = |p: DVec3| match up {
             Up::Y => p,
-            Up::Z => [p[0], p[2], -p[1]],
+            Up::Z => DVec3::new(p.x, p.z, -p.y),
         };
-        let mut corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        for position in loaded.positions.into_iter().map(upright) {
-            for axis in 0..3 {
-                corners[0][axis] = corners[0][axis].min(position[axis]);
-                corners[1][axis] = corners[1][axis].max(position[axis]);
-            }
-        }
+        let vertices = mesh.triangles.iter().flatten();
+        let used = vertices.map(|vertex| upright(mesh.positions[*vertex as usize].as_dvec3()));
         let model = Self {
             mesh: format!("{FOLDER}/{name}"),
-            corners,
+            corners: [
+                used.clone().fold(DVec3::INFINITY, DVec3::min),
+                used.fold(DVec3::NEG_INFINITY, DVec3::max),
+            ],
             up,
         };
         model.check_size(&path)?;
@@ -99,28 +96,20 @@ impl Model {
     }
 
     /// Returns half of the size along each axis, in metres.
-    pub fn half_size(&self) -> [f64; 3] {
+    pub fn half_size(&self) -> DVec3 {
         let [low, high] = self.corners;
-        std::array::from_fn(|axis| 0.5 * (high[axis] - low[axis]))
+        0.5 * (high - low)
     }
 
     /// Returns the radius of the ball around the model's box, in metres.
     pub fn radius(&self) -> f64 {
-        let [x, y, z] = self.half_size();
+        let DVec3 { x, y, z } = self.half_size();
         x.hypot(y).hypot(z)
     }
 }
 
-/// Contents of a scene with nothing but the model.
-struct LoadedModel {
-    /// Positions of the triangles' corners, in metres.
-    positions: Vec<[f64; 3]>,
-    /// The OBJ file and what it names.
-    files: Vec<PathBuf>,
-}
-
-/// Loads the model as a scene of its own.
-fn load(scene: &Path, obj: &Path) -> Result<LoadedModel, SceneError> {
+/// Loads the model as a scene of its own; returns its mesh, and the OBJ file with what it names.
+fn load(scene: &Path, obj: &Path) -> Result<(Mesh, Vec<PathBuf>), SceneError> {
     let document = scene.join("scene.toml");
     let text = format!(
         "exposes = \"the model\"\nfamily = \"limits\"\nexposure = 0.5\nsize = [1, 1]\n\
@@ -133,7 +122,7 @@ fn load(scene: &Path, obj: &Path) -> Result<LoadedModel, SceneError> {
         line: None,
         reason: error.to_string(),
     })?;
-    let (scene, files) =
+    let (mut scene, mut files) =
         load_scene_and_files(scene, None).map_err(|error| match error.path == document {
             // It names the model and nothing else that could be wrong.
             true => SceneError {
@@ -143,14 +132,8 @@ fn load(scene: &Path, obj: &Path) -> Result<LoadedModel, SceneError> {
             },
             false => error,
         })?;
-    let mesh = &scene.meshes[0];
-    let corners = mesh.triangles.iter().flatten();
-    Ok(LoadedModel {
-        positions: corners
-            .map(|index| mesh.positions[*index as usize].as_dvec3().to_array())
-            .collect(),
-        files: files.into_iter().filter(|file| *file != document).collect(),
-    })
+    files.retain(|file| *file != document);
+    Ok((scene.meshes.remove(0), files))
 }
 
 /// Adds to an error that the model can be imported without materials, if it can.
@@ -174,15 +157,13 @@ fn suggest_plain(error: SceneError, path: &Path, scene: &Path) -> SceneError {
 fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
     let bytes = read_bounded(path, LARGEST_MESH_FILE)?;
     let text = String::from_utf8_lossy(&bytes);
-    let mut plain = String::with_capacity(text.len());
-    for line in text.lines() {
-        let keyword = line.split_whitespace().next();
-        if !matches!(keyword, Some("mtllib" | "usemtl")) {
-            plain += line;
-        }
-        plain += "\n";
-    }
-    write_atomically(copy, plain.as_bytes())
+    let plain = text
+        .lines()
+        .map(|line| match line.split_whitespace().next() {
+            Some("mtllib" | "usemtl") => "\n".to_owned(),
+            _ => format!("{line}\n"),
+        });
+    write_atomically(copy, plain.collect::<String>().as_bytes())
 }
 
 /// Copies files to the same places below `folder` that they have below the model's folder.

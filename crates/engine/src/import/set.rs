@@ -65,8 +65,8 @@ fn plane(material: &str, half: f64, radius: f64) -> String {
 /// Writes a disc of alternating colours around the origin, its upper face at the height 0, wide enough for the model in any
 /// rotation.
 fn stand(model: &Model) -> String {
-    let [x, _, z] = model.half_size();
-    let disc = 1.1 * x.hypot(z).max(0.25 * model.radius());
+    let half = model.half_size();
+    let disc = 1.1 * half.x.hypot(half.z).max(0.25 * model.radius());
     let height = STAND_HEIGHT * model.radius();
     let mut text = String::from("mtllib set.mtl\nv 0 0 0\n");
     for corner in 0..CORNERS {

@@ -61,19 +61,8 @@ pub fn ingest(
     let (exposure, alignment) = capture.shutter()?;
     let shutter = alignment.shutter(exposure);
     let shutter = shutter.expect("the exposure was checked when it was read");
-    let averaged = match capture.subframes.is_empty() {
-        true => None,
-        false => {
-            let shutter = (shutter, alignment);
-            Some(average_subframes(
-                capture,
-                shutter,
-                &objects,
-                &provenance,
-                watch,
-            )?)
-        }
-    };
+    let times = (shutter, alignment);
+    let averaged = average_subframes(capture, times, &objects, &provenance, watch)?;
     let frame = make_frame(capture, &scene, (display, objects), provenance);
     if let Some(averaged) = &averaged {
         let rungs = averaged.ladder.rungs.iter();
@@ -142,7 +131,7 @@ fn refuse_other_files(out: &Path) -> Result<(), Error> {
     match out.join(RenderFile::Frame.path()).exists() && !EngineScene::is_in(out) {
         false => Ok(()),
         true => Err(Error::Usage(format!(
-            "--out {}: holds a frame that was not ingested, which would be overwritten; name a new folder",
+            "{}: holds a frame that was not ingested, which would be overwritten; name a new folder",
             out.display()
         ))),
     }
@@ -183,7 +172,7 @@ fn name_scene(capture: &Capture, out: &Path) -> Result<SceneId, Error> {
             Ok(id)
         }
         None => Err(Error::Usage(format!(
-            "--out {}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
+            "{}: its last part names the scene; allowed: letters, digits and . _ - +, such as out/engine/railing",
             out.display()
         ))),
     }
@@ -234,7 +223,7 @@ fn write_picture(
     file.push_color("", picture);
     file.set("kind", "output");
     file.set("exposure", scene.exposure);
-    file.set("alignment", &scene.alignment);
+    file.set("alignment", scene.alignment);
     provenance.set(&mut file);
     Ok(write_exr(path, &file)?)
 }

@@ -34,14 +34,17 @@ pub struct EngineTruth {
     pub restless: f64,
 }
 
-/// Averages the sub-frames of a capture: the even ones make one half of the truth, the odd ones the other.
+/// Averages the sub-frames of a capture, if it has any: the even ones make one half of the truth, the odd ones the other.
 pub fn average_subframes(
     capture: &Capture,
     (shutter, alignment): (Shutter, Alignment),
     objects: &[String],
     provenance: &Provenance,
     watch: Watch,
-) -> Result<EngineTruth, Error> {
+) -> Result<Option<EngineTruth>, Error> {
+    if capture.subframes.is_empty() {
+        return Ok(None);
+    }
     check_count(capture)?;
     let averages = Averages::read(capture, objects.len(), watch)?;
     let halves = averages.whole.halves.each_ref().map(Sum::mean);
@@ -78,7 +81,7 @@ pub fn average_subframes(
             support: support.clone(),
         })
         .collect();
-    Ok(EngineTruth {
+    Ok(Some(EngineTruth {
         truth: Truth::of(&replicates)?,
         restless: part_of(&restless),
         ladder: Ladder {
@@ -89,7 +92,7 @@ pub fn average_subframes(
             objects: objects.to_owned(),
             rungs: averages.rungs.iter().map(Rung::average).collect(),
         },
-    })
+    }))
 }
 
 /// Refuses numbers of sub-frames that make no truth with two halves.

@@ -1,7 +1,6 @@
 //! Choice and opening of the adapter that runs the filters.
 
-use super::device::{AdapterDescription, Clock, Gpu};
-use super::loop_counts::LoopLimit;
+use super::device::{AdapterDescription, Clock, Gpu, LoopLimit};
 use super::loop_probe::find_loop_limit;
 use crate::FilterError;
 

@@ -67,8 +67,7 @@ impl Limits {
 
     /// Describes the first limit that a kernel breaks.
     fn find_broken(&self, shader: &Shader, entry: &EntryPoint) -> Option<String> {
-        let Self { owner, limits, .. } = self;
-        let [x, y, z] = entry.workgroup_size;
+        let limits = &self.limits;
         let count = |is: fn(Role) -> bool| {
             let used = entry.variables.iter();
             used.filter(|index| is(shader.variables[**index].role))
@@ -78,62 +77,63 @@ impl Limits {
             .variables
             .iter()
             .map(|index| shader.variables[*index].binding);
-        let broken = |found: u64, allowed: u32, what: &str, way_out: &str| {
-            (found > u64::from(allowed)).then(|| {
-                format!("{found} {what}; allowed: at most {allowed} by {owner}; {way_out}")
-            })
-        };
-        let of_workgroup = |found, allowed, what| {
-            let reason = broken(found, allowed, what, "make @workgroup_size smaller")?;
-            Some(format!("@workgroup_size({x}, {y}, {z}): {reason}"))
-        };
-        let [x_side, y_side, z_side] = [x, y, z].map(u64::from);
         let found = [
-            of_workgroup(
-                x_side * y_side * z_side,
-                limits.max_compute_invocations_per_workgroup,
-                "invocations in a workgroup",
-            ),
-            broken(
+            self.find_broken_size(entry.workgroup_size),
+            self.exceed(
                 entry.usage.workgroup_bytes,
                 limits.max_compute_workgroup_storage_size,
                 "bytes of var<workgroup>",
                 "keep less in it, or divide the pass",
             ),
-            broken(
+            self.exceed(
                 count(|role| matches!(role, Role::Write(_))),
                 limits.max_storage_textures_per_shader_stage,
                 "textures that it writes",
                 "divide the pass",
             ),
-            broken(
+            self.exceed(
                 count(|role| matches!(role, Role::Read(_))),
                 limits.max_sampled_textures_per_shader_stage,
                 "textures that it reads",
                 "divide the pass",
             ),
-            broken(
+            self.exceed(
                 u64::from(bindings.max().unwrap_or(0)),
                 limits.max_bindings_per_bind_group - 1,
                 "as a number of @binding",
                 "number the bindings from 1",
             ),
-            of_workgroup(
-                x_side,
-                limits.max_compute_workgroup_size_x,
-                "invocations along x",
-            ),
-            of_workgroup(
-                y_side,
-                limits.max_compute_workgroup_size_y,
-                "invocations along y",
-            ),
-            of_workgroup(
-                z_side,
-                limits.max_compute_workgroup_size_z,
-                "invocations along z",
-            ),
         ];
         found.into_iter().flatten().next()
+    }
+
+    /// Describes the first limit that the size of a workgroup breaks.
+    fn find_broken_size(&self, [x, y, z]: [u32; 3]) -> Option<String> {
+        let limits = &self.limits;
+        let [along_x, along_y, along_z] = [x, y, z].map(u64::from);
+        let all = along_x * along_y * along_z;
+        let mut found = [
+            (
+                all,
+                limits.max_compute_invocations_per_workgroup,
+                "in a workgroup",
+            ),
+            (along_x, limits.max_compute_workgroup_size_x, "along x"),
+            (along_y, limits.max_compute_workgroup_size_y, "along y"),
+            (along_z, limits.max_compute_workgroup_size_z, "along z"),
+        ]
+        .into_iter();
+        let broken = found.find_map(|(found, allowed, place)| {
+            let what = format!("invocations {place}");
+            self.exceed(found, allowed, &what, "make @workgroup_size smaller")
+        });
+        broken.map(|reason| format!("@workgroup_size({x}, {y}, {z}): {reason}"))
+    }
+
+    /// Describes a number above its limit.
+    fn exceed(&self, found: u64, allowed: u32, what: &str, way_out: &str) -> Option<String> {
+        let owner = &self.owner;
+        (found > u64::from(allowed))
+            .then(|| format!("{found} {what}; allowed: at most {allowed} by {owner}; {way_out}"))
     }
 }

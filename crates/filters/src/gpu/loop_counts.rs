@@ -1,24 +1,8 @@
-//! Limit of an adapter on loop iterations, and the buffer in which kernels report theirs.
+//! Buffer in which kernels report their loop iterations.
 
-use super::device::Gpu;
+use super::device::{Gpu, LoopLimit};
 use super::place::Place;
 use crate::FilterError;
-
-/// Loop iterations that an adapter grants one invocation, all its loops together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LoopLimit {
-    /// Iterations after which every loop ends.
-    pub iterations: u32,
-    /// Invocations that run in step and share the limit, at most: where they branch apart, their iterations add up.
-    pub lanes: u32,
-}
-
-impl LoopLimit {
-    /// Returns the iterations of one invocation from which on the picture may be wrong: its neighbours in step may take as many.
-    pub fn safe(self) -> u32 {
-        self.iterations / self.lanes.max(1)
-    }
-}
 
 /// The largest count of any invocation, per dispatch; 0 where every count is safe.
 #[derive(Debug)]

@@ -11,7 +11,8 @@ use super::convention::read_convention;
 use super::file::File;
 use super::number::{IDENTIFIER, Names, is_identifier};
 use super::parameters::{ParameterEntry, read_parameters};
-use super::passes::{PassEntry, TextureEntry, read_passes, read_textures};
+use super::pass_shader::PassEntry;
+use super::passes::{TextureEntry, read_passes, read_textures};
 use super::presets::{PresetEntry, read_presets};
 use crate::filter::{DEFAULT_TIME_LIMIT, History, Lines};
 use crate::{Convention, Filter, FilterError, Length, ReachBy};
@@ -49,13 +50,7 @@ struct Manifest {
 pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     let file = File { path, text };
     let manifest: Manifest = file.read("")?;
-    let name = manifest.name.get_ref();
-    if !is_identifier(name) {
-        return Err(file.at(
-            &manifest.name,
-            format!("name \"{name}\": {IDENTIFIER}; it also names the WGSL file"),
-        ));
-    }
+    check_name(&file, &manifest.name)?;
     check_method(&file, &manifest)?;
     let lines = Lines {
         path: path.to_owned(),
@@ -87,7 +82,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         check_reach_by(&file, reach_by, names)?;
     }
     Ok(Filter {
-        name: name.clone(),
+        name: manifest.name.get_ref().clone(),
         presets: read_presets(
             &file,
             &manifest.preset,
@@ -168,6 +163,19 @@ fn read_history(file: &File, manifest: &Manifest) -> Result<Vec<History>, Filter
         history.push(*own.get_ref());
     }
     Ok(history)
+}
+
+fn check_name(file: &File, name: &Spanned<String>) -> Result<(), FilterError> {
+    match is_identifier(name.get_ref()) {
+        true => Ok(()),
+        false => Err(file.at(
+            name,
+            format!(
+                "name \"{}\": {IDENTIFIER}; it also names the WGSL file",
+                name.get_ref()
+            ),
+        )),
+    }
 }
 
 /// Refuses a filter that is neither a command nor passes over kernels, or both.

@@ -1,16 +1,41 @@
 //! `shader` of a pass in filter.toml, and the keys that go with it.
 
+use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
+use serde::Deserialize;
 use toml::Spanned;
 
-use super::bindings::read_bindings;
+use super::bindings::{BindingEntry, read_bindings};
 use super::file::File;
-use super::number::Names;
-use super::passes::PassEntry;
-use crate::FilterError;
+use super::number::{Names, NumberEntry};
 use crate::filter::{PassShader, Stage, VertexShader};
 use crate::translate::Language;
+use crate::{FilterError, Repeat};
+
+/// `[[pass]]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PassEntry {
+    pub entry: Option<String>,
+    pub over: Option<String>,
+    #[serde(default)]
+    pub workgroup_per_texel: bool,
+    pub repeat: Option<Repeat>,
+    pub shader: Option<Spanned<String>>,
+    pub stage: Option<Stage>,
+    pub targets: Option<Vec<String>>,
+    pub level: Option<NumberEntry>,
+    pub vertex: Option<String>,
+    pub vertex_shader: Option<Spanned<String>>,
+    #[serde(default)]
+    pub binding: Vec<Spanned<BindingEntry>>,
+    #[serde(default)]
+    pub constants: BTreeMap<String, NumberEntry>,
+    #[serde(default)]
+    pub conditions: Vec<String>,
+    pub compiler: Option<String>,
+}
 
 /// Reads the shader of a pass; none where the pass runs a kernel of the filter's WGSL file.
 pub(super) fn read_shader(

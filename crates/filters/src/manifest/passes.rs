@@ -1,14 +1,11 @@
 //! `[[texture]]` and `[[pass]]` of filter.toml.
 
-use std::collections::BTreeMap;
-
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::bindings::BindingEntry;
 use super::file::File;
 use super::number::{IDENTIFIER, Names, NumberEntry, NumbersEntry, is_identifier};
-use super::pass_shader::read_shader;
+use super::pass_shader::{PassEntry, read_shader};
 use crate::filter::{PassShader, Stage};
 use crate::{
     Expression, FilterError, Format, Holds, Kind, Parameter, Pass, Repeat, Rounding, Texture,
@@ -29,29 +26,6 @@ pub(super) struct TextureEntry {
 
 fn one() -> u32 {
     1
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PassEntry {
-    pub entry: Option<String>,
-    over: Option<String>,
-    #[serde(default)]
-    workgroup_per_texel: bool,
-    repeat: Option<Repeat>,
-    pub shader: Option<Spanned<String>>,
-    pub stage: Option<Stage>,
-    pub targets: Option<Vec<String>>,
-    pub level: Option<NumberEntry>,
-    pub vertex: Option<String>,
-    pub vertex_shader: Option<Spanned<String>>,
-    #[serde(default)]
-    pub binding: Vec<Spanned<BindingEntry>>,
-    #[serde(default)]
-    pub constants: BTreeMap<String, NumberEntry>,
-    #[serde(default)]
-    pub conditions: Vec<String>,
-    pub compiler: Option<String>,
 }
 
 /// Upper limit on the dispatches of a filter, with the largest value that each `repeat` may have. A GPU takes no more timestamps in

@@ -100,7 +100,7 @@ impl StorageImages {
 /// Finds the variables that are storage images, each with its image type.
 fn find_variables(words: &Words) -> BTreeMap<u32, u32> {
     let images: BTreeSet<u32> = (words.instructions.iter())
-        .filter(|it| it.op == Op::TypeImage && it.operands.get(SAMPLED) == Some(&2))
+        .filter(|it| is_storage_image(it))
         .map(|it| it.operands[0])
         .collect();
     let pointers: BTreeMap<u32, u32> = (words.all(Op::TypePointer))
@@ -112,7 +112,11 @@ fn find_variables(words: &Words) -> BTreeMap<u32, u32> {
         .collect()
 }
 
-/// Gives image types without a format one of the same numbers; returns their ids.
+fn is_storage_image(ty: &Instruction) -> bool {
+    ty.op == Op::TypeImage && ty.operands.get(SAMPLED) == Some(&2)
+}
+
+/// Gives types of storage images without a format one of the same numbers; returns their ids.
 fn fill_formats(words: &mut Words) -> BTreeSet<u32> {
     // Nothing needs these once all have a format.
     let without = [
@@ -129,11 +133,14 @@ fn fill_formats(words: &mut Words) -> BTreeSet<u32> {
         })
         .collect();
     let mut open = BTreeSet::new();
-    for instruction in &mut words.instructions {
-        if let (Op::TypeImage, [id, texel, .., format @ 0]) = (
-            instruction.op,
-            instruction.operands.get_mut(..=FORMAT).unwrap_or_default(),
-        ) {
+    for instruction in words
+        .instructions
+        .iter_mut()
+        .filter(|it| is_storage_image(it))
+    {
+        if let [id, texel, .., format @ 0] =
+            instruction.operands.get_mut(..=FORMAT).unwrap_or_default()
+        {
             *format = *integers.get(texel).unwrap_or(&ImageFormat::Rgba32f) as u32;
             open.insert(*id);
         }

@@ -105,7 +105,8 @@ pub fn compare_with_baseline(
     }
     match comparisons.is_empty() {
         true => Err(refuse(
-            "no score with a margin applies to any scene, and no check is no success".to_owned(),
+            "no score with a margin applies to any scene, and there is nothing to compare"
+                .to_owned(),
         )),
         false => Ok(comparisons),
     }

@@ -49,7 +49,7 @@ pub fn require_bounds<'a>(
                     )));
                 }
                 return Err(Error::Usage(format!(
-                    "{scene} / {name}: has no bound, and no check is no success; give it some in {root}/{BOUNDS_FILE} or \
+                    "{scene} / {name}: has no bound, and a check needs one; give it some in {root}/{BOUNDS_FILE} or \
                      beside the scene, under [default] or [filter.\"{name}\"]",
                     name = choice.name(),
                 )));

@@ -121,8 +121,6 @@ fn average(filter: String, metric: Metric, changes: &[&Change]) -> MeanChange {
 
 #[cfg(test)]
 mod tests {
-    use tracer::SceneId;
-
     use super::*;
     use crate::compare::change::tests::change;
 

@@ -3,6 +3,7 @@
 mod name;
 mod row;
 mod rows;
+mod text;
 
 pub use name::Metric;
 pub(crate) use row::metrics;

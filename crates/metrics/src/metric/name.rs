@@ -1,10 +1,6 @@
 //! Names of all scores, as files, bounds and tables use them.
 
-use std::cmp::Ordering;
-use std::collections::HashMap;
-use std::fmt;
 use std::str::FromStr;
-use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
@@ -43,15 +39,6 @@ pub enum Metric {
     Bleed,
     /// `flip_common`, FLIP* in tables: FLIP against the shutter that all cases of a run are compared with.
     CommonFlip,
-}
-
-impl ObjectMetric {
-    /// Hard bleed on all sides: beside, ahead and behind.
-    pub const BLEEDS: [ObjectMetric; 3] = [
-        ObjectMetric::BleedLateral,
-        ObjectMetric::BleedLeading,
-        ObjectMetric::BleedTrailing,
-    ];
 }
 
 impl SkillMetric {
@@ -124,8 +111,7 @@ impl Metric {
                 group: Group::Label,
                 map: ErrorMap::LabelTotalVariation,
                 meaning: "share of the shutter given to the wrong object, on the worst object that stands still",
-                is_percentile: false,
-                report_only: None,
+                ..Row::USUAL
             },
             Metric::StaticContamination => Row {
                 name: "static_contamination",
@@ -134,8 +120,7 @@ impl Metric {
                 group: Group::Seen,
                 map: ErrorMap::StaticChange,
                 meaning: "what the filter changes where nothing moves",
-                is_percentile: false,
-                report_only: None,
+                ..Row::USUAL
             },
             Metric::Frozen(metric) => metric.row(),
             Metric::Probe(metric) => metric.row(),
@@ -145,24 +130,18 @@ impl Metric {
             Metric::Bleed => Row {
                 name: "bleed",
                 unit: "px",
-                ideal: Ideal::Lowest,
-                group: Group::RunJson,
                 map: ErrorMap::Bleed,
                 meaning: "mover spilled where it never was: the largest of beside, ahead (>) and behind (<)",
-                is_percentile: false,
                 report_only: Some(
                     "is the largest of bleed_lateral, bleed_leading and bleed_trailing",
                 ),
+                ..Row::USUAL
             },
             Metric::CommonFlip => Row {
                 name: "flip_common",
-                unit: "",
-                ideal: Ideal::Lowest,
-                group: Group::RunJson,
-                map: ErrorMap::Flip,
                 meaning: "visible difference where anything moves, from the truth of one shutter for all",
-                is_percentile: false,
                 report_only: Some("depends on the other filters of the run"),
+                ..Row::USUAL
             },
         }
     }
@@ -214,15 +193,7 @@ impl Metric {
             Metric::Image(_, region) => region,
             Metric::StaticContamination => Region::Still,
             Metric::Probe(_) => Region::Knowable,
-            Metric::Object(_)
-            | Metric::Label(_)
-            | Metric::OccluderContamination
-            | Metric::Frozen(_)
-            | Metric::Skill(_)
-            | Metric::Equivalent(_)
-            | Metric::Sequence(_)
-            | Metric::Bleed
-            | Metric::CommonFlip => Region::Moving,
+            _ => Region::Moving,
         }
     }
 
@@ -282,73 +253,9 @@ fn describe_region(region: Region) -> &'static str {
     }
 }
 
-impl fmt::Display for Metric {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(&self.name())
-    }
-}
-
-impl FromStr for Metric {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        static BY_NAME: LazyLock<HashMap<String, Metric>> = LazyLock::new(|| {
-            let more = SequenceMetric::ALL.into_iter().map(Metric::Sequence);
-            let more = more.chain([Metric::Bleed, Metric::CommonFlip]);
-            let all = Metric::all().into_iter().chain(more);
-            all.map(|metric| (metric.name(), metric)).collect()
-        });
-        BY_NAME.get(text).copied().ok_or_else(|| {
-            let names: Vec<String> = Metric::all().into_iter().map(Metric::name).collect();
-            format!(
-                "metric \"{text}\" is unknown; allowed: {}; of sequences: {}",
-                names.join(", "),
-                SequenceMetric::ALL
-                    .map(|metric| metric.row().name)
-                    .join(", ")
-            )
-        })
-    }
-}
-
-impl TryFrom<String> for Metric {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        text.parse()
-    }
-}
-
-impl From<Metric> for String {
-    fn from(metric: Metric) -> String {
-        metric.name()
-    }
-}
-
-impl Ord for Metric {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.name().cmp(&other.name())
-    }
-}
-
-impl PartialOrd for Metric {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn every_name_stands_for_one_metric() {
-        let sequences = SequenceMetric::ALL.map(Metric::Sequence);
-        let named = Metric::all().into_iter().chain(sequences);
-        for metric in named.chain(Metric::OF_MEANS) {
-            assert_eq!(metric.name().parse(), Ok(metric));
-        }
-    }
 
     #[test]
     fn lengths_have_at_most_three_digits_and_nothing_is_minus_zero() {

@@ -23,13 +23,27 @@ pub struct Row {
     pub report_only: Option<&'static str>,
 }
 
+impl Row {
+    /// What most rows have in common: no percentile, and bounds may name them.
+    pub(crate) const USUAL: Row = Row {
+        name: "",
+        unit: "",
+        ideal: Ideal::Lowest,
+        meaning: "",
+        group: Group::RunJson,
+        map: ErrorMap::Flip,
+        is_percentile: false,
+        report_only: None,
+    };
+}
+
 /// Group of metrics that a reader looks at together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
     /// Errors of colour that people see.
     Seen,
     /// Error put into proportion: skill and equivalent sub-frames.
-    Worth,
+    Proportion,
     /// Labels: the objects that the shutter's time was given to.
     Label,
     /// The worst moving object's silhouette and mass.
@@ -48,7 +62,7 @@ impl Group {
     /// Groups that a page shows, in its order.
     pub const SHOWN: [Group; 6] = [
         Group::Seen,
-        Group::Worth,
+        Group::Proportion,
         Group::Label,
         Group::Silhouette,
         Group::Instant,
@@ -59,7 +73,7 @@ impl Group {
     pub fn title(self) -> &'static str {
         match self {
             Group::Seen => "Visible errors",
-            Group::Worth => "Compared with no blur and with sub-frames",
+            Group::Proportion => "Compared with no blur and with sub-frames",
             Group::Label => "Share given to the wrong object",
             Group::Silhouette => "Silhouette and mass of the worst mover",
             Group::Instant => "Without shadows, lights and reflections that move",
@@ -78,7 +92,11 @@ macro_rules! metrics {
         enum $Metric:ident;
         $(#[$of_scores:meta])*
         struct $Scores:ident of $Score:ident { $($(#[$of_fact:meta])* $fact:ident: $Fact:ty,)* }
-        $($(#[$doc:meta])* $Variant:ident => $field:ident { $($row:tt)* })*
+        $($(#[$doc:meta])* $Variant:ident => $field:ident {
+            name: $name:expr, unit: $unit:expr, ideal: $ideal:expr, group: $group:expr, map: $map:expr,
+            meaning: $meaning:expr,
+            $($more:ident: $value:expr,)?
+        })*
     ) => {
         $(#[$of_metric])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -100,7 +118,16 @@ macro_rules! metrics {
             /// Returns the row of the metric.
             pub fn row(self) -> Row {
                 match self {
-                    $($Metric::$Variant => Row { $($row)* },)*
+                    $($Metric::$Variant => Row {
+                        name: $name,
+                        unit: $unit,
+                        ideal: $ideal,
+                        group: $group,
+                        map: $map,
+                        meaning: $meaning,
+                        $($more: $value,)?
+                        ..Row::USUAL
+                    },)*
                 }
             }
 

@@ -18,48 +18,36 @@ metrics! {
     Mse => mse {
         name: "mse", unit: "white^2", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::SquaredError,
         meaning: "squared error of colour",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Peak signal to noise ratio from `mse` and a peak of 1, in dB.
     Psnr => psnr {
         name: "psnr", unit: "dB", ideal: Ideal::Highest, group: Group::Seen, map: ErrorMap::SquaredError,
         meaning: "signal to noise ratio of colour",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Unbiased mean of squared error over squared truth.
     Relmse => relmse {
         name: "relmse", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::RelativeSquaredError,
         meaning: "squared error of colour relative to the truth",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mean absolute error; display white is 1.
     Mae => mae {
         name: "mae", unit: "white", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::AbsoluteError,
         meaning: "absolute error of colour",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mean of the error's size over the mean of both values, in [0, 2].
     Smape => smape {
         name: "smape", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::SymmetricError,
         meaning: "absolute error of colour relative to both pictures",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mean LDR-FLIP.
     Flip => flip {
         name: "flip", unit: "", ideal: Ideal::Lowest, group: Group::Seen, map: ErrorMap::Flip,
         meaning: "visible difference",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Value of LDR-FLIP up to which half of its sum lies.
@@ -67,7 +55,6 @@ metrics! {
         name: "flip_weighted_median", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::Flip,
         meaning: "visible difference up to which half of all visible difference lies",
         is_percentile: true,
-        report_only: None,
     }
 
     /// Value of LDR-FLIP that 95 % of the pixels do not exceed.
@@ -75,7 +62,6 @@ metrics! {
         name: "flip_p95", unit: "", ideal: Ideal::Lowest, group: Group::Seen, map: ErrorMap::Flip,
         meaning: "visible difference that 19 of 20 pixels do not exceed",
         is_percentile: true,
-        report_only: None,
     }
 
     /// Value of LDR-FLIP that 99 % of the pixels do not exceed.
@@ -83,22 +69,18 @@ metrics! {
         name: "flip_p99", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::Flip,
         meaning: "visible difference that 99 of 100 pixels do not exceed",
         is_percentile: true,
-        report_only: None,
     }
 
     /// Mean HDR-FLIP.
     FlipHdr => flip_hdr {
         name: "flip_hdr", unit: "", ideal: Ideal::Lowest, group: Group::Seen, map: ErrorMap::FlipHdr,
         meaning: "visible difference at the exposure that shows most of it",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mean structural similarity of what a display shows.
     Ssim => ssim {
         name: "ssim", unit: "", ideal: Ideal::Highest, group: Group::Seen, map: ErrorMap::Flip,
         meaning: "structural similarity",
-        is_percentile: false,
         report_only: Some(
             "punishes unbiased noise more than a picture that lies three pixels off; bound flip instead",
         ),
@@ -115,8 +97,6 @@ metrics! {
     Mean => mean {
         name: "label_tv", unit: "", ideal: Ideal::Lowest, group: Group::Label, map: ErrorMap::LabelTotalVariation,
         meaning: "share of the shutter given to the wrong object",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// 95th percentile over pixels.
@@ -124,7 +104,6 @@ metrics! {
         name: "label_tv_p95", unit: "", ideal: Ideal::Lowest, group: Group::Label, map: ErrorMap::LabelTotalVariation,
         meaning: "share of the shutter given to the wrong object that 19 of 20 moving pixels do not exceed",
         is_percentile: true,
-        report_only: None,
     }
 }
 
@@ -145,120 +124,90 @@ metrics! {
     BleedLateral => bleed_lateral {
         name: "bleed_lateral", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
         meaning: "mover spilled to the sides of its path",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Bleed ahead of it, in pixels.
     BleedLeading => bleed_leading {
         name: "bleed_leading", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
         meaning: "mover spilled ahead of its path",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Bleed behind it, in pixels.
     BleedTrailing => bleed_trailing {
         name: "bleed_trailing", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::Bleed,
         meaning: "mover spilled behind its path",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Pixels that each lateral silhouette grew by.
     LateralGrowth => lateral_growth {
         name: "lateral_growth", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how far the silhouette grew sideways",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mass that rows along the motion gained within the silhouette, in pixels of lateral silhouette.
     RowGain => row_gain {
         name: "row_gain", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how much more of the mover its own rows hold, as pixels of silhouette",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mass that they lost, likewise.
     RowLoss => row_loss {
         name: "row_loss", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how much less of the mover rows along the motion hold, as pixels of silhouette",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Distance of its mass from where it should lie along the motion, in pixels.
     Misplacement => misplacement {
         name: "misplacement", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how far the smear's mass lies off along the motion",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Signed shift of the centre of mass along the motion, in pixels; positive = ahead.
     Centroid => centroid {
         name: "centroid", unit: "px", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how far the smear's centre of mass lies ahead; 0 is right",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Length along the motion over the true length.
     Extent => extent {
         name: "extent", unit: "", ideal: Ideal::Target(1.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "length of the smear over the true length; 1 is right",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Total variation along the motion over the true one, less 1: steps, ripples and noise raise it.
     TvExcess => tv_excess {
         name: "tv_excess", unit: "", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "steps, ripples and grain along the smear; 0 is right",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mean of what is missing where nothing but the object is seen while the shutter is open.
     Hole => hole {
         name: "hole", unit: "", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "how much shows through where the mover hides all; 0 is right",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Missing mass over true mass.
     Deficit => deficit {
         name: "deficit", unit: "", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "part of the mover's mass that is missing where it should be",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mass over true mass.
     Energy => energy {
         name: "energy", unit: "", ideal: Ideal::Target(1.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
         meaning: "mass of the mover over its true mass; 1 is right",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Label total variation on the object, within the moving region.
     LabelTotalVariation => label_total_variation {
         name: "object_label_tv", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::LabelTotalVariation,
         meaning: "share of the mover's time given to something else",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mean squared difference of the matte's gradient magnitudes, within the moving region.
     GradientError => gradient_error {
         name: "gradient_error", unit: "1/px^2", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::GradientError,
         meaning: "edges of the mover's matte that are too sharp or too soft",
-        is_percentile: false,
-        report_only: None,
     }
 }
 
@@ -272,23 +221,18 @@ metrics! {
     Mse => mse {
         name: "mse_frozen", unit: "white^2", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::FrozenSquaredError,
         meaning: "squared error without shadows, lights and reflections that move",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mean LDR-FLIP.
     Flip => flip {
         name: "flip_frozen", unit: "", ideal: Ideal::Lowest, group: Group::Instant, map: ErrorMap::Flip,
         meaning: "visible difference without shadows, lights and reflections that move",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Unbiased mean squared difference of the two truths: shadows, lights and reflections that move.
     Shading => shading {
         name: "mse_shading", unit: "white^2", ideal: Ideal::Lowest, group: Group::Instant, map: ErrorMap::Flip,
         meaning: "what shadows, lights and reflections that move cost any filter of one frame",
-        is_percentile: false,
         report_only: Some(
             "is a property of the scene, whatever the filter does",
         ),
@@ -305,8 +249,6 @@ metrics! {
     Unity => unity {
         name: "unity", unit: "", ideal: Ideal::Lowest, group: Group::Gathered, map: ErrorMap::Unity,
         meaning: "how far the weights of any pixel are from adding up to 1",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mean distance between the middle of what the filter gathers and the middle of where that was at the instant, in
@@ -314,16 +256,12 @@ metrics! {
     GatherOffset => gather_offset {
         name: "gather_offset", unit: "px", ideal: Ideal::Lowest, group: Group::Gathered, map: ErrorMap::GatherOffset,
         meaning: "how far from the right place the filter gathers",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// Mean difference of the standard deviations about these middles, in pixels, over the knowable region.
     GatherSpread => gather_spread {
         name: "gather_spread", unit: "px", ideal: Ideal::Lowest, group: Group::Gathered, map: ErrorMap::GatherSpread,
         meaning: "how much too widely or too narrowly it gathers",
-        is_percentile: false,
-        report_only: None,
     }
 }
 
@@ -336,9 +274,8 @@ metrics! {
 
     /// By unbiased squared error of colour.
     Mse => mse {
-        name: "skill_mse", unit: "", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::SquaredError,
+        name: "skill_mse", unit: "", ideal: Ideal::Highest, group: Group::Proportion, map: ErrorMap::SquaredError,
         meaning: "share of the way from a sharp picture of the shutter's middle, 0, to the one-frame oracle, 1, by squared error",
-        is_percentile: false,
         report_only: Some(
             "a grey ghost over everything has skill; bound the error itself, or n_eq",
         ),
@@ -346,9 +283,8 @@ metrics! {
 
     /// By mean LDR-FLIP.
     Flip => flip {
-        name: "skill_flip", unit: "", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::Flip,
+        name: "skill_flip", unit: "", ideal: Ideal::Highest, group: Group::Proportion, map: ErrorMap::Flip,
         meaning: "share of the way from a sharp picture of the shutter's middle, 0, to the one-frame oracle, 1, by visible difference",
-        is_percentile: false,
         report_only: Some(
             "a grey ghost over everything has skill; bound the error itself, or n_eq",
         ),
@@ -356,9 +292,8 @@ metrics! {
 
     /// By mean label total variation.
     LabelTotalVariation => label_total_variation {
-        name: "skill_label_tv", unit: "", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::LabelTotalVariation,
+        name: "skill_label_tv", unit: "", ideal: Ideal::Highest, group: Group::Proportion, map: ErrorMap::LabelTotalVariation,
         meaning: "share of the way from a sharp picture of the shutter's middle, 0, to the one-frame oracle, 1, by share given to the wrong object",
-        is_percentile: false,
         report_only: Some(
             "a grey ghost over everything has skill; bound the error itself, or n_eq",
         ),
@@ -373,25 +308,19 @@ metrics! {
 
     /// By unbiased squared error of colour.
     Mse => mse {
-        name: "n_eq", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::SquaredError,
+        name: "n_eq", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Proportion, map: ErrorMap::SquaredError,
         meaning: "as good as averaging that many sub-frames, by squared error",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// By mean LDR-FLIP.
     Flip => flip {
-        name: "n_eq_flip", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::Flip,
+        name: "n_eq_flip", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Proportion, map: ErrorMap::Flip,
         meaning: "as good as averaging that many sub-frames, by visible difference",
-        is_percentile: false,
-        report_only: None,
     }
 
     /// By mean label total variation.
     LabelTotalVariation => label_total_variation {
-        name: "n_eq_label_tv", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Worth, map: ErrorMap::LabelTotalVariation,
+        name: "n_eq_label_tv", unit: "sub-frames", ideal: Ideal::Highest, group: Group::Proportion, map: ErrorMap::LabelTotalVariation,
         meaning: "as good as averaging that many sub-frames, by share given to the wrong object",
-        is_percentile: false,
-        report_only: None,
     }
 }

@@ -5,4 +5,4 @@ mod pictures;
 mod scores;
 
 pub use pictures::Probes;
-pub use scores::{OriginReference, ProbeMaps, ProbeMeasurement};
+pub use scores::{OriginReference, ProbeMeasurement};

@@ -1,11 +1,11 @@
 //! Scores of probes.
 
-use frame::{AtInstant, Plane, Region, Regions, Truth};
+use frame::{AtInstant, Region, Regions, Truth};
 
 use super::origins::{Origin, TrueOrigins, find_gathered_origin};
 use super::pictures::Probes;
 use crate::math::raster::{index_pixels, map_pixels};
-use crate::{Measured, ProbeScores};
+use crate::{Measured, ProbeMaps, ProbeScores};
 
 /// Probe scores and the maps that they were pooled from.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,17 +14,6 @@ pub struct ProbeMeasurement {
     pub scores: ProbeScores,
     /// The pictures.
     pub maps: ProbeMaps,
-}
-
-/// One map per probe score.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ProbeMaps {
-    /// Difference of the sum of weights from 1.
-    pub unity: Plane,
-    /// Distance between the middle of what was gathered and the middle of what should have been, in pixels; 0 where undefined.
-    pub offset: Plane,
-    /// Difference of the spreads, in pixels; 0 where undefined.
-    pub spread: Plane,
 }
 
 /// Origins in the truth, which the scores of any number of probes are measured against.

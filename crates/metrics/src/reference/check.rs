@@ -20,19 +20,15 @@ pub fn check_brightness(
 ) -> Result<(), MeasureError> {
     let stops = viewing.stops.max(viewing.flip_stop).max(0.0);
     let limit = BRIGHTEST / stops.exp2();
-    let image = &picture.color;
-    for (index, pixel) in (0u32..).zip(&image.pixels) {
-        if let Some(found) = pixel.iter().find(|value| value.abs() > limit) {
-            return Err(MeasureError::TooBright {
-                what: what.to_owned(),
-                found: *found,
-                x: index % image.width,
-                y: index / image.width,
-                limit,
-            });
-        }
+    match find_value(&picture.color, |pixel| *pixel, |value| value.abs() > limit) {
+        None => Ok(()),
+        Some((found, at)) => Err(MeasureError::TooBright {
+            what: what.to_owned(),
+            found,
+            at,
+            limit,
+        }),
     }
-    Ok(())
 }
 
 /// Refuses exposures of HDR-FLIP that form no range.
@@ -76,8 +72,7 @@ pub fn check_agreement(frame: &Frame, truth: &Truth) -> Result<(), MeasureError>
     let (width, height) = truth.size();
     if u64::from(width) * u64::from(height) > LARGEST_PICTURE {
         return Err(MeasureError::TooLarge {
-            width,
-            height,
+            truth: (width, height),
             limit: LARGEST_PICTURE,
         });
     }
@@ -153,17 +148,14 @@ fn agree<T: std::fmt::Debug + PartialEq>(
 }
 
 fn check_size<T>(raster: &Raster<T>, truth: &Truth, what: &str) -> Result<(), MeasureError> {
-    let (width, height) = truth.size();
-    if (raster.width, raster.height) == (width, height) {
-        Ok(())
-    } else {
-        Err(MeasureError::Size {
+    let (found, truth) = ((raster.width, raster.height), truth.size());
+    match found == truth {
+        true => Ok(()),
+        false => Err(MeasureError::Size {
             what: what.to_owned(),
-            found_width: raster.width,
-            found_height: raster.height,
-            width,
-            height,
-        })
+            found,
+            truth,
+        }),
     }
 }
 
@@ -172,18 +164,26 @@ fn check_finite<T, const N: usize>(
     what: &str,
     components: impl Fn(&T) -> [f32; N],
 ) -> Result<(), MeasureError> {
-    for (index, pixel) in (0u32..).zip(&raster.pixels) {
-        if let Some(found) = components(pixel)
-            .into_iter()
-            .find(|value| !value.is_finite())
-        {
-            return Err(MeasureError::NotFinite {
-                what: what.to_owned(),
-                found,
-                x: index % raster.width,
-                y: index / raster.width,
-            });
-        }
+    match find_value(raster, components, |value| !value.is_finite()) {
+        None => Ok(()),
+        Some((found, at)) => Err(MeasureError::NotFinite {
+            what: what.to_owned(),
+            found,
+            at,
+        }),
     }
-    Ok(())
+}
+
+/// Finds the first wrong value, with its column and row.
+fn find_value<T, const N: usize>(
+    raster: &Raster<T>,
+    components: impl Fn(&T) -> [f32; N],
+    is_wrong: impl Fn(f32) -> bool,
+) -> Option<(f32, (u32, u32))> {
+    (0..).zip(&raster.pixels).find_map(|(index, pixel)| {
+        let found = components(pixel)
+            .into_iter()
+            .find(|value| is_wrong(*value))?;
+        Some((found, (index % raster.width, index / raster.width)))
+    })
 }

@@ -2,7 +2,7 @@
 
 use frame::{Image, Picture, Raster};
 
-use super::{Reference, explain_empty, place_of};
+use super::{Reference, explain_empty};
 use crate::color::flip::Displayed;
 use crate::picture::error_maps::ErrorMaps;
 use crate::picture::pooled::Pooled;
@@ -34,7 +34,7 @@ impl From<Reference<'_>> for ColorReference {
             viewing: reference.viewing,
             regions: reference.regions,
             windows: reference.windows,
-            noise: reference.noise[place_of(Region::Moving)],
+            noise: reference.noise[Region::Moving as usize],
         }
     }
 }

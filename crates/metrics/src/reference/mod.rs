@@ -21,11 +21,12 @@ use crate::picture::pooled::Pooled;
 use crate::picture::scores::{Found, score_image, score_labels};
 use crate::picture::seen_truth::SeenTruth;
 use crate::probe::{OriginReference, ProbeMeasurement, Probes};
+use crate::skill::{Ends, score_skill};
 use crate::subframes::Equivalent;
-use crate::worth::ladder::{Curves, ErrorKind};
-use crate::worth::skill::{Ends, score_skill};
+use crate::subframes::ladder::{Curves, ErrorKind};
 use crate::{
-    EquivalentScores, MeasureError, Measured, ProbeScores, Region, Regions, Scores, Viewing,
+    EquivalentScores, MeasureError, Measured, ObjectScores, ProbeScores, Region, Regions, Scores,
+    Viewing,
 };
 use check::{check_agreement, check_brightness, check_ladder, check_picture, check_viewing};
 use frozen::FrozenReference;
@@ -47,7 +48,7 @@ pub struct Reference<'a> {
     /// The mean as a display shows it and as FLIP sees it.
     seen: SeenTruth,
     viewing: Viewing,
-    /// Noise floors of every region, from the errors of the truth's first half against the mean: the two differ by as much as the
+    /// Noise floors of every region in the order of [`Region::ALL`], from the errors of the truth's first half against the mean: the two differ by as much as the
     /// mean's own noise.
     noise: [Option<Pooled>; Region::ALL.len()],
     /// The instant: the picture of a filter that does nothing.
@@ -156,25 +157,16 @@ impl<'a> Reference<'a> {
         check_brightness(output, &self.viewing, "the output")?;
         let displayed = self.display(output);
         let errors = self.map_errors(output, &displayed);
-        let pairs = || self.objects.iter().zip(&output.coverage[1..]);
-        let nothing = || Plane::filled(output.color.width, output.color.height, 0.0);
-        let (mut bleed, mut gradient_error) = (nothing(), nothing());
-        let objects = pairs().map(|(object, matte)| {
-            object.add_bleed(matte, &mut bleed);
-            let gradient = object.map_gradient_errors(matte);
-            let pixels = gradient.iter().flat_map(|patch| patch.pixels(bleed.width));
-            for (at, error) in pixels {
-                gradient_error.pixels[at] += error as f32;
-            }
-            object.measure(matte, &errors.label, gradient.as_ref(), &self.regions)
-        });
-        let objects = objects.collect();
+        let (objects, [bleed, gradient_error]) = self.measure_objects(output, &errors);
         let (frozen, frozen_squared) =
             self.frozen
                 .measure((&output.color, &displayed), &self.regions, &self.viewing);
         let static_change = self.map_static_change(&output.color);
         let pooled = Pooled::over_all(&errors, &self.regions, &self.windows);
-        let pooled = Region::ALL.map(|region| self.find(region, pooled[place_of(region)]));
+        let pooled = Region::ALL.map(|region| -> Found {
+            let (own, noise) = (pooled[region as usize], self.noise[region as usize]);
+            own.zip(noise).ok_or(explain_empty(region))
+        });
         let [moving, support, still, full, knowable, unknowable] = &pooled;
         let mut measurement = Measurement {
             scores: Scores {
@@ -211,6 +203,27 @@ impl<'a> Reference<'a> {
         };
         self.take_out_unknown(&mut measurement.scores);
         Ok(measurement)
+    }
+
+    /// Scores every object; maps their bleed and the errors of their gradients.
+    fn measure_objects(
+        &self,
+        output: &Picture,
+        errors: &ErrorMaps,
+    ) -> (Vec<ObjectScores>, [Plane; 2]) {
+        let nothing = || Plane::filled(output.color.width, output.color.height, 0.0);
+        let (mut bleed, mut gradient_error) = (nothing(), nothing());
+        let objects = self.objects.iter().zip(&output.coverage[1..]);
+        let scores = objects.map(|(object, matte)| {
+            object.add_bleed(matte, &mut bleed);
+            let gradient = object.map_gradient_errors(matte);
+            let pixels = gradient.iter().flat_map(|patch| patch.pixels(bleed.width));
+            for (at, error) in pixels {
+                gradient_error.pixels[at] += error as f32;
+            }
+            object.measure(matte, &errors.label, gradient.as_ref(), &self.regions)
+        });
+        (scores.collect(), [bleed, gradient_error])
     }
 
     /// Takes out the scores that the truth of an engine cannot tell.
@@ -252,13 +265,6 @@ impl<'a> Reference<'a> {
         ErrorMaps::new((picture, displayed), halves, &self.mean, &self.seen)
     }
 
-    /// Adds the noise of a region to what was pooled over it, or says why nothing was.
-    fn find(&self, region: Region, pooled: Option<Pooled>) -> Found {
-        pooled
-            .zip(self.noise[place_of(region)])
-            .ok_or(explain_empty(region))
-    }
-
     /// Maps the change of the instant's colour where nothing moves; 0 elsewhere.
     fn map_static_change(&self, output: &Image) -> Raster<f64> {
         let changes = absolute_error(output, &self.instant, self.viewing.scale());
@@ -295,13 +301,6 @@ fn mark_whole_windows((width, height): (u32, u32)) -> Raster<bool> {
     Raster::from_fn(width, height, |x, y| {
         x.min(y) >= SSIM_BORDER && x + SSIM_BORDER < width && y + SSIM_BORDER < height
     })
-}
-
-/// Returns the place of a region in [`Region::ALL`].
-fn place_of(region: Region) -> usize {
-    let mut all = Region::ALL.iter();
-    all.position(|other| *other == region)
-        .expect("Region::ALL holds every region")
 }
 
 fn explain_empty(region: Region) -> &'static str {

@@ -143,20 +143,16 @@ impl SequenceReference {
                 NOTHING_IN_TWO,
             ),
         };
-        // Of the others, the first value is that of the second frame.
-        let shares = [
-            (SequenceMetric::Error, 0, &errors),
-            (SequenceMetric::Flicker, 1, &changes),
-            (SequenceMetric::FlickerAlong, 1, &along),
-            (SequenceMetric::Popping, 1, &jumps),
-            (SequenceMetric::ErrorAfterTaa, 1, &later_errors),
-            (SequenceMetric::FlickerAfterTaa, 1, &changes_after_taa),
-        ];
-        let worst_frames = shares
-            .into_iter()
-            .filter_map(|(metric, first, values)| Some((metric, first + largest_at(values)?)));
         Ok(SequenceMeasurement {
-            worst_frames: worst_frames.collect(),
+            // Of all but errors, the first value is that of the second frame.
+            worst_frames: find_worst_frames([
+                (SequenceMetric::Error, 0, &errors),
+                (SequenceMetric::Flicker, 1, &changes),
+                (SequenceMetric::FlickerAlong, 1, &along),
+                (SequenceMetric::Popping, 1, &jumps),
+                (SequenceMetric::ErrorAfterTaa, 1, &later_errors),
+                (SequenceMetric::FlickerAfterTaa, 1, &changes_after_taa),
+            ]),
             scores,
             errors,
             flickers: std::iter::once(None).chain(along).collect(),
@@ -177,10 +173,8 @@ impl SequenceReference {
             None => Ok(()),
             Some(at) => Err(MeasureError::Size {
                 what: format!("the picture of frame {at}"),
-                found_width: pictures[at].width,
-                found_height: pictures[at].height,
-                width: size.width,
-                height: size.height,
+                found: (pictures[at].width, pictures[at].height),
+                truth: (size.width, size.height),
             }),
         }
     }
@@ -282,15 +276,19 @@ fn pool_pairs(pairs: &[Pair], maps: &[Raster<f64>]) -> Vec<Option<f64>> {
     pairs.map(|(pair, map)| pair.pool(map)).collect()
 }
 
-/// Finds the place of the largest value, the first of equal ones; none where there is no value.
-fn largest_at(values: &[Option<f64>]) -> Option<usize> {
-    let values = values.iter().enumerate();
-    let known = values.filter_map(|(at, value)| Some((at, (*value)?)));
-    let largest = known.reduce(|largest, own| match own.1 > largest.1 {
-        true => own,
-        false => largest,
+/// Finds the frame of the largest value of each score, the first of equal ones, from the frame of its first value; leaves out scores
+/// without values.
+fn find_worst_frames(
+    shares: [(SequenceMetric, usize, &Vec<Option<f64>>); 6],
+) -> Vec<(SequenceMetric, usize)> {
+    let worst = shares.into_iter().filter_map(|(metric, first, values)| {
+        let known = (first..)
+            .zip(values)
+            .filter_map(|(at, value)| Some((at, (*value)?)));
+        let largest = known.reduce(|largest, own| if own.1 > largest.1 { own } else { largest });
+        Some((metric, largest?.0))
     });
-    largest.map(|(at, _)| at)
+    worst.collect()
 }
 
 /// Takes roots of squared errors, 0 for those that noise takes below 0.

@@ -52,55 +52,47 @@ metrics! {
     Error => error {
         name: "error", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "squared error of single frames where anything moves",
-        is_percentile: false, report_only: None,
     }
 
     /// Squared error of the difference between consecutive frames, at fixed places of the screen.
     Flicker => flicker {
         name: "flicker", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "error of the change from frame to frame",
-        is_percentile: false, report_only: None,
     }
 
     /// Squared error of that difference along the motion, where both frames show the point.
     FlickerAlong => flicker_along {
         name: "flicker_along", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "error of the change from frame to frame of what the eye follows",
-        is_percentile: false, report_only: None,
     }
 
     /// Largest jump between consecutive frames of an object's root mean squared error.
     Popping => popping {
         name: "popping", unit: "white", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "largest jump of an object's error from one frame to the next",
-        is_percentile: false, report_only: None,
     }
 
     /// Mean product of the fine errors of different frames at one place of the screen.
     FixedPattern => fixed_pattern {
         name: "fixed_pattern", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "fine error that stands still on the screen, as dirt on a window does",
-        is_percentile: false, report_only: None,
     }
 
     /// Quality of the video by ColorVideoVDP, in just-objectionable differences: 10 is no visible difference.
     Jod => jod {
         name: "jod", unit: "JOD", ideal: Ideal::Highest, group: Group::Time, map: ErrorMap::Flip,
         meaning: "quality of the video that ColorVideoVDP predicts; 10 is no visible difference",
-        is_percentile: false, report_only: None,
     }
 
     /// `error` after temporal anti-aliasing of pictures and truths, without the first frame.
     ErrorAfterTaa => error_after_taa {
         name: "error_after_taa", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "squared error that temporal anti-aliasing leaves",
-        is_percentile: false, report_only: None,
     }
 
     /// `flicker_along` after temporal anti-aliasing of pictures and truths.
     FlickerAfterTaa => flicker_after_taa {
         name: "flicker_after_taa", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
         meaning: "error of the change from frame to frame that temporal anti-aliasing leaves",
-        is_percentile: false, report_only: None,
     }
 }

@@ -48,49 +48,8 @@ const KEYS: [(&str, &str); 14] = [
 pub fn viewer(run: &Run) -> Markup {
     html! {
         div #viewer hidden data-width=(run.render.width) data-height=(run.render.height) data-block=(BLOCK) {
-            div.controls {
-                div.toolbar {
-                    label.menu { "Left " select name="left" {} }
-                    button type="button" data-do="exchange" aria-label="Exchange left and right" title="Key x" { "⇄" }
-                    label.menu { "Right " select name="right" {} }
-                    fieldset.choice {
-                        legend.unseen { "Compare" }
-                        @for (index, (word, title, key)) in MODES.iter().enumerate() {
-                            label title=(format!("Key {key}")) {
-                                input type="radio" name="mode" value=(word) checked[index == 0];
-                                span { (title) }
-                            }
-                        }
-                    }
-                    div.choice role="group" aria-label="Zoom" {
-                        button type="button" data-do="out" aria-label="Zoom out" { "−" }
-                        output.zoom aria-label="Zoom" { "1×" }
-                        button type="button" data-do="in" aria-label="Zoom in" { "+" }
-                        button type="button" data-do="fit" { "Fit" }
-                        button type="button" data-do="worst" title="Key w" { "Worst place" }
-                    }
-                    button.help type="button" aria-label="Keys" { "?" }
-                }
-            }
-            div.stage style=(format!("--ratio:{}/{}", run.render.width, run.render.height)) {
-                div.pane.stack tabindex="0" role="group"
-                    aria-label="Two pictures; arrows read pixels, plus and minus zoom" {
-                    (layer(run, "under"))
-                    div.over { (layer(run, "over")) }
-                    (marks(run))
-                    div.divider aria-hidden="true" {}
-                    p.tag.right data-tag="under" {}
-                    p.tag.left data-tag="over" {}
-                }
-                @for place in ["left", "right"] {
-                    div.pane.single tabindex="0" role="group"
-                        aria-label="One picture; arrows read pixels, plus and minus zoom" hidden {
-                        (layer(run, place))
-                        (marks(run))
-                        p.tag.left data-tag=(place) {}
-                    }
-                }
-            }
+            (controls())
+            (stage(run))
             p.hint aria-live="polite" {}
             (draw_legends())
             details.more {
@@ -117,6 +76,61 @@ pub fn viewer(run: &Run) -> Markup {
         dialog #keys aria-label="Keys" {
             form method="dialog" { button { "Close" } }
             dl { @for (keys, action) in KEYS { div { dt { kbd { (keys) } } dd { (action) } } } }
+        }
+    }
+}
+
+/// Writes the controls above the pictures.
+fn controls() -> Markup {
+    html! {
+        div.controls {
+            div.toolbar {
+                label.menu { "Left " select name="left" {} }
+                button type="button" data-do="exchange" aria-label="Exchange left and right" title="Key x" { "⇄" }
+                label.menu { "Right " select name="right" {} }
+                fieldset.choice {
+                    legend.unseen { "Compare" }
+                    @for (index, (word, title, key)) in MODES.iter().enumerate() {
+                        label title=(format!("Key {key}")) {
+                            input type="radio" name="mode" value=(word) checked[index == 0];
+                            span { (title) }
+                        }
+                    }
+                }
+                div.choice role="group" aria-label="Zoom" {
+                    button type="button" data-do="out" aria-label="Zoom out" { "−" }
+                    output.zoom aria-label="Zoom" { "1×" }
+                    button type="button" data-do="in" aria-label="Zoom in" { "+" }
+                    button type="button" data-do="fit" { "Fit" }
+                    button type="button" data-do="worst" title="Key w" { "Worst place" }
+                }
+                button.help type="button" aria-label="Keys" { "?" }
+            }
+        }
+    }
+}
+
+/// Writes the panes: two pictures under a divider, or next to each other.
+fn stage(run: &Run) -> Markup {
+    html! {
+        div.stage style=(format!("--ratio:{}/{}", run.render.width, run.render.height)) {
+            div.pane.stack tabindex="0" role="group"
+                aria-label="Two pictures; arrows read pixels, plus and minus zoom" {
+                (layer(run, "under"))
+                div.over { (layer(run, "over")) }
+                (marks(run))
+                div.divider aria-hidden="true" {}
+                p.tag.right data-tag="under" {}
+                p.tag.left data-tag="over" {}
+            }
+            @for place in ["left", "right"] {
+                div.pane.single tabindex="0" role="group"
+                    aria-label="One picture; arrows read pixels, plus and minus zoom" hidden {
+                    (layer(run, place))
+                    (marks(run))
+                    p.tag.left data-tag=(place) {}
+                }
+            }
         }
     }
 }

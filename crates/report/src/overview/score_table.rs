@@ -4,7 +4,7 @@ use judge::{Level, list_summarized};
 use maud::{Markup, html};
 use metrics::{Ideal, Metric};
 use suite::{Case, FilterId, Overall};
-use tracer::{FrameRate, SceneId};
+use tracer::FrameRate;
 
 use super::bench_file::cost_of;
 use super::cell::{Colors, cell};

@@ -77,7 +77,7 @@ pub fn values(tuning: &Tuning) -> Markup {
                 Plain("parameter"), Plain("start"), Plain(&trial), Text("tried"),
             ], &rows))
             p.note {
-                "In the folder, params.json holds these values for " code { "evaluate --params" }
+                "In the folder, params.json holds these values for " code { "shuttertruth tune evaluate" }
                 @if is_offered { ", and preset.toml holds them for a filter.toml" }
                 "."
             }

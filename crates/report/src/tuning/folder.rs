@@ -64,7 +64,7 @@ fn json<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, Error> {
 fn parse<T: DeserializeOwned>(text: &str, place: &str) -> Result<T, Error> {
     serde_json::from_str(text).map_err(|error| {
         Error::Usage(format!(
-            "{place}: not of this program: {error}; `shuttertruth tune search` writes it anew in another --out"
+            "{place}: not of this program: {error}; `shuttertruth tune search` writes it anew into another folder"
         ))
     })
 }
@@ -88,7 +88,7 @@ fn journal(path: &Path) -> Result<(Option<JournalHeader>, Vec<Trial>), Error> {
         match trial.check(&header, number - 2) {
             Ok(()) => Ok(trial),
             Err(reason) => Err(Error::Usage(format!(
-                "{place}: {reason}; `shuttertruth tune search` writes it anew in another --out"
+                "{place}: {reason}; `shuttertruth tune search` writes it anew into another folder"
             ))),
         }
     };

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use filters::Value;
 use maud::{Markup, html};
-use tune::Trial;
 
 use super::folder::TuneFolder;
 use crate::charts::ends;

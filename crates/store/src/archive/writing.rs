@@ -72,7 +72,7 @@ fn write_entries(
     text.push('\n');
     if text.len() as u64 > MOST_MANIFEST_BYTES {
         return Err(Error::Refused(format!(
-            "{}: its list of files takes {} bytes; allowed: {MOST_MANIFEST_BYTES}; pack fewer scenes with --scenes",
+            "{}: its list of files takes {} bytes; allowed: {MOST_MANIFEST_BYTES}; pack fewer scenes",
             pack.display(),
             text.len()
         )));

@@ -67,8 +67,8 @@ pub(super) fn check_complete(
         .collect();
     if let Some(missing) = shutters.iter().find(|alignment| !has_references(alignment)) {
         return Err(Error::Usage(format!(
-            "no part holds the references of the {missing} shutter; add the part that `shuttertruth run --part references` writes \
-             with the same filters"
+            "no part holds the references of the {missing} shutter; add the part with the references, measured with the same \
+             filters"
         )));
     }
     let mut all = (scenes.iter()).flat_map(|scene| names.iter().map(|name| (*scene, name.clone())));

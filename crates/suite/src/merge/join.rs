@@ -62,7 +62,7 @@ fn check_settings(first: &RunPart, other: &RunPart) -> Result<(), Error> {
             first.file(),
             other.file(),
             match name {
-                "common shutter" => ": give every part the same --common",
+                "common shutter" => ": give every part the same one",
                 _ => "",
             }
         ))),
@@ -83,7 +83,7 @@ fn find_adapter(parts: &[RunPart]) -> Result<Option<filters::AdapterDescription>
                 format!("{} with the driver {}", adapter.name, adapter.driver)
             };
             Err(Error::Usage(format!(
-                "{} was measured on {}, {} on {}; parts of one run have the same adapter and driver: choose it with --adapter",
+                "{} was measured on {}, {} on {}; parts of one run have the same adapter and driver",
                 first.file(),
                 text(first),
                 other.file(),

@@ -118,7 +118,7 @@ fn read_header(root: &Path, file: &RenderPath) -> Result<PackedFile, Error> {
     if !path.symlink_metadata().is_ok_and(|found| found.is_file()) {
         return Err(Error::Usage(format!(
             "{}: there is no such file, or it is no regular one; the run is unfinished, or its files were moved; run it again into \
-             this folder, or render what is missing with `shuttertruth truths render --ladders`",
+             this folder, or render the missing truths with their ladders",
             path.display()
         )));
     }

@@ -101,7 +101,7 @@ fn collect_layers(
     file.set("program", &run.program);
     file.set("scene", &case.scene);
     file.set("filter", case.name());
-    file.set("alignment", &case.alignment);
+    file.set("alignment", case.alignment);
     file.set("exposure", case.exposure);
     file.set("truth_hash", &case.truth_hash);
     Ok(file)

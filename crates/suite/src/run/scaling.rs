@@ -22,7 +22,7 @@ impl Run {
         }
         Some(format!(
             "Lengths in pixels are scaled to pictures {} wide for {}, and are as written for {}, whose filter.toml names no \
-             reference_width. Give its lengths unit = \"pixels\" and name one, or compare all with --as-written.",
+             reference_width. Give its lengths unit = \"pixels\" and name one, or compare all as written.",
             self.render.width,
             scaled.join(", "),
             written.join(", ")

@@ -1,6 +1,5 @@
 //! Errors in the files of a scene, and the rules for names and texts in them.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 use frame::is_hidden;
@@ -8,7 +7,12 @@ use frame::is_hidden;
 use crate::limits::LARGEST_NUMBER;
 
 /// Error in a scene's files. It reads `path:line: reason`; the reason says what was found and what is allowed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{path}:{line} {reason}",
+    path = path.display(),
+    line = line.map_or_else(String::new, |line| format!("{line}:"))
+)]
 pub struct SceneError {
     /// File to mend.
     pub path: PathBuf,
@@ -43,18 +47,6 @@ impl SceneError {
         Self::in_file(path, reason)
     }
 }
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:", self.path.display())?;
-        if let Some(line) = self.line {
-            write!(f, "{line}:")?;
-        }
-        write!(f, " {}", self.reason)
-    }
-}
-
-impl std::error::Error for SceneError {}
 
 /// Most names that a message lists.
 const MOST_LISTED: usize = 40;

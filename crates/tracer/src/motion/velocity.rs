@@ -85,28 +85,15 @@ pub enum ObjectsBefore {
 /// A visible point, followed through time.
 pub(crate) enum TrackedPoint {
     /// A point of an object's surface.
-    Surface {
-        /// Index into the scene's objects.
-        object: usize,
-        /// Index into the mesh's triangles.
-        triangle: u32,
-        /// Weights of the triangle's second and third vertex.
-        weights: [f64; 2],
-    },
+    Surface(Hit),
     /// A direction of the background, in the world.
     Infinity(DVec3),
 }
 
 impl TrackedPoint {
     /// The point that the camera ray in `direction` met.
-    pub fn of(hit: Option<&Hit>, direction: DVec3) -> Self {
-        hit.map_or(TrackedPoint::Infinity(direction), |hit| {
-            TrackedPoint::Surface {
-                object: hit.object,
-                triangle: hit.triangle,
-                weights: hit.weights,
-            }
-        })
+    pub fn of(hit: Option<Hit>, direction: DVec3) -> Self {
+        hit.map_or(TrackedPoint::Infinity(direction), TrackedPoint::Surface)
     }
 
     /// Pixels per frame at the time of the motion, +x right, +y down.
@@ -153,22 +140,18 @@ impl TrackedPoint {
         let camera_time = if motion.camera_stands { now } else { time };
         let view = scene.camera.view(camera_time, width, height);
         match *self {
-            TrackedPoint::Surface {
-                object,
-                triangle,
-                weights,
-            } => {
+            TrackedPoint::Surface(hit) => {
                 let object_time = match motion.objects_before {
                     ObjectsBefore::Now => now,
                     ObjectsBefore::Own | ObjectsBefore::Identity => time,
                 };
-                let mesh = &scene.meshes[scene.objects[object].mesh];
-                let point = mesh.at(object_time).point(triangle, weights);
+                let mesh = &scene.meshes[scene.objects[hit.object].mesh];
+                let point = mesh.at(object_time).point(hit.triangle, hit.weights);
                 let is_unset = motion.objects_before == ObjectsBefore::Identity && time < now;
                 view.project(match is_unset {
                     true => point,
                     false => scene
-                        .object_to_world(object, object_time)
+                        .object_to_world(hit.object, object_time)
                         .transform_point3(point),
                 })
             }

@@ -15,6 +15,16 @@ pub(crate) struct Stop {
     pub mirrors: bool,
 }
 
+impl Stop {
+    /// A stop at which the surface itself scatters the path.
+    pub fn scattering(hit: Hit) -> Self {
+        Self {
+            hit,
+            mirrors: false,
+        }
+    }
+}
+
 /// One of the stops of a ray, and how much it counts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layer {
@@ -71,10 +81,7 @@ pub(crate) fn visit_layers(
         }
     }
     let last = Layer {
-        stop: next.map(|hit| Stop {
-            hit,
-            mirrors: false,
-        }),
+        stop: next.map(Stop::scattering),
         share,
         weight,
     };
@@ -92,7 +99,7 @@ pub(crate) fn find_stop(
     let mut next = stage.closest(poses, ray);
     let mut weight = Vec3::ONE;
     if !stage.has_translucency {
-        return (next.map(scattering), weight);
+        return (next.map(Stop::scattering), weight);
     }
     let mut number = number();
     while let Some(hit) = next {
@@ -100,7 +107,7 @@ pub(crate) fn find_stop(
             break;
         };
         if number < passage.opacity {
-            return (Some(scattering(hit)), weight);
+            return (Some(Stop::scattering(hit)), weight);
         }
         number = (number - passage.opacity) / (1.0 - passage.opacity);
         let reflection = passage.chance_of_reflection();
@@ -112,12 +119,5 @@ pub(crate) fn find_stop(
         weight *= passage.passed / (1.0 - reflection) as f32;
         next = stage.closest_behind(poses, ray, &hit);
     }
-    (next.map(scattering), weight)
-}
-
-fn scattering(hit: Hit) -> Stop {
-    Stop {
-        hit,
-        mirrors: false,
-    }
+    (next.map(Stop::scattering), weight)
 }

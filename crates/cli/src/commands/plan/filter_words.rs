@@ -7,7 +7,7 @@ use suite::{Error, FilterChoice};
 
 use super::job::files_below;
 use super::scene_words::as_path;
-use crate::arguments::measure::MeasureArgs;
+use crate::arguments::MeasureArgs;
 use crate::selection::{Programs, is_path, select_filters};
 
 /// Some presets of one filter, which one job measures.

@@ -7,7 +7,7 @@ use clap::{Arg, ArgMatches, Args, Command};
 use suite::Error;
 
 use super::PlanArgs;
-use crate::output::verbosity::OutputArgs;
+use crate::output::OutputArgs;
 
 /// Name of the command.
 const PLAN: &str = "plan";

@@ -14,14 +14,10 @@ use suite::Error;
 
 use self::jobs::list_jobs;
 use super::run_plan::{apply_options, make_plan};
-use crate::arguments::adapter::AdapterArgs;
-use crate::arguments::measure::MeasureArgs;
-use crate::arguments::parse::within;
-use crate::arguments::run_options::RunOptions;
-use crate::output::print::print;
-use crate::tables::jobs::jobs_table;
+use crate::arguments::{AdapterArgs, MeasureArgs, RunOptions, within};
+use crate::output::print;
+use crate::tables::jobs_table;
 
-/// `shuttertruth truths plan`
 #[derive(Debug, Args)]
 pub struct PlanArgs {
     #[command(flatten)]

@@ -4,7 +4,7 @@ use suite::{EngineScene, Error};
 use tracer::SceneId;
 
 use super::job::{files_below, path_word};
-use crate::arguments::scenes::SceneArgs;
+use crate::arguments::SceneArgs;
 use crate::selection::{SceneChoice, select_engine_scenes, select_scenes};
 
 /// A scene of a plan, in the order of the plan.
@@ -21,9 +21,9 @@ pub struct SceneWords {
 
 /// Lists the scenes that are rendered, then those that engines drew.
 pub fn list_scene_words(args: &SceneArgs) -> Result<Vec<SceneWords>, Error> {
-    let (drawn, names) = select_engine_scenes(&args.scenes_dir, &args.names()?)?;
+    let (drawn, names) = select_engine_scenes(&args.root.scenes_dir, &args.names()?)?;
     let rendered = match drawn.is_empty() || !names.is_empty() {
-        true => select_scenes(&args.scenes_dir, &names)?,
+        true => select_scenes(&args.root.scenes_dir, &names)?,
         false => Vec::new(),
     };
     let rendered = rendered.iter().map(|choice| words_of_scene(args, choice));
@@ -32,7 +32,7 @@ pub fn list_scene_words(args: &SceneArgs) -> Result<Vec<SceneWords>, Error> {
 
 fn words_of_scene(args: &SceneArgs, choice: &SceneChoice) -> Result<SceneWords, Error> {
     let id = choice.scene.id.clone();
-    let word = match args.scenes_dir.join(&id.name).path == choice.folder.path {
+    let word = match args.root.scenes_dir.join(&id.name).path == choice.folder.path {
         true => id.to_string(),
         false => as_path(path_word(&choice.folder.path)?) + &id.choice(),
     };

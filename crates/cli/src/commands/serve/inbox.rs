@@ -1,4 +1,4 @@
-//! Requests of `tune serve` that wait for an answer.
+//! Requests of `tune serve` that wait for an answer, and replies to them.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
@@ -10,8 +10,7 @@ use serde_json::json;
 use suite::Error;
 
 use super::line_reader::{Line, read_lines};
-use super::reply::print_reply;
-use crate::output::interrupts::was_interrupted;
+use crate::output::{print, was_interrupted};
 
 /// Upper limit on requests that wait; more are read later.
 const MOST_WAITING: usize = 1024;
@@ -138,4 +137,9 @@ fn shorten(text: &str) -> String {
         None => text.to_owned(),
         Some((end, _)) => format!("{}..", &text[..end]),
     }
+}
+
+/// Prints one reply.
+pub fn print_reply(value: serde_json::Value) -> Result<(), Error> {
+    print(&format!("{value}\n"))
 }

@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_that_is_none_is_told_and_the_next_one_is_read() {
+    fn an_unreadable_line_is_reported_and_the_next_one_is_read() {
         let long = "x".repeat(LONGEST_LINE);
         let input = [
             b"one\n\n\xff\ntwo\n".as_slice(),

@@ -2,7 +2,6 @@
 
 mod inbox;
 mod line_reader;
-mod reply;
 
 use std::collections::BTreeSet;
 
@@ -12,16 +11,14 @@ use store::Sharing;
 use suite::Error;
 use tune::{Evaluator, Objective, SceneScore, evaluate_candidate};
 
-use self::inbox::{Inbox, ScoreRequest};
-use self::reply::print_reply;
+use self::inbox::{Inbox, ScoreRequest, print_reply};
 use super::candidate::{
     claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,
 };
 use super::evaluate::change_settings;
-use crate::arguments::candidate::CandidateArgs;
-use crate::output::progress::make_monitor;
+use crate::arguments::CandidateArgs;
+use crate::output::make_monitor;
 
-/// `shuttertruth tune serve`
 #[derive(Debug, Args)]
 pub struct ServeArgs {
     #[command(flatten)]

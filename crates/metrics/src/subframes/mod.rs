@@ -1,5 +1,8 @@
 //! Equivalent sub-frames: the number of accumulated sub-frames with the same error.
 
+mod curve;
+pub(crate) mod ladder;
+
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
