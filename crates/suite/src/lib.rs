@@ -1,4 +1,4 @@
-//! Measuring, judging, comparing and tuning of filters over scenes. Nothing here prints: results are data, progress goes to a
+//! Rendering and measuring of filters over scenes, with their inputs as engines have them. Nothing here prints: results are data, progress goes to a
 //! [`Monitor`].
 
 mod bench;
@@ -48,7 +48,6 @@ pub use measure::estimate::{
 pub use measure::part::Part;
 pub use measure::plan::RunPlan;
 pub use measure::probes::{filter_input, pack_planes, unpack_planes};
-pub use measure::references::{TruthReferences, scene_viewing};
 pub use measure::scenes::measure_scenes;
 pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use merge::{MergedRun, holds_run, merge_runs};

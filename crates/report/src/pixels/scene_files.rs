@@ -178,7 +178,7 @@ impl SceneFiles {
         }
         if !self.truths.contains_key(&case.alignment) {
             let truth = self.read_truth(case)?;
-            self.truths.insert(case.alignment.clone(), truth);
+            self.truths.insert(case.alignment, truth);
         }
         let truth = &self.truths[&case.alignment];
         let bleeds = read_bleeds(&file, &self.frame.objects, truth)?;

@@ -2,14 +2,13 @@
 
 use frame::{Accumulation, Frame, Ladder, Picture, Truth};
 use metrics::{Reference, Viewing};
-use tracer::Scene;
 
 use crate::Error;
 use crate::render::ladders::sharp_picture;
 use crate::render::scatter_oracle::make_oracle;
 
 /// The truth of one shutter, with everything that pictures are measured against.
-pub struct TruthReferences<'a> {
+pub(crate) struct TruthReferences<'a> {
     /// The truth itself.
     pub truth: &'a Truth,
     /// Picture of the one-frame oracle.
@@ -54,9 +53,4 @@ impl<'a> TruthReferences<'a> {
             oracle,
         })
     }
-}
-
-/// Returns the photographic exposures that a scene is compared at.
-pub fn scene_viewing(scene: &Scene) -> Viewing {
-    scene.display.into()
 }

@@ -83,11 +83,14 @@ impl SceneContext<'_> {
             self.measure(&missing, &frame, advance, watch)
         })?;
         let mut measured = measured.into_iter();
-        let cases = found.into_iter().map(|found| match found {
-            Some(case) => Ok(case),
-            None => measured.next().expect("every missing case was tried"),
-        });
-        Ok((cases.collect(), read_back))
+        let mut cases = Vec::new();
+        for found in found {
+            cases.push(match found {
+                Some(case) => Ok(case),
+                None => measured.next().expect("every missing case was tried"),
+            });
+        }
+        Ok((cases, read_back))
     }
 
     /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or copies what an engine drew, and

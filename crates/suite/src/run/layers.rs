@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, ExrFile, Frame, Truth, read_exr, write_exr};
+use frame::{ExrFile, Frame, Truth, read_exr, write_exr};
 use metrics::ErrorMap;
-use tracer::{Progress, SceneId, TraceError, Watch};
+use tracer::{Progress, TraceError, Watch};
 
 use super::Run;
 use super::case::Case;
@@ -26,7 +26,7 @@ pub fn write_layers(
     watch: Watch,
 ) -> Result<Vec<PathBuf>, Error> {
     let mut written = Vec::new();
-    let mut last: Option<((&SceneId, Alignment), (Frame, Truth))> = None;
+    let mut last: Option<(&Case, (Frame, Truth))> = None;
     for (done, case) in run.cases.iter().enumerate() {
         let progress = Progress {
             done: done as u64,
@@ -36,15 +36,15 @@ pub fn write_layers(
             return Err(TraceError::Cancelled.into());
         }
         // Cases of one scene and alignment follow one another.
-        let truth = (&case.scene, case.alignment);
+        let truth = |case: &Case| (case.scene.clone(), case.alignment);
         let inputs = match last.take() {
-            Some((found, inputs)) if found == truth => inputs,
+            Some((other, inputs)) if truth(other) == truth(case) => inputs,
             _ => case.read_frame_and_truth(folder)?,
         };
         let path = out.join(format!("{}.exr", case.folder.display()));
         write_exr(&path, &collect_layers(run, case, &inputs, folder)?)?;
         written.push(path);
-        last = Some((truth, inputs));
+        last = Some((case, inputs));
     }
     Ok(written)
 }
