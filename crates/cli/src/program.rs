@@ -35,7 +35,7 @@ pub enum Command {
     /// Run, and hold every score to its bound: pass or fail
     Check(check::CheckArgs),
     /// Measure a finished picture from any source
-    Score(score::ScoreArgs),
+    Score(scored::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
     Report(report::ReportArgs),
     /// Compare two finished runs: which scores changed by more than noise
@@ -124,6 +124,7 @@ pub enum TruthsCommand {
 }
 
 /// The commands of `limits`.
+#[expect(clippy::large_enum_variant, reason = "a process has one")]
 #[derive(Debug, Subcommand)]
 pub enum LimitsCommand {
     /// Make the scores of a finished run the baseline of later checks

@@ -44,8 +44,8 @@ pub use interval::{Interval, jackknife, jackknife_of_percentile};
 pub use maps::{ErrorMap, Maps, ProbeMaps};
 pub use metric::{
     EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, Group, ImageMetric,
-    ImageScores, LabelMetric, LabelScores, Metric, ObjectMetric, ObjectScores, ProbeMetric,
-    ProbeScores, Row, SkillMetric, SkillScores,
+    ImageScores, LabelMetric, LabelScores, Metric, ObjectMetric, ObjectScores, PERFECT_JOD,
+    ProbeMetric, ProbeScores, Row, SequenceMetric, SequenceScores, SkillMetric, SkillScores,
 };
 pub use object::sides::{Side, object_sides};
 pub use probe::{ProbeMeasurement, Probes};
@@ -53,8 +53,7 @@ pub use reference::{ColorReference, Jitter, Measurement, Reference};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
 pub use sequence::{
-    Instant, JOD_DISPLAY, NEW_SHARE, PERFECT_JOD, SequenceMeasurement, SequenceMetric,
-    SequenceReference, SequenceScores, accumulate, video_jod,
+    Instant, JOD_DISPLAY, NEW_SHARE, SequenceMeasurement, SequenceReference, accumulate, video_jod,
 };
 pub use subframes::{Equivalent, LadderRange, Subframes};
 pub use viewing::Viewing;

@@ -2,8 +2,6 @@
 
 use frame::{Image, Plane};
 
-use crate::Measurement;
-
 /// Declares error maps: a plane for each in the struct that holds it, its name as a variant and as a channel of errors.exr.
 macro_rules! maps {
     (
@@ -45,12 +43,16 @@ macro_rules! maps {
             }
         }
 
-        impl Measurement {
-            /// Returns a map; `None` for one of probes if none were run.
-            pub fn map(&self, map: ErrorMap) -> Option<&Plane> {
-                match map {
-                    $(ErrorMap::$Map => Some(&self.maps.$field),)*
-                    $(ErrorMap::$Probe => self.probes.as_ref().map(|probes| &probes.$plane),)*
+        impl ErrorMap {
+            /// Finds this map; `None` for one of probes if none were run.
+            pub(crate) fn find<'a>(
+                self,
+                maps: &'a Maps,
+                probes: Option<&'a ProbeMaps>,
+            ) -> Option<&'a Plane> {
+                match self {
+                    $(ErrorMap::$Map => Some(&maps.$field),)*
+                    $(ErrorMap::$Probe => probes.map(|probes| &probes.$plane),)*
                 }
             }
         }

@@ -38,7 +38,7 @@ pub fn execute(args: &ExportArgs) -> Result<(), Error> {
     let choices = select_scenes(&args.root.scenes_dir, &names)?;
     let mut text = String::new();
     for choice in &choices {
-        let folder = args.gltf.join(&choice.scene.id.folder());
+        let folder = args.gltf.join(choice.scene.id.folder());
         let manifest = export_gltf(&choice.scene, &choice.folder, PROGRAM, &folder)?;
         text += &describe(&manifest, &printable_path(&folder));
     }

@@ -38,6 +38,7 @@ mod run_files;
 mod run_plan;
 pub mod score;
 mod score_sequence;
+pub mod scored;
 pub mod sensitivity;
 pub mod serve;
 pub mod threads;

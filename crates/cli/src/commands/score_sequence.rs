@@ -10,7 +10,7 @@ use suite::{
 use tracer::Scene;
 
 use super::convention::read_convention;
-use super::score::{ScoreArgs, scored_json};
+use super::scored::{ScoreArgs, scored_json};
 use crate::output::{print, print_json};
 use crate::selection::select_scenes;
 use crate::tables::score_sequence_table;

@@ -95,7 +95,7 @@ pub fn ranking_cells(
         None => "-".to_owned(),
     };
     let (scene, worst) = &ranked.worst;
-    let mut worst = format!("{} {}", scene, number(*worst));
+    let mut worst = format!("{scene} {}", number(*worst));
     if ranked.scenes < scenes {
         worst += &format!(" ({} of {scenes} scenes)", ranked.scenes);
     }

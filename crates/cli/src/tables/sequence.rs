@@ -85,7 +85,7 @@ fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
         let of_scene = || run.sequences.iter().filter(|own| own.scene == **scene);
         let groups = rank_sequences_on(run, scene);
         for alignment in list_once(of_scene().map(|own| own.alignment)) {
-            let title = format!("{}, {alignment} shutter", printable(&scene.to_string()));
+            let title = format!("{scene}, {alignment} shutter");
             table.push_text(heading(&title));
             let of_shutter: Vec<&Sequence> = of_scene()
                 .filter(|own| own.alignment == alignment)
@@ -110,7 +110,7 @@ pub fn score_sequence_table(
     scores: &SequenceScores,
 ) -> String {
     let mut table = score_columns(frames as usize);
-    table.push_text(printable(&scene.to_string()));
+    table.push_text(printable(scene));
     table.push(name, score_cells(scores));
     table.text() + &legend_text(&format!("Sequences: {KEY}"))
 }

@@ -3,13 +3,14 @@
 mod name;
 mod row;
 mod rows;
+mod sequence_rows;
 mod text;
 
 pub use name::Metric;
-pub(crate) use row::metrics;
 pub use row::{Group, Row};
 pub use rows::{
     EquivalentMetric, EquivalentScores, FrozenMetric, FrozenScores, ImageMetric, ImageScores,
     LabelMetric, LabelScores, ObjectMetric, ObjectScores, ProbeMetric, ProbeScores, SkillMetric,
     SkillScores,
 };
+pub use sequence_rows::{PERFECT_JOD, SequenceMetric, SequenceScores};

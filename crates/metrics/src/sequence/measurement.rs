@@ -2,7 +2,7 @@
 
 use frame::Plane;
 
-use super::rows::{SequenceMetric, SequenceScores};
+use crate::metric::{SequenceMetric, SequenceScores};
 
 /// Scores of a sequence of pictures, and what they were pooled from.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,12 +8,10 @@ mod measurement;
 mod pairs;
 mod popping;
 mod reference;
-mod rows;
 mod temporal_antialiasing;
 
 pub use instant::Instant;
 pub use jod::{JOD_DISPLAY, video_jod};
 pub use measurement::SequenceMeasurement;
 pub use reference::SequenceReference;
-pub use rows::{PERFECT_JOD, SequenceMetric, SequenceScores};
 pub use temporal_antialiasing::{NEW_SHARE, accumulate};

@@ -8,11 +8,11 @@ use super::jod::{JOD_DISPLAY, displayed, video_jod};
 use super::measurement::SequenceMeasurement;
 use super::pairs::{Pair, mean_in, scatter_in};
 use super::popping::{largest_floor, largest_jumps, object_errors};
-use super::rows::{SequenceMetric, SequenceScores};
 use super::temporal_antialiasing::accumulate;
 use crate::color::cross_error::squared_error;
 use crate::math::pooling::mean;
 use crate::math::raster::{map_pixels, zip_pixels};
+use crate::metric::{SequenceMetric, SequenceScores};
 use crate::{MeasureError, Measured, Viewing};
 
 const ONE_FRAME: &str = "a sequence of one frame has no change";

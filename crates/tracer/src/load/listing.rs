@@ -26,7 +26,7 @@ pub struct SceneListing {
 pub fn list_scenes(root: impl Into<Location>) -> Result<Vec<SceneListing>, SceneError> {
     let root = root.into();
     let unreadable = |error| {
-        let reason = format!("the folder of scenes cannot be read: {error}; name another one");
+        let reason = format!("the folder of scenes cannot be read: {error}; name another folder");
         SceneError::in_file(&root.path, reason)
     };
     let mut folders = Vec::new();

@@ -6,7 +6,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Args, Command};
 use suite::Error;
 
-use super::PlanArgs;
+use super::arguments::PlanArgs;
 use crate::output::OutputArgs;
 
 /// Name of the command.

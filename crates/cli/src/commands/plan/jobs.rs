@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use frame::Alignment;
 use suite::{Error, JobCost, RunPlan, SceneJobs, estimate_jobs, estimate_report};
 
-use super::PlanArgs;
+use super::arguments::PlanArgs;
 use super::filter_words::{FilterWords, list_filter_words};
 use super::given::{given_options, words_behind};
 use super::job::{Job, path_word};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::metric::{Group, Row, metrics};
+use super::row::{Group, Row, metrics};
 use crate::{ErrorMap, Ideal, Measured};
 
 /// Quality of a video without visible difference, in JOD.
