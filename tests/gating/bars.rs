@@ -29,7 +29,7 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
     let truth = suite::render_truth(scene, &settings, shutter, out, Monitor::SILENT).unwrap();
     let ladder = suite::LadderFiles::new(scene, &settings, &truth, out);
     let rung = ladder.read_or_render(64, Monitor::SILENT).unwrap();
-    let reference = Reference::new(&frame, &truth, None, &suite::scene_viewing(scene)).unwrap();
+    let reference = Reference::new(&frame, &truth, None, &scene.display.into()).unwrap();
     let bounds = judge::read_bounds(scenes(), &choice.folder, Some((160, 90))).unwrap();
     // Bounds for all filters, required or not.
     let bounds = bounds.of("identity", "default");

@@ -26,8 +26,7 @@ fn n_subframes_are_worth_n() {
     let frame = trace_frame(&scene, &coarse, watch).unwrap();
     let truth = trace_truth(&scene, &settings, Alignment::Trailing, watch).unwrap();
     let ladder = trace_ladder(&scene, &settings, &truth, &store::LADDER, watch).unwrap();
-    let reference =
-        Reference::new(&frame, &truth, Some(&ladder), &suite::scene_viewing(&scene)).unwrap();
+    let reference = Reference::new(&frame, &truth, Some(&ladder), &scene.display.into()).unwrap();
     // Another seed than the reference's.
     let again = RenderSettings {
         seed: 2,

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use frame::{Frame, Image, Ladder, Picture, Truth, read_exr, rung_file};
+use frame::{Image, Ladder, Picture, read_exr};
 use metrics::{Reference, Regions};
-use store::ladder_folder;
+use store::RenderFile;
 use suite::{Case, Error, ErrorMaps, Run};
 
 use crate::decoys::{Decoys, FEW_SUBFRAMES};
@@ -41,12 +41,9 @@ fn add_evidence_of_truth(
     folder: &Path,
 ) -> Result<(), Error> {
     let (first, _) = &cases[0];
-    let own = folder.join(first.scene.folder());
-    let frame = Frame::read(&own.join("frame.exr"))?.cropped();
-    let truth = Truth::read(&own.join(format!("truth_{}.exr", first.alignment)))?;
-    let rung = own
-        .join(ladder_folder(truth.alignment))
-        .join(rung_file(FEW_SUBFRAMES));
+    let (frame, truth) = first.read_frame_and_truth(folder)?;
+    let rung = RenderFile::Rung(truth.alignment, FEW_SUBFRAMES);
+    let rung = first.render_path(folder, rung);
     // An engine may have drawn too few sub-frames for it.
     let few_subframes = match rung.exists() {
         true => Some(Ladder::read_rung(&rung, FEW_SUBFRAMES)?),

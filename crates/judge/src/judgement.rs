@@ -4,8 +4,8 @@ use std::path::Path;
 
 use frame::{read_bounded, write_atomically};
 use serde::{Deserialize, Serialize};
-use store::{MOST_RUN_BYTES, read_text_within, to_lines};
-use suite::{Error, PROGRAM, Run, is_below};
+use store::{MOST_RUN_BYTES, is_below, read_text_within, to_lines};
+use suite::{Error, PROGRAM, Run};
 
 use crate::Finding;
 

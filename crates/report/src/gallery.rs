@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use frame::{Raster, read_png, write_atomically, write_png};
 use metrics::Metric;
+use store::RenderFile;
 use suite::{Case, Error, IDENTITY, Run};
 use tracer::SceneId;
 
@@ -126,7 +127,7 @@ pub fn write_case_strip(case: &Case, folder: &Path, out: &Path) -> Result<(), Er
 
 /// Reads the truth that a case is scored against.
 fn read_truth(folder: &Path, case: &Case) -> Result<Picture, Error> {
-    let name = format!("truth_{}.png", case.alignment);
+    let name = RenderFile::Truth(case.alignment).picture();
     Ok(read_png(&folder.join(case.scene.folder()).join(name))?)
 }
 

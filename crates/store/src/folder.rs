@@ -1,6 +1,6 @@
 //! The folder of a scene's files, below an output folder.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use tracer::Scene;
 
@@ -40,4 +40,10 @@ pub fn refuse_long_names(folders: &Path) -> Result<(), Error> {
         ))),
         _ => Ok(()),
     }
+}
+
+/// Tells whether a path leads below the folder that it starts from. Nothing is read or written elsewhere.
+pub fn is_below(path: &Path) -> bool {
+    let mut parts = path.components().peekable();
+    parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }

@@ -113,7 +113,7 @@ fn entries_of_outer_lists_have_a_line_each() {
         "width": 160,
     });
     let text = to_lines(&value);
-    let due = r#"{
+    let expected = r#"{
  "cases": [
   {"at": [1, 2], "scene": "fan"},
   {}
@@ -121,7 +121,7 @@ fn entries_of_outer_lists_have_a_line_each() {
  "none": [],
  "width": 160
 }"#;
-    assert_eq!(text, due);
+    assert_eq!(text, expected);
     assert_eq!(
         serde_json::from_str::<serde_json::Value>(&text).unwrap(),
         value

@@ -15,13 +15,11 @@ mod record;
 mod render_file;
 mod tracked;
 
-pub use archive::{
-    LARGEST_PACK_RATIO, MOST_MANIFEST_BYTES, Manifest, PACK_FORMAT, Pack, PackedFile, write_archive,
-};
+pub use archive::{Manifest, PACK_FORMAT, Pack, PackedFile, write_archive};
 pub use claim::{Claim, Sharing, claim};
 pub use clear::clear_scene;
 pub use error::Error;
-pub use folder::{refuse_long_names, refuse_scene, scene_folder};
+pub use folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
 pub use gather::{Files, MOST_TAKEN_BYTES, gather, place_file, place_files};
 pub use json::{MOST_JSON_BYTES, MOST_RUN_BYTES, read_text, read_text_within};
 pub use json_lines::to_lines;

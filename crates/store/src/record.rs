@@ -3,11 +3,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use frame::{FileError, write_atomically};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+
+use crate::folder::is_below;
 
 /// Name of a case's record, beside its pictures.
 pub const CASE_RECORD: &str = "case.json";
@@ -69,17 +71,15 @@ pub fn remove_altered_files(path: &Path, inputs: &str) {
 /// out there is read or removed.
 fn read_whole<T: DeserializeOwned>(path: &Path, inputs: &str) -> Option<Record<T>> {
     let found: Record<T> = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
-    let is_below = |name: &String| is_below(&path.with_file_name(""), name);
-    (found.inputs == inputs && found.files.keys().all(is_below)).then_some(found)
+    let is_own = |name: &String| is_file_of(&path.with_file_name(""), name);
+    (found.inputs == inputs && found.files.keys().all(is_own)).then_some(found)
 }
 
 /// Tells whether a name is that of a file in a folder or in one of its folders, and no path out of it.
-fn is_below(folder: &Path, name: &str) -> bool {
+fn is_file_of(folder: &Path, name: &str) -> bool {
     let name = Path::new(name);
-    let is_plain = (name.components()).all(|part| matches!(part, Component::Normal(_)));
     let mut folders = name.ancestors().skip(1);
-    is_plain
-        && name.file_name().is_some()
+    is_below(name)
         && folders.all(|inner| inner == Path::new("") || !folder.join(inner).is_symlink())
 }
 
@@ -146,29 +146,5 @@ mod tests {
             assert!(elsewhere.exists(), "{name}");
             assert_eq!(look_up::<()>(&record, "these"), None, "{name}");
         }
-    }
-
-    #[test]
-    fn a_record_is_read_back_until_anything_about_it_changes() {
-        let folder = tempfile::tempdir().unwrap();
-        let (record, picture) = (folder.path().join("case.json"), folder.path().join("a.png"));
-        let read_back = || look_up::<f64>(&record, "these");
-        assert_eq!(read_back(), None, "nothing is there yet");
-        std::fs::write(&picture, "picture").unwrap();
-        let files = ["a.png".to_owned()];
-        put(&record, "these".to_owned(), &files, &0.1).unwrap();
-        assert_eq!(read_back(), Some(0.1));
-        assert_eq!(look_up::<f64>(&record, "others"), None);
-
-        std::fs::write(&picture, "picturE").unwrap();
-        assert_eq!(read_back(), None, "a picture was altered");
-        std::fs::remove_file(&picture).unwrap();
-        assert_eq!(read_back(), None, "a picture is missing");
-        std::fs::write(&picture, "picture").unwrap();
-        assert_eq!(read_back(), Some(0.1));
-
-        let text = std::fs::read_to_string(&record).unwrap();
-        std::fs::write(&record, &text[..text.len() / 2]).unwrap();
-        assert_eq!(read_back(), None, "the record was cut short");
     }
 }

@@ -32,6 +32,11 @@ impl RenderFile {
         PathBuf::from(self.to_string())
     }
 
+    /// Names the picture for people of a frame or a truth, beside the file: `truth_trailing.png`.
+    pub fn picture(self) -> String {
+        self.to_string().replace(".exr", ".png")
+    }
+
     /// Parses such a path; none of any other.
     pub fn parse(path: &Path) -> Option<Self> {
         let parts: Vec<&str> = path
@@ -60,6 +65,14 @@ impl RenderFile {
             _ => true,
         };
         (is_made && found.path() == path).then_some(found)
+    }
+
+    /// Returns the index of a replicate, or the number of sub-frames of a rung; 0 of any other.
+    pub fn number(self) -> u32 {
+        match self {
+            Self::Frame | Self::Truth(_) => 0,
+            Self::Replicate(_, number) | Self::Rung(_, number) => number,
+        }
     }
 
     /// Returns the shutter of a truth, a replicate or a rung.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Image, read_bounded, read_png};
 use glob::Pattern;
+use store::RenderFile;
 use suite::{Error, Run, Sequence, SequenceFrame};
 
 use crate::study::{Study, StudyShutter};
@@ -52,7 +53,7 @@ pub fn make_study(
             .filter(|item| item.alignment == alignment)
             .collect();
         let filters = list_once(own.iter().map(|item| item.filter.clone()));
-        let truth = format!("truth_{alignment}.png");
+        let truth = RenderFile::Truth(alignment).picture();
         let mut truth_hashes = Vec::new();
         for (scene, clips) in scenes.iter().zip(&mut clips) {
             let found = filters.iter().map(|filter| find_item(&own, scene, filter));

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr, rung_file};
+use frame::{Alignment, FileError, Frame, Ladder, Picture, Provenance, Truth, read_exr};
 use serde::{Deserialize, Serialize};
-use store::{ladder_folder, read_text};
+use store::{RenderFile, read_text};
 use tracer::SceneId;
 
 use crate::Error;
@@ -138,29 +138,27 @@ impl EngineScene {
 
     /// Reads the frame, and copies its file into a scene's folder of a run.
     pub(crate) fn copy_frame(&self, folder: &Path) -> Result<Frame, Error> {
-        let path = self.copy("frame.exr", folder)?;
-        let frame = Frame::read(&path)?;
-        self.check_file("frame.exr", &frame.provenance, &self.hash, frame.size())?;
+        let file = RenderFile::Frame;
+        let frame = Frame::read(&self.copy(file, folder)?)?;
+        self.check_file(file, &frame.provenance, &self.hash, frame.size())?;
         Ok(frame)
     }
 
     /// Reads the truth, and copies its file with that of its ladder into a scene's folder of a run.
     pub(crate) fn copy_truth(&self, folder: &Path) -> Result<Truth, Error> {
-        let alignment = self.alignment;
         for rung in &self.ladder {
-            self.copy(&self.rung_path(*rung), folder)?;
+            self.copy(RenderFile::Rung(self.alignment, *rung), folder)?;
         }
-        let name = format!("truth_{alignment}.exr");
-        let path = self.copy(&name, folder)?;
-        let truth = Truth::read(&path)?;
-        self.check_file(&name, &truth.provenance, &self.truth_hash(), truth.size())?;
+        let file = RenderFile::Truth(self.alignment);
+        let truth = Truth::read(&self.copy(file, folder)?)?;
+        self.check_file(file, &truth.provenance, &self.truth_hash(), truth.size())?;
         Ok(truth)
     }
 
     /// Refuses a file that is not the one that was ingested.
     fn check_file(
         &self,
-        name: &str,
+        file: RenderFile,
         provenance: &Provenance,
         hash: &str,
         (width, height): (u32, u32),
@@ -169,21 +167,15 @@ impl EngineScene {
             true => Ok(()),
             false => Err(Error::Usage(format!(
                 "{}: is of another capture than {INGESTED_FILE} beside it; ingest the capture again",
-                self.folder.join(name).display()
+                self.folder.join(file.path()).display()
             ))),
         }
     }
 
     /// Reads a rung of the ladder from a scene's folder of a run.
     pub(crate) fn read_rung(&self, folder: &Path, subframes: u32) -> Result<Ladder, Error> {
-        let path = folder.join(self.rung_path(subframes));
-        Ok(Ladder::read_rung(&path, subframes)?)
-    }
-
-    /// Names the file of a rung below the folder of the scene.
-    fn rung_path(&self, subframes: u32) -> String {
-        let folder = ladder_folder(self.alignment);
-        format!("{folder}/{}", rung_file(subframes))
+        let file = RenderFile::Rung(self.alignment, subframes);
+        Ok(Ladder::read_rung(&folder.join(file.path()), subframes)?)
     }
 
     /// Reads the engine's own blurred picture; the mattes are those of the frame.
@@ -197,8 +189,8 @@ impl EngineScene {
     }
 
     /// Copies a file, unless the same bytes are there; returns its new path.
-    fn copy(&self, name: &str, folder: &Path) -> Result<PathBuf, Error> {
-        let (from, to) = (self.folder.join(name), folder.join(name));
+    fn copy(&self, file: RenderFile, folder: &Path) -> Result<PathBuf, Error> {
+        let [from, to] = [&*self.folder, folder].map(|folder| folder.join(file.path()));
         let bytes = std::fs::read(&from).map_err(|source| FileError::io(&from, "read", source))?;
         if std::fs::read(&to).ok().as_ref() != Some(&bytes) {
             frame::write_atomically(&to, &bytes)?;

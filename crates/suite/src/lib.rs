@@ -1,4 +1,4 @@
-//! Measuring, judging, comparing and tuning of filters over scenes. Nothing here prints: results are data, progress goes to a
+//! Rendering and measuring of filters over scenes, with their inputs as engines have them. Nothing here prints: results are data, progress goes to a
 //! [`Monitor`].
 
 mod bench;
@@ -42,18 +42,17 @@ pub use filter::velocity_format::VelocityFormat;
 pub use identity::{CaseId, FilterId};
 pub use measure::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use measure::estimate::{
-    RunEstimate, estimate_case_seconds, estimate_render_seconds, estimate_run,
+    JobCost, RunEstimate, SceneJobs, estimate_case_seconds, estimate_jobs, estimate_render_seconds,
+    estimate_report, estimate_run,
 };
-pub use measure::job_costs::{JobCost, SceneJobs, estimate_jobs, estimate_report};
 pub use measure::part::Part;
 pub use measure::plan::RunPlan;
 pub use measure::probes::{filter_input, pack_planes, unpack_planes};
-pub use measure::references::{TruthReferences, scene_viewing};
 pub use measure::scenes::measure_scenes;
 pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
 pub use merge::{MergedRun, holds_run, merge_runs};
 pub use monitor::{Monitor, Step};
-pub use pack::arrival::{Arrival, take_pack};
+pub use pack::unpacked::{Unpacked, take_pack};
 pub use pack::write_pack;
 pub use random::Random;
 pub use render::frames::render_frame;
@@ -66,25 +65,23 @@ pub use render::truths::{deciding_floor, render_part, render_truth, render_truth
 pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};
 pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};
-pub use run::file::{MOST_CASES, is_below};
 pub use run::layers::write_layers;
 pub use run::overall::Overall;
-pub use run::sequence::{Frames, MOST_FRAMES, Sequence, SequenceFrame};
+pub use run::sequence::{Frames, MOST_FRAMES, Sequence, SequenceFrame, worst_frames};
 pub use run::{FORMAT, Run};
 pub use score::finished_picture::{FinishedPicture, read_finished_picture};
 pub use score::numbered::{find_numbered, numbered_file};
 pub use score::scores::{Scored, missing_scores, score};
-pub use score::sequence::{ScoredSequence, SequenceTruth, file_at_frame, score_sequence};
+pub use score::sequence::{SequenceTruth, file_at_frame, score_sequence};
 pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::scene_mean::{
     FEWEST_SCENES, ONE_SIDED, SceneMean, TWO_SIDED, Weighted, plain_mean, scene_mean,
 };
-pub use verify::chance::TILE_SIDE;
 pub use verify::difference::TRAVERSALS;
-pub use verify::kept_scene::{Verified, verify_scene};
-pub use verify::listing::{KeptScene, list_kept_scenes};
-pub use verify::work::Verification;
+pub use verify::scene::{Verified, verify_scene};
+pub use verify::scene_renders::{SceneRenders, list_scene_renders};
+pub use verify::tiles::{TILE_SIDE, Verification};
 
 /// Program name and version, as files and runs record it.
 pub const PROGRAM: &str = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"));

@@ -17,8 +17,6 @@ pub struct Monitor {
     pub begin: fn(&str) -> Box<dyn Step>,
     /// Returns true if the work is to end.
     pub interrupted: fn() -> bool,
-    /// Notes the end of a part of measuring a case, by the part's name: a bench reads its clocks here.
-    pub ended: fn(&'static str),
 }
 
 impl Monitor {
@@ -26,7 +24,6 @@ impl Monitor {
     pub const SILENT: Self = Self {
         begin: |_| Box::new(HiddenStep),
         interrupted: || false,
-        ended: |_| (),
     };
 
     /// Returns the same monitor without progress.

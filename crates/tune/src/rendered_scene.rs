@@ -5,7 +5,7 @@ use std::path::Path;
 use frame::{Alignment, Frame, Truth};
 use judge::SceneBounds;
 use metrics::Viewing;
-use suite::{Error, Monitor, render_frame, render_truth, scene_viewing};
+use suite::{Error, Monitor, render_frame, render_truth};
 use tracer::{RenderSettings, Scene};
 
 /// A scene, rendered once and measured against hundreds of times.
@@ -35,7 +35,7 @@ pub fn render_scenes(
             name: scene.id.to_string(),
             frame: render_frame(scene, render, out, monitor)?,
             truth: render_truth(scene, render, alignment, out, monitor)?,
-            viewing: scene_viewing(scene),
+            viewing: scene.display.into(),
             bounds: bounds.clone().at((render.width, render.height)),
         })
     };

@@ -71,7 +71,7 @@ fn every_changed_attribute_is_found() {
     let bench = packed();
     let folder = bench.path("out/plate");
     let scene = tracer::load_scene(bench.path("scenes/plate"), None).unwrap();
-    let kept = &suite::list_kept_scenes(&bench.path("out"), Path::new("out")).unwrap()[0];
+    let kept = &suite::list_scene_renders(&bench.path("out"), Path::new("out")).unwrap()[0];
     let verification = Verification { seed: 5, tiles: 1 };
     let differences = || {
         let verified = suite::verify_scene(&scene, kept, &verification, Monitor::SILENT);
@@ -234,7 +234,7 @@ fn refuse(bench: &Bench, parts: &[&str]) {
     let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
     assert_refused(&output, 2, parts);
     assert!(!bench.path("fresh/plate").exists());
-    assert!(!bench.path("fresh/.shuttertruth.arrivals").exists());
+    assert!(!bench.path("fresh/.shuttertruth.unpacked").exists());
 }
 
 /// Leaves files out of `forged.tar.zst` whose paths begin like this.

@@ -83,7 +83,7 @@ impl Parts {
         let output = (self.bench).shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
         assert_refused(&output, 2, &parts);
         assert!(!self.bench.path("fresh/plate").exists());
-        assert!(!self.bench.path("fresh/.shuttertruth.arrivals").exists());
+        assert!(!self.bench.path("fresh/.shuttertruth.unpacked").exists());
     }
 
     /// Changes the entries, and expects that the archive is refused.

@@ -81,7 +81,7 @@ fn a_check_from_a_pack_renders_nothing_and_has_the_same_scores() {
         "a file was rendered again, or is another one"
     );
     assert_eq!(scores(&bench, "fresh"), scores(&bench, "out"));
-    assert!(!bench.path("fresh/.shuttertruth.arrivals").exists());
+    assert!(!bench.path("fresh/.shuttertruth.unpacked").exists());
     // A second check finds all of it in its folder.
     let output = check(&["--truths", pack, "--out", "fresh"]);
     let parts = ["took no file; nothing is rendered"];

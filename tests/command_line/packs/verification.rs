@@ -189,7 +189,7 @@ fn a_run_takes_nothing_from_a_pack_of_forged_truths() {
     ];
     assert_refused(&output, 2, &parts);
     assert!(!bench.path("fresh/plate").exists());
-    assert!(!bench.path("fresh/.shuttertruth.arrivals").exists());
+    assert!(!bench.path("fresh/.shuttertruth.unpacked").exists());
 }
 
 #[test]

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use filters::Convention;
 use frame::{ExrFile, Frame, Ladder, Replicate, Truth, read_exr, write_exr};
 use suite::{
-    Monitor, TRAVERSALS, Verification, list_kept_scenes, read_finished_picture, score, verify_scene,
+    Monitor, TRAVERSALS, Verification, list_scene_renders, read_finished_picture, score,
+    verify_scene,
 };
 use tracer::load_scene;
 
@@ -70,7 +71,7 @@ pub fn verify(place: &mut Place, input: &[u8]) -> Option<()> {
     let (bytes, honest) = (fs::read(&place_of).unwrap(), read_exr(&place_of).unwrap());
     fs::copy(&path, &place_of).unwrap();
     let scene = load_scene(place.copy("scenes").join("plate"), None).unwrap();
-    let kept = list_kept_scenes(&out, &out).unwrap();
+    let kept = list_scene_renders(&out, &out).unwrap();
     let verification = Verification { seed: 1, tiles: 1 };
     let verified = verify_scene(&scene, &kept[0], &verification, Monitor::SILENT);
     fs::write(place_of, bytes).unwrap();

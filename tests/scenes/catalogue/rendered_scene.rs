@@ -109,7 +109,7 @@ impl RenderedScene {
             &frame,
             self.truth(alignment),
             None,
-            &suite::scene_viewing(&self.scene),
+            &self.scene.display.into(),
         )
         .unwrap();
         reference.measure(picture).unwrap().scores

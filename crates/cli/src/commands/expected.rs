@@ -20,8 +20,8 @@ pub fn print_expected(estimate: &RunEstimate, out: &Path) {
         estimate.memory as f64 / 1e9,
         estimate.cases
     );
-    if estimate.kept > 0 {
-        text += &format!(", {} of them are there", estimate.kept);
+    if estimate.read_back > 0 {
+        text += &format!(", {} of them are there", estimate.read_back);
     }
     print_expected_time(estimate.seconds, &text);
 }

@@ -5,7 +5,7 @@ use std::hash::{BuildHasher, Hasher};
 use std::path::Path;
 
 use store::{Pack, printable_path};
-use suite::{Arrival, Error, RunPlan, Verification, take_pack};
+use suite::{Error, RunPlan, Unpacked, Verification, take_pack};
 
 use crate::output::{count_text, print_note};
 
@@ -39,8 +39,8 @@ pub fn take_packed_truths(plan: &mut RunPlan) -> Result<(), Error> {
         seed: choose_seed(),
         tiles: 1,
     };
-    let arrival = take_pack(plan, &pack, &verification)?;
-    print_note(&arrival_text(&pack, &arrival, &verification));
+    let unpacked = take_pack(plan, &pack, &verification)?;
+    print_note(&unpacked_text(&pack, &unpacked, &verification));
     // All that it had lies there now.
     plan.truths = Some(plan.out.clone());
     Ok(())
@@ -53,20 +53,20 @@ pub fn choose_seed() -> u64 {
 }
 
 /// `truths.tar.zst: took 33 files, and traced 3 tiles again, which are equal (seed 7); nothing is rendered`
-fn arrival_text(pack: &Pack, arrival: &Arrival, verification: &Verification) -> String {
+fn unpacked_text(pack: &Pack, unpacked: &Unpacked, verification: &Verification) -> String {
     let mut text = printable_path(&pack.path);
-    match arrival.taken {
+    match unpacked.files {
         0 => text += ": took no file",
         taken => {
             text += &format!(
                 ": took {}, and traced {} again, which are equal (seed {})",
                 count_text(taken, "file", "files"),
-                count_text(arrival.verified.tiles.len(), "tile", "tiles"),
+                count_text(unpacked.verified.tiles.len(), "tile", "tiles"),
                 verification.seed
             );
         }
     }
-    match arrival.missing.as_slice() {
+    match unpacked.missing.as_slice() {
         [] => text += "; nothing is rendered",
         missing => {
             let named = &missing[..missing.len().min(MOST_NAMED)];

@@ -1,11 +1,11 @@
 //! The command `score` for a sequence of pictures.
 
 use frame::{Frame, Image, Truth};
-use metrics::{Measured, SequenceMetric};
+use metrics::{Measured, SequenceMeasurement, SequenceMetric};
 use store::{printable, printable_path};
 use suite::{
-    Error, Frames, ScoredSequence, SequenceTruth, file_at_frame, find_numbered,
-    read_finished_picture, score_sequence,
+    Error, Frames, SequenceTruth, file_at_frame, find_numbered, read_finished_picture,
+    score_sequence, worst_frames,
 };
 use tracer::Scene;
 
@@ -97,7 +97,7 @@ fn load_scene(args: &ScoreArgs, first: &SequenceTruth) -> Result<Scene, Error> {
 fn scores_text(
     args: &ScoreArgs,
     truth: &Truth,
-    scored: &ScoredSequence,
+    scored: &SequenceMeasurement,
     notes: &[String],
 ) -> String {
     let name = printable_path(&args.image);
@@ -108,7 +108,7 @@ fn scores_text(
         truth.alignment,
         truth.shutter.exposure()
     );
-    let worst: Vec<String> = (scored.worst_frames.iter())
+    let worst: Vec<String> = (worst_frames(scored).iter())
         .map(|(metric, frame)| format!("{metric} {frame}"))
         .collect();
     text += &format!("worst frames: {}\n", worst.join(", "));
@@ -127,7 +127,7 @@ fn scores_json(
     args: &ScoreArgs,
     per_second: f64,
     truths: &[SequenceTruth],
-    scored: &ScoredSequence,
+    scored: &SequenceMeasurement,
     notes: &[String],
 ) -> serde_json::Value {
     let first = &truths[0].truth;
@@ -141,7 +141,7 @@ fn scores_json(
     });
     let mut json = scored_json(args, first, notes, &scored.scores);
     json["per_second"] = per_second.into();
-    json["worst_frames"] = serde_json::json!(scored.worst_frames);
+    json["worst_frames"] = serde_json::json!(worst_frames(scored));
     json["frames"] = frames.collect();
     json
 }

@@ -7,7 +7,9 @@ use clap::Args;
 use frame::{FileError, Tile};
 use serde_json::json;
 use store::{Pack, printable_path};
-use suite::{Error, KeptScene, TILE_SIDE, Verification, Verified, list_kept_scenes, verify_scene};
+use suite::{
+    Error, SceneRenders, TILE_SIDE, Verification, Verified, list_scene_renders, verify_scene,
+};
 
 use super::ending::Ending;
 use super::kept_truths::choose_seed;
@@ -48,7 +50,7 @@ pub struct VerifyArgs {
 pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
     let unpacked = unpack(&args.truths)?;
     let folder = (unpacked.as_ref()).map_or(args.truths.as_path(), tempfile::TempDir::path);
-    let kept = list_kept_scenes(folder, &args.truths)?;
+    let kept = list_scene_renders(folder, &args.truths)?;
     let known: BTreeSet<String> = (kept.iter())
         .map(|kept| kept.scene.at_frame(0).to_string())
         .collect();
@@ -102,7 +104,7 @@ fn unpack(truths: &Path) -> Result<Option<tempfile::TempDir>, Error> {
 fn verify_named(
     args: &VerifyArgs,
     name: &str,
-    kept: &[KeptScene],
+    kept: &[SceneRenders],
     verification: &Verification,
 ) -> Result<Verified, Error> {
     let mut verified = Verified::default();

@@ -28,7 +28,6 @@ pub fn make_monitor() -> Monitor {
             (false, false) => |label| Box::new(Lines::new(label, Instant::now())),
         },
         interrupted: was_interrupted,
-        ..Monitor::SILENT
     }
 }
 

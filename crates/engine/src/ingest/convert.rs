@@ -6,7 +6,7 @@ use frame::{
     Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
     Truth, VelocityKind, display_srgb, write_exr, write_png,
 };
-use store::{Sharing, claim, ladder_folder, refuse_long_names, refuse_scene};
+use store::{RenderFile, Sharing, claim, ladder_folder, refuse_long_names, refuse_scene};
 use suite::{
     BLURRED, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM, engine_name,
     name_in_one_word, velocity_wheel,
@@ -95,8 +95,8 @@ fn write_files(
     let _claim = claim(out, [], Sharing::Alone)?;
     let stops = frame.display.stops;
     let show = |name: &str, image: &Image| write_png(&out.join(name), &display_srgb(image, stops));
-    frame.write(&out.join("frame.exr"))?;
-    show("frame.png", &frame.color)?;
+    frame.write(&out.join(RenderFile::Frame.path()))?;
+    show(&RenderFile::Frame.picture(), &frame.color)?;
     write_png(&out.join("velocity.png"), &velocity_wheel(frame))?;
     if let Some(picture) = &capture.blurred {
         write_picture(&out.join(BLURRED), picture, scene, &frame.provenance)?;
@@ -106,8 +106,9 @@ fn write_files(
     if let Some(EngineTruth { truth, ladder, .. }) = averaged {
         let alignment = truth.alignment;
         ladder.write_rungs(&out.join(ladder_folder(alignment)))?;
-        truth.write(&out.join(format!("truth_{alignment}.exr")))?;
-        show(&format!("truth_{alignment}.png"), &truth.mean().color)?;
+        let file = RenderFile::Truth(alignment);
+        truth.write(&out.join(file.path()))?;
+        show(&file.picture(), &truth.mean().color)?;
         written = Some(truth);
     }
     write_json(&out.join(INGESTED_FILE), scene)?;
@@ -127,7 +128,7 @@ fn median_ratio(picture: &Image, other: &Image, left_out: &Raster<bool>) -> Opti
 
 /// Refuses a folder that holds another frame, as a run leaves it for a scene.
 fn refuse_other_files(out: &Path) -> Result<(), Error> {
-    match out.join("frame.exr").exists() && !EngineScene::is_in(out) {
+    match out.join(RenderFile::Frame.path()).exists() && !EngineScene::is_in(out) {
         false => Ok(()),
         true => Err(Error::Usage(format!(
             "{}: holds a frame that was not ingested, which would be overwritten; name a new folder",

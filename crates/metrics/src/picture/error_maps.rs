@@ -40,29 +40,22 @@ pub struct PixelErrors {
 
 impl ErrorMaps {
     /// Maps the errors of `output`, which is also given as `displayed`, against the truth's mean; squared errors by `halves`.
-    /// `ended` hears of the end of each part.
     pub fn new(
         (output, displayed): (&Picture, &Displayed),
         halves: [&Image; 2],
         mean: &Picture,
         seen: &SeenTruth,
-        ended: fn(&'static str),
     ) -> Self {
         let flip = seen.display.map_errors(displayed);
-        ended("FLIP");
         let flip_hdr = seen.exposures.map_errors(&output.color);
-        ended("HDR-FLIP");
         let ssim = map_ssim(&displayed.srgb, &seen.srgb);
-        ended("SSIM");
-        let maps = Self {
+        Self {
             pixels: map_pixel_errors(&output.color, halves, &mean.color, seen.scale),
             ssim,
             flip,
             flip_hdr,
             label: label_variation(&output.coverage, &mean.coverage),
-        };
-        ended("other maps");
-        maps
+        }
     }
 
     /// Converts the maps to planes, and adds more.

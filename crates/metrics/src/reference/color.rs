@@ -50,7 +50,6 @@ impl ColorReference {
             self.halves.each_ref(),
             &self.mean,
             &self.seen,
-            |_| (),
         );
         let pooled = Pooled::new(&errors, &self.regions, Region::Moving, &self.windows);
         let found = pooled.zip(self.noise);

@@ -62,8 +62,6 @@ pub struct Reference<'a> {
     pub(crate) objects: Vec<ObjectReference>,
     /// Errors of the rungs of the ladder; none without a ladder.
     curves: Curves,
-    /// Listener to the end of each part of measuring, by the part's name.
-    ended: fn(&'static str),
 }
 
 impl<'a> Reference<'a> {
@@ -90,7 +88,7 @@ impl<'a> Reference<'a> {
         let seen = SeenTruth::new(&mean.color, viewing);
         let half = &truth.halves[0];
         let displayed = Displayed::new(&half.color, viewing);
-        let noise = ErrorMaps::new((half, &displayed), [&mean.color; 2], &mean, &seen, |_| ());
+        let noise = ErrorMaps::new((half, &displayed), [&mean.color; 2], &mean, &seen);
         let at_instant = truth.at_instant_mean();
         let mut reference = Self {
             noise: Pooled::of_noise(&noise, &masks, &windows),
@@ -109,7 +107,6 @@ impl<'a> Reference<'a> {
             seen,
             instant: instant.color,
             viewing: *viewing,
-            ended: |_| (),
         };
         if let Some(ladder) = ladder {
             reference.add_rungs(ladder)?;
@@ -146,7 +143,7 @@ impl<'a> Reference<'a> {
         )?;
         check_picture(best, self.truth, "the one-frame oracle")?;
         let pool = |picture: &Picture| {
-            let errors = self.map_errors(picture, &self.display(picture), |_| ());
+            let errors = self.map_errors(picture, &self.display(picture));
             Pooled::new(&errors, &self.regions, Region::Moving, &self.windows)
         };
         let ends = pool(sharp).zip(pool(best));
@@ -154,33 +151,22 @@ impl<'a> Reference<'a> {
         Ok(self)
     }
 
-    /// Tells a listener of the end of each part of measuring a picture, by the part's name.
-    pub fn with_listener(mut self, ended: fn(&'static str)) -> Self {
-        self.ended = ended;
-        self
-    }
-
     /// Measures one picture.
     pub fn measure(&self, output: &Picture) -> Result<Measurement, MeasureError> {
         check_picture(output, self.truth, "the output")?;
         check_brightness(output, &self.viewing, "the output")?;
-        (self.ended)("checks");
         let displayed = self.display(output);
-        let errors = self.map_errors(output, &displayed, self.ended);
+        let errors = self.map_errors(output, &displayed);
         let (objects, [bleed, gradient_error]) = self.measure_objects(output, &errors);
-        (self.ended)("objects");
         let (frozen, frozen_squared) =
             self.frozen
                 .measure((&output.color, &displayed), &self.regions, &self.viewing);
-        (self.ended)("frozen truth");
         let static_change = self.map_static_change(&output.color);
-        (self.ended)("other maps");
         let pooled = Pooled::over_all(&errors, &self.regions, &self.windows);
         let pooled = Region::ALL.map(|region| -> Found {
             let (own, noise) = (pooled[region as usize], self.noise[region as usize]);
             own.zip(noise).ok_or(explain_empty(region))
         });
-        (self.ended)("pooling");
         let [moving, support, still, full, knowable, unknowable] = &pooled;
         let mut measurement = Measurement {
             scores: Scores {
@@ -274,14 +260,9 @@ impl<'a> Reference<'a> {
         Displayed::new(&picture.color, &self.viewing)
     }
 
-    fn map_errors(
-        &self,
-        picture: &Picture,
-        displayed: &Displayed,
-        ended: fn(&'static str),
-    ) -> ErrorMaps {
+    fn map_errors(&self, picture: &Picture, displayed: &Displayed) -> ErrorMaps {
         let halves = self.half_colors();
-        ErrorMaps::new((picture, displayed), halves, &self.mean, &self.seen, ended)
+        ErrorMaps::new((picture, displayed), halves, &self.mean, &self.seen)
     }
 
     /// Maps the change of the instant's colour where nothing moves; 0 elsewhere.

@@ -2,6 +2,7 @@
 
 use frame::{Plane, read_exr};
 use judge::{Pair, Side};
+use store::RenderFile;
 use suite::Error;
 
 use crate::pixels::png::{embed_file, embed_picture};
@@ -25,7 +26,7 @@ impl Pictures {
         let (Some(first), Some(second)) = (embed_file(&first)?, embed_file(&second)?) else {
             return Ok(None);
         };
-        let truth = format!("truth_{}.png", pair.first.alignment);
+        let truth = RenderFile::Truth(pair.first.alignment).picture();
         Ok(Some(Self {
             first,
             second,

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use frame::{Alignment, ExrFile, Frame, Image, Picture, Plane, Regions, Truth, read_exr, regions};
 use metrics::{Side, object_sides};
+use store::RenderFile;
 use suite::{ACCUMULATE, Case, Error, ErrorMaps, Run};
 
 use super::layer::Layer;
@@ -61,7 +62,7 @@ pub struct CaseFiles<'a> {
 impl SceneFiles {
     /// Reads the frame of a scene and the accumulations of its profiles; `cases` are all of the scene, `folder` is the run's.
     pub fn read(run: &Run, cases: &[&Case], folder: &Path) -> Result<Self, Error> {
-        let path = folder.join(cases[0].scene.folder()).join("frame.exr");
+        let path = cases[0].render_path(folder, RenderFile::Frame);
         let frame = Frame::read(&path)?.cropped();
         check_size(&path, frame.size(), (run.render.width, run.render.height))?;
         let mut accumulations = BTreeMap::new();
@@ -103,7 +104,7 @@ impl SceneFiles {
     /// Reads the truth that a case is scored against.
     fn read_truth(&mut self, case: &Case) -> Result<TruthFile, Error> {
         let alignment = case.alignment;
-        let path = (self.folder.join(case.scene.folder())).join(format!("truth_{alignment}.exr"));
+        let path = case.render_path(&self.folder, RenderFile::Truth(alignment));
         let truth = Truth::read(&path)?;
         check_size(&path, truth.size(), self.frame.size())?;
         if truth.objects != self.frame.objects {
@@ -145,7 +146,7 @@ impl SceneFiles {
         alignment: Alignment,
     ) -> Result<Option<(Layer, Vec<usize>)>, Error> {
         let traced = self.traced.as_ref();
-        let path = traced.map(|folder| folder.join(format!("truth_{alignment}.exr")));
+        let path = traced.map(|folder| folder.join(RenderFile::Truth(alignment).path()));
         let Some(path) = path.filter(|path| path.is_file()) else {
             return Ok(None);
         };
@@ -177,7 +178,7 @@ impl SceneFiles {
         }
         if !self.truths.contains_key(&case.alignment) {
             let truth = self.read_truth(case)?;
-            self.truths.insert(case.alignment.clone(), truth);
+            self.truths.insert(case.alignment, truth);
         }
         let truth = &self.truths[&case.alignment];
         let bleeds = read_bleeds(&file, &self.frame.objects, truth)?;

@@ -5,6 +5,7 @@ use std::path::Path;
 use judge::{Finding, RANKED_BY};
 use maud::{Markup, html};
 use serde_json::{Value, json};
+use store::RenderFile;
 use suite::{CHANGE_PICTURE, Run, Sequence, SequenceFrame};
 use tracer::SceneId;
 
@@ -119,7 +120,7 @@ fn name(own: &Sequence) -> String {
 
 /// Lists what the player needs of a sequence. Paths are relative to the page; errors are roots of squares in thousandths of white.
 fn play(own: &Sequence) -> Value {
-    let truth = format!("truth_{}.png", own.alignment);
+    let truth = RenderFile::Truth(own.alignment).picture();
     let path = |folder: &Path, name: &str| {
         let path = folder.join(name);
         let parts = path.iter().map(|part| part.to_string_lossy());

@@ -20,7 +20,7 @@ type Unpacked = zstd::Decoder<'static, BufReader<File>>;
 pub struct Pack {
     /// The archive.
     pub path: PathBuf,
-    /// List of its files.
+    /// Its list of files.
     pub manifest: Manifest,
 }
 
@@ -30,13 +30,14 @@ impl Pack {
     /// # Errors
     /// The file is no pack of this version.
     pub fn open(path: &Path) -> Result<Self, Error> {
-        let mut archive = open_archive(path)?;
-        let mut entries = list_entries(&mut archive, path)?;
-        let bytes = read_manifest(&mut entries, path)?;
         let size = std::fs::metadata(path).map_err(|source| FileError::io(path, "read", source))?;
+        let mut archive = open_archive(path)?;
+        let manifest = (list_entries(&mut archive))
+            .and_then(|mut entries| read_manifest(&mut entries))
+            .and_then(|bytes| Manifest::parse(&bytes, size.len()));
         Ok(Self {
             path: path.to_owned(),
-            manifest: Manifest::parse(&bytes, size.len()).map_err(|error| refuse(path, &error))?,
+            manifest: manifest.map_err(|reason| refuse(path, &reason))?,
         })
     }
 
@@ -48,37 +49,32 @@ impl Pack {
         &self,
         mut visit: impl FnMut(&PackedFile, &[u8]) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let path = &self.path;
-        let mut archive = open_archive(path)?;
+        let refuse = |reason: String| refuse(&self.path, &reason);
+        let mut archive = open_archive(&self.path)?;
         {
-            let mut entries = list_entries(&mut archive, path)?;
-            read_manifest(&mut entries, path)?;
+            let mut entries = list_entries(&mut archive).map_err(refuse)?;
+            read_manifest(&mut entries).map_err(refuse)?;
             for file in &self.manifest.files {
-                let Some(entry) = entries.next() else {
-                    return Err(refuse(path, &format!("ends before {}", file.path)));
-                };
-                let entry = entry.map_err(|error| broken(path, &error))?;
-                visit(file, &read_entry(entry, file, path)?)?;
+                visit(file, &read_entry(entries.next(), file).map_err(refuse)?)?;
             }
             if let Some(entry) = entries.next() {
-                let entry = entry.map_err(|error| broken(path, &error))?;
+                let entry = entry.map_err(|error| refuse(broken(error)))?;
                 let name = name_of(&entry);
-                return Err(refuse(
-                    path,
-                    &format!("holds {name}, which its {MANIFEST} does not name"),
-                ));
+                return Err(refuse(format!(
+                    "holds {name}, which its {MANIFEST} does not name"
+                )));
             }
         }
         // Reading to the end finds an archive that was cut off behind its last file.
         let mut rest = Vec::new();
-        (archive
+        let padding = archive
             .into_inner()
             .take(MOST_PADDING + 1)
-            .read_to_end(&mut rest))
-        .map_err(|error| broken(path, &error))?;
-        match rest.len() as u64 <= MOST_PADDING && rest.iter().all(|byte| *byte == 0) {
+            .read_to_end(&mut rest);
+        let padding = padding.map_err(|error| refuse(broken(error)))?;
+        match padding as u64 <= MOST_PADDING && rest.iter().all(|byte| *byte == 0) {
             true => Ok(()),
-            false => Err(refuse(path, "goes on behind its last file")),
+            false => Err(refuse("goes on behind its last file".to_owned())),
         }
     }
 
@@ -119,98 +115,85 @@ fn open_archive(path: &Path) -> Result<Archive<Unpacked>, Error> {
     Ok(Archive::new(zstd::Decoder::new(file).map_err(io)?))
 }
 
-/// Lists the entries as they stand: names that extend over entries of their own are refused as these.
-fn list_entries<'a>(
-    archive: &'a mut Archive<Unpacked>,
-    path: &Path,
-) -> Result<impl Iterator<Item = std::io::Result<Entry<'a, Unpacked>>>, Error> {
-    let entries = archive.entries().map_err(|error| broken(path, &error))?;
-    Ok(entries.raw(true))
+/// An entry of an archive, or the reason why there is none to be read.
+type Found<'a> = std::io::Result<Entry<'a, Unpacked>>;
+
+/// Lists the entries as they are: names that extend over entries of their own are refused as these.
+fn list_entries(
+    archive: &mut Archive<Unpacked>,
+) -> Result<impl Iterator<Item = Found<'_>>, String> {
+    Ok(archive.entries().map_err(broken)?.raw(true))
 }
 
-fn read_manifest<'a>(
-    entries: &mut impl Iterator<Item = std::io::Result<Entry<'a, Unpacked>>>,
-    path: &Path,
-) -> Result<Vec<u8>, Error> {
-    let entry = entries.next().transpose();
-    let entry = entry.map_err(|error| broken(path, &error))?;
-    let Some(mut entry) = entry.filter(|entry| {
+fn read_manifest<'a>(entries: &mut impl Iterator<Item = Found<'a>>) -> Result<Vec<u8>, String> {
+    let entry = entries.next().transpose().map_err(broken)?;
+    let is_manifest = |entry: &Entry<Unpacked>| {
         entry.header().entry_type() == EntryType::Regular
             && *entry.path_bytes() == *MANIFEST.as_bytes()
-    }) else {
-        return Err(refuse(path, &format!("does not begin with {MANIFEST}")));
     };
-    let bytes =
-        read_at_most(&mut entry, MOST_MANIFEST_BYTES).map_err(|error| broken(path, &error))?;
+    let Some(mut entry) = entry.filter(is_manifest) else {
+        return Err(format!("does not begin with {MANIFEST}"));
+    };
+    let bytes = read_at_most(&mut entry, MOST_MANIFEST_BYTES)?;
     match bytes.len() as u64 <= MOST_MANIFEST_BYTES {
         true => Ok(bytes),
-        false => Err(refuse(
-            path,
-            &format!("has a {MANIFEST} of more than {MOST_MANIFEST_BYTES} bytes"),
+        false => Err(format!(
+            "has a {MANIFEST} of more than {MOST_MANIFEST_BYTES} bytes"
         )),
     }
 }
 
 /// Reads an entry that must be a file of the manifest.
-fn read_entry(
-    mut entry: Entry<Unpacked>,
-    file: &PackedFile,
-    path: &Path,
-) -> Result<Vec<u8>, Error> {
+fn read_entry(entry: Option<Found>, file: &PackedFile) -> Result<Vec<u8>, String> {
+    let Some(entry) = entry else {
+        return Err(format!("ends before {}", file.path));
+    };
+    let mut entry = entry.map_err(broken)?;
     let name = name_of(&entry);
     if *entry.path_bytes() != *file.path.as_bytes() {
-        let reason = format!("holds {name} where its {MANIFEST} names {}", file.path);
-        return Err(refuse(path, &reason));
+        return Err(format!(
+            "holds {name} where its {MANIFEST} names {}",
+            file.path
+        ));
     }
     let kind = entry.header().entry_type();
     if kind != EntryType::Regular {
-        let kind = if kind.is_symlink() || kind.is_hard_link() {
-            "a link"
-        } else {
-            "no regular file"
+        let kind = match kind.is_symlink() || kind.is_hard_link() {
+            true => "a link",
+            false => "no regular file",
         };
-        return Err(refuse(
-            path,
-            &format!("holds {name} as {kind}; allowed: regular files"),
-        ));
+        return Err(format!("holds {name} as {kind}; allowed: regular files"));
     }
-    let bytes = read_at_most(&mut entry, file.bytes).map_err(|error| broken(path, &error))?;
+    let bytes = read_at_most(&mut entry, file.bytes)?;
     let found = bytes.len() as u64;
     if found != file.bytes || entry.size() != file.bytes {
-        let found = found.max(entry.size());
-        let reason = format!(
-            "holds {found} bytes of {name}, and its {MANIFEST} says {}",
+        return Err(format!(
+            "holds {} bytes of {name}, and its {MANIFEST} says {}",
+            found.max(entry.size()),
             file.bytes
-        );
-        return Err(refuse(path, &reason));
+        ));
     }
     match blake3::hash(&bytes).to_hex().as_str() == file.blake3 {
         true => Ok(bytes),
-        false => Err(refuse(
-            path,
-            &format!(
-                "holds {name} with other bytes than its {MANIFEST} says: their BLAKE3 hashes differ"
-            ),
+        false => Err(format!(
+            "holds {name} with other bytes than its {MANIFEST} says: their BLAKE3 hashes differ"
         )),
     }
 }
 
 /// Reads an entry up to one byte beyond a limit. Memory grows with what is there, not with what a header says.
-fn read_at_most(entry: &mut Entry<Unpacked>, limit: u64) -> std::io::Result<Vec<u8>> {
+fn read_at_most(entry: &mut Entry<Unpacked>, limit: u64) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
-    entry.take(limit + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    let read = entry.take(limit + 1).read_to_end(&mut bytes);
+    read.map(|_| bytes).map_err(broken)
 }
 
 fn name_of(entry: &Entry<Unpacked>) -> String {
     String::from_utf8_lossy(&entry.path_bytes()).into_owned()
 }
 
-fn broken(path: &Path, error: &std::io::Error) -> Error {
-    refuse(
-        path,
-        &format!("cannot be unpacked, and may be cut off: {error}"),
-    )
+fn broken(error: std::io::Error) -> String {
+    format!("cannot be unpacked, and may be cut off: {error}")
 }
 
 fn refuse(path: &Path, reason: &str) -> Error {

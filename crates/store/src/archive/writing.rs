@@ -12,7 +12,7 @@ use super::manifest::{MANIFEST, MOST_MANIFEST_BYTES, Manifest, PACK_FORMAT, Pack
 use crate::Error;
 use crate::gather::MOST_TAKEN_BYTES;
 
-/// Level of zstd. Kept files are compressed already, and higher levels gain nothing.
+/// Level of zstd. Rendered files are compressed already, and higher levels gain nothing.
 const LEVEL: i32 = 3;
 /// Permissions of a packed file: everybody may read it.
 const MODE: u32 = 0o644;

@@ -6,16 +6,6 @@ use super::turns::Times;
 use super::{CaseCost, CopyCost, GROWTH_FROM, PassCost, REACHES, Spread};
 use crate::filter::choice::FilterChoice;
 
-/// Sums up the times of the memory copy.
-pub fn copy_cost(bytes: u64, seconds: Vec<f64>) -> CopyCost {
-    let seconds = Spread::of(seconds);
-    CopyCost {
-        bytes,
-        seconds,
-        bytes_per_second: bytes as f64 / seconds.median,
-    }
-}
-
 /// Sums up the runs of one filter preset.
 pub fn case_cost(
     choice: &FilterChoice,
@@ -24,7 +14,7 @@ pub fn case_cost(
     pixels: f64,
     copy: &CopyCost,
 ) -> CaseCost {
-    let seconds = Spread::of(runs.iter().map(total_seconds));
+    let seconds = Spread::of(runs.iter().map(|run| total_seconds(run)));
     let bytes: u64 = runs[0].iter().map(|pass| pass.bytes).sum();
     let bytes_per_second = bytes as f64 / seconds.median;
     CaseCost {
@@ -57,7 +47,7 @@ pub fn pass_costs(runs: &[Times], pixels: f64) -> Vec<PassCost> {
             PassCost {
                 entry: iterations[0].entry.clone(),
                 iterations: iterations.len(),
-                seconds: Spread::of(runs.iter().map(|run| seconds(&run[range.clone()]))),
+                seconds: Spread::of(runs.iter().map(|run| total_seconds(&run[range.clone()]))),
                 bytes_per_pixel: bytes as f64 / pixels,
             }
         })
@@ -76,11 +66,7 @@ pub fn growth(runs: &[Option<Vec<Times>>; REACHES.len()]) -> Option<Spread> {
     ))
 }
 
-fn seconds(passes: &[PassTime]) -> f64 {
+/// Adds up the seconds of passes.
+pub fn total_seconds(passes: &[PassTime]) -> f64 {
     passes.iter().map(|pass| pass.seconds).sum()
-}
-
-/// Adds up the seconds of all passes.
-pub fn total_seconds(run: &Times) -> f64 {
-    seconds(run)
 }

@@ -30,37 +30,21 @@ struct Panel {
 
 /// Panels from front to back. They cover about a quarter of the image, overlap, and leave it at no border.
 const PANELS: [Panel; 5] = [
-    Panel {
-        center: [0.30, 0.35],
-        half: [0.20, 0.15],
-        direction: [1.0, 0.0],
-        depth: 2.0,
-    },
-    Panel {
-        center: [0.40, 0.50],
-        half: [0.12, 0.22],
-        direction: [0.0, -1.0],
-        depth: 4.0,
-    },
-    Panel {
-        center: [0.70, 0.30],
-        half: [0.18, 0.18],
-        direction: [-0.8, 0.6],
-        depth: 5.0,
-    },
-    Panel {
-        center: [0.75, 0.75],
-        half: [0.30, 0.05],
-        direction: [0.6, 0.8],
-        depth: 8.0,
-    },
-    Panel {
-        center: [0.20, 0.80],
-        half: [0.03, 0.12],
-        direction: [0.96, -0.28],
-        depth: 12.0,
-    },
+    panel([0.30, 0.35], [0.20, 0.15], [1.0, 0.0], 2.0),
+    panel([0.40, 0.50], [0.12, 0.22], [0.0, -1.0], 4.0),
+    panel([0.70, 0.30], [0.18, 0.18], [-0.8, 0.6], 5.0),
+    panel([0.75, 0.75], [0.30, 0.05], [0.6, 0.8], 8.0),
+    panel([0.20, 0.80], [0.03, 0.12], [0.96, -0.28], 12.0),
 ];
+
+const fn panel(center: [f32; 2], half: [f32; 2], direction: [f32; 2], depth: f32) -> Panel {
+    Panel {
+        center,
+        half,
+        direction,
+        depth,
+    }
+}
 
 /// Change of a panel's speed at the ends of its long side, as a turning one has it: no two of its pixels move alike.
 const SPREAD: f32 = 0.1;

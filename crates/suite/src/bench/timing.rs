@@ -5,7 +5,7 @@ use std::cell::Cell;
 use filters::{Blur, BufferCopy, Filter, FilterError, Gpu, Input, LoadedBlur, Settings};
 use tracer::Watch;
 
-use super::costs::{case_cost, copy_cost, growth, pass_costs, total_seconds};
+use super::costs::{case_cost, growth, pass_costs, total_seconds};
 use super::panels::Panels;
 use super::turns::{Times, Turns};
 use super::{
@@ -93,14 +93,19 @@ fn time_presets(
     }
     let buffers = BufferCopy::new(gpu)?;
     let (runs, copies) = turns.take(&loaded, || buffers.time())?;
-    let copy = copy_cost(buffers.bytes, copies);
+    let seconds = Spread::of(copies);
+    let copy = CopyCost {
+        bytes: buffers.bytes,
+        seconds,
+        bytes_per_second: buffers.bytes as f64 / seconds.median,
+    };
     let index = plan
         .filters
         .iter()
         .position(|choice| choice.name() == BASELINE);
     let baseline: Vec<f64> = runs[index.expect("the baseline takes part")]
         .iter()
-        .map(total_seconds)
+        .map(|run| total_seconds(run))
         .collect();
     let costs = plan.filters.iter().zip(&runs);
     let costs =
@@ -141,7 +146,7 @@ fn time_reaches(
         let runs: Option<&Vec<Times>> = runs[index].as_ref();
         ReachPoint {
             pixels: REACHES[index],
-            seconds: runs.map(|runs| Spread::of(runs.iter().map(total_seconds))),
+            seconds: runs.map(|runs| Spread::of(runs.iter().map(|run| total_seconds(run)))),
             value: (settings[index].as_ref().zip(parameter))
                 .map(|(settings, name)| settings.values[name].clone()),
             passes: runs.map_or(Vec::new(), |runs| pass_costs(runs, pixel_count(plan))),

@@ -16,6 +16,7 @@ use super::planned_case::{PictureSource, PlannedCase};
 use super::probes::{FilterOutput, blur_noise_frames, blur_with_probes};
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
+use super::stored_frames::StoredFrame;
 use crate::Error;
 use crate::engine_scene::EngineScene;
 use crate::filter::choice::FilterChoice;
@@ -40,10 +41,8 @@ pub(crate) struct CaseContext<'a> {
     pub scene: RunScene<'a>,
     pub frame: &'a Frame,
     /// The frame in the forms in which filters get it.
-    pub stored_frames: &'a [(InputFormat, Frame)],
-    /// The frame before in these forms; empty for the first frame, and where no filter reads it.
-    pub frames_before: &'a [(InputFormat, Frame)],
-    /// The pass behind filters that run before depth of field; none where no case has one.
+    pub stored_frames: &'a [StoredFrame],
+    /// The pass after filters that run before depth of field; none where no case has one.
     pub depth_of_field: Option<&'a Defocus>,
     pub references: &'a TruthReferences<'a>,
     /// Reads the rung of a number of sub-frames, as a ladder of it alone.
@@ -73,6 +72,20 @@ struct MeasuredPicture {
     dilated_velocity: Option<Vectors>,
 }
 
+impl MeasuredPicture {
+    /// Joins a picture that no filter of ours made with its measurement.
+    fn new(picture: Picture, measurement: Measurement) -> Self {
+        Self {
+            picture,
+            measurement,
+            nonlinearity: None,
+            jitter: None,
+            intervals: Intervals::new(),
+            dilated_velocity: None,
+        }
+    }
+}
+
 impl CaseContext<'_> {
     /// Makes the picture, measures it, and writes it with its error maps; returns the names of the files as well.
     pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
@@ -92,14 +105,8 @@ impl CaseContext<'_> {
     }
 
     fn measure_reference(&self, picture: Picture) -> Result<MeasuredPicture, Error> {
-        Ok(MeasuredPicture {
-            measurement: self.references.reference.measure(&picture)?,
-            picture,
-            nonlinearity: None,
-            jitter: None,
-            intervals: Intervals::new(),
-            dilated_velocity: None,
-        })
+        let measurement = self.references.reference.measure(&picture)?;
+        Ok(MeasuredPicture::new(picture, measurement))
     }
 
     /// Measures the engine's own picture, with intervals as the pictures of filters have them.
@@ -113,11 +120,7 @@ impl CaseContext<'_> {
         let measurement = measure(&self.references.reference)?;
         Ok(MeasuredPicture {
             intervals: self.measure_intervals(&measurement, measure)?,
-            nonlinearity: None,
-            jitter: None,
-            dilated_velocity: None,
-            measurement,
-            picture,
+            ..MeasuredPicture::new(picture, measurement)
         })
     }
 
@@ -127,17 +130,14 @@ impl CaseContext<'_> {
         input: InputFormat,
     ) -> Result<MeasuredPicture, Error> {
         let mut stored = self.stored_frames.iter();
-        let frame = stored.find(|(format, _)| *format == input);
-        let (_, frame) = frame.expect("the frame was stored in every form of the plan");
-        let mut before = self.frames_before.iter();
-        let before = before.find(|(format, _)| *format == input);
+        let stored = stored.find(|stored| stored.format == input);
+        let StoredFrame { frame, before, .. } =
+            stored.expect("the frame was stored in every form of the plan");
         // The first frame stands in for the one before it.
-        let before = before.map_or(frame, |(_, before)| before);
+        let before = before.as_ref().unwrap_or(frame);
         let choice = &self.fit(choice, input);
         let picture = self.picture_size();
         let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
-        let ended = self.plan.monitor.ended;
-        ended("filter made ready");
         let mut wide = Runner::with_wide_colors(self.gpu, choice, frame.size());
         let mut output = blur_with_probes(
             &mut runner,
@@ -145,7 +145,6 @@ impl CaseContext<'_> {
             frame,
             (before, self.scene.frame_index()),
             picture,
-            ended,
         )
         .map_err(|error| name_scene(error, self.scene))?;
         let pass = self.pass_behind(input);
@@ -157,11 +156,8 @@ impl CaseContext<'_> {
             true => read_dilated_velocity(&choice.filter, &runner, frame)?,
             false => None,
         };
-        ended("mattes and probes");
         let jitter = self.measure_jitter(&mut runner, frame, pass)?;
-        ended("noise of the filter");
         let measurement = measure_output(&self.references.reference, &output)?;
-        ended("probes");
         Ok(MeasuredPicture {
             intervals: self
                 .measure_intervals(&measurement, |reference| measure_output(reference, &output))?,
@@ -224,7 +220,6 @@ impl CaseContext<'_> {
         let frames = self.plan.jitter_frames;
         let outputs = blur_noise_frames(runner, frame, frames, self.picture_size())
             .map_err(|error| name_scene(error, self.scene))?;
-        (self.plan.monitor.ended)("kernels: noise frames");
         let outputs = outputs.map(|outputs| match pass {
             None => outputs,
             Some(pass) => outputs
@@ -253,15 +248,12 @@ impl CaseContext<'_> {
             CommonTruth::Own => measurement.scores.moving.clone(),
             CommonTruth::Missing => ImageScores::not_applicable(OTHER_SHUTTER),
         };
-        let ended = self.plan.monitor.ended;
-        ended("common truth");
         let folder = planned.id.folder();
         let files = write_case(
             &self.plan.out.join(&folder),
             self.frame,
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
-            ended,
         )?;
         let choice = match planned.source {
             PictureSource::Filter(choice, input) => Some(self.fit(choice, input)),

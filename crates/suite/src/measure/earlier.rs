@@ -10,11 +10,10 @@ use tracer::SceneId;
 use crate::identity::CaseId;
 use crate::measure::plan::RunPlan;
 use crate::measure::planned_case::PlannedCase;
-use crate::render::settings::list_settings;
-use crate::run::Run;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
-use crate::run::sequence::{Frames, Sequence};
+use crate::run::sequence::Sequence;
+use crate::run::{Run, list_run_settings};
 use crate::stats::overall::overall;
 use crate::{Error, PROGRAM};
 
@@ -98,30 +97,18 @@ impl EarlierCases {
 
     /// Adds the kept cases to a finished run: behind its own cases of each scene, references first.
     pub fn add_to(self, run: &Run) -> Run {
-        let mut scenes: Vec<&SceneId> = Vec::new();
-        for case in run.cases.iter().chain(&self.cases) {
-            if !scenes.contains(&&case.scene) {
-                scenes.push(&case.scene);
-            }
-        }
-        let all = || run.cases.iter().chain(&self.cases);
-        let cases: Vec<Case> = (scenes.iter())
-            .flat_map(|scene| {
-                let of_scene = move |is_reference| {
-                    all().filter(move |case| {
-                        case.scene == **scene && case.is_reference == is_reference
-                    })
-                };
-                of_scene(true).chain(of_scene(false)).cloned()
-            })
-            .collect();
-        let failures = run.failures.iter().chain(&self.failures).cloned().collect();
-        let sequences = run
-            .sequences
-            .iter()
-            .chain(&self.sequences)
-            .cloned()
-            .collect();
+        let Run {
+            mut cases,
+            mut sequences,
+            mut failures,
+            ..
+        } = run.clone();
+        cases.extend(self.cases);
+        sequences.extend(self.sequences);
+        failures.extend(self.failures);
+        let scenes: Vec<SceneId> = cases.iter().map(|case| case.scene.clone()).collect();
+        let place = |case: &Case| scenes.iter().position(|scene| *scene == case.scene);
+        cases.sort_by_cached_key(|case| (place(case), !case.is_reference));
         Run {
             overall: overall(&cases),
             cases,
@@ -197,24 +184,15 @@ fn find_difference(
     plan: &RunPlan,
     adapter: Option<&AdapterDescription>,
 ) -> Option<(&'static str, String, String)> {
-    let name = |adapter: Option<&AdapterDescription>| {
-        adapter.map_or("none".to_owned(), |adapter| adapter.name.clone())
-    };
-    let program = ("program", run.program.clone(), PROGRAM.to_owned());
-    let settings = std::iter::zip(list_settings(&run.render), list_settings(&plan.render));
-    let settings = settings.map(|((setting, earlier), (_, now))| (setting, earlier, now));
-    let adapters = ("the adapter", name(run.adapter.as_ref()), name(adapter));
-    let [earlier, now] = [run.frames, plan.frames].map(|frames: Frames| match frames.count {
-        1 => "1".to_owned(),
-        count => format!("{count} at {} per second", frames.per_second),
-    });
-    let frames = ("number of frames", earlier, now);
-    let [earlier, now] = [None, plan.common].map(|own| own.unwrap_or(run.common_alignment));
-    let common = ("the common shutter", earlier.to_string(), now.to_string());
-    // A run of programs alone has no adapter, and can stand beside any.
-    let both = run.adapter.is_some() && adapter.is_some();
-    (std::iter::once(program).chain(settings))
-        .chain([frames, common])
-        .chain(both.then_some(adapters))
+    let common = plan.common.unwrap_or(run.common_alignment);
+    let earlier = list_run_settings(&run.program, run.common_alignment, run.frames, &run.render);
+    let now = list_run_settings(PROGRAM, common, plan.frames, &plan.render);
+    let both = std::iter::zip(earlier, now);
+    let settings = both.map(|((setting, earlier), (_, now))| (setting, earlier, now));
+    // A run of programs alone has no adapter, and goes with any.
+    let adapters = run.adapter.as_ref().zip(adapter);
+    let adapters = adapters.map(|(own, now)| ("adapter", own.name.clone(), now.name.clone()));
+    settings
+        .chain(adapters)
         .find(|(_, earlier, now)| earlier != now)
 }

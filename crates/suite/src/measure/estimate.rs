@@ -1,4 +1,5 @@
-//! Estimates of the time, disk and memory that a run takes, before it begins.
+//! Estimates of the time, disk and memory that a run, and each of the jobs that it can be split into, takes. Off by a factor of two or
+//! three: scenes differ by a factor of six.
 
 use std::convert::Infallible;
 
@@ -10,21 +11,28 @@ use tracer::RenderSettings;
 use super::frames::visit_frames;
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
-use super::run_scene::RunScene;
 use crate::render::ladders::needed_rungs;
 use crate::render::settings::frame_settings;
 
+/// Threads that the times below were measured with, on two cores of a server with llvmpipe: means over the shipped scenes.
+const CORES: f64 = 2.0;
+/// CPU time to prepare a scene for rays, in seconds; of a pixel of a truth's support and pilot; of a sample of a frame, and of a truth.
+const SCENE: f64 = 0.2;
+const SUPPORT: f64 = 20e-6;
+const FRAME_SAMPLE: f64 = 0.5e-6;
+const TRUTH_SAMPLE: f64 = 0.9e-6;
 /// Time of a ladder, relative to its truth's samples: the mean of five scenes. It is about the pixels near motion alone.
 const WHOLE_LADDER: f64 = 0.4;
-/// Time to run a filter and measure its picture, whatever its size, in seconds. This number and the next ones were measured with
-/// llvmpipe on two cores of a server.
-const SECONDS_PER_CASE: f64 = 0.035;
-/// Time per pixel to run a filter and measure its picture, in seconds.
-const SECONDS_PER_CASE_PIXEL: f64 = 6e-6;
+/// Time to run a filter and measure its picture, whatever its size, in seconds, and per pixel.
+const CASE: f64 = 0.035;
+const CASE_PIXEL: f64 = 6e-6;
 /// Time per pixel and case to write the report, in seconds.
-pub(super) const SECONDS_PER_REPORT_PIXEL: f64 = 0.45e-6;
+const REPORT_PIXEL: f64 = 0.45e-6;
 /// Time of a case with intervals, relative to one without.
-pub(super) const INTERVALS: f64 = 2.0;
+const INTERVALS: f64 = 2.0;
+/// CPU time to open an adapter and to compile kernels, in seconds, and to prepare a truth, in cases.
+const START: f64 = 0.3;
+const START_CASES: f64 = 2.0;
 /// Bytes on disk per pixel: of a frame, of a truth with its ladder, of each replicate, and of a case with its part of the report.
 const FRAME_BYTES: u64 = 25;
 const TRUTH_BYTES: u64 = 170;
@@ -43,101 +51,160 @@ pub struct RunEstimate {
     /// Number of cases.
     pub cases: usize,
     /// Number of cases that were measured before, with the same inputs.
-    pub kept: usize,
+    pub read_back: usize,
 }
 
-/// Costs of rendering, in seconds on the threads of this process: means over the shipped scenes, as two cores of a server take them.
-/// Scenes differ by a factor of six.
-struct RenderCosts {
-    /// Preparing the scene for rays.
-    scene: f64,
-    /// A pixel of a truth's support and pilot.
-    support: f64,
-    /// A sample of a frame.
-    frame: f64,
-    /// A sample of a truth.
-    truth: f64,
+/// Expected cost of a job, on any number of cores: a truth may take three times as long, references take a fifth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JobCost {
+    /// Time on one core, in seconds.
+    pub cpu_seconds: f64,
+    /// Bytes of memory at the most.
+    pub memory: u64,
 }
 
-impl RenderCosts {
-    fn usual() -> Self {
-        let threads = rayon::current_num_threads() as f64;
-        Self {
-            scene: 0.1,
-            support: 20e-6 / threads,
-            frame: 0.5e-6 / threads,
-            truth: 0.9e-6 / threads,
+/// Costs of the jobs of one scene of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneJobs {
+    /// Frames, truths and ladders; none for what an engine drew.
+    pub render: Option<JobCost>,
+    /// Number of all references.
+    pub references: usize,
+    /// Number of cases of each filter preset.
+    pub inputs: usize,
+    /// CPU time of each case, in seconds.
+    case_seconds: f64,
+    /// CPU time before the first case, in seconds.
+    start_seconds: f64,
+    /// Bytes of memory at the most.
+    memory: u64,
+}
+
+impl SceneJobs {
+    /// Returns the cost of a process that measures some cases of the scene.
+    pub fn cases(&self, count: usize) -> JobCost {
+        JobCost {
+            cpu_seconds: self.start_seconds + count as f64 * self.case_seconds,
+            memory: self.memory,
         }
     }
 }
 
-/// Estimates a run: cases and truths that lie in the folder take no time. Does not read their pictures, measures nothing, and is off by
-/// a factor of two or three.
+/// Estimates a run: cases and truths that lie in the folder take no time. Does not read their pictures, and measures nothing.
 pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     let filters = plan.scaled_filters();
+    let pixels = count_pixels(&plan.render);
     let mut estimate = RunEstimate::default();
     let visited = visit_frames(plan, &filters, gpu, |scene| {
         let planned = PlannedCase::all(plan, &filters, scene.scene);
-        let kept = match plan.no_cache {
-            true => 0,
-            false => (planned.iter())
-                .filter(|case| scene.has_record(case))
-                .count(),
-        };
+        let has_record = |case: &&PlannedCase| !plan.no_cache && scene.has_record(case);
+        let read_back = planned.iter().filter(has_record).count();
         estimate.cases += planned.len();
-        estimate.kept += kept;
-        let due = planned.len() - kept;
-        if due == 0 {
+        estimate.read_back += read_back;
+        let cases = planned.len() - read_back;
+        if cases == 0 {
             return Ok::<(), Infallible>(());
         }
-        let alignments = plan.alignments();
-        let (frame, truths) = match (scene.scene, plan.no_cache) {
-            // What an engine drew is copied in no time.
-            (RunScene::Drawn(_), _) => (false, vec![false; alignments.len()]),
-            (_, true) => (true, vec![true; alignments.len()]),
-            (_, false) => scene.find_missing(),
-        };
-        let missing: Vec<_> = (alignments.iter().zip(&truths))
-            .filter_map(|(alignment, missing)| missing.then_some(*alignment))
-            .collect();
-        estimate.seconds += scene_seconds(plan, frame, &missing, due);
-        estimate.disk += count_bytes(&plan.render, (frame, missing.len()), due);
-        let memory = (scene.scene).memory(&plan.render, truths.len(), plan.inputs.len());
+        let (frame, truths) = scene.find_missing();
+        estimate.seconds += render_cpu_seconds(plan, frame, &truths) / threads();
+        estimate.seconds += cases as f64 * case_seconds(plan);
+        let truth = TRUTH_BYTES + u64::from(plan.render.replicates) * REPLICATE_BYTES;
+        let frame = u64::from(frame) * FRAME_BYTES;
+        let bytes = frame + truths.len() as u64 * truth + cases as u64 * CASE_BYTES;
+        estimate.disk += pixels as u64 * bytes;
+        let truths = plan.alignments().len();
+        let memory = (scene.scene).memory(&plan.render, truths, plan.inputs.len());
         estimate.memory = estimate.memory.max(memory);
         Ok(())
     });
     let Ok(()) = visited;
-    let report = estimate.cases as f64 * count_pixels(&plan.render);
-    estimate.seconds += report * SECONDS_PER_REPORT_PIXEL;
+    estimate.seconds += estimate.cases as f64 * pixels * REPORT_PIXEL;
     estimate
 }
 
-/// Estimates the seconds that it takes to render a scene's frame and missing truths, and to measure the cases that are due.
-fn scene_seconds(plan: &RunPlan, frame: bool, missing: &[Alignment], due: usize) -> f64 {
-    let render = &plan.render;
-    let frame = if frame { frame_seconds(render) } else { 0.0 };
-    let ladders = missing.iter().map(|alignment| {
-        let rungs = needed_rungs(*alignment, plan.ladders).len();
-        ladder_seconds(render, rungs)
+/// Estimates the jobs of every scene, where nothing is rendered yet. Measures nothing, so that a plan is the same each time.
+pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
+    let frames = f64::from(plan.frames.count);
+    let alignments = plan.alignments();
+    let cpu_seconds = frames * render_cpu_seconds(plan, true, &alignments);
+    let all = plan.all_scenes().into_iter();
+    let jobs = all.map(|scene| {
+        let memory = scene.memory(&plan.render, alignments.len(), plan.inputs.len());
+        let planned = PlannedCase::all(plan, &plan.filters, scene);
+        let references = planned.iter().filter(|case| case.id.is_reference);
+        let start = START_CASES * CORES * estimate_case_seconds(&plan.render);
+        SceneJobs {
+            render: (scene.traced()).map(|_| JobCost {
+                cpu_seconds,
+                memory,
+            }),
+            references: references.count(),
+            inputs: plan.inputs.len(),
+            case_seconds: frames * CORES * case_seconds(plan),
+            start_seconds: START + frames * start,
+            memory,
+        }
     });
-    let intervals = if plan.intervals { INTERVALS } else { 1.0 };
-    frame
-        + shared_truths(missing.len()) * truth_seconds(render)
-        + ladders.sum::<f64>()
-        + due as f64 * intervals * estimate_case_seconds(render)
+    jobs.collect()
 }
 
-/// Estimates the seconds that it takes to render a scene's frame and some truths, where nothing is kept.
+/// Estimates the page of a run with this many cases.
+pub fn estimate_report(plan: &RunPlan, cases: usize) -> JobCost {
+    let scenes = plan.all_scenes().into_iter();
+    let memory = scenes.map(|scene| scene.memory(&plan.render, 1, 1));
+    JobCost {
+        cpu_seconds: CORES * cases as f64 * count_pixels(&plan.render) * REPORT_PIXEL,
+        memory: memory.max().unwrap_or(0),
+    }
+}
+
+/// Estimates the seconds that it takes to render a scene's frame and some truths.
 pub fn estimate_render_seconds(render: &RenderSettings, truths: usize) -> f64 {
-    frame_seconds(render) + shared_truths(truths) * truth_seconds(render)
+    (frame_cpu_seconds(render) + truths_cpu_seconds(render, truths)) / threads()
 }
 
 /// Estimates the seconds that it takes to run a filter once and to measure its picture.
 pub fn estimate_case_seconds(render: &RenderSettings) -> f64 {
-    SECONDS_PER_CASE + count_pixels(render) * SECONDS_PER_CASE_PIXEL
+    CASE + count_pixels(render) * CASE_PIXEL
 }
 
-pub(super) fn count_pixels(render: &RenderSettings) -> f64 {
+/// Estimates the seconds of one case of a plan, with its intervals.
+fn case_seconds(plan: &RunPlan) -> f64 {
+    let intervals = if plan.intervals { INTERVALS } else { 1.0 };
+    intervals * estimate_case_seconds(&plan.render)
+}
+
+/// Estimates the CPU time to render a scene's frame, if it is to be rendered, and some truths with their ladders.
+fn render_cpu_seconds(plan: &RunPlan, frame: bool, truths: &[Alignment]) -> f64 {
+    let render = &plan.render;
+    let ladders = truths.iter().map(|alignment| {
+        let rungs = needed_rungs(*alignment, plan.ladders).len() as f64;
+        let samples = WHOLE_LADDER * rungs / LADDER.len() as f64 * count_samples(render);
+        if rungs > 0.0 {
+            SCENE + samples * TRUTH_SAMPLE
+        } else {
+            0.0
+        }
+    });
+    let frame = if frame {
+        frame_cpu_seconds(render)
+    } else {
+        0.0
+    };
+    frame + truths_cpu_seconds(render, truths.len()) + ladders.sum::<f64>()
+}
+
+fn frame_cpu_seconds(render: &RenderSettings) -> f64 {
+    SCENE + count_samples(&frame_settings(render)) * FRAME_SAMPLE
+}
+
+/// Estimates the CPU time of some truths: two that overlap share the samples of half their time.
+fn truths_cpu_seconds(render: &RenderSettings, truths: usize) -> f64 {
+    let count = truths as f64 - if truths > 1 { 0.5 } else { 0.0 };
+    count * (SCENE + count_pixels(render) * SUPPORT + count_samples(render) * TRUTH_SAMPLE)
+}
+
+fn count_pixels(render: &RenderSettings) -> f64 {
     f64::from(render.width) * f64::from(render.height)
 }
 
@@ -145,38 +212,6 @@ fn count_samples(render: &RenderSettings) -> f64 {
     count_pixels(render) * f64::from(render.samples_per_pixel)
 }
 
-pub(super) fn frame_seconds(render: &RenderSettings) -> f64 {
-    let costs = RenderCosts::usual();
-    let samples = f64::from(frame_settings(render).samples_per_pixel);
-    costs.scene + count_pixels(render) * samples * costs.frame
-}
-
-pub(super) fn truth_seconds(render: &RenderSettings) -> f64 {
-    let costs = RenderCosts::usual();
-    costs.scene + count_pixels(render) * costs.support + count_samples(render) * costs.truth
-}
-
-/// Estimates the seconds that it takes to render some rungs of a ladder.
-pub(super) fn ladder_seconds(render: &RenderSettings, rungs: usize) -> f64 {
-    let costs = RenderCosts::usual();
-    let part = WHOLE_LADDER * rungs as f64 / LADDER.len() as f64;
-    match rungs {
-        0 => 0.0,
-        _ => costs.scene + part * count_samples(render) * costs.truth,
-    }
-}
-
-/// Counts truths by their cost: two that overlap share the samples of half their time.
-pub(super) fn shared_truths(truths: usize) -> f64 {
-    match truths {
-        0 | 1 => truths as f64,
-        _ => truths as f64 - 0.5,
-    }
-}
-
-/// Counts the bytes on disk of a scene's frame, some truths and some cases.
-fn count_bytes(render: &RenderSettings, (frame, truths): (bool, usize), due: usize) -> u64 {
-    let truth = TRUTH_BYTES + u64::from(render.replicates) * REPLICATE_BYTES;
-    let bytes = u64::from(frame) * FRAME_BYTES + truths as u64 * truth + due as u64 * CASE_BYTES;
-    (u64::from(render.width) * u64::from(render.height)).saturating_mul(bytes)
+fn threads() -> f64 {
+    rayon::current_num_threads() as f64
 }

@@ -3,12 +3,10 @@
 pub mod case;
 mod check_plan;
 pub mod dilated_velocity;
-mod due_cases;
 pub mod earlier;
 pub mod estimate;
 mod frames;
-mod history;
-pub mod job_costs;
+mod missing_cases;
 pub mod part;
 pub mod pictures;
 pub mod plan;
@@ -21,3 +19,4 @@ pub mod scene;
 mod scene_keys;
 pub mod scenes;
 pub mod sequence;
+mod stored_frames;

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use frame::{
     Alignment, Display, ExrFile, FileError, Frame, Image, Picture, Truth, Vectors, display_srgb,
-    rung_file, write_exr, write_half_exr, write_png,
+    write_exr, write_half_exr, write_png,
 };
 use metrics::Measurement;
-use store::{LADDER, ladder_folder};
+use store::{LADDER, RenderFile};
 
 use crate::colors::{magma, velocity_wheel};
 use crate::run::error_maps::KEPT_MAPS;
@@ -26,7 +26,8 @@ pub(crate) const CASE_FILES: [&str; 6] = [
 
 /// Names the picture of a truth and its file, in the folder of its scene.
 pub(crate) fn truth_files(alignment: Alignment) -> [String; 2] {
-    ["png", "exr"].map(|ending| format!("truth_{alignment}.{ending}"))
+    let file = RenderFile::Truth(alignment);
+    [file.picture(), file.to_string()]
 }
 
 /// Writes a frame's PNGs beside its EXR file; returns the names of all.
@@ -46,20 +47,18 @@ pub fn write_truth(
     let files = truth_files(alignment);
     write_display_png(&folder.join(&files[0]), &truth.mean().color, display)?;
     let mut files = Vec::from(files);
-    let ladder = ladder_folder(alignment);
-    let rungs = LADDER.map(|rung| format!("{ladder}/{}", rung_file(rung)));
+    let rungs = LADDER.map(|rung| RenderFile::Rung(alignment, rung).to_string());
     files.extend(rungs.into_iter().filter(|rung| folder.join(rung).exists()));
     Ok(files)
 }
 
 /// Writes a case: the output, with the dilated velocity of filters that have one, and the error maps; returns the names of the
-/// files. `ended` hears of the end of each part.
+/// files.
 pub fn write_case(
     folder: &Path,
     frame: &Frame,
     (output, dilated_velocity): (&Picture, Option<&Vectors>),
     measurement: &Measurement,
-    ended: fn(&'static str),
 ) -> Result<Vec<String>, FileError> {
     let maps = &measurement.maps;
     let [output_png, flip, label_tv, bleed, output_exr, errors] =
@@ -68,11 +67,9 @@ pub fn write_case(
     write_png(&flip, &magma(&maps.flip))?;
     write_png(&label_tv, &magma(&maps.label_total_variation))?;
     write_png(&bleed, &magma(&maps.bleed))?;
-    ended("PNG files");
     let file = output_file(&frame.objects, output, dilated_velocity);
     write_exr(&output_exr, &file)?;
     write_half_exr(&errors, errors_file(measurement))?;
-    ended("OpenEXR files");
     Ok(CASE_FILES.map(str::to_owned).into())
 }
 

@@ -23,15 +23,13 @@ pub(crate) struct FilterOutput {
 /// Runs the filter on the frame's colour and, each in the colour's place, on the instant's coverage of each object, on the
 /// probes, and on a mixture of colour and probe, with the noise of one frame. All but the picture comes from `wide`, the filter with
 /// colours of 32 bits, if there is one. `before` is the frame before, for filters with history; each of
-/// its pictures takes the place of that of the frame. The output is upscaled to `picture` where the frame shows it smaller. `ended`
-/// hears of the end of each part.
+/// its pictures takes the place of that of the frame. The output is upscaled to `picture` where the frame shows it smaller.
 pub(crate) fn blur_with_probes(
     runner: &mut Runner,
     wide: Option<&mut Runner>,
     frame: &Frame,
     (before, frame_index): (&Frame, u32),
     picture: [u32; 2],
-    ended: fn(&'static str),
 ) -> Result<FilterOutput, FilterError> {
     let mattes = pack_planes(&frame.coverage);
     let (width, height) = frame.size();
@@ -47,7 +45,6 @@ pub(crate) fn blur_with_probes(
     let mixture_before = mix(&before.color, &probes[0]);
     let mut colors_before = vec![&before.color, &probes[0], &probes[1], &mixture_before];
     colors_before.extend(&mattes_before);
-    ended("mattes and probes");
     let run = |runner: &mut Runner, count: usize| {
         let now = Input {
             frame_index,
@@ -63,7 +60,6 @@ pub(crate) fn blur_with_probes(
             (Some(color), run(wide, colors.len())?)
         }
     };
-    ended("kernels: colour, probes, mattes");
     let nonlinearity = nonlinearity(
         &mixture.cropped(frame.guard_band),
         &outputs[3],

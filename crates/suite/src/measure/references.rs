@@ -2,14 +2,13 @@
 
 use frame::{Accumulation, Frame, Ladder, Picture, Truth};
 use metrics::{Reference, Viewing};
-use tracer::Scene;
 
 use crate::Error;
 use crate::render::ladders::sharp_picture;
 use crate::render::scatter_oracle::make_oracle;
 
 /// The truth of one shutter, with everything that pictures are measured against.
-pub struct TruthReferences<'a> {
+pub(crate) struct TruthReferences<'a> {
     /// The truth itself.
     pub truth: &'a Truth,
     /// Picture of the one-frame oracle.
@@ -23,7 +22,6 @@ pub struct TruthReferences<'a> {
 impl<'a> TruthReferences<'a> {
     /// Prepares the truth, and the same truth without each pair of its replicates. The rungs of the ladder come one after another,
     /// since all of them take more memory than all else; `read_sharp` reads the one that is the sharp picture of the shutter's middle.
-    /// `ended` hears of the end of each part of measuring a picture against the truth.
     pub fn new(
         frame: &Frame,
         truth: &'a Truth,
@@ -31,7 +29,6 @@ impl<'a> TruthReferences<'a> {
         rungs: impl Iterator<Item = Result<Ladder, Error>>,
         without_pairs: &'a [Truth],
         viewing: &Viewing,
-        ended: fn(&'static str),
     ) -> Result<Self, Error> {
         let oracle = make_oracle(frame, truth);
         let frame = frame.cropped();
@@ -39,7 +36,7 @@ impl<'a> TruthReferences<'a> {
         let reference = |truth: &'a Truth| {
             Reference::new(&frame, truth, None, viewing)?.with_ends(&sharp, &oracle)
         };
-        let mut own = reference(truth)?.with_listener(ended);
+        let mut own = reference(truth)?;
         let mut without_pairs: Vec<Reference> = (without_pairs.iter())
             .map(reference)
             .collect::<Result<_, _>>()?;
@@ -56,9 +53,4 @@ impl<'a> TruthReferences<'a> {
             oracle,
         })
     }
-}
-
-/// Returns the photographic exposures that a scene is compared at.
-pub fn scene_viewing(scene: &Scene) -> Viewing {
-    scene.display.into()
 }

@@ -9,7 +9,7 @@ use tracer::{Family, RenderSettings, Scene, SceneId};
 use crate::Error;
 use crate::engine_scene::EngineScene;
 use crate::render::ladders::{SHARP, needed_rungs};
-use crate::render::memory::{check_measuring_memory, measuring_memory};
+use crate::render::memory::{measuring_memory, refuse_beyond_free};
 use crate::render::settings::frame_settings;
 use crate::run::case::Drawn;
 
@@ -129,7 +129,7 @@ impl<'a> RunScene<'a> {
         match self {
             Self::Traced(scene) => {
                 frame_settings(settings).check_frame(scene)?;
-                check_measuring_memory(scene, settings, truths, forms)
+                refuse_beyond_free(scene, settings, self.memory(settings, truths, forms))
             }
             Self::Drawn(scene) => scene.check_truth(),
         }

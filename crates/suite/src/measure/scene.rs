@@ -1,11 +1,12 @@
 //! Cases of one scene: read back where their inputs are the same, measured where not.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use filters::Gpu;
-use frame::Frame;
+use frame::{Alignment, Frame};
 use store::{
-    CASE_RECORD, clear_scene, look_up, look_up_alone, put, refuse_scene, remove_altered_files, take,
+    CASE_RECORD, RenderFile, clear_scene, look_up, look_up_alone, put, refuse_scene,
+    remove_altered_files, take,
 };
 
 use super::pictures::{write_frame, write_truth};
@@ -15,8 +16,8 @@ use super::run_scene::RunScene;
 use crate::Error;
 use crate::filter::choice::FilterChoice;
 use crate::measure::scene_keys::SceneKeys;
+use crate::render::files::{find_missing, list_wanted};
 use crate::render::frames::render_frame;
-use crate::render::kept::{find_kept, list_render_files};
 use crate::render::shared::render_shared;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
@@ -74,17 +75,19 @@ impl SceneContext<'_> {
         let forms = self.plan.inputs.len();
         self.scene.check(&self.plan.render, truths, forms)?;
         let frame = self.render(advance)?;
-        let due = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
-        let due: Vec<&PlannedCase> = due.map(|(case, _)| case).collect();
+        let missing = (planned.iter().zip(&found)).filter(|(_, found)| found.is_none());
+        let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
         let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
-        let measured = monitor.watch(&label, |watch| self.measure(&due, &frame, advance, watch))?;
+        let measured = monitor.watch(&label, |watch| {
+            self.measure(&missing, &frame, advance, watch)
+        })?;
         let mut measured = measured.into_iter();
         let mut cases = Vec::new();
         for found in found {
             cases.push(match found {
                 Some(case) => Ok(case),
-                None => measured.next().expect("every case that is due was tried"),
+                None => measured.next().expect("every missing case was tried"),
             });
         }
         Ok((cases, read_back))
@@ -123,7 +126,7 @@ impl SceneContext<'_> {
         } = self.plan;
         if let (Some(truths), RunScene::Traced(scene)) = (truths, self.scene) {
             let alignments = self.plan.alignments();
-            let files = list_render_files(scene, render, &alignments, self.plan.ladders);
+            let files = list_wanted(scene, render, &alignments, self.plan.ladders);
             refuse_scene(&self.folder())?;
             take(&files, truths, out)?;
         }
@@ -170,8 +173,8 @@ impl SceneContext<'_> {
         u64::from(self.plan.render.replicates) + 1
     }
 
-    /// Reads a case that was measured before, without its intervals where the plan asks for none. One that lacks intervals, or was
-    /// measured without a ladder, is no case for a plan that asks for them.
+    /// Reads a case that was measured before, without its intervals where the plan asks for none. A plan that asks for intervals or ladders
+    /// takes no case without them.
     fn read_case(&self, planned: &PlannedCase) -> Option<Case> {
         let record = self.case_record(planned);
         let keys = self.keys_to_read(planned);
@@ -198,30 +201,26 @@ impl SceneContext<'_> {
         found.any(|case: Case| self.is_whole(&case))
     }
 
-    /// Tells whether the frame is missing, and each truth, without looking at their pictures.
-    pub fn find_missing(&self) -> (bool, Vec<bool>) {
-        let records = self.render_records();
-        let is_missing =
-            |(record, key): &(PathBuf, String)| look_up_alone::<()>(record, key).is_none();
+    /// Tells whether the frame is to be rendered, and lists the truths that are, by the headers of files.
+    pub fn find_missing(&self) -> (bool, Vec<Alignment>) {
+        let RunPlan {
+            render,
+            out,
+            truths,
+            ..
+        } = self.plan;
         let alignments = self.plan.alignments();
-        let (mut frame, mut truths) = match records.split_first() {
-            None => (true, vec![true; alignments.len()]),
-            Some((frame, truths)) => (is_missing(frame), truths.iter().map(is_missing).collect()),
-        };
-        if let (Some(folder), RunScene::Traced(scene)) = (&self.plan.truths, self.scene) {
-            let (has_frame, has) = find_kept(
-                scene,
-                &self.plan.render,
-                &alignments,
-                self.plan.ladders,
-                folder,
-            );
-            frame &= !has_frame;
-            for (missing, has) in truths.iter_mut().zip(has) {
-                *missing &= !has;
+        let folders: Vec<&Path> = (truths.iter().chain([out]))
+            .map(|folder| &**folder)
+            .collect();
+        match self.scene {
+            // What an engine drew is copied in no time.
+            RunScene::Drawn(_) => (false, Vec::new()),
+            RunScene::Traced(_) if self.plan.no_cache => (true, alignments),
+            RunScene::Traced(scene) => {
+                find_missing(scene, render, &alignments, self.plan.ladders, &folders)
             }
         }
-        (frame, truths)
     }
 
     /// Returns the key that a case is recorded by.
@@ -265,10 +264,11 @@ impl SceneContext<'_> {
             return Vec::new();
         };
         let folder = self.folder();
-        let mut records = vec![(folder.join("frame.json"), keys.frame())];
+        let record = |file: RenderFile| folder.join(file.path().with_extension("json"));
+        let mut records = vec![(record(RenderFile::Frame), keys.frame())];
         let alignments = self.scene.alignments(self.plan.alignments());
         records.extend(alignments.into_iter().map(|alignment| {
-            let record = folder.join(format!("truth_{alignment}.json"));
+            let record = record(RenderFile::Truth(alignment));
             (record, keys.truth(alignment))
         }));
         records

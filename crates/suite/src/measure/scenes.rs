@@ -5,7 +5,7 @@ use tracer::{Progress, Watch};
 
 use super::frames::{count_frames, visit_frames};
 use super::plan::RunPlan;
-use super::sequence::{FrameCases, measure_sequences};
+use super::sequence::measure_sequences;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::run::sequence::Sequence;
@@ -67,7 +67,7 @@ struct Measured {
 fn measure_all(plan: &RunPlan, gpu: Option<&Gpu>, watch: Watch) -> Result<Measured, Error> {
     let filters = plan.scaled_filters();
     let mut all = Measured::default();
-    let mut frames = FrameCases::default();
+    let mut frames: Vec<Vec<Case>> = Vec::new();
     let mut number = 0;
     visit_frames(plan, &filters, gpu, |scene| {
         let steps = scene.steps();
@@ -92,9 +92,9 @@ fn measure_all(plan: &RunPlan, gpu: Option<&Gpu>, watch: Watch) -> Result<Measur
         let frame = scene.scene.frame_index();
         if frame == 0 {
             all.cases.extend_from_slice(&cases);
-            frames = FrameCases::default();
+            frames.clear();
         }
-        frames.cases.push(cases);
+        frames.push(cases);
         if frame > 0 && frame + 1 == plan.frames.count {
             all.sequences.extend(measure_sequences(plan, &frames)?);
         }

@@ -3,16 +3,17 @@
 use std::path::Path;
 
 use frame::{Alignment, Image, Raster, Truth, read_exr, read_png, write_animated_png, write_png};
-use metrics::{Instant, Metric, SequenceReference, SequenceScores};
-use tracer::Scene;
+use metrics::{Instant, SequenceReference, SequenceScores};
+use store::{RenderFile, RenderPath};
+use tracer::{PointLayers, Scene};
 
 use super::plan::RunPlan;
-use super::points_of_frame::PointsOfFrame;
+use super::points_of_frame::{make_instant, trace_points};
 use crate::Error;
 use crate::colors::magma;
 use crate::render::truths::render_replicates;
 use crate::run::case::{Case, Intervals};
-use crate::run::sequence::{Sequence, SequenceFrame};
+use crate::run::sequence::{Sequence, SequenceFrame, worst_frames};
 use crate::stats::intervals::{count_pairs, sequence_intervals, truth_without_pair};
 
 /// Picture of the error of the change since the frame before, beside a case's other pictures.
@@ -20,36 +21,24 @@ pub const CHANGE_PICTURE: &str = "change.png";
 /// Animation of a sequence, beside the pictures of its first frame.
 pub const SEQUENCE_PICTURE: &str = "sequence.png";
 
-/// Cases of all frames of one scene, in the order of the frames.
-#[derive(Default)]
-pub(super) struct FrameCases {
-    /// Cases of each frame.
-    pub cases: Vec<Vec<Case>>,
-}
-
-/// Measures the sequences of a scene whose frames were measured: one per case that every frame has.
+/// Measures the sequences of a scene, one per case that every frame has. `frames` lists the cases of each frame.
 pub(super) fn measure_sequences(
     plan: &RunPlan,
-    frames: &FrameCases,
+    frames: &[Vec<Case>],
 ) -> Result<Vec<Sequence>, Error> {
     let mut sequences = Vec::new();
-    let name = |case: &Case| case.scene.clone();
-    let name = frames.cases[0].first().map(name);
-    let Some(scene) = plan
-        .scenes
-        .iter()
-        .find(|scene| Some(&scene.id) == name.as_ref())
-    else {
+    let id = frames[0].first().map(|case| &case.scene);
+    let Some(scene) = plan.scenes.iter().find(|scene| Some(&scene.id) == id) else {
         // No case of the first frame was measured.
         return Ok(sequences);
     };
-    let layers: Vec<PointsOfFrame> = (0..plan.frames.count)
-        .map(|frame| PointsOfFrame::trace(&scene.at_frame(frame), &plan.render))
+    let layers: Vec<PointLayers> = (0..plan.frames.count)
+        .map(|frame| trace_points(&scene.at_frame(frame), &plan.render))
         .collect::<Result<_, _>>()?;
     for alignment in Alignment::ALL {
-        let is_due = |case: &&Case| case.alignment == alignment;
-        let first: Vec<&Case> = frames.cases[0].iter().filter(is_due).collect();
-        if first.is_empty() {
+        let is_own = |case: &&Case| case.alignment == alignment;
+        let mut first = frames[0].iter().filter(is_own).peekable();
+        if first.peek().is_none() {
             continue;
         }
         let truths = SequenceTruths {
@@ -59,22 +48,17 @@ pub(super) fn measure_sequences(
             layers: &layers,
         };
         // Those that failed in a frame, which the run says, have no sequence.
-        let all: Vec<Vec<&Case>> = (first.into_iter())
-            .filter_map(|case| frames.all_of(case))
-            .collect();
+        let all: Vec<Vec<&Case>> = first.filter_map(|case| find_in_all(frames, case)).collect();
         sequences.extend(truths.measure(&all)?);
     }
     Ok(sequences)
 }
 
-impl FrameCases {
-    /// Lists the cases of all frames that are like one of the first; none where a frame lacks it.
-    fn all_of<'a>(&'a self, first: &'a Case) -> Option<Vec<&'a Case>> {
-        let like = |case: &&Case| case.filter_id() == first.filter_id();
-        (self.cases.iter())
-            .map(|cases| cases.iter().find(like))
-            .collect()
-    }
+/// Lists the cases of all frames that are like one of the first; none where a frame lacks it.
+fn find_in_all<'a>(frames: &'a [Vec<Case>], first: &Case) -> Option<Vec<&'a Case>> {
+    let is_like = |case: &&Case| case.filter_id() == first.filter_id();
+    let found = frames.iter().map(|cases| cases.iter().find(is_like));
+    found.collect()
 }
 
 /// The truths of one scene and shutter, frame after frame.
@@ -82,7 +66,7 @@ struct SequenceTruths<'a> {
     plan: &'a RunPlan,
     scene: &'a Scene,
     alignment: Alignment,
-    layers: &'a [PointsOfFrame],
+    layers: &'a [PointLayers],
 }
 
 impl SequenceTruths<'_> {
@@ -107,13 +91,13 @@ impl SequenceTruths<'_> {
         sequences: &[Sequence],
         all: &[Vec<&Case>],
     ) -> Result<Vec<Intervals>, Error> {
-        let is_due = |own: &Sequence| self.plan.intervals && !own.is_reference;
+        let has_intervals = |own: &Sequence| self.plan.intervals && !own.is_reference;
         let mut without: Vec<Vec<SequenceScores>> = vec![Vec::new(); sequences.len()];
-        if sequences.iter().any(is_due) {
+        if sequences.iter().any(has_intervals) {
             for pair in 0..count_pairs(self.plan.render.replicates as usize) {
                 let reference = self.without_pair(pair)?;
-                let due = sequences.iter().zip(all).zip(&mut without);
-                for ((_, cases), scores) in due.filter(|((own, _), _)| is_due(own)) {
+                let all = sequences.iter().zip(all).zip(&mut without);
+                for ((_, cases), scores) in all.filter(|((own, _), _)| has_intervals(own)) {
                     scores.push(reference.measure(&self.plan.read_outputs(cases)?)?.scores);
                 }
             }
@@ -127,10 +111,11 @@ impl SequenceTruths<'_> {
     /// Reads the truths of all frames.
     fn whole(&self) -> Result<SequenceReference, Error> {
         self.reference(|scene| {
-            let folder = self.plan.out.join(scene.id.folder());
-            Ok(Truth::read(
-                &folder.join(format!("truth_{}.exr", self.alignment)),
-            )?)
+            let path = RenderPath {
+                scene: scene.id.clone(),
+                file: RenderFile::Truth(self.alignment),
+            };
+            Ok(Truth::read(&self.plan.out.join(path.path()))?)
         })
     }
 
@@ -143,7 +128,8 @@ impl SequenceTruths<'_> {
             ..
         } = self.plan;
         self.reference(|scene| {
-            let replicates = render_replicates(scene, render, self.alignment, out, *monitor)?;
+            let all = 0..render.replicates;
+            let replicates = render_replicates(scene, render, self.alignment, all, out, *monitor)?;
             Ok(truth_without_pair(&replicates, pair)?)
         })
     }
@@ -154,7 +140,7 @@ impl SequenceTruths<'_> {
     ) -> Result<SequenceReference, Error> {
         let instants = (0..).zip(self.layers).map(|(frame, layer)| {
             let truth = truth(&self.scene.at_frame(frame))?;
-            Ok(layer.instant(&truth))
+            Ok(make_instant(&truth, layer.clone()))
         });
         Ok(SequenceReference::new(
             instants.collect::<Result<Vec<Instant>, Error>>()?,
@@ -194,16 +180,13 @@ fn measure_sequence(
             flicker: *flicker,
         },
     );
-    let worst_frames = measured.worst_frames.iter();
     Ok(Sequence {
         scene: first.scene.clone(),
         filter: first.name(),
         is_reference: first.is_reference,
         alignment: first.alignment,
         frames: frames.collect(),
-        worst_frames: worst_frames
-            .map(|(metric, frame)| (Metric::Sequence(*metric), *frame as u32))
-            .collect(),
+        worst_frames: worst_frames(&measured),
         intervals: Intervals::new(),
         scores: measured.scores,
     })
@@ -216,14 +199,14 @@ fn write_animation(
     all: &[&Case],
     per_second: f64,
 ) -> Result<(), Error> {
-    let truth = format!("truth_{}.png", first.alignment);
+    let truth = RenderFile::Truth(first.alignment).picture();
     let strips = all.iter().map(|case| {
         let [scene, own] = [
             plan.out.join(case.scene.folder()),
             plan.out.join(&case.folder),
         ];
         let pictures = [
-            scene.join("frame.png"),
+            scene.join(RenderFile::Frame.picture()),
             scene.join(&truth),
             own.join("output.png"),
             own.join("flip.png"),

@@ -6,11 +6,10 @@ use crate::Error;
 use crate::merge::case_order::CaseOrder;
 use crate::merge::checks::{check_complete, check_truths};
 use crate::merge::run_part::RunPart;
-use crate::render::settings::list_settings;
-use crate::run::Run;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::run::sequence::Sequence;
+use crate::run::{Run, list_run_settings};
 use crate::stats::overall::overall;
 
 /// Joins runs; the command is that of the first.
@@ -53,19 +52,8 @@ pub(super) fn join_runs(parts: &[RunPart]) -> Result<Run, Error> {
 
 /// Refuses a part that was measured in another way than the first.
 fn check_settings(first: &RunPart, other: &RunPart) -> Result<(), Error> {
-    let all = |run: &Run| {
-        let frames = format!(
-            "{} at {} per second",
-            run.frames.count, run.frames.per_second
-        );
-        let mut settings = vec![
-            ("program", run.program.clone()),
-            ("common shutter", run.common_alignment.to_string()),
-            ("number of frames", frames),
-        ];
-        settings.extend(list_settings(&run.render));
-        settings
-    };
+    let all =
+        |run: &Run| list_run_settings(&run.program, run.common_alignment, run.frames, &run.render);
     let (one, two) = (all(&first.run), all(&other.run));
     match one.into_iter().zip(two).find(|(one, two)| one != two) {
         None => Ok(()),

@@ -1,6 +1,6 @@
 //! The files of a run's folder that a pack holds: all that a run renders and reads, and none that filters made.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use frame::{Alignment, ExrFile, read_exr_header, truth_hash};
@@ -8,18 +8,12 @@ use store::{PackedFile, RenderFile, RenderPath};
 use tracer::SceneId;
 
 use crate::Error;
-use crate::render::ladders::needed_rungs;
+use crate::render::files::truth_files;
 use crate::run::Run;
-use crate::run::case::ACCUMULATE;
+use crate::run::case::{ACCUMULATE, Case};
 
-/// The truths of one scene, or of a later frame of it.
-struct KeptScene {
-    scene: SceneId,
-    /// Alignments of its truths, each with the `truth_hash` of the cases that were measured against it; none where no case was.
-    truths: BTreeMap<Alignment, Option<String>>,
-    /// Alignments that the run has accumulations of several sub-frames of: those whose whole ladder was rendered.
-    ladders: BTreeSet<Alignment>,
-}
+/// The truths of each scene, by their alignments, with the `truth_hash` of the cases that were measured against them; none if no case was.
+type Truths<'a> = BTreeMap<&'a SceneId, BTreeMap<Alignment, Option<&'a str>>>;
 
 /// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. A check has the sharp rungs of ladders
 /// alone. Sizes and hashes of bytes are not known yet.
@@ -32,52 +26,45 @@ pub(super) fn list_contents(
     scenes: &[String],
 ) -> Result<Vec<PackedFile>, Error> {
     let mut files = Vec::new();
-    for scene in list_scenes(run, scenes)? {
-        add_scene(run, folder, &scene, &mut files)?;
+    for (scene, truths) in list_truths(run, scenes)? {
+        for frame in 0..run.frames.count {
+            let path = |file| RenderPath {
+                scene: scene.at_frame(frame),
+                file,
+            };
+            files.push(read_header(folder, &path(RenderFile::Frame))?);
+            for (&alignment, hash) in &truths {
+                let has_ladder = has_accumulation(run, scene, alignment);
+                let own = truth_files(alignment, run.render.replicates, has_ladder);
+                let own = own.map(|file| Ok((file, read_header(folder, &path(file))?)));
+                let own = own.collect::<Result<Vec<_>, Error>>()?;
+                // Cases of later frames are not in run.json.
+                check_truth(folder, &own, hash.filter(|_| frame == 0))?;
+                files.extend(own.into_iter().map(|(_, file)| file));
+            }
+        }
     }
     files.sort_by(|one, other| one.path.cmp(&other.path));
     Ok(files)
 }
 
-/// Lists the chosen scenes and their later frames; leaves out those that engines drew, which have their truths elsewhere.
-fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
-    let mut truths: BTreeMap<&SceneId, BTreeMap<Alignment, Option<String>>> = BTreeMap::new();
-    for case in run.cases.iter().filter(|case| case.drawn.is_none()) {
-        let alignment = case.alignment;
-        let own = truths.entry(&case.scene).or_default();
-        let hash = Some(case.truth_hash.clone());
-        match own.insert(alignment, hash.clone()) {
-            Some(other) if other != hash => {
-                return Err(Error::Usage(format!(
-                    "{}: cases were measured against different {alignment} truths, of which only the last is kept; run it again",
-                    case.scene
-                )));
-            }
-            _ => {}
+/// Lists the truths of the chosen scenes; leaves out those that engines drew, which have their truths elsewhere.
+fn list_truths<'a>(run: &'a Run, chosen: &[String]) -> Result<Truths<'a>, Error> {
+    let mut truths = Truths::new();
+    let is_chosen = |case: &&Case| case.drawn.is_none() && chosen.contains(&case.scene.to_string());
+    for case in run.cases.iter().filter(is_chosen) {
+        let common = BTreeMap::from([(run.common_alignment, None)]);
+        let own = truths.entry(&case.scene).or_insert(common);
+        let other = own.insert(case.alignment, Some(&case.truth_hash)).flatten();
+        if other.is_some_and(|other| other != case.truth_hash) {
+            return Err(Error::Usage(format!(
+                "{}: cases were measured against different {} truths, and the folder has only the last; run it again",
+                case.scene, case.alignment
+            )));
         }
     }
-    let mut scenes = Vec::new();
-    let is_chosen = |scene: &SceneId| chosen.contains(&scene.to_string());
-    for (scene, own) in (truths.iter()).filter(|(scene, _)| is_chosen(scene)) {
-        let alignments: BTreeSet<Alignment> =
-            own.keys().copied().chain([run.common_alignment]).collect();
-        let ladders: BTreeSet<Alignment> = (alignments.iter().copied())
-            .filter(|alignment| has_accumulation(run, scene, *alignment))
-            .collect();
-        for frame in 0..run.frames.count {
-            let hash = |alignment| own.get(&alignment).cloned().flatten();
-            scenes.push(KeptScene {
-                scene: scene.at_frame(frame),
-                // Cases of later frames are not in run.json.
-                truths: (alignments.iter())
-                    .map(|&alignment| (alignment, hash(alignment).filter(|_| frame == 0)))
-                    .collect(),
-                ladders: ladders.clone(),
-            });
-        }
-    }
-    match scenes.is_empty() {
-        false => Ok(scenes),
+    match truths.is_empty() {
+        false => Ok(truths),
         true => Err(Error::Usage(
             "an engine drew all of these scenes: nothing was rendered that a pack could hold; pack a run of scenes of ours"
                 .to_owned(),
@@ -85,7 +72,7 @@ fn list_scenes(run: &Run, chosen: &[String]) -> Result<Vec<KeptScene>, Error> {
     }
 }
 
-/// Tells whether a run compares with accumulations of several sub-frames in a scene, for one alignment.
+/// Tells whether a run compares with accumulations of several sub-frames in a scene, for one alignment: its whole ladder was rendered.
 fn has_accumulation(run: &Run, scene: &SceneId, alignment: Alignment) -> bool {
     (run.cases.iter()).any(|case| {
         case.is_reference
@@ -96,47 +83,37 @@ fn has_accumulation(run: &Run, scene: &SceneId, alignment: Alignment) -> bool {
     })
 }
 
-/// Adds the files of one scene.
-fn add_scene(
-    run: &Run,
+/// Refuses a truth that the cases were not measured against, replicates of another truth, and rungs of several ladders.
+fn check_truth(
     root: &Path,
-    scene: &KeptScene,
-    files: &mut Vec<PackedFile>,
+    files: &[(RenderFile, PackedFile)],
+    measured: Option<&str>,
 ) -> Result<(), Error> {
-    let found = |file| {
-        let scene = scene.scene.clone();
-        read_kept(root, &RenderPath { scene, file })
-    };
-    files.push(found(RenderFile::Frame)?);
-    for (&alignment, hash) in &scene.truths {
-        let truth = found(RenderFile::Truth(alignment))?;
-        if let Some(hash) = hash.as_ref().filter(|hash| **hash != truth.content_hash) {
-            return Err(other_file(root, &truth, hash));
-        }
-        let count = run.render.replicates;
-        for index in 0..count {
-            let replicate = found(RenderFile::Replicate(alignment, index))?;
-            if truth_hash(&replicate.content_hash, count) != truth.content_hash {
-                return Err(other_file(root, &replicate, &truth.content_hash));
-            }
-            files.push(replicate);
-        }
-        files.push(truth);
-        let mut ladder: Option<String> = None;
-        for rung in needed_rungs(alignment, scene.ladders.contains(&alignment)) {
-            let rung = found(RenderFile::Rung(alignment, *rung))?;
-            let hash = ladder.get_or_insert_with(|| rung.content_hash.clone());
-            if *hash != rung.content_hash {
-                return Err(other_file(root, &rung, hash));
-            }
-            files.push(rung);
+    let truth = &files[0].1.content_hash;
+    let is_replicate = |file: &RenderFile| matches!(file, RenderFile::Replicate(..));
+    let replicates = files.iter().filter(|(file, _)| is_replicate(file)).count() as u32;
+    let is_rung = |file: &RenderFile| matches!(file, RenderFile::Rung(..));
+    let ladder = files.iter().find(|(file, _)| is_rung(file));
+    for (file, found) in files {
+        let hash = &found.content_hash;
+        let (found_hash, expected) = match file {
+            RenderFile::Replicate(..) => (truth_hash(hash, replicates), Some(&**truth)),
+            RenderFile::Rung(..) => (hash.clone(), ladder.map(|(_, rung)| &*rung.content_hash)),
+            RenderFile::Frame | RenderFile::Truth(_) => (hash.clone(), measured),
+        };
+        if let Some(expected) = expected.filter(|expected| **expected != found_hash) {
+            return Err(Error::Usage(format!(
+                "{}: its header has the hash {hash}, and the run was measured with {expected}; something was rendered into this folder \
+                 since: run it again",
+                root.join(&found.path).display()
+            )));
         }
     }
     Ok(())
 }
 
-/// Reads the header of a kept file.
-fn read_kept(root: &Path, file: &RenderPath) -> Result<PackedFile, Error> {
+/// Reads the header of a rendered file.
+fn read_header(root: &Path, file: &RenderPath) -> Result<PackedFile, Error> {
     let path = root.join(file.path());
     if !path.symlink_metadata().is_ok_and(|found| found.is_file()) {
         return Err(Error::Usage(format!(
@@ -166,13 +143,4 @@ fn describe(file: &ExrFile, path: &RenderPath) -> Option<PackedFile> {
         height: file.height,
         samples_per_pixel: file.get("samples_per_pixel").ok()?,
     })
-}
-
-fn other_file(root: &Path, file: &PackedFile, expected: &str) -> Error {
-    Error::Usage(format!(
-        "{}: its header has the hash {}, and the run was measured with {expected}; something was rendered into this folder since: run \
-         it again",
-        root.join(&file.path).display(),
-        file.content_hash
-    ))
 }

@@ -1,7 +1,7 @@
-//! Packs: the kept frames, truths and ladders of a run in one archive, which says what it holds and is checked before it is used.
+//! Packs: the frames, truths and ladders of a run in one archive, which says what it holds and is checked before it is used.
 
-pub mod arrival;
 mod contents;
+pub mod unpacked;
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use self::contents::list_contents;
 use crate::run::Run;
 use crate::{Error, Monitor, PROGRAM};
 
-/// Packs the kept frames, truths and ladders of the chosen scenes of a finished run in `folder` into the archive `pack`. The same files
+/// Packs the frames, truths and ladders of the chosen scenes of a finished run in `folder` into the archive `pack`. The same files
 /// give the same bytes.
 ///
 /// # Errors

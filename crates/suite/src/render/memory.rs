@@ -34,21 +34,7 @@ pub(crate) fn check_memory(
     settings: &RenderSettings,
     replicates: u32,
 ) -> Result<(), Error> {
-    refuse_beyond_free(
-        scene,
-        settings,
-        rendering_memory(scene, settings, replicates),
-    )
-}
-
-/// Refuses to measure filters on a scene where memory does not suffice to render or to measure it.
-pub(crate) fn check_measuring_memory(
-    scene: &Scene,
-    settings: &RenderSettings,
-    truths: usize,
-    forms: usize,
-) -> Result<(), Error> {
-    let needed = measuring_memory(scene, settings, truths, forms);
+    let needed = rendering_memory(scene, settings, replicates);
     refuse_beyond_free(scene, settings, needed)
 }
 
@@ -68,7 +54,12 @@ pub(crate) fn measuring_memory(
     measuring.max(rendering_memory(scene, settings, settings.replicates))
 }
 
-fn refuse_beyond_free(scene: &Scene, settings: &RenderSettings, needed: u64) -> Result<(), Error> {
+/// Refuses to render or to measure a scene if that needs more bytes than are free.
+pub(crate) fn refuse_beyond_free(
+    scene: &Scene,
+    settings: &RenderSettings,
+    needed: u64,
+) -> Result<(), Error> {
     match free() {
         Some(free) if free < needed => Err(Error::Usage(format!(
             "scene {}: needs about {} for {}x{} pixels of color and {} coverages, {} are free; choose a smaller size, \

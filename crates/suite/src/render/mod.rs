@@ -1,7 +1,7 @@
-//! Frames, truths and ladders of scenes, rendered once and kept as files.
+//! Frames, truths and ladders of scenes, each rendered once and read back from its file.
 
+pub mod files;
 pub mod frames;
-pub mod kept;
 pub mod ladders;
 pub mod memory;
 pub mod merge;

@@ -55,15 +55,15 @@ impl ReplicateFiles {
                 replicates.push(found);
                 continue;
             }
-            let tracer = match &mut tracer {
-                Some(tracer) => tracer,
-                none => none.insert(TruthTracer::new(scene, settings, &[self.alignment])?),
-            };
-            let label = format!("{} {}, replicate {index}", scene.id, self.alignment);
-            for replicate in monitor.watch(&label, |watch| tracer.trace(index, watch))? {
-                replicate.write(&self.path(index))?;
-                replicates.push(replicate);
-            }
+            let own = std::slice::from_ref(self);
+            replicates.extend(render_replicate(
+                own,
+                index,
+                scene,
+                settings,
+                &mut tracer,
+                monitor,
+            )?);
         }
         Ok(replicates)
     }
@@ -98,4 +98,30 @@ impl ReplicateFiles {
     pub(crate) fn has(&self, index: u32) -> bool {
         read_attribute(&self.path(index), "content_hash").as_ref() == Some(&self.hash)
     }
+}
+
+/// Traces a replicate of each of several truths together, and writes each to its file. `tracer` is made for the first replicate.
+pub(super) fn render_replicate<'a>(
+    files: &[ReplicateFiles],
+    index: u32,
+    scene: &'a Scene,
+    settings: &RenderSettings,
+    tracer: &mut Option<TruthTracer<'a>>,
+    monitor: Monitor,
+) -> Result<Vec<Replicate>, Error> {
+    let alignments: Vec<Alignment> = files.iter().map(|files| files.alignment).collect();
+    let tracer = match tracer {
+        Some(tracer) => tracer,
+        none => none.insert(TruthTracer::new(scene, settings, &alignments)?),
+    };
+    let names: Vec<&str> = alignments
+        .iter()
+        .map(|alignment| alignment.name())
+        .collect();
+    let label = format!("{} {}, replicate {index}", scene.id, names.join(" and "));
+    let replicates = monitor.watch(&label, |watch| tracer.trace(index, watch))?;
+    for (files, replicate) in files.iter().zip(&replicates) {
+        replicate.write(&files.path(index))?;
+    }
+    Ok(replicates)
 }

@@ -1,6 +1,6 @@
 //! One-frame oracle: about the best picture that one frame with straight motion can give, far too slow for a filter.
 
-use frame::{Efficiency, Frame, Image, Picture, Plane, Raster, Shutter, ShutterProfile, Truth};
+use frame::{Efficiency, Frame, Picture, Raster, Shutter, ShutterProfile, Truth};
 use rayon::prelude::*;
 
 /// Least number of instants.
@@ -13,8 +13,7 @@ const MOST_INSTANTS: u32 = 1024;
 const TOGETHER: usize = 16;
 
 /// Moves every pixel of the frame along its velocity for many instants of the shutter, lets the nearer hide the farther,
-/// fills places that nothing came to from the farthest of what lies nearest to them in each of the four directions, and
-/// averages. The picture is as large as the frame, guard band included.
+/// fills each hole with the farthest of the pixels that are nearest to it in the four directions, and averages. The picture is as large as the frame, guard band included.
 pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile) -> Picture {
     let instants = place_instants(frame, shutter, &profile.efficiency);
     let height = frame.color.height - 2 * frame.guard_band;
@@ -110,23 +109,19 @@ fn fill_holes(frame: &Frame, seen: Vec<u32>) -> Vec<u32> {
     let (width, height) = frame.size();
     let [width, height] = [width as usize, height as usize];
     let mut fills: Vec<Option<Fill>> = vec![None; seen.len()];
-    for row in 0..height {
-        let along: Vec<usize> = (0..width).map(|column| row * width + column).collect();
-        offer_fills(frame, &seen, along.iter().copied(), &mut fills);
-        offer_fills(frame, &seen, along.iter().rev().copied(), &mut fills);
+    let rows = (0..height).map(|row| (row * width, width, 1));
+    let columns = (0..width).map(|column| (column, height, width));
+    for (first, count, step) in rows.chain(columns) {
+        let along = || (0..count).map(|index| first + index * step);
+        offer_fills(frame, &seen, along(), &mut fills);
+        offer_fills(frame, &seen, along().rev(), &mut fills);
     }
-    for column in 0..width {
-        let along: Vec<usize> = (0..height).map(|row| row * width + column).collect();
-        offer_fills(frame, &seen, along.iter().copied(), &mut fills);
-        offer_fills(frame, &seen, along.iter().rev().copied(), &mut fills);
-    }
-    let own = |place: usize| place as u32;
     seen.iter()
         .enumerate()
         .map(|(place, source)| match (*source, &fills[place]) {
             (HOLE, Some(fill)) => fill.source,
             // All of the frame has left it.
-            (HOLE, None) => own(place),
+            (HOLE, None) => place as u32,
             (source, _) => source,
         })
         .collect()
@@ -198,22 +193,19 @@ impl Sums {
 
     fn picture(&self, frame: &Frame) -> Picture {
         let (width, height) = frame.size();
-        let color: Image = Raster {
+        let plane = |sums: &Vec<f64>| Raster {
             width,
             height,
-            pixels: (self.color.iter())
-                .map(|sum| sum.map(|component| component as f32))
-                .collect(),
-        };
-        let plane = |sums: &Vec<f64>| -> Plane {
-            Raster {
-                width,
-                height,
-                pixels: sums.iter().map(|sum| *sum as f32).collect(),
-            }
+            pixels: sums.iter().map(|sum| *sum as f32).collect(),
         };
         Picture {
-            color,
+            color: Raster {
+                width,
+                height,
+                pixels: (self.color.iter())
+                    .map(|sum| sum.map(|component| component as f32))
+                    .collect(),
+            },
             coverage: self.coverage.iter().map(plane).collect(),
         }
     }

@@ -9,7 +9,7 @@ use tracer::{RenderSettings, Scene};
 
 use super::memory::check_memory;
 use super::replicates::ReplicateFiles;
-use super::shared::SharedReplicates;
+use super::shared::render_shared;
 use crate::{Error, Monitor};
 
 /// Renders the truth of `scene` over the shutter of `alignment` and writes it to `out`. Reads the truth from there if its inputs
@@ -22,8 +22,8 @@ pub fn render_truth(
     monitor: Monitor,
 ) -> Result<Truth, Error> {
     let files = ReplicateFiles::new(scene_folder(out, scene), scene, settings, alignment);
-    if let Some(kept) = files.read_truth(settings.replicates) {
-        return Ok(kept);
+    if let Some(found) = files.read_truth(settings.replicates) {
+        return Ok(found);
     }
     let truth = average_replicates(scene, settings, &files, monitor)?;
     truth.write(&files.truth_path())?;
@@ -60,19 +60,17 @@ pub fn render_truths_until(
     mut ended: impl FnMut(&Truth, bool) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let mut settings = *settings;
-    let mut shared = SharedReplicates::new(scene, &settings, out);
     let mut open = alignments.to_vec();
     while !open.is_empty() {
         let (count, mut next) = (settings.replicates, settings.replicates + 2);
-        shared.render(&open, 0..count, monitor)?;
+        render_shared(scene, &settings, &open, 0..count, out, monitor)?;
         for alignment in std::mem::take(&mut open) {
             let files = ReplicateFiles::new(scene_folder(out, scene), scene, &settings, alignment);
-            let (truth, is_kept) = match files.read_truth(count) {
-                Some(kept) => (kept, true),
-                None => (
-                    average_replicates(scene, &settings, &files, monitor)?,
-                    false,
-                ),
+            let found = files.read_truth(count);
+            let is_new = found.is_none();
+            let truth = match found {
+                Some(truth) => truth,
+                None => average_replicates(scene, &settings, &files, monitor)?,
             };
             let (_, floor) = deciding_floor(&truth);
             if floor > target && count + 2 <= most {
@@ -80,7 +78,7 @@ pub fn render_truths_until(
                 open.push(alignment);
                 continue;
             }
-            if !is_kept {
+            if is_new {
                 truth.write(&files.truth_path())?;
             }
             ended(&truth, floor <= target)?;
@@ -109,20 +107,21 @@ pub fn deciding_floor(truth: &Truth) -> (Region, f64) {
         .expect("a picture has pixels")
 }
 
-/// Renders all replicates of a truth, or reads those that `out` holds.
+/// Renders some replicates of a truth, or reads those that `out` holds.
 pub(crate) fn render_replicates(
     scene: &Scene,
     settings: &RenderSettings,
     alignment: Alignment,
+    indices: Range<u32>,
     out: &Path,
     monitor: Monitor,
 ) -> Result<Vec<Replicate>, Error> {
     let files = ReplicateFiles::new(scene_folder(out, scene), scene, settings, alignment);
     settings.check_truth(scene, alignment)?;
-    files.read_or_render(scene, settings, 0..settings.replicates, monitor)
+    files.read_or_render(scene, settings, indices, monitor)
 }
 
-/// Renders some replicates of a truth and keeps them in `out`.
+/// Renders some replicates of a truth and writes them to `out`.
 pub fn render_part(
     scene: &Scene,
     settings: &RenderSettings,
@@ -131,12 +130,9 @@ pub fn render_part(
     out: &Path,
     monitor: Monitor,
 ) -> Result<(), Error> {
-    let folder = scene_folder(out, scene);
-    refuse_scene(&folder)?;
-    settings.check_truth(scene, alignment)?;
+    refuse_scene(&scene_folder(out, scene))?;
     check_memory(scene, settings, indices.len() as u32)?;
-    let files = ReplicateFiles::new(folder, scene, settings, alignment);
-    (files.read_or_render(scene, settings, indices, monitor)).map(drop)
+    render_replicates(scene, settings, alignment, indices, out, monitor).map(drop)
 }
 
 #[cfg(test)]

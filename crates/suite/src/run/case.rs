@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::ops::Deref;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use filters::{Convention, Value};
+use frame::{FileError, Frame, Truth};
 use metrics::{ImageScores, Interval, Jitter, Metric, Scores};
 use serde::{Deserialize, Serialize};
+use store::RenderFile;
 use tracer::{Family, FrameRate, SceneId};
 
 use crate::engine_scene::engine_name;
@@ -94,6 +96,20 @@ impl Case {
     /// Tells whether it is the reference that is a sharp picture of the shutter's middle, where the frame is not that.
     pub fn is_sharp(&self) -> bool {
         self.is_reference && self.filter == ACCUMULATE && self.preset == SHARP.to_string()
+    }
+
+    /// Names a rendered file of its scene; `folder` is that of run.json.
+    pub fn render_path(&self, folder: &Path, file: RenderFile) -> PathBuf {
+        folder.join(self.scene.folder()).join(file.path())
+    }
+
+    /// Reads the frame, without its guard band, and the truth that the case was measured against; `folder` is that of run.json.
+    pub fn read_frame_and_truth(&self, folder: &Path) -> Result<(Frame, Truth), FileError> {
+        let truth = RenderFile::Truth(self.alignment);
+        Ok((
+            Frame::read(&self.render_path(folder, RenderFile::Frame))?.cropped(),
+            Truth::read(&self.render_path(folder, truth))?,
+        ))
     }
 }
 

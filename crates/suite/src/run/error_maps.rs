@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use frame::{ExrFile, Frame, Picture, Plane, Truth, read_exr};
+use frame::{ExrFile, Picture, Plane, read_exr};
 use metrics::{ErrorMap, Measurement, Reference};
 
 use super::case::Case;
@@ -68,9 +68,7 @@ impl<'a> ErrorMaps<'a> {
 
     fn measure_again(&self) -> Result<Measurement, Error> {
         let Self { case, folder, .. } = self;
-        let scene = folder.join(case.scene.folder());
-        let frame = Frame::read(&scene.join("frame.exr"))?.cropped();
-        let truth = Truth::read(&scene.join(format!("truth_{}.exr", case.alignment)))?;
+        let (frame, truth) = case.read_frame_and_truth(folder)?;
         let output = read_exr(&folder.join(&case.folder).join("output.exr"))?;
         let mattes = truth.objects.iter();
         let picture = Picture {

@@ -1,9 +1,9 @@
 //! The file run.json: its text, and its reader, which checks it, whoever wrote it, before anything of it is used.
 
 use std::collections::HashSet;
-use std::path::{Component, Path};
+use std::path::Path;
 
-use store::{MOST_REPLICATES, MOST_RUN_BYTES, check_strings, read_text_within, to_lines};
+use store::{MOST_REPLICATES, MOST_RUN_BYTES, check_strings, is_below, read_text_within, to_lines};
 
 use super::case::Case;
 use super::sequence::{MOST_FRAMES, Sequence};
@@ -132,10 +132,4 @@ fn check_sequence(sequence: &Sequence) -> Result<(), String> {
             path.display()
         )),
     }
-}
-
-/// Tells whether a path leads below the folder that it starts from. Nothing is read or written elsewhere.
-pub fn is_below(path: &Path) -> bool {
-    let mut parts = path.components().peekable();
-    parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }

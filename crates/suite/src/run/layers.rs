@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{Alignment, ExrFile, Frame, Truth, read_exr, write_exr};
+use frame::{ExrFile, Frame, Truth, read_exr, write_exr};
 use metrics::ErrorMap;
-use tracer::{Progress, SceneId, TraceError, Watch};
+use tracer::{Progress, TraceError, Watch};
 
 use super::Run;
 use super::case::Case;
@@ -26,7 +26,7 @@ pub fn write_layers(
     watch: Watch,
 ) -> Result<Vec<PathBuf>, Error> {
     let mut written = Vec::new();
-    let mut last: Option<Inputs> = None;
+    let mut last: Option<(&Case, (Frame, Truth))> = None;
     for (done, case) in run.cases.iter().enumerate() {
         let progress = Progress {
             done: done as u64,
@@ -36,46 +36,23 @@ pub fn write_layers(
             return Err(TraceError::Cancelled.into());
         }
         // Cases of one scene and alignment follow one another.
+        let truth = |case: &Case| (case.scene.clone(), case.alignment);
         let inputs = match last.take() {
-            Some(inputs) if inputs.is_of(case) => inputs,
-            _ => Inputs::read(case, folder)?,
+            Some((other, inputs)) if truth(other) == truth(case) => inputs,
+            _ => case.read_frame_and_truth(folder)?,
         };
         let path = out.join(format!("{}.exr", case.folder.display()));
         write_exr(&path, &collect_layers(run, case, &inputs, folder)?)?;
         written.push(path);
-        last = Some(inputs);
+        last = Some((case, inputs));
     }
     Ok(written)
-}
-
-/// Files that all cases of one scene and alignment share.
-struct Inputs {
-    scene: SceneId,
-    alignment: Alignment,
-    frame: Frame,
-    truth: Truth,
-}
-
-impl Inputs {
-    fn read(case: &Case, folder: &Path) -> Result<Self, Error> {
-        let files = folder.join(case.scene.folder());
-        Ok(Self {
-            scene: case.scene.clone(),
-            alignment: case.alignment,
-            frame: Frame::read(&files.join("frame.exr"))?.cropped(),
-            truth: Truth::read(&files.join(format!("truth_{}.exr", case.alignment)))?,
-        })
-    }
-
-    fn is_of(&self, case: &Case) -> bool {
-        self.scene == case.scene && self.alignment == case.alignment
-    }
 }
 
 fn collect_layers(
     run: &Run,
     case: &Case,
-    inputs: &Inputs,
+    (frame, truth): &(Frame, Truth),
     folder: &Path,
 ) -> Result<ExrFile, Error> {
     let own = folder.join(&case.folder);
@@ -83,7 +60,6 @@ fn collect_layers(
         read_exr(&own.join("output.exr"))?,
         read_exr(&own.join("errors.exr"))?,
     );
-    let Inputs { frame, truth, .. } = inputs;
     let (width, height) = truth.size();
     let sizes = [
         ("frame.exr", frame.size()),

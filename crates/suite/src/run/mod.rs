@@ -19,6 +19,7 @@ use self::case::Case;
 use self::failure::Failure;
 use self::overall::Overall;
 use self::sequence::{Frames, Sequence};
+use crate::render::settings::list_settings;
 
 /// Version of the layout of `run.json`; it rises when a reader of the old one would misread the new one.
 pub const FORMAT: u32 = 6;
@@ -58,4 +59,26 @@ pub struct Run {
     /// Number of cases that were measured before and read back; not in run.json.
     #[serde(skip)]
     pub read_back: usize,
+}
+
+/// Lists name and value of every setting that all cases of a run share, but for its adapter.
+pub(crate) fn list_run_settings(
+    program: &str,
+    common: Alignment,
+    frames: Frames,
+    render: &RenderSettings,
+) -> Vec<(&'static str, String)> {
+    // A single frame is shown at no rate; run.json leaves it out.
+    let Frames { count, per_second } = match frames.is_one() {
+        true => Frames::default(),
+        false => frames,
+    };
+    let frames = format!("{count} at {per_second} per second");
+    let mut settings = vec![
+        ("program", program.to_owned()),
+        ("common shutter", common.to_string()),
+        ("number of frames", frames),
+    ];
+    settings.extend(list_settings(render));
+    settings
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use frame::Alignment;
-use metrics::{Metric, SequenceScores};
+use metrics::{Metric, SequenceMeasurement, SequenceScores};
 use serde::{Deserialize, Serialize};
 use tracer::SceneId;
 
@@ -52,6 +52,14 @@ impl Sequence {
     pub fn is_of(&self, case: &CaseId) -> bool {
         self.scene == case.scene && self.filter_id() == case.filter_id()
     }
+}
+
+/// Lists the frame that is worst in a score, from 0, by the metrics that frames have a share in.
+pub fn worst_frames(measured: &SequenceMeasurement) -> BTreeMap<Metric, u32> {
+    let worst = measured.worst_frames.iter();
+    worst
+        .map(|(metric, frame)| (Metric::Sequence(*metric), *frame as u32))
+        .collect()
 }
 
 /// One picture of a sequence. Its `case.json` has all scores of the single frame.

@@ -121,11 +121,11 @@ fn check_shutter(file: &ExrFile, truth: &Truth) -> Result<(), Error> {
         return Ok(());
     }
     let exposure = truth.shutter.exposure();
-    let other = |what: &str, found: String, due: String| {
+    let other = |what: &str, found: String, expected: String| {
         refuse(
             &file.path,
             &format!(
-                "was made for {what} {found}, the truth has {due}; render that one, or blur for this one"
+                "was made for {what} {found}, the truth has {expected}; render that one, or blur for this one"
             ),
         )
     };

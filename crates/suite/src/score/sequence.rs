@@ -1,14 +1,13 @@
 //! Scores of finished sequences: pictures of consecutive frames that were made elsewhere.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::{Frame, Image, Truth};
-use metrics::{Instant, Metric, SequenceReference, SequenceScores};
+use metrics::{Instant, SequenceMeasurement, SequenceReference};
 use tracer::{RenderSettings, Scene, truth_hash};
 
 use crate::Error;
-use crate::measure::points_of_frame::PointsOfFrame;
+use crate::measure::points_of_frame::{make_instant, trace_points};
 
 /// Frame and truth of one frame of a sequence, and the file of the truth, for messages.
 pub struct SequenceTruth {
@@ -20,20 +19,8 @@ pub struct SequenceTruth {
     pub path: PathBuf,
 }
 
-/// Scores of a finished sequence.
-pub struct ScoredSequence {
-    /// Scores over all frames.
-    pub scores: SequenceScores,
-    /// Frame that is worst in a score, from 0, by the metrics that frames have a share in.
-    pub worst_frames: BTreeMap<Metric, u32>,
-    /// Squared error over what moves, per frame; none where nothing does.
-    pub errors: Vec<Option<f64>>,
-    /// Squared error of the change along the motion since the frame before, per frame; none for the first.
-    pub flickers: Vec<Option<f64>>,
-}
-
-/// Names the file of a later frame beside that of the first one, as `run` and `render` lay them out: `out/fan/frame.exr` has
-/// `out/fan/0001/frame.exr` behind it.
+/// Names the file of a later frame beside that of the first one, as `run` and `render` lay them out: `out/fan/frame.exr` is followed by
+/// `out/fan/0001/frame.exr`.
 pub fn file_at_frame(first: &Path, frame: u32) -> PathBuf {
     match (frame, first.file_name()) {
         (1.., Some(name)) => first.with_file_name(format!("{frame:04}")).join(name),
@@ -50,25 +37,16 @@ pub fn score_sequence(
     scene: &Scene,
     truths: &[SequenceTruth],
     per_second: f64,
-) -> Result<ScoredSequence, Error> {
+) -> Result<SequenceMeasurement, Error> {
     let instants = (0..).zip(truths).map(|(frame, own)| {
         let scene = scene.at_frame(frame);
         let settings = settings_of(own);
         check_scene(&scene, &settings, own)?;
-        Ok(PointsOfFrame::trace(&scene, &settings)?.instant(&own.truth))
+        Ok(make_instant(&own.truth, trace_points(&scene, &settings)?))
     });
     let instants = instants.collect::<Result<Vec<Instant>, Error>>()?;
     let reference = SequenceReference::new(instants, &scene.display.into(), per_second);
-    let measured = reference.measure(pictures)?;
-    let worst_frames = measured.worst_frames.into_iter();
-    Ok(ScoredSequence {
-        scores: measured.scores,
-        worst_frames: worst_frames
-            .map(|(metric, frame)| (Metric::Sequence(metric), frame as u32))
-            .collect(),
-        errors: measured.errors,
-        flickers: measured.flickers,
-    })
+    Ok(reference.measure(pictures)?)
 }
 
 /// Returns the settings that a truth was rendered with, as its files state them.
@@ -79,7 +57,7 @@ fn settings_of(own: &SequenceTruth) -> RenderSettings {
         width,
         height,
         samples_per_pixel: provenance.samples_per_pixel,
-        // A file may claim anything.
+        // A file may say anything.
         replicates: provenance.replicates.max(1),
         seed: provenance.seed,
         exposure: Some(own.frame.exposure),

@@ -172,7 +172,7 @@ mod tests {
         [0.025, 0.094],
         [0.022, 0.066],
     ];
-    /// Returns the share of intervals over `scenes` drawn from a population that hold the population's mean.
+    /// Returns the share of intervals over `scenes` sampled from a population that hold the population's mean.
     fn coverage(
         population: &[Weighted],
         scenes: usize,
@@ -180,13 +180,13 @@ mod tests {
         interval: impl Fn(&[Weighted]) -> [f64; 2],
     ) -> f64 {
         let mut random = Random(1);
-        let due = scene_mean(population, 0.025).mean;
+        let expected = scene_mean(population, 0.025).mean;
         let holds = (0..sets).filter(|_| {
-            let drawn: Vec<Weighted> = (0..scenes)
+            let sample: Vec<Weighted> = (0..scenes)
                 .map(|_| population[random.below(population.len())])
                 .collect();
-            let [low, high] = interval(&drawn);
-            (low..=high).contains(&due)
+            let [low, high] = interval(&sample);
+            (low..=high).contains(&expected)
         });
         holds.count() as f64 / sets as f64
     }
@@ -200,10 +200,10 @@ mod tests {
         let mut random = Random(2);
         let mut means: Vec<f64> = (0..400)
             .map(|_| {
-                let drawn = scores
+                let sample = scores
                     .iter()
                     .map(|_| scores[random.below(scores.len())].value);
-                drawn.sum::<f64>() / scores.len() as f64
+                sample.sum::<f64>() / scores.len() as f64
             })
             .collect();
         means.sort_by(f64::total_cmp);
@@ -256,7 +256,10 @@ mod tests {
             let [low, high] = plain_mean(&scores, 0.025).interval;
             widths += (high - low) / 2.0 / 2000.0;
         }
-        let due = 2.074 * (2.0f64 / 23.0).sqrt();
-        assert!((widths / due - 1.0).abs() < 0.03, "{widths} {due}");
+        let expected = 2.074 * (2.0f64 / 23.0).sqrt();
+        assert!(
+            (widths / expected - 1.0).abs() < 0.03,
+            "{widths} {expected}"
+        );
     }
 }

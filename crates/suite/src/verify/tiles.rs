@@ -1,99 +1,167 @@
-//! Tiles of kept files, chosen at random and traced again.
+//! Tiles of rendered files, chosen at random and traced again.
 
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use frame::{Frame, Tile, Truth};
-use store::{LADDER, RenderFile, ladder_folder};
-use tracer::{LadderTracer, RenderSettings, TruthTracer, trace_frame_tile};
+use frame::{ExrFile, FileError, Tile, read_exr};
+use store::RenderFile;
+use tracer::{Scene, TraceError, Watch};
 
-use super::work::Work;
-use crate::Error;
-use crate::render::replicates::ReplicateFiles;
+use super::difference::{find_attribute, find_difference};
+use super::scene_renders::SceneRenders;
+use crate::{Error, Monitor, Random};
 
-/// Traces tiles of a frame again.
-pub(super) fn trace_frame_tiles(
-    work: &Work,
-    path: &Path,
-    settings: &RenderSettings,
-    frame: &Frame,
-) -> Result<Vec<(PathBuf, Tile)>, Error> {
-    let (width, height) = frame.size();
-    let mut chance = work.chance("frame");
-    let mut tiles = Vec::new();
-    for _ in 0..work.verification.tiles {
-        let tile = chance.tile(width, height);
-        let label = format!("verifying {}, frame", work.scene.id);
-        let made = work.monitor.watch(&label, |watch| {
-            trace_frame_tile(work.scene, settings, tile, watch)
-        })?;
-        work.compare(path, tile, &made.to_exr())?;
-        tiles.push((work.shown(path), tile));
-    }
-    Ok(tiles)
+/// Side of a tile that is traced again, in pixels.
+pub const TILE_SIDE: u32 = 16;
+
+/// Extent of a verification.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Verification {
+    /// Seed of the choice of replicates, rungs and tiles.
+    pub seed: u64,
+    /// Tiles of every truth, of its frame and of its ladder.
+    pub tiles: u32,
 }
 
-/// Traces tiles of random ones among some replicates again, and compares the attributes of all of them.
-pub(super) fn trace_replicate_tiles(
-    work: &Work,
-    settings: &RenderSettings,
-    files: &ReplicateFiles,
-    indices: &BTreeSet<u32>,
-) -> Result<Vec<(PathBuf, Tile)>, Error> {
-    let indices: Vec<u32> = indices.iter().copied().collect();
-    let tracer = TruthTracer::new(work.scene, settings, &[files.alignment])?;
-    let mut chance = work.chance(&format!("truth_{}", files.alignment));
-    let mut tiles = Vec::new();
-    for _ in 0..work.verification.tiles {
-        let index = indices[chance.below(indices.len() as u32) as usize];
-        let tile = chance.tile(settings.width, settings.height);
-        let label = format!(
-            "verifying {}, {} replicate {index}",
-            work.scene.id, files.alignment
-        );
-        let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(index, tile, watch))?;
-        let path = files.path(index);
-        let mut made = made[0].to_exr();
-        work.compare(&path, tile, &made)?;
-        tiles.push((work.shown(&path), tile));
-        for index in indices.iter().filter(|_| tiles.len() == 1) {
-            made.set("replicate", index);
-            work.compare_attributes(&files.path(*index), &made)?;
-        }
-    }
-    Ok(tiles)
+/// The verification of one scene's files.
+pub(super) struct Work<'a> {
+    pub scene: &'a Scene,
+    pub renders: &'a SceneRenders,
+    pub verification: &'a Verification,
+    pub monitor: Monitor,
 }
 
-/// Traces tiles of random rungs of a truth's ladder again, among those that are kept.
-pub(super) fn trace_rung_tiles(
-    work: &Work,
-    settings: &RenderSettings,
-    truth: &Truth,
-) -> Result<Vec<(PathBuf, Tile)>, Error> {
-    let file = |rung: u32| work.path(RenderFile::Rung(truth.alignment, rung));
-    let rungs = work.kept.rungs(truth.alignment);
-    if rungs.is_empty() {
-        return Ok(Vec::new());
-    }
-    let tracer = LadderTracer::new(work.scene, settings, truth, &LADDER)?;
-    let mut chance = work.chance(&ladder_folder(truth.alignment));
-    let mut tiles = Vec::new();
-    for _ in 0..work.verification.tiles {
-        let rung = rungs[chance.below(rungs.len() as u32) as usize];
-        let tile = chance.tile(settings.width, settings.height);
-        let label = format!(
-            "verifying {}, {rung} sub-frames, {}",
-            work.scene.id, truth.alignment
+impl Work<'_> {
+    /// Traces tiles of random ones among some files again, and compares the attributes of all of them. The files hold pictures of one size
+    /// and differ in their numbers alone: replicates of one truth, or rungs of one ladder.
+    pub fn trace_tiles(
+        &self,
+        files: &[RenderFile],
+        (width, height): (u32, u32),
+        trace: impl Fn(RenderFile, Tile, Watch) -> Result<ExrFile, TraceError>,
+    ) -> Result<Vec<(PathBuf, Tile)>, Error> {
+        let Some(first) = files.first() else {
+            return Ok(Vec::new());
+        };
+        let mut random = seeded(
+            self.verification.seed,
+            &format!("{}/{first}", self.scene.id),
         );
-        let made = (work.monitor).watch(&label, |watch| tracer.trace_tile(rung, tile, watch))?;
-        let path = file(rung);
-        let mut made = made.into_exr();
-        work.compare(&path, tile, &made)?;
-        tiles.push((work.shown(&path), tile));
-        for rung in rungs.iter().filter(|_| tiles.len() == 1) {
-            made.set("subframes", rung);
-            work.compare_attributes(&file(*rung), &made)?;
+        let mut tiles = Vec::new();
+        for _ in 0..self.verification.tiles {
+            let file = files[random.below(files.len())];
+            let tile = choose_tile(&mut random, width, height);
+            let label = format!("verifying {}/{file}", self.scene.id);
+            let mut made = (self.monitor).watch(&label, |watch| trace(file, tile, watch))?;
+            self.compare(file, tile, &made)?;
+            tiles.push((self.shown(file), tile));
+            // Tiles are traced in a few files; attributes are compared in all.
+            for &file in files.iter().filter(|_| tiles.len() == 1) {
+                match file {
+                    RenderFile::Replicate(_, index) => made.set("replicate", index),
+                    RenderFile::Rung(_, subframes) => made.set("subframes", subframes),
+                    RenderFile::Frame | RenderFile::Truth(_) => {}
+                }
+                if let Some(difference) = find_attribute(&self.read_like(file, &made)?, &made) {
+                    return Err(self.altered(file, &difference));
+                }
+            }
+        }
+        Ok(tiles)
+    }
+
+    /// Refuses a file that does not hold in a tile what was made for it.
+    fn compare(&self, file: RenderFile, tile: Tile, made: &ExrFile) -> Result<(), Error> {
+        match find_difference(&self.read_like(file, made)?, tile, made) {
+            None => Ok(()),
+            Some(difference) => {
+                let Tile {
+                    x,
+                    y,
+                    width,
+                    height,
+                } = tile;
+                let place =
+                    format!("tracing the tile of {width}x{height} pixels at ({x}, {y}) again");
+                Err(self.altered(file, &format!("{difference}, {place}")))
+            }
         }
     }
-    Ok(tiles)
+
+    /// Reads a file of the kind that was made, whose checksum is right.
+    fn read_like(&self, file: RenderFile, made: &ExrFile) -> Result<ExrFile, FileError> {
+        let file = read_exr(&self.path(file))?;
+        file.expect_kind(&made.get::<String>("kind")?)?;
+        Ok(file)
+    }
+
+    /// Refuses a file of other inputs than this program would render.
+    pub fn expect_hash(&self, file: RenderFile, found: &str, own: &str) -> Result<(), Error> {
+        match found == own {
+            true => Ok(()),
+            false => Err(Error::Broken(format!(
+                "{}: was made of another scene, of other settings, or by another tracer: its content_hash is {found}, and this program's \
+                 is {own}; no run uses it: render it again",
+                self.shown(file).display()
+            ))),
+        }
+    }
+
+    /// Words the difference of a file, why it may be there, and what to do.
+    pub fn altered(&self, file: RenderFile, difference: &str) -> Error {
+        Error::Broken(format!(
+            "{}: {difference}; it was altered, or this processor computes otherwise than the one that rendered it; use none of these files, \
+             and render {} again; the choice of tiles had the seed {}",
+            self.shown(file).display(),
+            self.scene.id,
+            self.verification.seed
+        ))
+    }
+
+    /// Returns the path of a file of the scene.
+    pub fn path(&self, file: RenderFile) -> PathBuf {
+        self.renders.folder.join(file.path())
+    }
+
+    /// Names a file of the scene as messages do.
+    pub fn shown(&self, file: RenderFile) -> PathBuf {
+        self.renders.shown.join(file.path())
+    }
+}
+
+/// Starts the random numbers that a seed and a name give, the same everywhere.
+fn seeded(seed: u64, name: &str) -> Random {
+    let hash = blake3::hash(format!("verification {seed} of {name}").as_bytes());
+    let [a, b, c, d, e, f, g, h, ..] = *hash.as_bytes();
+    Random(u64::from_le_bytes([a, b, c, d, e, f, g, h]))
+}
+
+/// Chooses a tile of a picture; all of it where it is smaller.
+fn choose_tile(random: &mut Random, width: u32, height: u32) -> Tile {
+    let [columns, rows] = [width, height].map(|side| side.min(TILE_SIDE));
+    let mut below = |count: u32| random.below(count as usize) as u32;
+    Tile {
+        x: below(width - columns + 1),
+        y: below(height - rows + 1),
+        width: columns,
+        height: rows,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_pixel_may_be_chosen_and_no_tile_leaves_the_picture() {
+        let mut seen = vec![false; 40 * 20];
+        for seed in 0..2000 {
+            let tile = choose_tile(&mut seeded(seed, "fan"), 40, 20);
+            for pixel in tile.pixels(40) {
+                seen[pixel as usize] = true;
+            }
+        }
+        assert!(seen.iter().all(|seen| *seen));
+        let small = choose_tile(&mut seeded(1, "fan"), 5, 3);
+        assert_eq!(small, Tile::whole(5, 3));
+    }
 }

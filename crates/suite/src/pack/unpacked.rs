@@ -9,19 +9,19 @@ use tracer::Scene;
 
 use crate::Error;
 use crate::measure::plan::RunPlan;
-use crate::render::kept::{find_kept, list_render_files};
-use crate::verify::kept_scene::{Verified, verify_scene};
-use crate::verify::listing::list_kept_scenes;
-use crate::verify::work::Verification;
+use crate::render::files::{find_missing, list_wanted};
+use crate::verify::scene::{Verified, verify_scene};
+use crate::verify::scene_renders::list_scene_renders;
+use crate::verify::tiles::Verification;
 
 /// Folder in that of a run where files of a pack lie until they are verified.
-const ARRIVALS: &str = ".shuttertruth.arrivals";
+const UNPACKED: &str = ".shuttertruth.unpacked";
 
 /// What a run took of a pack.
 #[derive(Clone, Debug, Default)]
-pub struct Arrival {
+pub struct Unpacked {
     /// Number of files that were taken.
-    pub taken: usize,
+    pub files: usize,
     /// What was verified of them.
     pub verified: Verified,
     /// What is still to be rendered: `frame of fan`, `trailing truth of fan`.
@@ -37,48 +37,48 @@ pub fn take_pack(
     plan: &RunPlan,
     pack: &Pack,
     verification: &Verification,
-) -> Result<Arrival, Error> {
+) -> Result<Unpacked, Error> {
     pack.check()?;
     let alignments = plan.alignments();
-    let wanted = list_wanted(plan, pack, &alignments)?;
-    let mut arrival = Arrival::default();
+    let wanted = find_wanted(plan, pack, &alignments)?;
+    let mut taken = Unpacked::default();
     if !wanted.is_empty() {
-        let arrivals = plan.out.join(ARRIVALS);
+        let unpacked = plan.out.join(UNPACKED);
         // A killed process may have left some.
-        remove_folder(&arrivals)?;
-        let taken = take_verified(plan, pack, &wanted, verification);
-        remove_folder(&arrivals)?;
-        (arrival.taken, arrival.verified) = taken?;
+        remove_folder(&unpacked)?;
+        let found = take_verified(plan, pack, &wanted, verification);
+        remove_folder(&unpacked)?;
+        (taken.files, taken.verified) = found?;
     }
-    arrival.missing = (list_scenes(plan).iter())
-        .flat_map(|scene| list_missing(plan, scene, &alignments))
+    taken.missing = (list_scenes(plan).iter())
+        .flat_map(|scene| name_missing(plan, scene, &alignments))
         .collect();
-    Ok(arrival)
+    Ok(taken)
 }
 
-/// Unpacks files into the folder of arrivals, verifies them, and places those that the plan's folder lacks; counts these.
+/// Unpacks files into the folder of unpacked files, verifies them, and places those that the plan's folder lacks; counts these.
 fn take_verified(
     plan: &RunPlan,
     pack: &Pack,
     wanted: &[(Scene, Vec<Wanted>)],
     verification: &Verification,
 ) -> Result<(usize, Verified), Error> {
-    let arrivals = plan.out.join(ARRIVALS);
+    let unpacked = plan.out.join(UNPACKED);
     let files = || wanted.iter().flat_map(|(_, files)| files);
     let names: BTreeSet<String> = files().map(|file| file.path.to_string()).collect();
-    pack.unpack(&arrivals, |file| names.contains(&file.path))?;
+    pack.unpack(&unpacked, |file| names.contains(&file.path))?;
     let mut verified = Verified::default();
     for (scene, own) in wanted {
-        verified.add(verify_arrivals(plan, pack, scene, own, verification)?);
+        verified.add(verify_unpacked(plan, pack, scene, own, verification)?);
     }
     if !verified.differences.is_empty() {
         return Err(Error::Usage(verified.differences.join("\n")));
     }
-    Ok((take(files(), &arrivals, &plan.out)?, verified))
+    Ok((take(files(), &unpacked, &plan.out)?, verified))
 }
 
 /// Lists those scenes of the plan whose files the pack has and the plan's folder lacks, with these files.
-fn list_wanted(
+fn find_wanted(
     plan: &RunPlan,
     pack: &Pack,
     alignments: &[Alignment],
@@ -89,7 +89,7 @@ fn list_wanted(
     let mut wanted = Vec::new();
     for scene in list_scenes(plan) {
         refuse_scene(&scene_folder(&plan.out, &scene))?;
-        let mut files = list_render_files(&scene, &plan.render, alignments, plan.ladders);
+        let mut files = list_wanted(&scene, &plan.render, alignments, plan.ladders);
         files.retain(|file| packed.get(&*file.path.to_string()) == Some(&&*file.hash));
         if files.iter().any(|file| !file.is_in(&plan.out)) {
             wanted.push((scene, files));
@@ -99,28 +99,28 @@ fn list_wanted(
 }
 
 /// Verifies the files of a scene before they are taken.
-fn verify_arrivals(
+fn verify_unpacked(
     plan: &RunPlan,
     pack: &Pack,
     scene: &Scene,
     files: &[Wanted],
     verification: &Verification,
 ) -> Result<Verified, Error> {
-    let arrivals = plan.out.join(ARRIVALS);
+    let unpacked = plan.out.join(UNPACKED);
     // Whoever wrote the manifest may have named another hash than the file has.
-    if let Some(file) = files.iter().find(|file| !file.is_in(&arrivals)) {
+    if let Some(file) = files.iter().find(|file| !file.is_in(&unpacked)) {
         return Err(Error::Usage(format!(
             "{}: the header of {} has another content_hash than manifest.json says; the pack was altered: make or fetch it again",
             pack.path.display(),
             file.path
         )));
     }
-    let folder = scene_folder(&arrivals, scene);
-    let mut kept = list_kept_scenes(&arrivals, &pack.path)?.into_iter();
+    let folder = scene_folder(&unpacked, scene);
+    let mut renders = list_scene_renders(&unpacked, &pack.path)?.into_iter();
     // All that was unpacked is verified, whether or not a truth came along: a run makes truths of replicates.
-    let kept = kept.find(|kept| kept.folder == folder);
-    let kept = kept.expect("a file of it was unpacked");
-    verify_scene(scene, &kept, verification, plan.monitor)
+    let own = renders.find(|own| own.folder == folder);
+    let own = own.expect("a file of it was unpacked");
+    verify_scene(scene, &own, verification, plan.monitor)
 }
 
 /// Lists the scenes of a plan, and behind each its later frames.
@@ -133,17 +133,17 @@ fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
 }
 
 /// Lists what the plan's folder lacks of a scene's frame and truths.
-fn list_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> BTreeSet<String> {
-    let (has_frame, has_truths) =
-        find_kept(scene, &plan.render, alignments, plan.ladders, &plan.out);
-    let name = &scene.id;
-    let frame = (!has_frame).then(|| format!("frame of {name}"));
-    let truths = (alignments.iter().zip(has_truths)).filter(|(_, is_there)| !is_there);
-    let truths = truths.map(|(alignment, _)| format!("{alignment} truth of {name}"));
+fn name_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> Vec<String> {
+    let folders = [&*plan.out];
+    let (lacks_frame, truths) =
+        find_missing(scene, &plan.render, alignments, plan.ladders, &folders);
+    let frame = lacks_frame.then(|| format!("frame of {}", scene.id));
+    let truths = truths.iter();
+    let truths = truths.map(|alignment| format!("{alignment} truth of {}", scene.id));
     frame.into_iter().chain(truths).collect()
 }
 
-/// Removes the folder of arrivals; a link in its place is removed, and not followed.
+/// Removes the folder of unpacked files; a link in its place is removed, and not followed.
 fn remove_folder(folder: &Path) -> Result<(), Error> {
     let removed = match std::fs::symlink_metadata(folder) {
         Err(_) => Ok(()),

@@ -1,4 +1,4 @@
-//! Measuring the cases of one scene that are due, against one truth after another.
+//! Measurement of the cases of one scene that no earlier run left, against one truth after another.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use store::put;
 use tracer::{Defocus, Progress, Scene, Watch};
 
 use super::case::{CaseContext, CommonTruth};
-use super::history::{frames_before, store_frame};
 use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
+use super::stored_frames::store_frames;
 use crate::Error;
 use crate::filter::depth_of_field::DepthOfField;
 use crate::filter::input_format::InputFormat;
@@ -25,28 +25,25 @@ use crate::run::failure::Failure;
 use crate::stats::intervals::truths_without_pairs;
 
 impl SceneContext<'_> {
-    /// Measures the cases that are due, and writes the record of each as soon as it is whole.
+    /// Measures some cases, and writes the record of each as soon as it is whole.
     pub(super) fn measure(
         &self,
-        due: &[&PlannedCase],
+        missing: &[&PlannedCase],
         frame: &Frame,
         advance: &dyn Fn(u64),
         watch: Watch,
     ) -> Result<Vec<Result<Case, Failure>>, Error> {
         advance(self.render_steps());
-        if due.is_empty() {
+        if missing.is_empty() {
             return Ok(Vec::new());
         }
-        let monitor = self.plan.monitor;
-        (monitor.ended)("frame and truths");
         let viewing = frame.display.into();
-        let is_due = |input: &&InputFormat| due.iter().any(|case| case.id.input == **input);
-        let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_due).copied().collect();
-        let stored_frames = store_frame(&inputs, frame, self.scene.traced(), monitor)?;
+        let is_needed = |input: &&InputFormat| missing.iter().any(|case| case.id.input == **input);
+        let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_needed).copied().collect();
+        let stored_frames = store_frames(self.plan, self.filters, self.scene, &inputs, frame)?;
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
-        let frames_before = frames_before(self.plan, self.filters, self.scene, &inputs)?;
         let common_alignment = self.plan.common_alignment();
-        let has_others = (due.iter()).any(|case| case.id.alignment != common_alignment);
+        let has_others = (missing.iter()).any(|case| case.id.alignment != common_alignment);
         // Truths take turns in memory. The common one comes first, since its colours stay.
         let mut alignments = self.scene.alignments(self.plan.alignments());
         alignments.sort_by_key(|alignment| *alignment != common_alignment);
@@ -54,7 +51,7 @@ impl SceneContext<'_> {
         let mut cases = BTreeMap::new();
         for alignment in alignments {
             let is_common = alignment == common_alignment;
-            let own: Vec<(usize, &&PlannedCase)> = (due.iter().enumerate())
+            let own: Vec<(usize, &&PlannedCase)> = (missing.iter().enumerate())
                 .filter(|(_, case)| case.id.alignment == alignment)
                 .collect();
             if own.is_empty() && !is_common {
@@ -78,13 +75,11 @@ impl SceneContext<'_> {
                 self.read_rungs(&truth),
                 &without_pairs,
                 &viewing,
-                monitor.ended,
             )?;
-            (monitor.ended)("references");
             for (at, planned) in own {
                 let progress = Progress {
                     done: cases.len() as u64,
-                    total: due.len() as u64,
+                    total: missing.len() as u64,
                 };
                 if watch(progress).is_break() {
                     return Err(tracer::TraceError::Cancelled.into());
@@ -95,7 +90,6 @@ impl SceneContext<'_> {
                     scene: self.scene,
                     frame,
                     stored_frames: &stored_frames,
-                    frames_before: &frames_before,
                     depth_of_field: depth_of_field.as_ref(),
                     references: &references,
                     read_rung: &|subframes| self.read_rung(&truth, subframes),
@@ -141,7 +135,6 @@ impl SceneContext<'_> {
         if let Some(key) = self.case_key(planned) {
             put(&self.case_record(planned), key, &files, &case)?;
         }
-        (self.plan.monitor.ended)("record");
         Ok(Ok(case))
     }
 
@@ -214,7 +207,8 @@ impl SceneContext<'_> {
             return Ok(Vec::new());
         };
         let RunPlan { render, out, .. } = self.plan;
-        let replicates = render_replicates(scene, render, alignment, out, self.plan.monitor)?;
+        let all = 0..render.replicates;
+        let replicates = render_replicates(scene, render, alignment, all, out, self.plan.monitor)?;
         Ok(truths_without_pairs(&replicates)?)
     }
 }

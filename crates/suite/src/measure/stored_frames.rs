@@ -1,0 +1,65 @@
+//! The frame in the forms in which filters get it, and the frame before, for filters that read it.
+
+use frame::Frame;
+use tracer::Scene;
+
+use super::plan::RunPlan;
+use super::run_scene::RunScene;
+use crate::Error;
+use crate::filter::choice::FilterChoice;
+use crate::filter::input_format::InputFormat;
+use crate::render::frames::render_frame;
+
+/// A frame in one of the forms in which filters get it.
+pub(crate) struct StoredFrame {
+    pub format: InputFormat,
+    pub frame: Frame,
+    /// The frame before; none for the first frame, and where no filter reads it.
+    pub before: Option<Frame>,
+}
+
+/// Stores the frame of a scene in every form, and for filters with history the frame before it.
+pub(super) fn store_frames(
+    plan: &RunPlan,
+    filters: &[FilterChoice],
+    scene: RunScene,
+    formats: &[InputFormat],
+    frame: &Frame,
+) -> Result<Vec<StoredFrame>, Error> {
+    let before = read_frame_before(plan, filters, scene)?;
+    let store = |format: &InputFormat, frame: &Frame, scene: Option<&Scene>| {
+        format.apply(frame, scene, plan.monitor)
+    };
+    (formats.iter())
+        .map(|format| {
+            let before = before.as_ref();
+            let before = before.map(|(scene, frame)| store(format, frame, Some(scene)));
+            Ok(StoredFrame {
+                format: *format,
+                frame: store(format, frame, scene.traced())?,
+                before: before.transpose()?,
+            })
+        })
+        .collect()
+}
+
+/// Reads the frame before that of a later frame, with its scene.
+fn read_frame_before(
+    plan: &RunPlan,
+    filters: &[FilterChoice],
+    scene: RunScene,
+) -> Result<Option<(Scene, Frame)>, Error> {
+    let mut filters = filters.iter();
+    let has_history = filters.any(|choice| !choice.filter.history.is_empty());
+    let later = scene
+        .traced()
+        .filter(|scene| has_history && scene.id.frame > 0);
+    let Some(later) = later else {
+        return Ok(None);
+    };
+    let is_own = |scene: &&Scene| scene.id == later.id.at_frame(0);
+    let first = plan.scenes.iter().find(is_own).expect("it is in the plan");
+    let before = first.at_frame(later.id.frame - 1);
+    let frame = render_frame(&before, &plan.render, &plan.out, plan.monitor)?;
+    Ok(Some((before, frame)))
+}

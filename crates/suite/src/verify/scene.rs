@@ -1,0 +1,213 @@
+//! Verification of a scene's rendered files.
+
+use std::path::PathBuf;
+
+use frame::{Alignment, Frame, Replicate, Shutter, Tile, Truth, read_exr};
+use store::{LADDER, RenderFile};
+use tracer::{LadderTracer, RenderSettings, Scene, TruthTracer, trace_frame_tile};
+
+use super::difference::find_difference;
+use super::scene_renders::SceneRenders;
+use super::tiles::{Verification, Work};
+use crate::render::memory::check_memory;
+use crate::render::replicates::ReplicateFiles;
+use crate::{Error, Monitor};
+
+/// The outcome of a verification.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Verified {
+    /// Tiles that were traced again and are equal, with their files.
+    pub tiles: Vec<(PathBuf, Tile)>,
+    /// Truths that are the mean of their replicates.
+    pub truths: usize,
+    /// Files that hold something else than this program makes, and what to do.
+    pub differences: Vec<String>,
+}
+
+/// Traces tiles of a scene's frame, of a replicate of each truth and of a rung of its ladder again, and compares them with the files byte
+/// for byte. Compares every truth with the mean of its replicates, and verifies replicates without a truth as well. `scene` is that of the
+/// frame that `renders` names: nothing that a file says saves it from being traced.
+///
+/// # Errors
+/// The scene cannot be rendered, or the caller interrupts. Differences are no error.
+pub fn verify_scene(
+    scene: &Scene,
+    renders: &SceneRenders,
+    verification: &Verification,
+    monitor: Monitor,
+) -> Result<Verified, Error> {
+    let mut verified = Verified::default();
+    let work = Work {
+        scene,
+        renders,
+        verification,
+        monitor,
+    };
+    if renders.files.contains(&RenderFile::Frame) {
+        verified.note(verify_frame(&work))?;
+    }
+    for alignment in renders.alignments() {
+        if renders.files.contains(&RenderFile::Truth(alignment)) {
+            let is_equal = verified.note(verify_truth(&work, alignment))?;
+            verified.truths += usize::from(is_equal);
+        } else {
+            verified.note(verify_part(&work, alignment))?;
+        }
+    }
+    Ok(verified)
+}
+
+impl Verified {
+    /// Adds what was verified of other scenes.
+    pub fn add(&mut self, other: Self) {
+        self.tiles.extend(other.tiles);
+        self.truths += other.truths;
+        self.differences.extend(other.differences);
+    }
+
+    /// Notes the tiles of a file, or the difference in their place; returns true if there is none.
+    fn note(&mut self, found: Result<Vec<(PathBuf, Tile)>, Error>) -> Result<bool, Error> {
+        let difference = match found {
+            Ok(tiles) => {
+                self.tiles.extend(tiles);
+                return Ok(true);
+            }
+            Err(Error::Broken(difference)) => difference,
+            Err(Error::File(error)) => error.to_string(),
+            Err(Error::Truth(error)) => error.to_string(),
+            Err(other) => return Err(other),
+        };
+        self.differences.push(difference);
+        Ok(false)
+    }
+}
+
+/// Verifies a frame.
+fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
+    let frame = Frame::read(&work.path(RenderFile::Frame))?;
+    let (width, height) = frame.size();
+    let provenance = &frame.provenance;
+    let settings = RenderSettings {
+        width: width - 2 * frame.guard_band,
+        height: height - 2 * frame.guard_band,
+        samples_per_pixel: provenance.samples_per_pixel,
+        replicates: 1,
+        seed: provenance.seed,
+        options: frame.options,
+        guard_band: frame.guard_band,
+        exposure: Some(frame.exposure),
+    };
+    let own = tracer::frame_hash(work.scene, &settings);
+    work.expect_hash(RenderFile::Frame, &provenance.content_hash, &own)?;
+    work.trace_tiles(&[RenderFile::Frame], frame.size(), |_, tile, watch| {
+        Ok(trace_frame_tile(work.scene, &settings, tile, watch)?.to_exr())
+    })
+}
+
+/// Verifies a truth, its replicates and a rung of its ladder.
+fn verify_truth(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>, Error> {
+    let file = RenderFile::Truth(alignment);
+    let truth = Truth::read(&work.path(file))?;
+    let provenance = &truth.provenance;
+    let settings = RenderSettings {
+        samples_per_pixel: provenance.samples_per_pixel,
+        replicates: provenance.replicates,
+        ..picture_settings(provenance.seed, truth.size(), truth.shutter)
+    };
+    settings.check_truth(work.scene, alignment)?;
+    let own = tracer::truth_hash(work.scene, &settings, alignment);
+    work.expect_hash(file, &provenance.content_hash, &own)?;
+    check_memory(work.scene, &settings, settings.replicates)?;
+    expect_mean(work, &truth)?;
+    let mut tiles = trace_replicates(work, &settings, alignment, settings.replicates)?;
+    let rungs = work.renders.rungs(alignment);
+    if !rungs.is_empty() {
+        let tracer = LadderTracer::new(work.scene, &settings, &truth, &LADDER)?;
+        tiles.extend(work.trace_tiles(&rungs, truth.size(), |file, tile, watch| {
+            let rung = tracer.trace_tile(file.number(), tile, watch)?;
+            Ok(rung.into_exr())
+        })?);
+    }
+    Ok(tiles)
+}
+
+/// Traces tiles of replicates again: those of a truth, and those beyond them, which a run that asks for more replicates takes as well.
+fn trace_replicates(
+    work: &Work,
+    settings: &RenderSettings,
+    alignment: Alignment,
+    of_truth: u32,
+) -> Result<Vec<(PathBuf, Tile)>, Error> {
+    let files = ReplicateFiles::new(work.renders.folder.clone(), work.scene, settings, alignment);
+    let mut own = work.renders.replicates(alignment);
+    own.retain(|file| files.has(file.number()));
+    own.extend((0..of_truth).map(|index| RenderFile::Replicate(alignment, index)));
+    let own: Vec<RenderFile> = own.into_iter().collect();
+    let tracer = TruthTracer::new(work.scene, settings, &[alignment])?;
+    let size = (settings.width, settings.height);
+    work.trace_tiles(&own, size, |file, tile, watch| {
+        Ok(tracer.trace_tile(file.number(), tile, watch)?[0].to_exr())
+    })
+}
+
+/// Verifies replicates that have no truth beside them, as a part of a render has. A ladder goes with a truth.
+fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>, Error> {
+    if let Some(rung) = work.renders.rungs(alignment).first() {
+        return Err(Error::Broken(format!(
+            "{}: there is no {} beside it, without which a ladder cannot be traced again; render {} again",
+            work.shown(*rung).display(),
+            RenderFile::Truth(alignment),
+            work.scene.id
+        )));
+    }
+    let Some(first) = work.renders.replicates(alignment).pop_first() else {
+        return Ok(Vec::new());
+    };
+    let replicate = Replicate::read(&work.path(first))?;
+    let (color, provenance) = (&replicate.picture.color, &replicate.provenance);
+    let size = (color.width, color.height);
+    let settings = RenderSettings {
+        // Those of the smallest truth that it can be a part of.
+        samples_per_pixel: provenance.samples_per_pixel.saturating_mul(2),
+        replicates: 2,
+        ..picture_settings(provenance.seed, size, replicate.shutter)
+    };
+    settings.check_truth(work.scene, alignment)?;
+    check_memory(work.scene, &settings, settings.replicates)?;
+    let own = tracer::replicate_hash(work.scene, &settings, alignment);
+    work.expect_hash(first, &provenance.content_hash, &own)?;
+    trace_replicates(work, &settings, alignment, 0)
+}
+
+/// Returns the settings of a truth of this size and shutter, but for its samples.
+fn picture_settings(seed: u64, (width, height): (u32, u32), shutter: Shutter) -> RenderSettings {
+    RenderSettings {
+        width,
+        height,
+        seed,
+        // That of the shutter, bit for bit: an interval has it whole or in halves.
+        exposure: Some(shutter.close - shutter.open),
+        ..RenderSettings::default()
+    }
+}
+
+/// Refuses a truth that is not the mean of its replicates.
+fn expect_mean(work: &Work, truth: &Truth) -> Result<(), Error> {
+    let file = RenderFile::Truth(truth.alignment);
+    let replicates = (0..truth.provenance.replicates)
+        .map(|index| Replicate::read(&work.path(RenderFile::Replicate(truth.alignment, index))))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mean = Truth::of(&replicates)?.to_exr();
+    let (width, height) = truth.size();
+    match find_difference(
+        &read_exr(&work.path(file))?,
+        Tile::whole(width, height),
+        &mean,
+    ) {
+        None => Ok(()),
+        Some(difference) => {
+            let text = format!("is not the mean of its replicates: {difference}");
+            Err(work.altered(file, &text))
+        }
+    }
+}
