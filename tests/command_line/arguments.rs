@@ -45,16 +45,16 @@ fn a_moved_command_names_its_new_place() {
     let bench = Bench::new();
     for (words, place) in [
         (
-            &["engine", "ingest", "capture"][..],
+            &["ingest", "capture"][..],
             "ingest: use shuttertruth engine ingest",
         ),
         (&["-q", "accept"], "accept: use shuttertruth limits accept"),
         (
-            &["tune", "compare", "a", "b"],
+            &["compare-presets", "a", "b"],
             "compare-presets: use shuttertruth tune compare",
         ),
         (
-            &["tune", "search", "--filter", "jump_flood"],
+            &["tune", "--filter", "jump_flood"],
             "tune: use shuttertruth tune search",
         ),
     ] {

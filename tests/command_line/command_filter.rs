@@ -49,7 +49,7 @@ fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
     let bench = Bench::new();
     let program = env!("CARGO_BIN_EXE_shuttertruth");
     let command = format!(
-        "command = ['{program}', 'blur', '--filter', 'velocity_gather', '--frame', '{{frame}}', '--out', '{{out}}', \
+        "command = ['{program}', 'engine', 'blur', '--filter', 'velocity_gather', '--frame', '{{frame}}', '--out', '{{out}}', \
          '--set', 'velocity_gather.samples={{samples}}', '--exposure', '{{exposure}}']\n\
          [[parameter]]\nname = 'samples'\nkind = 'integer'\nrange = [1, 64]\ndefault = 10\ndoc = 'Taps.'\n\
          [[preset]]\nname = 'coarse'\ndoc = 'Few.'\nvalues = {{ samples = 8 }}\n"

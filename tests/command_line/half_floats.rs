@@ -206,7 +206,7 @@ fn a_program_that_rounds_is_told_so() {
     let bench = Bench::new();
     write_blur(&bench, "half", "rgba16float", "1.0");
     let command = format!(
-        "command = ['{}', 'blur', '--filter', '{}', '--frame', '{{frame}}', '--out', '{{out}}', '--exposure', '{{exposure}}']",
+        "command = ['{}', 'engine', 'blur', '--filter', '{}', '--frame', '{{frame}}', '--out', '{{out}}', '--exposure', '{{exposure}}']",
         env!("CARGO_BIN_EXE_shuttertruth"),
         bench.path("half").display(),
     );

@@ -272,11 +272,9 @@ fn missing_truncated_and_altered_files_are_made_again() {
     type Damage<'a> = &'a dyn Fn(&[u8]) -> Option<Vec<u8>>;
     let damages: [Damage; 3] = [&|_| None, &|bytes| Some(cut(bytes)), &|bytes| {
         let mut bytes = bytes.to_vec();
-        // Damages a score's digit, or some bits of a pixel.
-        let mut later = bytes.len() * 3 / 4..bytes.len();
-        let digit = later.find(|at| bytes[*at].is_ascii_digit());
+        // Damages some bits of a pixel.
         let middle = bytes.len() / 2;
-        bytes[digit.unwrap_or(middle)] ^= 1;
+        bytes[middle] ^= 1;
         Some(bytes)
     }];
     let one = names([&["identity_default"][..]]);
@@ -290,7 +288,9 @@ fn missing_truncated_and_altered_files_are_made_again() {
         ("ladder_trailing/n4.exr", &BTreeSet::new()),
     ] {
         let whole = contents(name);
-        for damage in damages {
+        // A record has the hashes of its files, and none of itself: whoever can change it can write any hash into it.
+        let noticed = if name.ends_with(".json") { 2 } else { 3 };
+        for damage in &damages[..noticed] {
             let path = bench.path("out/plate").join(name);
             match damage(&whole) {
                 None => fs::remove_file(&path).unwrap(),

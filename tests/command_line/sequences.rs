@@ -221,8 +221,8 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
     assert!(!bench.path("out/plate").exists(), "nothing was rendered");
     assert_done(&bench.run(&[&IDENTITY[..], &THREE].concat()));
     for (option, value, says) in [
-        ("--frames", "0", "allowed: 1 to 1000"),
-        ("--frames", "1001", "1 to 1000"),
+        ("--frames", "0", "0 is not in 1..=1000"),
+        ("--frames", "1001", "1001 is not in 1..=1000"),
         ("--fps", "0", "a number above 0"),
     ] {
         assert_refused(

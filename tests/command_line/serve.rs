@@ -158,7 +158,7 @@ fn optuna(bench: &Bench, more: &[&str]) -> Command {
     let folder = program.parent().unwrap().display();
     command.env("PATH", format!("{folder}:{path}"));
     let words = SERVE.replace("flip ", "flip,bleed ");
-    command.args(&split(&words)[1..]);
+    command.args(&split(&words)[2..]);
     command
 }
 

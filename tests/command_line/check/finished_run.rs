@@ -41,7 +41,7 @@ fn a_finished_run_is_judged_without_an_adapter() {
     assert_refused(
         &judge(&["out"]),
         2,
-        &["out/run.json", "no score of it has a bound"],
+        &["out/run.json", "none of its scores has a bound"],
     );
     let output = judge(&["out", "--size", "64x32"]);
     assert_refused(&output, 2, &["--size", "cannot be used with", "RUN"]);

@@ -136,7 +136,7 @@ fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
         "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
          velocity_gather:fine --frames 2 --jitter-frames 0",
     );
-    let refused = bench.shuttertruth(&[&words[..12], &["--metrics", "flicker"]].concat());
+    let refused = bench.shuttertruth(&[&words[..13], &["--metrics", "flicker"]].concat());
     assert_refused(
         &refused,
         2,

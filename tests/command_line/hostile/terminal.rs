@@ -181,7 +181,7 @@ fn a_closed_or_full_standard_error_changes_no_exit_code() {
         command.status().unwrap().code()
     };
     let wrong = "\"$0\" report nowhere --html p.html";
-    let tune = "\"$0\" tune --filter jump_flood --vary samples --objective flip --size 64x32 --samples-per-pixel 16 \
+    let tune = "\"$0\" tune search --filter jump_flood --vary samples --objective flip --size 64x32 --samples-per-pixel 16 \
                 --budget 1 --out tuned";
     let list = "\"$0\" list";
     for (line, code) in [

@@ -59,7 +59,7 @@ fn folders_that_are_no_captures_are_refused() {
         ),
         (
             "engine.toml",
-            ["engine.toml: there is no such file", "--convention"],
+            ["engine.toml: there is no such file", "name another file"],
         ),
         (
             "color.exr",

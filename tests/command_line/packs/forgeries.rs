@@ -159,7 +159,7 @@ fn no_pack_turns_a_failed_check_into_a_success() {
     refuse_check(&[replicate, "channel"]);
     pack();
     leave_out(&bench, "plate/truth_trailing.exr");
-    let ladder = "plate/ladder_trailing: there is no truth_trailing.exr beside it";
+    let ladder = "plate/ladder_trailing/n1.exr: there is no truth_trailing.exr beside it";
     refuse(&bench, &[ladder]);
     for file in ["truth_trailing.exr", "frame.exr"] {
         mark_drawn(&bench.path("out/plate").join(file));

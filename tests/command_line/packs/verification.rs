@@ -227,7 +227,7 @@ fn what_holds_no_truth_is_refused() {
     assert_refused(
         &verify(&["--tiles", "0"]),
         2,
-        &["--tiles 0; allowed: 1 to 10000"],
+        &["'0' for '--tiles <N>': 0 is not in 1..=10000"],
     );
     // A truth without ladder or frame, as `render` leaves it, is verified as far as it goes.
     bench.execute(&split(

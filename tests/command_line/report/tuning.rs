@@ -106,7 +106,7 @@ fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
 #[test]
 fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
     let bench = set_up();
-    let words: Vec<&str> = TUNE.split_whitespace().skip(1).collect();
+    let words: Vec<&str> = TUNE.split_whitespace().skip(2).collect();
     bench.execute(&[&["tune", "sensitivity", "--rows", "4"], &words[..]].concat());
     let page = make_page(&bench);
     let found: Sensitivity =

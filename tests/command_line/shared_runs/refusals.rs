@@ -63,7 +63,7 @@ fn a_run_on_another_adapter_is_refused() {
     let found = [
         "plate/run.json was measured on",
         "with the driver other",
-        "--adapter",
+        "the same adapter and driver",
     ];
     refused(&bench, &["plate", "slow"], &found);
 }

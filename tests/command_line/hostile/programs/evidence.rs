@@ -18,7 +18,6 @@ struct Record {
     inputs: String,
     files: BTreeMap<String, String>,
     made: Case,
-    seal: String,
 }
 
 /// Makes a bench whose scene has a bound that the identity breaks.
@@ -28,15 +27,13 @@ fn set_up() -> Bench {
     bench
 }
 
-/// Writes a good score into the record and seals it anew, as anybody could.
+/// Writes a good score into the record, as anybody could.
 fn forge(bench: &Bench) {
     let text = fs::read(bench.path(RECORD)).unwrap();
     let mut record: Record = serde_json::from_slice(&text).unwrap();
     record.made.scores.moving.flip = Measured::score(0.001, 0.001);
     let interval = (record.made.intervals.get_mut(&Metric::FLIP)).expect("it is bounded");
     (interval.low, interval.high) = (0.0, 0.002);
-    let sealed = serde_json::to_vec(&(&record.inputs, &record.files, &record.made)).unwrap();
-    record.seal = blake3::hash(&sealed).to_hex().to_string();
     fs::write(bench.path(RECORD), serde_json::to_vec(&record).unwrap()).unwrap();
 }
 

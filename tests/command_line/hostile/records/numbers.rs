@@ -57,9 +57,8 @@ fn numbers_out_of_range_are_refused_with_the_allowed_range() {
             &["--rows", "0 to 1000000"],
         ),
     ] {
-        let (command, more) = words.split_once(' ').unwrap();
-        let mut line = vec![command, "--quiet", "--out", "out"];
-        line.extend(split(more));
+        let mut line = split(words);
+        line.extend(["--quiet", "--out", "out"]);
         assert_refused(&bench.shuttertruth(&line), 2, parts);
         assert!(!bench.path("out").exists(), "{words} left something behind");
     }
@@ -90,9 +89,9 @@ fn every_command_refuses_a_scene_whose_exposures_show_nothing() {
     ] {
         let table = format!("[display]\n{display}\n\n[camera]");
         bench.write("scene.toml", &SCENE.replace("[camera]", &table));
-        for command in ["run", "render"] {
-            let words = [command, "--quiet", "--out", "out"];
-            assert_refused(&bench.shuttertruth(&words), 2, parts);
+        for command in ["run", "truths render"] {
+            let words = split(command).into_iter().chain(["--quiet", "--out", "out"]);
+            assert_refused(&bench.shuttertruth(&words.collect::<Vec<_>>()), 2, parts);
         }
     }
 }

@@ -137,21 +137,21 @@ fn circular_links_and_pipes_are_not_read_as_parts() {
 
     let path = bench.path(SECOND);
     fs::remove_file(&path).unwrap();
-    let refused = |found: &str| {
+    let refused = || {
         assert_refused(
             &merge(&bench, &["a", "b"]),
             2,
-            &["replicate_001.exr", found],
+            &["b holds no replicates"],
         )
     };
     make_fifo(&path);
-    refused("a regular file is expected");
+    refused();
     fs::remove_file(&path).unwrap();
     symlink("/dev/zero", &path).unwrap();
-    refused("a regular file is expected");
+    refused();
     fs::remove_file(&path).unwrap();
     fs::create_dir(&path).unwrap();
-    refused("a regular file is expected");
+    refused();
     assert_refused(
         &merge(&bench, &["a", "b/plate/none"]),
         2,
