@@ -35,17 +35,17 @@ impl Default for FlipExposures {
 }
 
 /// Upper limit on the stops of a display or of FLIP, up or down. Radiance times `2^stops` stays a number.
-pub const MOST_STOPS: f32 = 32.0;
+pub const MAX_STOPS: f32 = 32.0;
 
 /// Upper limit on the exposures of HDR-FLIP.
-const MOST_FLIP_EXPOSURES: u32 = 128;
+const MAX_FLIP_EXPOSURES: u32 = 128;
 
 /// Refuses more stops than can be shown or compared.
 fn check_stops(what: &str, stops: f32) -> Result<(), String> {
-    match stops.abs() <= MOST_STOPS {
+    match stops.abs() <= MAX_STOPS {
         true => Ok(()),
         false => Err(format!(
-            "{what} = {stops}; allowed: stops from -{MOST_STOPS} to {MOST_STOPS}"
+            "{what} = {stops}; allowed: stops from -{MAX_STOPS} to {MAX_STOPS}"
         )),
     }
 }
@@ -54,9 +54,9 @@ impl FlipExposures {
     /// Refuses too many stops, an empty range, and a count that FLIP does not take.
     pub fn check(&self) -> Result<(), String> {
         let Self { start, stop, count } = self;
-        if !(2..=MOST_FLIP_EXPOSURES).contains(count) {
+        if !(2..=MAX_FLIP_EXPOSURES).contains(count) {
             return Err(format!(
-                "flip has {count} exposures; allowed: 2 to {MOST_FLIP_EXPOSURES}"
+                "flip has {count} exposures; allowed: 2 to {MAX_FLIP_EXPOSURES}"
             ));
         }
         check_stops("flip start", *start)?;

@@ -46,9 +46,9 @@ mod truth;
 pub use accumulation::{Accumulation, Ladder, rung_file};
 pub use at_instant::AtInstant;
 pub use camera::{Camera, CameraPose};
-pub use display::{Display, FlipExposures, MOST_STOPS, decode_srgb, display_srgb, scene_linear};
+pub use display::{Display, FlipExposures, MAX_STOPS, decode_srgb, display_srgb, scene_linear};
 pub use exr::{
-    Channel, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS,
+    Channel, ExrFile, LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MAX_EXR_BYTES, MAX_EXR_CHANNELS,
     Samples, read_attribute, read_exr, read_exr_header, write_exr, write_half_exr,
 };
 pub use file::{FileError, read_bounded, remove_leftovers, write_atomically, write_streamed};
@@ -57,7 +57,7 @@ pub use frame_options::{ColorSampling, FrameOptions, VelocityKind};
 pub use hidden::is_hidden;
 pub use picture::Picture;
 pub use png::{
-    MOST_PNG_PIXELS, check_png_palette, png_bytes, read_png, write_animated_png, write_png,
+    MAX_PNG_PIXELS, check_png_palette, png_bytes, read_png, write_animated_png, write_png,
 };
 pub use provenance::Provenance;
 pub use raster::{Image, Plane, Raster, Vectors};

@@ -77,14 +77,14 @@ fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64)
     let more = (half_width / apart).powi(2);
     let own = u64::from(run.render.samples_per_pixel);
     let mut samples = own;
-    while (samples as f64) < more * own as f64 && samples < MOST_SAMPLES {
+    while (samples as f64) < more * own as f64 && samples < MAX_SAMPLES {
         samples *= 2;
     }
     samples
 }
 
 /// Upper limit on the samples per pixel of a truth: a score that needs as many or more stays undecided.
-pub const MOST_SAMPLES: u64 = tracer::MOST_SAMPLES as u64;
+pub const MAX_SAMPLES: u64 = tracer::MAX_SAMPLES as u64;
 
 impl Finding {
     /// Makes the finding about a judged score of a case, without evidence.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use frame::{read_bounded, write_atomically};
 use serde::{Deserialize, Serialize};
-use store::{MOST_RUN_BYTES, is_below, read_text_within, to_lines};
+use store::{MAX_RUN_BYTES, is_below, read_text_within, to_lines};
 use suite::{Error, PROGRAM, Run};
 
 use crate::Finding;
@@ -54,7 +54,7 @@ impl Judgement {
         if !path.exists() {
             return Ok(None);
         }
-        let text = read_text_within(&path, MOST_RUN_BYTES)?;
+        let text = read_text_within(&path, MAX_RUN_BYTES)?;
         let refuse = |reason: String| {
             Err(Error::Usage(format!(
                 "{}: {reason}; judge the run again: shuttertruth check {}",
@@ -99,6 +99,6 @@ fn check_finding(finding: &Finding, run: &Run) -> Result<(), String> {
 
 fn hash_of_run(folder: &Path) -> Result<String, Error> {
     let path = folder.join("run.json");
-    let bytes = read_bounded(&path, MOST_RUN_BYTES)?;
+    let bytes = read_bounded(&path, MAX_RUN_BYTES)?;
     Ok(blake3::hash(&bytes).to_hex().to_string())
 }

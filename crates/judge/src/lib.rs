@@ -37,14 +37,14 @@ pub use compare::{
 pub use decision::Decision;
 pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
-pub use finding::{Finding, MOST_SAMPLES, number};
+pub use finding::{Finding, MAX_SAMPLES, number};
 pub use judged_score::{JudgedScore, judge_scores, judge_sequence};
 pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
 pub use outcome::{Outcome, badness_within};
-pub use ranking::lag::{lag_text, mean_lag};
-pub use ranking::ranking::{
-    MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
+pub use ranking::filters::{
+    MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
 };
+pub use ranking::lag::{lag_text, mean_lag};
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 pub use results::{RESULTS_FORMAT, ResultCost, ResultScores, Results};
 use suite::{Case, Run, Sequence};

@@ -82,7 +82,7 @@ pub enum MeasureError {
     #[error(
         "viewing exposure {stops}, HDR-FLIP exposures from {start} to {stop} in {count} steps; allowed: stops from -{most} to \
          {most}, start not above stop, 2 to 128 steps",
-        most = frame::MOST_STOPS
+        most = frame::MAX_STOPS
     )]
     Exposures {
         /// Exposure of LDR comparisons, in stops.

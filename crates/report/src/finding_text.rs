@@ -1,6 +1,6 @@
 //! A finding in words: its status, its score and the way out.
 
-use judge::{Finding, Length, Level, MOST_SAMPLES, Outcome, badness_within, number};
+use judge::{Finding, Length, Level, MAX_SAMPLES, Outcome, badness_within, number};
 use maud::{Markup, Render, html};
 use metrics::{Ideal, Interval};
 
@@ -175,7 +175,7 @@ pub fn way_out(finding: &Finding) -> Option<String> {
         )),
         Outcome::Inconclusive => Some(match finding.settled_by {
             None => "too noisy for a confidence interval; render more samples per pixel".to_owned(),
-            Some(MOST_SAMPLES..) => {
+            Some(MAX_SAMPLES..) => {
                 "too close to the limit for any number of samples; move the limit".to_owned()
             }
             Some(samples) => format!("{samples} samples per pixel would settle it"),

@@ -10,7 +10,7 @@ use frame::{FileError, read_bounded, write_atomically};
 use crate::Error;
 
 /// Upper limit on the bytes of a file that is taken from another folder.
-pub const MOST_TAKEN_BYTES: u64 = 1 << 32;
+pub const MAX_TAKEN_BYTES: u64 = 1 << 32;
 
 /// The source of each file, by its path below the parts.
 pub type Files = BTreeMap<PathBuf, PathBuf>;
@@ -37,7 +37,7 @@ pub fn gather<'a>(
 
 /// Refuses two files of one name with other bytes.
 fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
-    let read = |path: &Path| read_bounded(path, MOST_TAKEN_BYTES);
+    let read = |path: &Path| read_bounded(path, MAX_TAKEN_BYTES);
     if is_one_file(one, other) || read(one)? == read(other)? {
         return Ok(());
     }
@@ -84,7 +84,7 @@ pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
     match fs::hard_link(from, to) {
         Ok(()) => Ok(()),
         // Another disk, or a system without such names.
-        Err(_) => write_atomically(to, &read_bounded(from, MOST_TAKEN_BYTES)?),
+        Err(_) => write_atomically(to, &read_bounded(from, MAX_TAKEN_BYTES)?),
     }
 }
 

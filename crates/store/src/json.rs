@@ -4,17 +4,17 @@ use frame::FileError;
 use tracer::Location;
 
 /// Upper limit on the bytes of a baseline, bench.json, a journal and other files of numbers.
-pub const MOST_JSON_BYTES: u64 = 1 << 28;
+pub const MAX_JSON_BYTES: u64 = 1 << 28;
 
 /// Upper limit on the bytes of run.json, and of the judgement of it.
-pub const MOST_RUN_BYTES: u64 = 1 << 30;
+pub const MAX_RUN_BYTES: u64 = 1 << 30;
 
-/// Reads the text of a regular file of at most [`MOST_JSON_BYTES`].
+/// Reads the text of a regular file of at most [`MAX_JSON_BYTES`].
 ///
 /// # Errors
 /// The file cannot be read, is larger, or holds something else than UTF-8.
 pub fn read_text(file: impl Into<Location>) -> Result<String, FileError> {
-    read_text_within(file, MOST_JSON_BYTES)
+    read_text_within(file, MAX_JSON_BYTES)
 }
 
 /// Reads the text of a regular file of at most `most` bytes, with the same errors.

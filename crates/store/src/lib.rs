@@ -20,8 +20,8 @@ pub use claim::{Claim, Sharing, claim};
 pub use clear::clear_scene;
 pub use error::Error;
 pub use folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
-pub use gather::{Files, MOST_TAKEN_BYTES, gather, place_file, place_files};
-pub use json::{MOST_JSON_BYTES, MOST_RUN_BYTES, read_text, read_text_within};
+pub use gather::{Files, MAX_TAKEN_BYTES, gather, place_file, place_files};
+pub use json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within};
 pub use json_lines::to_lines;
 pub use json_strings::check_strings;
 pub use printable::{printable, printable_lines, printable_path, printable_table};
@@ -29,6 +29,6 @@ pub use record::{
     CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, remove_altered_files,
 };
 pub use render_file::{
-    LADDER, MOST_REPLICATES, RenderFile, RenderPath, Wanted, ladder_folder, list_renders, take,
+    LADDER, MAX_REPLICATES, RenderFile, RenderPath, Wanted, ladder_folder, list_renders, take,
 };
 pub use tracked::refuse_tracked;

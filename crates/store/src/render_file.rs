@@ -11,7 +11,7 @@ use crate::gather::place_file;
 /// Sub-frame counts of the ladder that N_eq is read from.
 pub const LADDER: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 /// Upper limit on the replicates of a truth.
-pub const MOST_REPLICATES: u32 = 4096;
+pub const MAX_REPLICATES: u32 = 4096;
 
 /// A rendered file of one scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -60,7 +60,7 @@ impl RenderFile {
             _ => return None,
         };
         let is_made = match found {
-            Self::Replicate(_, index) => index < MOST_REPLICATES,
+            Self::Replicate(_, index) => index < MAX_REPLICATES,
             Self::Rung(_, subframes) => LADDER.contains(&subframes),
             _ => true,
         };

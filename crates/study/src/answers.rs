@@ -9,7 +9,7 @@ use crate::study::Study;
 /// Version of the layout of a file of answers.
 pub const ANSWERS_FORMAT: u32 = 1;
 /// Upper limit on the bytes of a file of answers.
-pub const MOST_ANSWER_BYTES: u64 = 1 << 24;
+pub const MAX_ANSWER_BYTES: u64 = 1 << 24;
 
 /// Name of the truth in a file of answers.
 pub const TRUTH_CLIP: &str = "[truth]";

@@ -8,7 +8,7 @@
 use crate::paired_counts::PairedCounts;
 
 /// Upper limit on the steps of a fit; it takes about ten.
-const MOST_STEPS: usize = 200;
+const MAX_STEPS: usize = 200;
 /// Largest change of a strength in one step: farther away the quadratic model means nothing.
 const LARGEST_STEP: f64 = 2.0;
 /// Change of a strength at which the fit ends.
@@ -34,7 +34,7 @@ pub fn fit_penalized(counts: &PairedCounts, penalty: f64) -> Option<Vec<f64>> {
         return None;
     }
     let mut values = vec![0.0; counts.items];
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let inverse = invert(information(counts, &values), counts.items);
         let slopes = slopes(counts, &values, &inverse, penalty);
         let steps: Vec<f64> = (inverse.chunks(counts.items))

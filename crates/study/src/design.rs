@@ -8,7 +8,7 @@ use crate::study::{Study, round_size};
 /// Number of pairs per check.
 const PAIRS_PER_CHECK: usize = 8;
 /// Fewest checks of a session.
-const FEWEST_CHECKS: usize = 2;
+const MIN_CHECKS: usize = 2;
 
 /// One of two clips that are shown side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +61,7 @@ pub fn draw_session(study: &Study, question: Question, seed: u64) -> Vec<ShownPa
             });
         }
     }
-    let checks = trials.len().div_ceil(PAIRS_PER_CHECK).max(FEWEST_CHECKS);
+    let checks = trials.len().div_ceil(PAIRS_PER_CHECK).max(MIN_CHECKS);
     for check in 0..checks {
         trials.push(draw_check(study, question, check, &mut random));
     }

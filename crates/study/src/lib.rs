@@ -16,17 +16,17 @@ mod study;
 
 pub use agreement::PeopleAgreement;
 pub use answers::{
-    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, DisplayFacts, MOST_ANSWER_BYTES, SHARP_CLIP,
+    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, DisplayFacts, MAX_ANSWER_BYTES, SHARP_CLIP,
     TRUTH_CLIP,
 };
 pub use clips::{ClipFiles, StudyChoice, make_study};
 pub use design::{Clip, ShownPair, draw_session};
-pub use preference_scale::{FEWEST_PEOPLE, RESAMPLES, Resampled};
+pub use preference_scale::{MIN_PEOPLE, RESAMPLES, Resampled};
 pub use preferences::{
     FilterStrength, PREFERENCES_FORMAT, Preferences, QuestionResult, SessionFacts, ShutterScale,
     find_preferences,
 };
 pub use question::Question;
 pub use score_agreement::ScoreAgreement;
-pub use session::{MOST_SESSIONS, Session, read_sessions, refuse_other_run};
-pub use study::{MOST_ASKED_FILTERS, MOST_ASKED_SCENES, SECONDS_PER_QUESTION, Study, StudyShutter};
+pub use session::{MAX_SESSIONS, Session, read_sessions, refuse_other_run};
+pub use study::{MAX_ASKED_FILTERS, MAX_ASKED_SCENES, SECONDS_PER_QUESTION, Study, StudyShutter};

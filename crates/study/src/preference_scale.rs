@@ -7,11 +7,11 @@ use crate::bradley_terry::fit_strengths;
 use crate::paired_counts::PairedCounts;
 
 /// Fewer people than this are no sample of people: their answers are drawn again in place of them.
-pub const FEWEST_PEOPLE: usize = 5;
+pub const MIN_PEOPLE: usize = 5;
 /// Number of resamples.
 pub const RESAMPLES: usize = 1000;
 /// Part of the resamples that may lack a scale before there are no intervals.
-const MOST_BROKEN: f64 = 0.05;
+const MAX_BROKEN: f64 = 0.05;
 
 /// One comparison by one person.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,7 +80,7 @@ pub fn scale_preferences(
     };
     let strengths = fit_strengths(&sum(&mut counts.iter()))?;
     let resampled = match people.len() {
-        ..FEWEST_PEOPLE => Resampled::Answers,
+        ..MIN_PEOPLE => Resampled::Answers,
         _ => Resampled::People,
     };
     let mut random = Random(1);
@@ -103,7 +103,7 @@ pub fn scale_preferences(
         Resampled::People => people.len(),
         Resampled::Answers => people.iter().map(Vec::len).sum(),
     };
-    let is_whole = resamples > 0 && drawn.len() as f64 >= (1.0 - MOST_BROKEN) * resamples as f64;
+    let is_whole = resamples > 0 && drawn.len() as f64 >= (1.0 - MAX_BROKEN) * resamples as f64;
     let intervals = (is_whole && units >= 2).then(|| {
         let units = units as f64;
         let student = StudentsT::new(0.0, 1.0, units - 1.0).expect("two have a degree of freedom");

@@ -4,7 +4,7 @@ use metrics::{Metric, SequenceMetric};
 use serde::Serialize;
 use suite::{Case, Run, Sequence, TWO_SIDED, Weighted, scene_mean};
 
-use crate::preference_scale::{FEWEST_PEOPLE, PreferenceScale};
+use crate::preference_scale::{MIN_PEOPLE, PreferenceScale};
 use crate::rank_correlation::rank_correlation;
 use crate::session::Session;
 use crate::study::Study;
@@ -19,7 +19,7 @@ const OF_PICTURES: [Metric; 6] = [
     Metric::LABEL,
 ];
 /// Fewer filters than this have no order to speak of.
-const FEWEST_RANKED: usize = 3;
+const MIN_RANKED: usize = 3;
 
 /// How well one score predicts people.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -65,7 +65,7 @@ fn compare_score(
     sessions: &[&Session],
     scale: &PreferenceScale,
 ) -> ScoreAgreement {
-    let goodness = mean_goodness(table).filter(|means| means.len() >= FEWEST_RANKED);
+    let goodness = mean_goodness(table).filter(|means| means.len() >= MIN_RANKED);
     let correlate = |strengths: &Vec<f64>| rank_correlation(strengths, goodness.as_ref()?);
     let correlation = correlate(&scale.strengths);
     let resampled: Vec<f64> = scale.resamples.iter().filter_map(correlate).collect();
@@ -79,7 +79,7 @@ fn compare_score(
         correlation,
         correlation_interval: (can_have_interval.then(|| percentiles(resampled))).flatten(),
         predicted: mean.map(|mean| mean.mean),
-        predicted_interval: (mean.filter(|_| people.len() >= FEWEST_PEOPLE))
+        predicted_interval: (mean.filter(|_| people.len() >= MIN_PEOPLE))
             .map(|mean| mean.interval.map(|end| end.clamp(0.0, 1.0))),
         choices: people.iter().map(|own| own.weight).sum::<f64>() as usize,
     }

@@ -6,7 +6,7 @@ use store::{check_strings, read_text_within};
 use suite::Error;
 
 use crate::answers::{
-    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, MOST_ANSWER_BYTES, SHARP_CLIP, TRUTH_CLIP,
+    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, MAX_ANSWER_BYTES, SHARP_CLIP, TRUTH_CLIP,
 };
 use crate::design::{Clip, ShownPair, draw_session};
 use crate::preference_scale::Comparison;
@@ -14,7 +14,7 @@ use crate::question::Question;
 use crate::study::Study;
 
 /// Upper limit on sessions that are read together.
-pub const MOST_SESSIONS: usize = 1000;
+pub const MAX_SESSIONS: usize = 1000;
 /// Largest seed: JavaScript's numbers hold it exactly.
 const LARGEST_SEED: u64 = (1 << 53) - 1;
 
@@ -37,9 +37,9 @@ pub struct Session {
 /// A file is none of answers, of another format or of another study, shows pairs that its seed does not draw, or repeats the seed of
 /// another one.
 pub fn read_sessions(paths: &[PathBuf]) -> Result<(Study, Vec<Session>), Error> {
-    if !(1..=MOST_SESSIONS).contains(&paths.len()) {
+    if !(1..=MAX_SESSIONS).contains(&paths.len()) {
         return Err(Error::Usage(format!(
-            "{} files of answers; allowed: 1 to {MOST_SESSIONS}",
+            "{} files of answers; allowed: 1 to {MAX_SESSIONS}",
             paths.len()
         )));
     }
@@ -47,7 +47,7 @@ pub fn read_sessions(paths: &[PathBuf]) -> Result<(Study, Vec<Session>), Error> 
     let mut sessions: Vec<Session> = Vec::new();
     for path in paths {
         let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
-        let file = parse(&read_text_within(path.as_path(), MOST_ANSWER_BYTES)?).map_err(refuse)?;
+        let file = parse(&read_text_within(path.as_path(), MAX_ANSWER_BYTES)?).map_err(refuse)?;
         let study = first.get_or_insert_with(|| file.study.clone());
         if *study != file.study {
             return Err(refuse(format!(

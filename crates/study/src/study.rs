@@ -4,12 +4,12 @@ use std::collections::HashSet;
 
 use frame::Alignment;
 use serde::{Deserialize, Serialize};
-use suite::{Frames, MOST_FRAMES};
+use suite::{Frames, MAX_FRAMES};
 
 /// Upper limit on the filters of one shutter that people compare.
-pub const MOST_ASKED_FILTERS: usize = 64;
+pub const MAX_ASKED_FILTERS: usize = 64;
 /// Upper limit on the scenes that people see.
-pub const MOST_ASKED_SCENES: usize = 256;
+pub const MAX_ASKED_SCENES: usize = 256;
 /// Time that a question takes, in seconds: a guess, for nobody has answered yet.
 pub const SECONDS_PER_QUESTION: f64 = 8.0;
 
@@ -70,17 +70,17 @@ impl Study {
 
     /// Refuses what no study is; the error says what is wrong and what is allowed.
     pub fn check(&self) -> Result<(), String> {
-        if !(1..=MOST_ASKED_SCENES).contains(&self.scenes.len()) {
+        if !(1..=MAX_ASKED_SCENES).contains(&self.scenes.len()) {
             return Err(format!(
-                "has this many scenes: {}; allowed: 1 to {MOST_ASKED_SCENES}",
+                "has this many scenes: {}; allowed: 1 to {MAX_ASKED_SCENES}",
                 self.scenes.len()
             ));
         }
         refuse_twice("scene", self.scenes.iter().map(String::as_str))?;
         let rate = self.frames.per_second;
-        if !(1..=MOST_FRAMES).contains(&self.frames.count) || !rate.is_finite() || rate <= 0.0 {
+        if !(1..=MAX_FRAMES).contains(&self.frames.count) || !rate.is_finite() || rate <= 0.0 {
             return Err(format!(
-                "has {} frames at {} per second; allowed: 1 to {MOST_FRAMES}, above 0 per second",
+                "has {} frames at {} per second; allowed: 1 to {MAX_FRAMES}, above 0 per second",
                 self.frames.count, rate
             ));
         }
@@ -104,9 +104,9 @@ impl Study {
 
     fn check_shutter(&self, own: &StudyShutter) -> Result<(), String> {
         let alignment = &own.alignment;
-        if !(2..=MOST_ASKED_FILTERS).contains(&own.filters.len()) {
+        if !(2..=MAX_ASKED_FILTERS).contains(&own.filters.len()) {
             return Err(format!(
-                "has this many filters of the {alignment} shutter: {}; allowed: 2 to {MOST_ASKED_FILTERS}",
+                "has this many filters of the {alignment} shutter: {}; allowed: 2 to {MAX_ASKED_FILTERS}",
                 own.filters.len()
             ));
         }

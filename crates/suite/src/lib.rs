@@ -5,8 +5,9 @@ mod bench;
 mod colors;
 mod engine_scene;
 mod error;
-mod filter;
+mod filter_choice;
 mod identity;
+mod inputs;
 mod measure;
 mod merge;
 mod monitor;
@@ -15,6 +16,7 @@ mod pack;
 mod random;
 mod render;
 mod run;
+mod runner;
 mod score;
 mod stats;
 mod verify;
@@ -28,18 +30,17 @@ pub use engine_scene::{
     BLURRED, EngineScene, INGESTED_FILE, INGESTED_FORMAT, engine_name, name_in_one_word,
 };
 pub use error::Error;
-pub use filter::buffer_size::BufferSize;
-pub use filter::camera_jitter::CameraJitter;
-pub use filter::choice::FilterChoice;
-pub use filter::depth_format::DepthFormat;
-pub use filter::depth_of_field::DepthOfField;
-pub use filter::input_format::{InputForm, InputFormat, InputKind};
-pub use filter::multisampling::Multisampling;
-pub use filter::render_scale::RenderScale;
-pub use filter::runner::{Runner, open_adapter, open_gpu};
-pub use filter::shutter_rule::ShutterRule;
-pub use filter::velocity_format::VelocityFormat;
+pub use filter_choice::FilterChoice;
 pub use identity::{CaseId, FilterId};
+pub use inputs::buffer_size::BufferSize;
+pub use inputs::camera_jitter::CameraJitter;
+pub use inputs::depth_format::DepthFormat;
+pub use inputs::depth_of_field::DepthOfField;
+pub use inputs::input_format::{InputForm, InputFormat, InputKind};
+pub use inputs::multisampling::Multisampling;
+pub use inputs::render_scale::RenderScale;
+pub use inputs::shutter_rule::ShutterRule;
+pub use inputs::velocity_format::VelocityFormat;
 pub use measure::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use measure::estimate::{
     JobCost, RunEstimate, SceneJobs, estimate_case_seconds, estimate_jobs, estimate_render_seconds,
@@ -67,16 +68,17 @@ pub use run::error_maps::ErrorMaps;
 pub use run::failure::{Failure, refuse_failures};
 pub use run::layers::write_layers;
 pub use run::overall::Overall;
-pub use run::sequence::{Frames, MOST_FRAMES, Sequence, SequenceFrame, worst_frames};
+pub use run::sequence::{Frames, MAX_FRAMES, Sequence, SequenceFrame, worst_frames};
 pub use run::{FORMAT, Run};
+pub use runner::{Runner, open_adapter, open_gpu};
 pub use score::finished_picture::{FinishedPicture, read_finished_picture};
 pub use score::numbered::{find_numbered, numbered_file};
 pub use score::scores::{Scored, missing_scores, score};
 pub use score::sequence::{SequenceTruth, file_at_frame, score_sequence};
-pub use stats::intervals::{FEWEST_REPLICATES, intervals, truths_without_pairs};
+pub use stats::intervals::{MIN_REPLICATES, intervals, truths_without_pairs};
 pub use stats::overall::{overall, rank_filters};
 pub use stats::scene_mean::{
-    FEWEST_SCENES, ONE_SIDED, SceneMean, TWO_SIDED, Weighted, plain_mean, scene_mean,
+    MIN_SCENES, ONE_SIDED, SceneMean, TWO_SIDED, Weighted, plain_mean, scene_mean,
 };
 pub use verify::difference::TRAVERSALS;
 pub use verify::scene::{Verified, verify_scene};

@@ -2,7 +2,7 @@
 
 use frame::ShutterError;
 
-use crate::limits::{LARGEST_COORDINATE, LARGEST_SIDE, LARGEST_VALUE, MOST_PIXELS, MOST_SAMPLES};
+use crate::limits::{LARGEST_COORDINATE, LARGEST_SIDE, LARGEST_VALUE, MAX_PIXELS, MAX_SAMPLES};
 
 /// A refusal to render, or the end of a render.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -12,7 +12,7 @@ pub enum TraceError {
     Cancelled,
     /// A picture of no pixels, or of too many.
     #[error(
-        "size is {width}x{height}; allowed: 1 to {LARGEST_SIDE} pixels on either side, {MOST_PIXELS} in all"
+        "size is {width}x{height}; allowed: 1 to {LARGEST_SIDE} pixels on either side, {MAX_PIXELS} in all"
     )]
     Size {
         /// Pixels per row.
@@ -29,7 +29,7 @@ pub enum TraceError {
     /// Samples of which no replicate gets a power of two.
     #[error(
         "samples per pixel is {samples_per_pixel} over {replicates} replicates; allowed: {replicates} times a \
-         power of two up to {MOST_SAMPLES}, such as {nearest}"
+         power of two up to {MAX_SAMPLES}, such as {nearest}"
     )]
     Samples {
         /// Samples asked for.

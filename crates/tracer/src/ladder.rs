@@ -12,7 +12,7 @@ use crate::film::finite::check_picture;
 use crate::film::render::{Film, PixelMean, Times};
 use crate::film::sample_counts::SampleCounts;
 use crate::film::shutter_sampler::ShutterSampler;
-use crate::limits::MOST_SAMPLES;
+use crate::limits::MAX_SAMPLES;
 use crate::path::integrator::Integrator;
 use crate::progress::{Meter, Progress, Watch};
 use crate::sampler::Stream;
@@ -203,7 +203,7 @@ fn affordable_samples(
     let work_ratio = work_of_truth / work_of_rung.max(f64::MIN_POSITIVE);
     let per_rung = pixel_ratio.min(work_ratio) / rungs as f64;
     let most = f64::from(settings.samples_per_pixel / REPLICATES) * per_rung.min(1.0);
-    let most = (most as u32).clamp(1, MOST_SAMPLES);
+    let most = (most as u32).clamp(1, MAX_SAMPLES);
     1 << most.ilog2()
 }
 

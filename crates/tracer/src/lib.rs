@@ -41,7 +41,7 @@ pub use instant::{
     PointLayers, trace_frame, trace_frame_on, trace_frame_tile, trace_motion, trace_motion_on,
 };
 pub use ladder::{LadderTracer, trace_ladder};
-pub use limits::MOST_SAMPLES;
+pub use limits::MAX_SAMPLES;
 pub use load::{
     SceneError, SceneListing, list_scene, list_scenes, load_scene, load_scene_and_files,
 };

@@ -7,10 +7,10 @@
 pub const LARGEST_SIDE: u32 = 16_384;
 
 /// Most pixels of a picture: 8192 x 8192.
-pub const MOST_PIXELS: u64 = 67_108_864;
+pub const MAX_PIXELS: u64 = 67_108_864;
 
 /// Most samples per pixel of one replicate, as many as the tables of the Sobol sequence hold.
-pub const MOST_SAMPLES: u32 = 65_536;
+pub const MAX_SAMPLES: u32 = 65_536;
 
 /// Largest scene.toml, in bytes.
 pub const LARGEST_SCENE_FILE: u64 = 16_777_216;
@@ -25,43 +25,43 @@ pub const LARGEST_MATERIAL_FILE: u64 = 16_777_216;
 pub const LARGEST_IMAGE_FILE: u64 = 536_870_912;
 
 /// Most texels of a texture: 8192 x 8192. One takes 16 bytes.
-pub const MOST_TEXELS: u64 = 67_108_864;
+pub const MAX_TEXELS: u64 = 67_108_864;
 
 /// Most texels of all textures of a scene together: two of 8192 x 8192.
-pub const MOST_TEXELS_TOGETHER: u64 = 134_217_728;
+pub const MAX_TEXELS_TOGETHER: u64 = 134_217_728;
 
 /// Most texels of an environment: 8192 x 4096. One takes 44 bytes, for it is sampled as a light too.
-pub const MOST_ENVIRONMENT_TEXELS: u64 = 33_554_432;
+pub const MAX_ENVIRONMENT_TEXELS: u64 = 33_554_432;
 
 /// Most values of all channels and layers of an EXR file that holds an environment.
-pub const MOST_ENVIRONMENT_VALUES: u64 = 134_217_728;
+pub const MAX_ENVIRONMENT_VALUES: u64 = 134_217_728;
 
 /// Most vertices, texture coordinates or normals of an OBJ file.
-pub const MOST_VERTICES: usize = 32_000_000;
+pub const MAX_VERTICES: usize = 32_000_000;
 
 /// Most triangles of a scene's meshes together; a mesh that several objects show counts once.
-pub const MOST_TRIANGLES: usize = 32_000_000;
+pub const MAX_TRIANGLES: usize = 32_000_000;
 
 /// Most corners of a face.
-pub const MOST_CORNERS: usize = 4_096;
+pub const MAX_CORNERS: usize = 4_096;
 
 /// Most triangles that emit, counted once for each object that shows them.
-pub const MOST_EMISSIVE_TRIANGLES: usize = 8_000_000;
+pub const MAX_EMISSIVE_TRIANGLES: usize = 8_000_000;
 
 /// Most materials of an MTL file.
-pub const MOST_MATERIALS: usize = 65_536;
+pub const MAX_MATERIALS: usize = 65_536;
 
 /// Most objects of a scene.
-pub const MOST_OBJECTS: usize = 16_384;
+pub const MAX_OBJECTS: usize = 16_384;
 
 /// Most parents above an object, the parents' parents counted too.
-pub const MOST_PARENTS: usize = 256;
+pub const MAX_PARENTS: usize = 256;
 
 /// Most variants of a scene.
-pub const MOST_VARIANTS: usize = 4_096;
+pub const MAX_VARIANTS: usize = 4_096;
 
 /// Most keys of a motion, and most key shapes of a mesh.
-pub const MOST_KEYS: usize = 16_384;
+pub const MAX_KEYS: usize = 16_384;
 
 /// Greatest magnitude of a number in a scene's files: metres, watts, degrees and frames alike.
 pub const LARGEST_NUMBER: f64 = 1e12;

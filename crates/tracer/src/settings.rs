@@ -4,7 +4,7 @@ use frame::{Alignment, FrameOptions, Shutter};
 use serde::{Deserialize, Serialize};
 
 use crate::error::TraceError;
-use crate::limits::{LARGEST_SIDE, MOST_PIXELS, MOST_SAMPLES};
+use crate::limits::{LARGEST_SIDE, MAX_PIXELS, MAX_SAMPLES};
 use crate::motion::velocity::earliest_time;
 use crate::scene::Scene;
 
@@ -107,7 +107,7 @@ impl RenderSettings {
 pub(crate) fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
     let allowed = 1..=LARGEST_SIDE;
     let pixels = u64::from(width) * u64::from(height);
-    if allowed.contains(&width) && allowed.contains(&height) && pixels <= MOST_PIXELS {
+    if allowed.contains(&width) && allowed.contains(&height) && pixels <= MAX_PIXELS {
         Ok(())
     } else {
         Err(TraceError::Size { width, height })
@@ -116,14 +116,14 @@ pub(crate) fn check_size(width: u32, height: u32) -> Result<(), TraceError> {
 
 fn check_samples(samples_per_pixel: u32, replicates: u32) -> Result<(), TraceError> {
     let each = samples_per_pixel / replicates;
-    if each * replicates == samples_per_pixel && each.is_power_of_two() && each <= MOST_SAMPLES {
+    if each * replicates == samples_per_pixel && each.is_power_of_two() && each <= MAX_SAMPLES {
         return Ok(());
     }
     Err(TraceError::Samples {
         samples_per_pixel,
         replicates,
         nearest: each
-            .clamp(1, MOST_SAMPLES)
+            .clamp(1, MAX_SAMPLES)
             .next_power_of_two()
             .saturating_mul(replicates),
     })

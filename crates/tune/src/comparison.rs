@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use filters::Settings;
 use serde::{Deserialize, Serialize};
-use suite::{Error, FEWEST_SCENES, ONE_SIDED, plain_mean};
+use suite::{Error, MIN_SCENES, ONE_SIDED, plain_mean};
 use tracer::Progress;
 
 use crate::evaluator::Evaluator;
@@ -77,7 +77,7 @@ impl Difference {
 
     /// Returns true if the second is worse by less than `margin`: the whole interval lies below it.
     pub fn is_no_worse(&self, margin: f64) -> bool {
-        self.scenes >= FEWEST_SCENES && self.interval[1] < margin
+        self.scenes >= MIN_SCENES && self.interval[1] < margin
     }
 }
 

@@ -14,7 +14,7 @@ use crate::header::JournalHeader;
 use crate::trial::Trial;
 
 /// Characters of a setting that an error shows.
-const MOST_SHOWN: usize = 80;
+const MAX_SHOWN: usize = 80;
 
 /// A journal that can be appended to.
 pub struct Journal {
@@ -152,7 +152,7 @@ fn first_difference(found: &Value, expected: &Value) -> (String, String) {
 /// Writes a value, or as much of it as a line has room for.
 fn short_text(value: &Value) -> String {
     let text = value.to_string();
-    match text.char_indices().nth(MOST_SHOWN) {
+    match text.char_indices().nth(MAX_SHOWN) {
         None => text,
         Some((end, _)) => format!("{}...", &text[..end]),
     }

@@ -52,7 +52,7 @@ fn runs_of_other_settings_are_refused() {
         &bench,
         &split("--filter kino:default --scenes slow --no-cache"),
     );
-    let found = ["common shutter trailing", "has centred", "--common"];
+    let found = ["common shutter trailing", "has centred", "the same one"];
     refused(&bench, &["plate", "other"], &found);
 }
 

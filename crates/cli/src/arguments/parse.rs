@@ -3,8 +3,8 @@
 use std::ops::{Range, RangeBounds};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
-use store::MOST_REPLICATES;
-use suite::{MOST_FRAMES, SIDES};
+use store::MAX_REPLICATES;
+use suite::{MAX_FRAMES, SIDES};
 use tune::Objective;
 
 /// Number of replicates, or a part of them.
@@ -41,7 +41,7 @@ pub fn within<T: TryFrom<u64> + Clone + Send + Sync + 'static>(
 
 /// Parses a number of frames of a sequence.
 pub fn frame_count() -> RangedU64ValueParser<u32> {
-    within(1..=u64::from(MOST_FRAMES))
+    within(1..=u64::from(MAX_FRAMES))
 }
 
 /// Parses a number above 0 and up to another one.
@@ -83,9 +83,9 @@ pub fn parse_replicates(text: &str) -> Result<Replicates, String> {
         Replicates::All(count) => *count,
         Replicates::Part(indices) => indices.end,
     };
-    parsed.filter(|replicates| end(replicates) <= MOST_REPLICATES).ok_or_else(|| {
+    parsed.filter(|replicates| end(replicates) <= MAX_REPLICATES).ok_or_else(|| {
         format!(
-            "allowed: a number up to {MOST_REPLICATES}, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
+            "allowed: a number up to {MAX_REPLICATES}, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
         )
     })
 }

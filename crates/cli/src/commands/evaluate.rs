@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
-use store::{MOST_JSON_BYTES, Sharing};
+use store::{MAX_JSON_BYTES, Sharing};
 use suite::{Error, FilterChoice};
 use tune::{Evaluator, Objective, evaluate_candidate};
 
@@ -43,7 +43,7 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
 
 fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
     let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
-    let bytes = read_bounded(path, MOST_JSON_BYTES).map_err(|error| match error {
+    let bytes = read_bounded(path, MAX_JSON_BYTES).map_err(|error| match error {
         FileError::Io { source, .. } => refuse(format!("cannot be read: {source}")),
         other => other.into(),
     })?;

@@ -10,7 +10,7 @@ use suite::{Error, RunPlan, Unpacked, Verification, take_pack};
 use crate::output::{count_text, print_note};
 
 /// Files that a note names before it counts the others.
-const MOST_NAMED: usize = 4;
+const MAX_NAMED: usize = 4;
 
 /// Refuses what is neither a folder nor a pack, before anything is rendered.
 pub fn check_truths(truths: &Path) -> Result<(), Error> {
@@ -69,7 +69,7 @@ fn unpacked_text(pack: &Pack, unpacked: &Unpacked, verification: &Verification) 
     match unpacked.missing.as_slice() {
         [] => text += "; nothing is rendered",
         missing => {
-            let named = &missing[..missing.len().min(MOST_NAMED)];
+            let named = &missing[..missing.len().min(MAX_NAMED)];
             text += &format!("; renders what it lacks: {}", named.join(", "));
             if missing.len() > named.len() {
                 text += &format!(" and {} more", missing.len() - named.len());

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use frame::{Alignment, Truth};
-use store::{LADDER, MOST_REPLICATES, Sharing, claim, printable_path, scene_folder};
+use store::{LADDER, MAX_REPLICATES, Sharing, claim, printable_path, scene_folder};
 use suite::{
     Error, LadderFiles, deciding_floor, estimate_render_seconds, render_frame, render_part,
     render_shared, render_truth, render_truths_until,
@@ -60,9 +60,9 @@ pub struct RenderArgs {
 
 /// Renders each scene's frame and truths, or a part of them, and prints their folders and noise.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
-    if args.most_replicates > MOST_REPLICATES {
+    if args.most_replicates > MAX_REPLICATES {
         refuse!(
-            "--most-replicates {}; allowed: up to {MOST_REPLICATES}",
+            "--most-replicates {}; allowed: up to {MAX_REPLICATES}",
             args.most_replicates
         );
     }

@@ -1,8 +1,8 @@
 //! Settings of renders from the command line, checked.
 
-use store::MOST_REPLICATES;
+use store::MAX_REPLICATES;
 use suite::Error;
-use tracer::{MOST_SAMPLES, RenderSettings};
+use tracer::{MAX_SAMPLES, RenderSettings};
 
 use crate::arguments::SceneArgs;
 
@@ -33,23 +33,23 @@ pub fn make_render_settings(
 fn check_samples(samples_per_pixel: u32) -> Result<(), Error> {
     let replicates = RenderSettings::default().replicates;
     // A frame has as many samples as all replicates of a truth.
-    let most = MOST_SAMPLES / replicates;
+    let most = MAX_SAMPLES / replicates;
     let each = samples_per_pixel / replicates;
     if each.is_power_of_two() && each <= most && each * replicates == samples_per_pixel {
         return Ok(());
     }
     let nearest = each.clamp(1, most).next_power_of_two() * replicates;
     refuse!(
-        "--samples-per-pixel {samples_per_pixel}; allowed: {replicates} times a power of two, up to {MOST_SAMPLES}, such as {nearest}"
+        "--samples-per-pixel {samples_per_pixel}; allowed: {replicates} times a power of two, up to {MAX_SAMPLES}, such as {nearest}"
     )
 }
 
 /// Refuses numbers that make no two equal halves, or more replicates than a truth may have.
 fn check_replicates(replicates: u32) -> Result<(), Error> {
-    match (2..=MOST_REPLICATES).contains(&replicates) && replicates.is_multiple_of(2) {
+    match (2..=MAX_REPLICATES).contains(&replicates) && replicates.is_multiple_of(2) {
         true => Ok(()),
         false => refuse!(
-            "--replicates {replicates}: allowed are even numbers from 2 to {MOST_REPLICATES}, such as 8"
+            "--replicates {replicates}: allowed are even numbers from 2 to {MAX_REPLICATES}, such as 8"
         ),
     }
 }

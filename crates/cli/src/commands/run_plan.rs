@@ -8,7 +8,7 @@ use judge::{
     read_bounds_file,
 };
 use store::{Claim, Sharing, claim};
-use suite::{Case, EngineScene, Error, FEWEST_REPLICATES, FilterChoice, RunPlan, engine_name};
+use suite::{Case, EngineScene, Error, FilterChoice, MIN_REPLICATES, RunPlan, engine_name};
 use tracer::{Location, RenderSettings, Scene, SceneId};
 
 use super::kept_truths::check_truths;
@@ -237,9 +237,9 @@ fn load_filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
 /// Refuses truths with too few replicates for intervals.
 pub fn check_replicates_for_intervals(replicates: u32) -> Result<(), Error> {
     match replicates {
-        FEWEST_REPLICATES.. => Ok(()),
+        MIN_REPLICATES.. => Ok(()),
         few => refuse!(
-            "--replicates {few}: {FEWEST_REPLICATES} or more are needed to tell how sure a score is"
+            "--replicates {few}: {MIN_REPLICATES} or more are needed to tell how sure a score is"
         ),
     }
 }

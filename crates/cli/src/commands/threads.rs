@@ -3,7 +3,7 @@
 use suite::Error;
 
 /// Threads that one command may have.
-const MOST_THREADS: usize = 1024;
+const MAX_THREADS: usize = 1024;
 
 /// Works on a pool of its own: one thread per core, or as many as are asked for.
 pub fn work_on_threads<T: Send>(
@@ -11,9 +11,9 @@ pub fn work_on_threads<T: Send>(
     work: impl FnOnce() -> Result<T, Error> + Send,
 ) -> Result<T, Error> {
     if let Some(threads) = threads
-        && !(1..=MOST_THREADS).contains(&threads)
+        && !(1..=MAX_THREADS).contains(&threads)
     {
-        refuse!("--threads {threads}; allowed: 1 to {MOST_THREADS}");
+        refuse!("--threads {threads}; allowed: 1 to {MAX_THREADS}");
     }
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads.unwrap_or(0))

@@ -9,9 +9,9 @@ use store::printable;
 use super::{comparison_line, count_lines, verdict_word};
 
 /// Upper limit that GitHub sets on the annotations of a step.
-const MOST_ANNOTATIONS: usize = 10;
+const MAX_ANNOTATIONS: usize = 10;
 /// Upper limit on rows of a summary: it is to be read, and GitHub takes one mebibyte per step.
-const MOST_ROWS: usize = 500;
+const MAX_ROWS: usize = 500;
 
 /// Makes one workflow command per line for each thing that keeps the check from passing. The last of ten counts the rest.
 pub fn annotations(check: &Check) -> String {
@@ -30,9 +30,9 @@ pub fn annotations(check: &Check) -> String {
         (title, format!("FAILED {}", failure.reason))
     });
     let mut all: Vec<(String, String)> = failures.chain(findings).chain(comparisons).collect();
-    if all.len() > MOST_ANNOTATIONS {
-        let more = all.len() - (MOST_ANNOTATIONS - 1);
-        all.truncate(MOST_ANNOTATIONS - 1);
+    if all.len() > MAX_ANNOTATIONS {
+        let more = all.len() - (MAX_ANNOTATIONS - 1);
+        all.truncate(MAX_ANNOTATIONS - 1);
         all.push((
             "shuttertruth".to_owned(),
             format!("and {more} more: see the summary"),
@@ -72,11 +72,11 @@ pub fn summary(check: &Check) -> String {
             "| scene | filter | metric | value | 95 % | limit | floor | worst at | most like | |\n";
         text += "|---|---|---|---|---|---|---|---|---|---|\n";
     }
-    for finding in notable.iter().take(MOST_ROWS) {
+    for finding in notable.iter().take(MAX_ROWS) {
         text += &summary_row(finding);
     }
-    if notable.len() > MOST_ROWS {
-        let _ = writeln!(text, "\nand {} more", notable.len() - MOST_ROWS);
+    if notable.len() > MAX_ROWS {
+        let _ = writeln!(text, "\nand {} more", notable.len() - MAX_ROWS);
     }
     if !check.comparisons.is_empty() {
         text += "\n### Comparison with the baseline\n\n";

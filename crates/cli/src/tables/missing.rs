@@ -19,7 +19,7 @@ struct Reason {
 }
 
 /// Rows that a note names; more are counted.
-const MOST_NAMED: usize = 3;
+const MAX_NAMED: usize = 3;
 
 impl Missing {
     /// Adds a score of a row below a heading, if it does not apply.
@@ -52,7 +52,7 @@ impl Missing {
     pub fn text(&self) -> String {
         let note = |reason: &Reason| {
             let place = match reason.rows.len() {
-                0..=MOST_NAMED => format!("{} on {}", reason.rows.join(", "), list(&reason.groups)),
+                0..=MAX_NAMED => format!("{} on {}", reason.rows.join(", "), list(&reason.groups)),
                 rows => format!("{rows} rows on {}", list(&reason.groups)),
             };
             let text = format!(
@@ -68,11 +68,11 @@ impl Missing {
 
 fn list(names: &[String]) -> String {
     match names.len() {
-        0..=MOST_NAMED => names.join(", "),
+        0..=MAX_NAMED => names.join(", "),
         count => format!(
             "{} and {} more",
-            names[..MOST_NAMED].join(", "),
-            count - MOST_NAMED
+            names[..MAX_NAMED].join(", "),
+            count - MAX_NAMED
         ),
     }
 }

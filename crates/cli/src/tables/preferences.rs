@@ -2,7 +2,7 @@
 
 use store::{printable, printable_path};
 use study::{
-    FEWEST_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
+    MIN_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
 };
 
 use super::{Table, legend_text};
@@ -110,7 +110,7 @@ fn describe(scale: &ShutterScale) -> Vec<String> {
         _ if !has_intervals => "too few answers for intervals".to_owned(),
         Resampled::People => format!("intervals: {RESAMPLES} resamples of sessions"),
         Resampled::Answers => format!(
-            "intervals: {RESAMPLES} resamples of the answers, since there are fewer than {FEWEST_PEOPLE} sessions; they say how these people \
+            "intervals: {RESAMPLES} resamples of the answers, since there are fewer than {MIN_PEOPLE} sessions; they say how these people \
              would answer again, and nothing about others"
         ),
     };

@@ -1,7 +1,7 @@
 //! Summary of a run: the ranking of its filters, and the references beside them.
 
 use frame::Alignment;
-use judge::{MOST_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, rank_for_summary};
+use judge::{MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, mean_lag, rank_for_summary};
 use metrics::Metric;
 use suite::Case;
 use tracer::FrameRate;
@@ -36,10 +36,10 @@ pub fn ranking_text(cases: &[Case]) -> String {
 
 /// Keeps the best of every group; returns the number of rows left out.
 fn limit_rows(groups: &mut [Vec<RankedFilter>], rows: usize) -> usize {
-    if rows <= MOST_RANKED {
+    if rows <= MAX_RANKED {
         return 0;
     }
-    let each = (MOST_RANKED / groups.len()).max(1);
+    let each = (MAX_RANKED / groups.len()).max(1);
     for group in groups.iter_mut() {
         group.truncate(each);
     }

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_with_last};
 use metrics::Metric;
-use suite::{Error, FEWEST_SCENES};
+use suite::{Error, MIN_SCENES};
 use tracer::{Family, Location, SceneId, list_scenes};
 
 use super::list_once;
@@ -277,7 +277,7 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
         .collect();
     let _ = write!(
         page,
-        "\nMean FLIP per family, with its number of scenes; where there are {FEWEST_SCENES} or more, with its 95 % CI and the rank. Fewer order nothing:\n\n| filter |{names}\n|---|{}\n",
+        "\nMean FLIP per family, with its number of scenes; where there are {MIN_SCENES} or more, with its 95 % CI and the rank. Fewer order nothing:\n\n| filter |{names}\n|---|{}\n",
         "---|".repeat(families.len())
     );
     for ranked in group {
@@ -285,7 +285,7 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
         for (_, family) in &families {
             let _ = match family.iter().find(|own| own.name == ranked.name) {
                 Some(own) => {
-                    let text = match own.scenes >= FEWEST_SCENES {
+                    let text = match own.scenes >= MIN_SCENES {
                         true => format!("{}, {}", mean(own), own.rank_text()),
                         false => Metric::FLIP.number(own.mean),
                     };

@@ -1,6 +1,6 @@
 //! Tables of a finished tuning, and of two presets.
 
-use suite::FEWEST_SCENES;
+use suite::MIN_SCENES;
 use tune::{Advice, Difference, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning};
 
 use super::Table;
@@ -93,8 +93,8 @@ pub fn advice_text(tuning: &Tuning) -> String {
             return "the choice: params.json and preset.toml beside tune.json\n".to_owned();
         }
         Advice::NoneIsBetter => "no trial beats it by more than the scenes can tell".to_owned(),
-        Advice::CannotTell(own) if own.scenes < FEWEST_SCENES => format!(
-            "{} cannot tell trial {trial} from it, and {FEWEST_SCENES} or more may",
+        Advice::CannotTell(own) if own.scenes < MIN_SCENES => format!(
+            "{} cannot tell trial {trial} from it, and {MIN_SCENES} or more may",
             count_text(own.scenes, "scene", "scenes")
         ),
         Advice::CannotTell(own) => format!(

@@ -6,7 +6,7 @@ use frame::Raster;
 use tracer::PointLayers;
 
 /// Fewest pixels of an object that is judged.
-pub const FEWEST_PIXELS: usize = 9;
+pub const MIN_PIXELS: usize = 9;
 
 /// Pixels of one object that can be compared.
 pub struct ClearPixels {
@@ -18,7 +18,7 @@ pub struct ClearPixels {
 
 /// Selects the objects with enough pixels to judge them.
 pub fn select_judged(regions: &[ClearPixels]) -> Vec<&ClearPixels> {
-    let is_judged = |region: &&ClearPixels| region.pixels.len() >= FEWEST_PIXELS;
+    let is_judged = |region: &&ClearPixels| region.pixels.len() >= MIN_PIXELS;
     regions.iter().filter(is_judged).collect()
 }
 

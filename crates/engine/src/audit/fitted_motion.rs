@@ -10,7 +10,7 @@ pub(super) const TOLERANCE: f64 = 0.1;
 /// Part of the velocities that a limit must cut before it is called one.
 const LEAST_CUT: f64 = 0.02;
 /// Upper limit on the distinct numbers of a buffer of few bits.
-const MOST_STEPS: usize = 1024;
+const MAX_STEPS: usize = 1024;
 /// Factor that is taken for none.
 const NO_SCALE: f64 = 1e-3;
 
@@ -96,7 +96,7 @@ fn find_steps(found: &Vectors, right: &Vectors, pixels: &[usize]) -> Option<(Cau
     };
     let gaps = [0, 1].map(|axis| {
         let (own, exact) = (count(found, axis), count(right, axis));
-        let is_coarse = own.len() >= 2 && own.len() <= MOST_STEPS && exact.len() >= 2 * own.len();
+        let is_coarse = own.len() >= 2 && own.len() <= MAX_STEPS && exact.len() >= 2 * own.len();
         is_coarse.then(|| median(own.windows(2).map(|pair| f64::from(pair[1] - pair[0]))))
     });
     let step = gaps.into_iter().flatten().reduce(f64::max)?;

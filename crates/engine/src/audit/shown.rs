@@ -5,7 +5,7 @@ use serde::Serialize;
 use tracer::PointLayers;
 
 use crate::audit::clear_pixels::{
-    ClearPixels, FEWEST_PIXELS, is_inside, neighbours, select_clear_pixels,
+    ClearPixels, MIN_PIXELS, is_inside, neighbours, select_clear_pixels,
 };
 
 /// Part of the pixels whose depth must be known before it shows, without ids, what the engine shows there.
@@ -28,7 +28,7 @@ pub struct ObjectShown {
 impl ObjectShown {
     /// Tells whether the engine shows too little of the object for its vectors to be judged.
     pub fn is_missed(&self) -> bool {
-        self.pixels >= FEWEST_PIXELS && self.shown < LEAST_SHOWN
+        self.pixels >= MIN_PIXELS && self.shown < LEAST_SHOWN
     }
 }
 

@@ -12,9 +12,9 @@ use crate::capture::folder::Capture;
 use crate::statistics::median;
 
 /// Greatest number of frames, late or early, that is looked for.
-const MOST_FRAMES: u32 = 2;
+const MAX_FRAMES: u32 = 2;
 /// Fewest pixels at which two views must differ before a buffer shows which one it has.
-const FEWEST_PIXELS: usize = 16;
+const MIN_PIXELS: usize = 16;
 /// Part of these pixels that must show a view.
 const LEAST_SHOWING: f64 = 0.8;
 /// Part of the pixels by which two views may differ and still look the same.
@@ -52,7 +52,7 @@ impl Tally {
 
     /// Returns the part of the pixels; none if they are too few.
     fn part(self, count: usize) -> Option<f64> {
-        (self.all >= FEWEST_PIXELS).then(|| count as f64 / self.all as f64)
+        (self.all >= MIN_PIXELS).then(|| count as f64 / self.all as f64)
     }
 
     fn shows(self, count: usize) -> bool {
@@ -74,7 +74,7 @@ pub fn find_other_views(
         depth: upside_down(&right.depth),
         color: upside_down(&right.color),
     }];
-    for count in 1..=MOST_FRAMES {
+    for count in 1..=MAX_FRAMES {
         let frames = count as i32;
         // A motion may leave the world beyond its keys.
         views.extend(trace_view(scene, size, -frames, Cause::DrawnLate(count)));
@@ -182,7 +182,7 @@ fn light_objects(found: &Image, right: &View, view: &View) -> [Image; 2] {
     [right, view].map(|shown| {
         let all = pixels_of(shown, &|_| true);
         let chosen = std::iter::zip(&same, &all).map(|(same, all)| match same.len() {
-            0..FEWEST_PIXELS => all,
+            0..MIN_PIXELS => all,
             _ => same,
         });
         let lights: Vec<[f32; 3]> = chosen

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use frame::{Alignment, MOST_STOPS, is_hidden};
+use frame::{Alignment, MAX_STOPS, is_hidden};
 use serde::Deserialize;
 use store::read_text;
 use suite::Error;
@@ -85,10 +85,10 @@ impl CaptureDescription {
                 self.instant
             ));
         }
-        let range = -MOST_STOPS..=MOST_STOPS;
+        let range = -MAX_STOPS..=MAX_STOPS;
         if let Some(stops) = self.stops.filter(|stops| !range.contains(stops)) {
             return Err(format!(
-                "stops = {stops}; allowed: -{MOST_STOPS} to {MOST_STOPS}"
+                "stops = {stops}; allowed: -{MAX_STOPS} to {MAX_STOPS}"
             ));
         }
         Ok(())

@@ -10,7 +10,7 @@ const WIDEST_TURN: f64 = 75.0 * std::f64::consts::PI / 180.0;
 /// Upper limit of the angle between a turn and its keys' interpolation, in radians.
 const TOLERANCE: f64 = 1e-6;
 /// Upper limit on halvings of the time between two keys.
-const MOST_HALVINGS: u32 = 12;
+const MAX_HALVINGS: u32 = 12;
 /// A cubic curve is at most this many times as fast as its fastest chord: the bound of a Hermite curve whose slopes are means of
 /// chords, or at an end twice a chord less such a mean.
 const OVER_CHORD: f64 = 6.0;
@@ -100,7 +100,7 @@ fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) ->
                 true => span[1],
                 false => from + step,
             };
-            refine(rotation, from, to, MOST_HALVINGS, &mut keys);
+            refine(rotation, from, to, MAX_HALVINGS, &mut keys);
         }
     }
     for index in 1..keys.len() {

@@ -15,9 +15,9 @@ use crate::ingest::moving::{ColorRange, mark_reached};
 use crate::ingest::objects::draw_coverage;
 
 /// Least number of sub-frames.
-const FEWEST_SUBFRAMES: usize = 4;
+const MIN_SUBFRAMES: usize = 4;
 /// Upper limit on the sub-frames.
-const MOST_SUBFRAMES: usize = 4096;
+const MAX_SUBFRAMES: usize = 4096;
 /// Parts of the sub-frames, every other one of which makes a half of the truth.
 const HALVES: usize = 2;
 /// Number of sub-frames of the truth for each of an accumulation that is compared with it: a mean of nearly as many as the truth
@@ -98,12 +98,12 @@ pub fn average_subframes(
 /// Refuses numbers of sub-frames that make no truth with two halves.
 fn check_count(capture: &Capture) -> Result<(), Error> {
     let count = capture.subframes.len();
-    match count.is_multiple_of(2) && (FEWEST_SUBFRAMES..=MOST_SUBFRAMES).contains(&count) {
+    match count.is_multiple_of(2) && (MIN_SUBFRAMES..=MAX_SUBFRAMES).contains(&count) {
         true => Ok(()),
         false => refuse(
             &capture.folder.join(SUBFRAMES),
             &format!(
-                "holds {count} sub-frames; allowed: even numbers from {FEWEST_SUBFRAMES} to {MOST_SUBFRAMES}, at the midpoints of \
+                "holds {count} sub-frames; allowed: even numbers from {MIN_SUBFRAMES} to {MAX_SUBFRAMES}, at the midpoints of \
                  equal parts of the shutter that {CAPTURE_FILE} names: half of them show the noise of the others; capture 32, for \
                  instance"
             ),

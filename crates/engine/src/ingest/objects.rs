@@ -9,7 +9,7 @@ use crate::files::refuse;
 /// Name of what is no object.
 const BACKGROUND: &str = "background";
 /// Upper limit on the objects: each takes memory in every picture.
-const MOST_OBJECTS: usize = 64;
+const MAX_OBJECTS: usize = 64;
 
 /// Names the objects by their ids: as the scene that the engine drew has them, or by their numbers. The background alone where the
 /// frame or its sub-frames have no ids: nobody knows then what the open shutter saw.
@@ -32,21 +32,21 @@ pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec
     }
     let named = match known {
         Some(names) => names,
-        None => (0..=largest.min(MOST_OBJECTS))
+        None => (0..=largest.min(MAX_OBJECTS))
             .map(|id| match id {
                 0 => BACKGROUND.to_owned(),
                 id => format!("object_{id}"),
             })
             .collect(),
     };
-    match largest < named.len() && named.len() <= MOST_OBJECTS + 1 {
+    match largest < named.len() && named.len() <= MAX_OBJECTS + 1 {
         true => Ok(named),
         false => refuse(
             &capture.folder,
             &format!(
                 "object.exr and {SUBFRAMES} hold ids up to {largest}; allowed: up to {}, as the scene's manifest.json numbers its \
                  objects; draw these ids, or leave object.exr out",
-                named.len().min(MOST_OBJECTS + 1) - 1
+                named.len().min(MAX_OBJECTS + 1) - 1
             ),
         ),
     }

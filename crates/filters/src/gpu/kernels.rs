@@ -49,7 +49,7 @@ pub(super) struct Compiled {
 }
 
 /// Upper limit on kernels that are cached for other values of specialisation constants.
-const MOST_KEPT: usize = 16;
+const MAX_KEPT: usize = 16;
 
 impl<'g> Kernels<'g> {
     /// Compiles every pass. Fails for a filter that is a command, for one that asks for more than the adapter grants, and if the
@@ -95,7 +95,7 @@ impl<'g> Kernels<'g> {
         }
         let made = Arc::new(compile(self.gpu, filter, constants, Some(&first))?);
         let mut cached = lock();
-        if cached.len() > MOST_KEPT {
+        if cached.len() > MAX_KEPT {
             cached.remove(1);
         }
         cached.push(made.clone());

@@ -11,7 +11,7 @@ use crate::{Filter, FilterError, Input, Kind, Parameter, Settings, Value};
 const SIDE: u32 = 16;
 
 /// Upper limit on failures that are listed.
-const MOST_LISTED: usize = 20;
+const MAX_LISTED: usize = 20;
 
 /// One run of a filter.
 struct Trial {
@@ -120,8 +120,8 @@ fn describe(filter: &Filter, trial: &Trial, error: &FilterError) -> String {
 }
 
 fn shorten(mut failures: Vec<String>) -> Vec<String> {
-    let more = failures.len().saturating_sub(MOST_LISTED);
-    failures.truncate(MOST_LISTED);
+    let more = failures.len().saturating_sub(MAX_LISTED);
+    failures.truncate(MAX_LISTED);
     if more > 0 {
         failures.push(format!("and {more} more like these"));
     }

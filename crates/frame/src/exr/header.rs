@@ -7,10 +7,10 @@ use exr::meta::header::Header;
 /// Upper limit on the columns and on the rows of an OpenEXR file.
 pub const LARGEST_EXR_SIDE: usize = 16_384;
 /// Upper limit on the channels of an OpenEXR file.
-pub const MOST_EXR_CHANNELS: usize = 32_768;
+pub const MAX_EXR_CHANNELS: usize = 32_768;
 /// Upper limit on the bytes that the samples of an OpenEXR file take in memory. A file that is larger than this divided by
 /// [`LARGEST_EXR_RATIO`] may take more.
-pub const MOST_EXR_BYTES: u64 = 1 << 30;
+pub const MAX_EXR_BYTES: u64 = 1 << 30;
 /// Upper limit on the size of the samples of a large OpenEXR file, over the size of the file. Run lengths shrink samples no further.
 pub const LARGEST_EXR_RATIO: u64 = 64;
 
@@ -39,9 +39,9 @@ pub(crate) fn check_header(headers: &[Header], file_bytes: u64) -> Result<(), St
         ));
     }
     let channels = &header.channels.list;
-    if channels.len() > MOST_EXR_CHANNELS {
+    if channels.len() > MAX_EXR_CHANNELS {
         return Err(format!(
-            "claims {} channels; allowed: up to {MOST_EXR_CHANNELS}",
+            "claims {} channels; allowed: up to {MAX_EXR_CHANNELS}",
             channels.len()
         ));
     }
@@ -56,7 +56,7 @@ pub(crate) fn check_header(headers: &[Header], file_bytes: u64) -> Result<(), St
         ));
     }
     let bytes = (width * height) as u64 * channels.len() as u64 * BYTES_PER_SAMPLE;
-    let allowed = MOST_EXR_BYTES.max(file_bytes.saturating_mul(LARGEST_EXR_RATIO));
+    let allowed = MAX_EXR_BYTES.max(file_bytes.saturating_mul(LARGEST_EXR_RATIO));
     if bytes > allowed {
         return Err(format!(
             "claims {width}x{height} pixels with {} channels, {bytes} bytes in memory, in a file of {file_bytes}; allowed: \

@@ -8,7 +8,7 @@ mod writing;
 
 pub(crate) use file::in_layer;
 pub use file::{Channel, ExrFile, Samples};
-pub use header::{LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MOST_EXR_BYTES, MOST_EXR_CHANNELS};
+pub use header::{LARGEST_EXR_RATIO, LARGEST_EXR_SIDE, MAX_EXR_BYTES, MAX_EXR_CHANNELS};
 pub use reading::{read_attribute, read_exr, read_exr_header};
 pub(crate) use writing::write_small_exr;
 pub use writing::{write_exr, write_half_exr};

@@ -12,7 +12,7 @@ use crate::FileError;
 use crate::file::open_regular;
 
 /// Reads a single-part OpenEXR file; refuses one that is cut short, has several parts, or claims more pixels, channels or
-/// bytes than [`MOST_EXR_BYTES`](crate::MOST_EXR_BYTES) and its neighbours allow. Half floats are widened.
+/// bytes than [`MAX_EXR_BYTES`](crate::MAX_EXR_BYTES) and its neighbours allow. Half floats are widened.
 pub fn read_exr(path: &Path) -> Result<ExrFile, FileError> {
     let (handle, bytes) = open_regular(path, u64::MAX)?;
     let broken = |error: exr::error::Error| match error {

@@ -1,7 +1,7 @@
 //! Palettes of PNG files.
 
 /// Upper limit on the colours of a palette.
-const MOST_COLORS: usize = 256;
+const MAX_COLORS: usize = 256;
 
 /// Refuses a PNG whose palette is no list of whole colours, at which the decoder would panic. The error is to follow the file's
 /// name. The decoder reports all other faults.
@@ -13,10 +13,10 @@ pub fn check_png_palette(bytes: &[u8]) -> Result<(), String> {
     while let [a, b, c, d, name @ ..] = rest {
         let length = u32::from_be_bytes([*a, *b, *c, *d]) as usize;
         if name.starts_with(b"PLTE")
-            && (!length.is_multiple_of(3) || !(3..=3 * MOST_COLORS).contains(&length))
+            && (!length.is_multiple_of(3) || !(3..=3 * MAX_COLORS).contains(&length))
         {
             return Err(format!(
-                "has a palette of {length} bytes; allowed: three for each of 1 to {MOST_COLORS} colours"
+                "has a palette of {length} bytes; allowed: three for each of 1 to {MAX_COLORS} colours"
             ));
         }
         if name.starts_with(b"IDAT") {

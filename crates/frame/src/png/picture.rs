@@ -7,19 +7,19 @@ use super::palette::check_png_palette;
 use crate::{FileError, Raster, read_bounded, write_atomically};
 
 /// Upper limit on the pixels of a PNG that is read as a finished picture.
-pub const MOST_PNG_PIXELS: u64 = 1 << 25;
+pub const MAX_PNG_PIXELS: u64 = 1 << 25;
 /// Upper limit on the bytes of such a file: the most that its pixels take.
-const MOST_PNG_BYTES: u64 = 16 * MOST_PNG_PIXELS;
+const MAX_PNG_BYTES: u64 = 16 * MAX_PNG_PIXELS;
 
-/// Refuses a PNG of more than [`MOST_PNG_PIXELS`] by its header: few bytes may stand for very many pixels.
+/// Refuses a PNG of more than [`MAX_PNG_PIXELS`] by its header: few bytes may stand for very many pixels.
 fn check_size(bytes: &[u8]) -> Result<(), String> {
     let reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Png);
     let (width, height) = (reader.into_dimensions())
         .map_err(|error| format!("not a PNG that can be read: {error}"))?;
-    match u64::from(width) * u64::from(height) <= MOST_PNG_PIXELS {
+    match u64::from(width) * u64::from(height) <= MAX_PNG_PIXELS {
         true => Ok(()),
         false => Err(format!(
-            "claims {width}x{height} pixels; allowed: up to {MOST_PNG_PIXELS} pixels"
+            "claims {width}x{height} pixels; allowed: up to {MAX_PNG_PIXELS} pixels"
         )),
     }
 }
@@ -27,7 +27,7 @@ fn check_size(bytes: &[u8]) -> Result<(), String> {
 /// Reads an 8-bit or 16-bit PNG as display values in [0, 1]; grey becomes colour. Refuses a picture that is not opaque, because
 /// its background is not known.
 pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
-    let bytes = read_bounded(path, MOST_PNG_BYTES)?;
+    let bytes = read_bounded(path, MAX_PNG_BYTES)?;
     let foreign = |reason: String| FileError::foreign(path, reason);
     check_size(&bytes).map_err(foreign)?;
     check_png_palette(&bytes).map_err(foreign)?;

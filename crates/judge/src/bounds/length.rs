@@ -1,7 +1,7 @@
 //! Length of the sequence that a limit holds for.
 
 use metrics::Metric;
-use suite::{Error, FilterChoice, Frames, MOST_FRAMES};
+use suite::{Error, FilterChoice, Frames, MAX_FRAMES};
 
 use crate::bounds::{Bound, SceneBounds};
 
@@ -36,9 +36,9 @@ impl Length {
                  measured with, such as frames = 4"
             ));
         };
-        if !(2..=MOST_FRAMES).contains(&frames) {
+        if !(2..=MAX_FRAMES).contains(&frames) {
             return Err(format!(
-                "{metric}: frames = {frames}; allowed: 2 to {MOST_FRAMES}"
+                "{metric}: frames = {frames}; allowed: 2 to {MAX_FRAMES}"
             ));
         }
         match per_second {

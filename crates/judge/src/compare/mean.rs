@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use metrics::Metric;
 use serde::Serialize;
-use suite::{FEWEST_SCENES, TWO_SIDED, Weighted, scene_mean};
+use suite::{MIN_SCENES, TWO_SIDED, Weighted, scene_mean};
 
 use crate::compare::change::{Change, ChangeKind};
 
@@ -101,7 +101,7 @@ fn average(filter: String, metric: Metric, changes: &[&Change]) -> MeanChange {
     let of_kind = |kind| changes.iter().filter(|change| change.kind == kind).count();
     let kind = match worse.side_of_zero() {
         _ if of_kind(ChangeKind::Same) == count => MeanKind::Same,
-        _ if count < FEWEST_SCENES => MeanKind::TooFewScenes,
+        _ if count < MIN_SCENES => MeanKind::TooFewScenes,
         Some(Ordering::Greater) => MeanKind::Worse,
         Some(Ordering::Less) => MeanKind::Better,
         _ => MeanKind::Undecided,

@@ -8,7 +8,7 @@ use metrics::{
     SkillMetric, jackknife,
 };
 use store::RenderFile;
-use suite::{Error, FEWEST_REPLICATES, SHARP, make_oracle, sharp_picture, truths_without_pairs};
+use suite::{Error, MIN_REPLICATES, SHARP, make_oracle, sharp_picture, truths_without_pairs};
 use tracer::{Progress, TraceError, Watch};
 
 use crate::compare::change::{Change, Uncertainty};
@@ -98,7 +98,7 @@ impl TruthParts {
             .map(|index| path(RenderFile::Replicate(alignment, index)))
             .collect();
         let mut files = [&truth, &frame].into_iter().chain(&replicates);
-        if !files.all(|file| file.is_file()) || count < FEWEST_REPLICATES {
+        if !files.all(|file| file.is_file()) || count < MIN_REPLICATES {
             return Ok(None);
         }
         let whole = Truth::read(&truth)?;

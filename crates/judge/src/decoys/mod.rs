@@ -21,7 +21,7 @@ pub struct Resemblance {
 const FARTHEST: f64 = 0.5;
 
 /// Fewer scores than this show no resemblance.
-const FEWEST_SCORES: usize = 4;
+const MIN_SCORES: usize = 4;
 
 /// Scores that tell wrong blurs apart, by position, length, width and looks.
 const COMPARED: [Metric; 14] = [
@@ -101,7 +101,7 @@ impl Decoys {
                 count += 1;
             }
         }
-        (whole > 0.0 && count >= FEWEST_SCORES).then(|| (apart / whole).sqrt())
+        (whole > 0.0 && count >= MIN_SCORES).then(|| (apart / whole).sqrt())
     }
 }
 

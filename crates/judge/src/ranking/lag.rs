@@ -4,7 +4,7 @@ use frame::Alignment;
 use metrics::Metric;
 use suite::{Case, IDENTITY};
 
-use crate::ranking::ranking::list_summarized;
+use crate::ranking::filters::list_summarized;
 
 /// Returns the FLIP that the frame has above a sharp picture of the shutter's middle: the mean over the scenes of `cases`, which are of
 /// one shutter and frame rate. None where the frame is that picture.

@@ -6,7 +6,7 @@ use metrics::{Measured, PERFECT_JOD, SequenceMetric};
 use suite::{Case, FilterId, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
 use tracer::SceneId;
 
-use crate::ranking::ranking::{MOST_RANKED, RankedFilter, RankedScore, rank_by_score};
+use crate::ranking::filters::{MAX_RANKED, RankedFilter, RankedScore, rank_by_score};
 
 /// The score that sequences are ranked by: the one that counts errors of single frames and of their changes together. Scores of changes
 /// alone rank a filter high that flickers little around a wrong picture.
@@ -31,7 +31,7 @@ pub fn rank_sequences(run: &Run) -> Vec<Vec<RankedSequence>> {
         .collect();
     let presets = rank(&own, false);
     match presets.iter().map(Vec::len).sum() {
-        ..=MOST_RANKED => presets,
+        ..=MAX_RANKED => presets,
         _ => rank(&own, true),
     }
 }

@@ -13,7 +13,7 @@ use suite::{Case, Error, InputFormat, Run, refuse_failures};
 use tracer::{Family, SceneId};
 
 pub use self::cost::ResultCost;
-use crate::ranking::ranking::{RankedFilter, RankedScore, rank_by_score};
+use crate::ranking::filters::{RankedFilter, RankedScore, rank_by_score};
 
 /// Version of the layout of a file of results.
 pub const RESULTS_FORMAT: u32 = 2;

@@ -1,8 +1,8 @@
 //! Checks that inputs can be compared, before anything is computed.
 
-use frame::{Frame, Ladder, MOST_STOPS, Picture, Raster, Truth};
+use frame::{Frame, Ladder, MAX_STOPS, Picture, Raster, Truth};
 
-use crate::color::flip::MOST_EXPOSURES;
+use crate::color::flip::MAX_EXPOSURES;
 use crate::{MeasureError, Viewing};
 
 /// Upper limit on pixels: measuring more takes tens of gigabytes.
@@ -41,8 +41,8 @@ pub fn check_viewing(viewing: &Viewing) -> Result<(), MeasureError> {
     } = *viewing;
     let bounded = [stops, start, stop]
         .iter()
-        .all(|stops| stops.abs() <= MOST_STOPS);
-    if bounded && start <= stop && (2..=MOST_EXPOSURES).contains(&count) {
+        .all(|stops| stops.abs() <= MAX_STOPS);
+    if bounded && start <= stop && (2..=MAX_EXPOSURES).contains(&count) {
         Ok(())
     } else {
         Err(MeasureError::Exposures {

@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use frame::{FileError, Image, Raster, display_srgb, png_bytes, read_bounded};
 
 /// Largest PNG file that a page shows, in bytes.
-const MOST_PICTURE_BYTES: u64 = 1 << 28;
+const MAX_PICTURE_BYTES: u64 = 1 << 28;
 /// Width of a thumbnail in pixels; pictures that are narrower stay as they are.
 const THUMBNAIL: u32 = 192;
 
@@ -16,7 +16,7 @@ pub fn embed_file(path: &Path) -> Result<Option<String>, FileError> {
     if !path.is_file() {
         return Ok(None);
     }
-    Ok(Some(address(&read_bounded(path, MOST_PICTURE_BYTES)?)))
+    Ok(Some(address(&read_bounded(path, MAX_PICTURE_BYTES)?)))
 }
 
 /// Writes display values in [0, 1] as an address that holds the picture itself.

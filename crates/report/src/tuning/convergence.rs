@@ -6,11 +6,11 @@ use tune::{Trial, TrialOutcome};
 use crate::charts::plot::{Axis, Plot};
 
 /// Largest loss that is drawn: failed trials, and those far off, are drawn here.
-const MOST_LOSS: f64 = 1.0;
+const MAX_LOSS: f64 = 1.0;
 
 /// Loss of every trial in its order, and the least so far of those that ran everywhere.
 pub fn convergence(trials: &[Trial]) -> Markup {
-    let loss = |trial: &Trial| trial.loss.min(MOST_LOSS);
+    let loss = |trial: &Trial| trial.loss.min(MAX_LOSS);
     let mut best: Vec<(f64, f64)> = Vec::new();
     for trial in trials.iter().filter(|trial| trial.is_done()) {
         let least = best.last().map_or(f64::INFINITY, |(_, least)| *least);

@@ -12,7 +12,7 @@ use crate::charts::plot::{Axis, Plot};
 /// Ranges of more than this factor have an axis of equal factors.
 const LOG_FROM: f64 = 30.0;
 /// Largest error that is drawn; what is worse is drawn here.
-const MOST_ERROR: f64 = 1.0;
+const MAX_ERROR: f64 = 1.0;
 
 /// One chart per parameter: every trial, and the line along which all others stay at the start, where there is one.
 pub fn slices(folder: &TuneFolder) -> Markup {
@@ -49,7 +49,7 @@ fn slice(folder: &TuneFolder, name: &str) -> Markup {
         .filter_map(|own| {
             Some((
                 own.values.get(name)?,
-                own.error?.min(MOST_ERROR),
+                own.error?.min(MAX_ERROR),
                 own.is_done(),
             ))
         })
@@ -60,7 +60,7 @@ fn slice(folder: &TuneFolder, name: &str) -> Markup {
         .filter_map(|found| found.parameters.get(name));
     let line: Vec<(&Value, f64)> = studies
         .flat_map(|own| &own.slice)
-        .map(|(value, error)| (value, error.min(MOST_ERROR)))
+        .map(|(value, error)| (value, error.min(MAX_ERROR)))
         .collect();
     // A line has the order of the filter's own choices.
     let all = || {

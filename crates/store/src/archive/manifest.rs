@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::folder::is_below;
-use crate::gather::MOST_TAKEN_BYTES;
+use crate::gather::MAX_TAKEN_BYTES;
 use crate::json_strings::check_strings;
 use crate::render_file::{RenderFile, RenderPath};
 
@@ -14,7 +14,7 @@ pub const PACK_FORMAT: u32 = 1;
 /// Name of the manifest in the archive.
 pub(super) const MANIFEST: &str = "manifest.json";
 /// Upper limit on the bytes of a manifest.
-pub const MOST_MANIFEST_BYTES: u64 = 1 << 26;
+pub const MAX_MANIFEST_BYTES: u64 = 1 << 26;
 /// Upper limit on the bytes of all files of a pack, relative to those of the archive. Rendered files are compressed already.
 pub const LARGEST_PACK_RATIO: u64 = 64;
 
@@ -82,9 +82,9 @@ impl Manifest {
         }
         for file in &self.files {
             check_path(&file.path)?;
-            if file.bytes > MOST_TAKEN_BYTES {
+            if file.bytes > MAX_TAKEN_BYTES {
                 return Err(format!(
-                    "{MANIFEST} says that {} has {} bytes; allowed: up to {MOST_TAKEN_BYTES}",
+                    "{MANIFEST} says that {} has {} bytes; allowed: up to {MAX_TAKEN_BYTES}",
                     file.path, file.bytes
                 ));
             }

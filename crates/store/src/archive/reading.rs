@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use frame::{FileError, write_atomically};
 use tar::{Archive, Entry, EntryType};
 
-use super::manifest::{MANIFEST, MOST_MANIFEST_BYTES, Manifest, PackedFile};
+use super::manifest::{MANIFEST, MAX_MANIFEST_BYTES, Manifest, PackedFile};
 use crate::Error;
 
 /// Upper limit on the zeros that end an archive, in bytes: a block of GNU tar.
-const MOST_PADDING: u64 = 10_240;
+const MAX_PADDING: u64 = 10_240;
 
 type Unpacked = zstd::Decoder<'static, BufReader<File>>;
 
@@ -69,10 +69,10 @@ impl Pack {
         let mut rest = Vec::new();
         let padding = archive
             .into_inner()
-            .take(MOST_PADDING + 1)
+            .take(MAX_PADDING + 1)
             .read_to_end(&mut rest);
         let padding = padding.map_err(|error| refuse(broken(error)))?;
-        match padding as u64 <= MOST_PADDING && rest.iter().all(|byte| *byte == 0) {
+        match padding as u64 <= MAX_PADDING && rest.iter().all(|byte| *byte == 0) {
             true => Ok(()),
             false => Err(refuse("goes on behind its last file".to_owned())),
         }
@@ -134,11 +134,11 @@ fn read_manifest<'a>(entries: &mut impl Iterator<Item = Found<'a>>) -> Result<Ve
     let Some(mut entry) = entry.filter(is_manifest) else {
         return Err(format!("does not begin with {MANIFEST}"));
     };
-    let bytes = read_at_most(&mut entry, MOST_MANIFEST_BYTES)?;
-    match bytes.len() as u64 <= MOST_MANIFEST_BYTES {
+    let bytes = read_at_most(&mut entry, MAX_MANIFEST_BYTES)?;
+    match bytes.len() as u64 <= MAX_MANIFEST_BYTES {
         true => Ok(bytes),
         false => Err(format!(
-            "has a {MANIFEST} of more than {MOST_MANIFEST_BYTES} bytes"
+            "has a {MANIFEST} of more than {MAX_MANIFEST_BYTES} bytes"
         )),
     }
 }

@@ -8,9 +8,9 @@ use frame::{FileError, read_bounded, remove_leftovers, write_streamed};
 use tar::{Builder, EntryType, Header};
 use tracer::{Progress, TraceError, Watch};
 
-use super::manifest::{MANIFEST, MOST_MANIFEST_BYTES, Manifest, PACK_FORMAT, PackedFile};
+use super::manifest::{MANIFEST, MAX_MANIFEST_BYTES, Manifest, PACK_FORMAT, PackedFile};
 use crate::Error;
-use crate::gather::MOST_TAKEN_BYTES;
+use crate::gather::MAX_TAKEN_BYTES;
 
 /// Level of zstd. Rendered files are compressed already, and higher levels gain nothing.
 const LEVEL: i32 = 3;
@@ -42,7 +42,7 @@ pub fn write_archive(
     };
     for (index, file) in files.iter_mut().enumerate() {
         advance(index)?;
-        let bytes = read_bounded(&folder.join(&file.path), MOST_TAKEN_BYTES)?;
+        let bytes = read_bounded(&folder.join(&file.path), MAX_TAKEN_BYTES)?;
         file.bytes = bytes.len() as u64;
         file.blake3 = blake3::hash(&bytes).to_hex().to_string();
     }
@@ -70,9 +70,9 @@ fn write_entries(
     let fail = |source| FileError::io(pack, "write", source);
     let mut text = serde_json::to_string_pretty(manifest).expect("a manifest is plain data");
     text.push('\n');
-    if text.len() as u64 > MOST_MANIFEST_BYTES {
+    if text.len() as u64 > MAX_MANIFEST_BYTES {
         return Err(Error::Refused(format!(
-            "{}: its list of files takes {} bytes; allowed: {MOST_MANIFEST_BYTES}; pack fewer scenes",
+            "{}: its list of files takes {} bytes; allowed: {MAX_MANIFEST_BYTES}; pack fewer scenes",
             pack.display(),
             text.len()
         )));
@@ -92,7 +92,7 @@ fn write_entries(
 /// Reads a file again; refuses one that has changed since it was hashed.
 fn read_unchanged(folder: &Path, file: &PackedFile) -> Result<Vec<u8>, Error> {
     let path = folder.join(&file.path);
-    let bytes = read_bounded(&path, MOST_TAKEN_BYTES)?;
+    let bytes = read_bounded(&path, MAX_TAKEN_BYTES)?;
     match blake3::hash(&bytes).to_hex().as_str() == file.blake3 {
         true => Ok(bytes),
         false => Err(Error::Refused(format!(

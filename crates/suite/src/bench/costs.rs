@@ -4,7 +4,7 @@ use filters::PassTime;
 
 use super::turns::Times;
 use super::{CaseCost, CopyCost, GROWTH_FROM, PassCost, REACHES, Spread};
-use crate::filter::choice::FilterChoice;
+use crate::filter_choice::FilterChoice;
 
 /// Sums up the runs of one filter preset.
 pub fn case_cost(

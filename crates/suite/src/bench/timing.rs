@@ -12,7 +12,7 @@ use super::{
     BASELINE, BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, REACHES, ReachCost, ReachPoint,
     SPEED, Spread,
 };
-use crate::filter::choice::FilterChoice;
+use crate::filter_choice::FilterChoice;
 use crate::{Error, PROGRAM};
 
 /// Everything that a bench is told to do.

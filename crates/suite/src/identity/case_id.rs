@@ -12,7 +12,7 @@ use tracer::SceneId;
 
 use super::filter_id::FilterId;
 use crate::InputFormat;
-use crate::filter::choice::overrides_text;
+use crate::filter_choice::overrides_text;
 
 /// Identity of a case: a filter or a reference on a scene, with all that was chosen of both. As a text: `fan / jump_flood:paper`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -19,16 +19,16 @@ use super::run_scene::RunScene;
 use super::stored_frames::StoredFrame;
 use crate::Error;
 use crate::engine_scene::EngineScene;
-use crate::filter::choice::FilterChoice;
-use crate::filter::depth_of_field::DepthOfField;
-use crate::filter::input_format::InputFormat;
-use crate::filter::runner::Runner;
+use crate::filter_choice::FilterChoice;
+use crate::inputs::depth_of_field::DepthOfField;
+use crate::inputs::input_format::InputFormat;
 use crate::run::case::{Case, Intervals};
+use crate::runner::Runner;
 use crate::stats::intervals::intervals;
 
 /// Upper limit on the difference between the blur of a mixture and the mixture of the blurs, as a part of what the blur changes;
 /// far above rounding.
-const MOST_NONLINEARITY: f64 = 1e-3;
+const MAX_NONLINEARITY: f64 = 1e-3;
 
 const NO_MATTES: &str =
     "an engine's picture does not say which share of a pixel it gives to each object";
@@ -300,7 +300,7 @@ fn measure_output(
 /// Adds the scores of probes, or takes out all that need a filter whose weights do not depend on colour.
 fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Measurement) {
     let scores = &mut measurement.scores;
-    if output.nonlinearity > MOST_NONLINEARITY {
+    if output.nonlinearity > MAX_NONLINEARITY {
         let found = match output.is_rounded {
             true => {
                 "the filter writes 16-bit floats, whose rounding hides what it gathers; let it write 32-bit floats"
@@ -309,7 +309,7 @@ fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Me
         };
         let reason = format!(
             "{found}: the blur of a mixture differs from the mixture of the blurs by {:.4} of what the blur changes; \
-             allowed: at most {MOST_NONLINEARITY}",
+             allowed: at most {MAX_NONLINEARITY}",
             output.nonlinearity
         );
         scores.take_out_mattes(&reason);

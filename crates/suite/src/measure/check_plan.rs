@@ -7,7 +7,7 @@ use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use crate::Error;
 use crate::render::settings::frame_settings;
-use crate::run::sequence::{Frames, MOST_FRAMES};
+use crate::run::sequence::{Frames, MAX_FRAMES};
 
 impl RunPlan {
     /// Refuses settings with which a scene cannot be rendered, and names that no folder can have, before anything is rendered.
@@ -55,9 +55,9 @@ impl RunPlan {
     /// Refuses no frame, too many, or several of what an engine drew.
     fn check_frames(&self) -> Result<(), Error> {
         let Frames { count, per_second } = self.frames;
-        if !(1..=MOST_FRAMES).contains(&count) {
+        if !(1..=MAX_FRAMES).contains(&count) {
             return Err(Error::Usage(format!(
-                "found {count} frames; allowed: 1 to {MOST_FRAMES}"
+                "found {count} frames; allowed: 1 to {MAX_FRAMES}"
             )));
         }
         if !(per_second.is_finite() && per_second > 0.0) {

@@ -3,7 +3,7 @@
 use filters::{Filter, FilterError, Holds};
 use frame::{Frame, Raster, Vectors};
 
-use crate::filter::runner::Runner;
+use crate::runner::Runner;
 
 /// Reads the velocity that the runner's last run gave to each pixel, without the frame's guard band; none for filters that give
 /// pixels no place to take a velocity from.

@@ -6,7 +6,7 @@ use store::hash_program;
 use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
-use crate::filter::choice::FilterChoice;
+use crate::filter_choice::FilterChoice;
 
 /// Visits every scene of a plan, and behind each its later frames, of which one at a time is in memory.
 pub(super) fn visit_frames<E>(

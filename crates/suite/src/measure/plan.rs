@@ -9,8 +9,8 @@ use super::part::Part;
 use super::run_scene::RunScene;
 use crate::Monitor;
 use crate::engine_scene::EngineScene;
-use crate::filter::choice::FilterChoice;
-use crate::filter::input_format::InputFormat;
+use crate::filter_choice::FilterChoice;
+use crate::inputs::input_format::InputFormat;
 use crate::run::sequence::Frames;
 
 /// Everything that a run is told to do.

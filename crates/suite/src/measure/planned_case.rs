@@ -7,9 +7,9 @@ use store::LADDER;
 use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use crate::engine_scene::EngineScene;
-use crate::filter::choice::FilterChoice;
-use crate::filter::input_format::InputFormat;
+use crate::filter_choice::FilterChoice;
 use crate::identity::CaseId;
+use crate::inputs::input_format::InputFormat;
 use crate::run::case::{ACCUMULATE, IDENTITY, SCATTER_ORACLE};
 
 /// Sub-frame counts of the accumulations that filters are compared with, rungs of the ladder.

@@ -4,8 +4,8 @@ use filters::{FilterError, Input};
 use frame::{Frame, Image, Picture, Plane, Raster};
 use metrics::Probes;
 
-use crate::filter::render_scale::upscale_picture;
-use crate::filter::runner::Runner;
+use crate::inputs::render_scale::upscale_picture;
+use crate::runner::Runner;
 
 /// The output of a filter, without the frame's guard band.
 pub(crate) struct FilterOutput {

@@ -14,7 +14,7 @@ use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
 use crate::Error;
-use crate::filter::choice::FilterChoice;
+use crate::filter_choice::FilterChoice;
 use crate::measure::scene_keys::SceneKeys;
 use crate::render::files::{find_missing, list_wanted};
 use crate::render::frames::render_frame;

@@ -6,8 +6,8 @@ use tracer::Scene;
 use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use crate::Error;
-use crate::filter::choice::FilterChoice;
-use crate::filter::input_format::InputFormat;
+use crate::filter_choice::FilterChoice;
+use crate::inputs::input_format::InputFormat;
 use crate::render::frames::render_frame;
 
 /// A frame in one of the forms in which filters get it.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use frame::{Replicate, Truth};
 use store::{
-    Files, MOST_REPLICATES, RenderFile, RenderPath, Sharing, claim, gather, list_renders,
+    Files, MAX_REPLICATES, RenderFile, RenderPath, Sharing, claim, gather, list_renders,
     place_files,
 };
 
@@ -90,12 +90,12 @@ fn merge_replicates(truth: &RenderPath, files: &[&Path]) -> Result<Truth, Error>
     let mut replicates = Vec::new();
     for file in files {
         let replicate = Replicate::read(file)?;
-        if replicate.index >= MOST_REPLICATES {
+        if replicate.index >= MAX_REPLICATES {
             return Err(Error::Usage(format!(
                 "{} is replicate {}; allowed: 0 to {}",
                 file.display(),
                 replicate.index,
-                MOST_REPLICATES - 1
+                MAX_REPLICATES - 1
             )));
         }
         replicates.push(replicate);

@@ -4,11 +4,11 @@ use frame::{Efficiency, Frame, Picture, Raster, Shutter, ShutterProfile, Truth};
 use rayon::prelude::*;
 
 /// Least number of instants.
-const FEWEST_INSTANTS: u32 = 64;
+const MIN_INSTANTS: u32 = 64;
 /// Instants per pixel that the fastest pixel moves.
 const INSTANTS_PER_PIXEL: f64 = 4.0;
 /// Upper limit on the instants.
-const MOST_INSTANTS: u32 = 1024;
+const MAX_INSTANTS: u32 = 1024;
 /// Instants whose pictures are in memory together.
 const TOGETHER: usize = 16;
 
@@ -51,7 +51,7 @@ fn place_instants(frame: &Frame, shutter: Shutter, efficiency: &Efficiency) -> V
     let speeds = frame.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
     let distance = f64::from(speeds.fold(0.0, f32::max)) * shutter.exposure();
     let wanted = (INSTANTS_PER_PIXEL * distance).ceil() as u32;
-    let count = wanted.clamp(FEWEST_INSTANTS, MOST_INSTANTS);
+    let count = wanted.clamp(MIN_INSTANTS, MAX_INSTANTS);
     let knots = efficiency.knots();
     let middles = (0..count).map(|index| (f64::from(index) + 0.5) / f64::from(count));
     let passing: Vec<(f64, f64)> = middles.map(|part| (part, light_at(&knots, part))).collect();

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use frame::{Alignment, Region, Replicate, Truth};
-use store::{MOST_REPLICATES, refuse_scene, scene_folder};
+use store::{MAX_REPLICATES, refuse_scene, scene_folder};
 use tracer::{RenderSettings, Scene};
 
 use super::memory::check_memory;
@@ -93,7 +93,7 @@ pub fn render_truths_until(
 fn predict_replicates(replicates: u32, factor: f64) -> u32 {
     let pairs = 0.5 * f64::from(replicates) * factor.powi(2);
     // No more than there may ever be.
-    2 * pairs.ceil().min(f64::from(MOST_REPLICATES / 2)) as u32
+    2 * pairs.ceil().min(f64::from(MAX_REPLICATES / 2)) as u32
 }
 
 /// Returns the noise floor that a target is compared with: that of the moving region, or of the whole picture where nothing

@@ -3,16 +3,16 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use store::{MOST_REPLICATES, MOST_RUN_BYTES, check_strings, is_below, read_text_within, to_lines};
+use store::{MAX_REPLICATES, MAX_RUN_BYTES, check_strings, is_below, read_text_within, to_lines};
 
 use super::case::Case;
-use super::sequence::{MOST_FRAMES, Sequence};
+use super::sequence::{MAX_FRAMES, Sequence};
 use super::{FORMAT, Run};
 use crate::Error;
 use crate::render::settings::SIDES;
 
 /// Upper limit on the cases of a run.json.
-pub const MOST_CASES: usize = 50_000;
+pub const MAX_CASES: usize = 50_000;
 
 impl Run {
     /// Writes the text of its `run.json`, with a line per case.
@@ -28,7 +28,7 @@ impl Run {
                 path.display()
             )));
         }
-        parse(&read_text_within(path, MOST_RUN_BYTES)?).map_err(|reason| {
+        parse(&read_text_within(path, MAX_RUN_BYTES)?).map_err(|reason| {
             Error::Usage(format!(
                 "{}: {reason}; `shuttertruth run` or `check` writes one",
                 path.display()
@@ -46,9 +46,9 @@ fn parse(text: &str) -> Result<Run, String> {
         return Err(format!("has format {}; allowed: {FORMAT}", run.format));
     }
     check_settings(&run)?;
-    if run.cases.len() > MOST_CASES {
+    if run.cases.len() > MAX_CASES {
         return Err(format!(
-            "holds {} cases; allowed: up to {MOST_CASES}",
+            "holds {} cases; allowed: up to {MAX_CASES}",
             run.cases.len()
         ));
     }
@@ -80,9 +80,9 @@ fn check_settings(run: &Run) -> Result<(), String> {
             SIDES.end()
         ));
     }
-    if !(1..=MOST_REPLICATES).contains(&render.replicates) {
+    if !(1..=MAX_REPLICATES).contains(&render.replicates) {
         return Err(format!(
-            "has {} replicates; allowed: 1 to {MOST_REPLICATES}",
+            "has {} replicates; allowed: 1 to {MAX_REPLICATES}",
             render.replicates
         ));
     }
@@ -118,9 +118,9 @@ fn check_sequence(sequence: &Sequence) -> Result<(), String> {
         ));
     }
     match paths.into_iter().find(|path| !is_below(path)) {
-        None if sequence.frames.len() <= MOST_FRAMES as usize => Ok(()),
+        None if sequence.frames.len() <= MAX_FRAMES as usize => Ok(()),
         None => Err(format!(
-            "the sequence {} / {} has {} frames; allowed: up to {MOST_FRAMES}",
+            "the sequence {} / {} has {} frames; allowed: up to {MAX_FRAMES}",
             sequence.scene,
             sequence.filter,
             sequence.frames.len()

@@ -12,7 +12,7 @@ use super::case::Intervals;
 use crate::identity::{CaseId, FilterId};
 
 /// Upper limit on the frames of a sequence.
-pub const MOST_FRAMES: u32 = 1000;
+pub const MAX_FRAMES: u32 = 1000;
 
 /// The pictures of one filter preset, or of one reference, over all frames of a scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -12,7 +12,7 @@ use crate::run::case::Intervals;
 const GROUP: usize = 2;
 
 /// Least number of replicates that give an interval: two groups.
-pub const FEWEST_REPLICATES: u32 = 4;
+pub const MIN_REPLICATES: u32 = 4;
 
 /// Makes one truth per pair of `replicates`, of all the others. Replicates share one support, so that the pixels that scores are
 /// pooled over stay the same.

@@ -9,7 +9,7 @@ pub const TWO_SIDED: f64 = 0.025;
 /// The mean over all such scenes lies beyond either one-sided 95 % limit with this probability.
 pub const ONE_SIDED: f64 = 0.05;
 /// Fewer scenes than this decide nothing: four differences all have one sign by chance once in eight times.
-pub const FEWEST_SCENES: usize = 5;
+pub const MIN_SCENES: usize = 5;
 
 /// A score on one scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ impl SceneMean {
     /// Returns the side of 0 that the whole interval lies on; none if it holds 0, or the scenes are too few to decide.
     pub fn side_of_zero(&self) -> Option<Ordering> {
         match self.interval {
-            _ if self.scenes < FEWEST_SCENES => None,
+            _ if self.scenes < MIN_SCENES => None,
             [low, _] if low > 0.0 => Some(Ordering::Greater),
             [_, high] if high < 0.0 => Some(Ordering::Less),
             _ => None,

@@ -3,7 +3,7 @@
 use frame::Plane;
 
 use crate::film::canvas::Canvas;
-use crate::limits::MOST_SAMPLES;
+use crate::limits::MAX_SAMPLES;
 
 /// Fewest and most samples of a pixel, relative to the mean.
 const RANGE: [f64; 2] = [0.125, 8.0];
@@ -86,7 +86,7 @@ impl SampleCounts {
 /// The allowed power of two that is nearest to a number, by ratio.
 fn nearest_count(number: f64, mean: u32) -> u32 {
     let [least, most] = RANGE.map(|factor| factor * f64::from(mean));
-    let bounded = number.clamp(least.max(1.0), most.min(f64::from(MOST_SAMPLES)));
+    let bounded = number.clamp(least.max(1.0), most.min(f64::from(MAX_SAMPLES)));
     1 << (bounded.log2().round() as u32)
 }
 

@@ -9,7 +9,7 @@ use super::files::Files;
 use super::picture::Header;
 use crate::EnvironmentMap;
 use crate::limits::{
-    BRIGHTEST, LARGEST_IMAGE_FILE, MOST_ENVIRONMENT_TEXELS, MOST_ENVIRONMENT_VALUES,
+    BRIGHTEST, LARGEST_IMAGE_FILE, MAX_ENVIRONMENT_TEXELS, MAX_ENVIRONMENT_VALUES,
 };
 
 /// Reads a map with strength 1 and rotation 0. The error is a reason alone: the caller knows the line that names the file.
@@ -34,7 +34,7 @@ pub(super) fn read_map(files: &mut Files, path: &Path) -> Result<EnvironmentMap,
 fn decode(bytes: &[u8], path: &Path, format: ImageFormat) -> Result<EnvironmentMap, String> {
     let undecodable = |error: String| format!("cannot be decoded: {error}");
     let header = Header::read(bytes, format).map_err(undecodable)?;
-    header.check(MOST_ENVIRONMENT_TEXELS)?;
+    header.check(MAX_ENVIRONMENT_TEXELS)?;
     if u64::from(header.width) != 2 * u64::from(header.height) {
         return Err(format!(
             "is {} x {}; allowed: a map in longitude and latitude, twice as wide as high",
@@ -74,9 +74,9 @@ fn check_exr_values(bytes: &[u8]) -> Result<(), String> {
         texels.saturating_mul(layer.channels.list.len() as u64)
     };
     let values = (file.headers().iter().map(count)).fold(0, u64::saturating_add);
-    if values > MOST_ENVIRONMENT_VALUES {
+    if values > MAX_ENVIRONMENT_VALUES {
         return Err(format!(
-            "holds {values} values in all its channels and layers; allowed: {MOST_ENVIRONMENT_VALUES}; scale it down, \
+            "holds {values} values in all its channels and layers; allowed: {MAX_ENVIRONMENT_VALUES}; scale it down, \
              or save only R, G and B"
         ));
     }

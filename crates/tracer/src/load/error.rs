@@ -49,12 +49,12 @@ impl SceneError {
 }
 
 /// Most names that a message lists.
-const MOST_LISTED: usize = 40;
+const MAX_LISTED: usize = 40;
 
 /// Joins names for a message: `a, b, c`, or `none`.
 pub(super) fn join_names<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let mut names = names.into_iter();
-    let mut listed: Vec<&str> = names.by_ref().take(MOST_LISTED).collect();
+    let mut listed: Vec<&str> = names.by_ref().take(MAX_LISTED).collect();
     let more = match names.count() {
         0 => String::new(),
         more => format!("{more} more"),

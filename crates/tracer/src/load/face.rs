@@ -1,7 +1,7 @@
 //! Faces of OBJ files.
 
 use super::statements::{Statement, shorten};
-use crate::limits::MOST_CORNERS;
+use crate::limits::MAX_CORNERS;
 
 /// Face with three corners or more.
 pub(super) struct Face {
@@ -28,7 +28,7 @@ impl Face {
         let face = Self { line, corners };
         match face.corners.len() {
             count @ ..3 => Err(format!("f has {count} corners; allowed: 3 or more")),
-            3..=MOST_CORNERS
+            3..=MAX_CORNERS
                 if face
                     .corners
                     .iter()
@@ -36,12 +36,12 @@ impl Face {
             {
                 Ok(face)
             }
-            3..=MOST_CORNERS => Err(format!(
+            3..=MAX_CORNERS => Err(format!(
                 "f has corners with different kinds of indices: \"{}\"; write all as v, v/vt, v//vn or v/vt/vn",
                 shorten(statement.rest)
             )),
             count => Err(format!(
-                "f has {count} corners; allowed: 3 to {MOST_CORNERS}; cut the face into triangles"
+                "f has {count} corners; allowed: 3 to {MAX_CORNERS}; cut the face into triangles"
             )),
         }
     }

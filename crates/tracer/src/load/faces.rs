@@ -18,7 +18,7 @@ use super::error::SceneError;
 use crate::scene::{Mesh, Object};
 
 /// Most faces of a mesh with the same three corners.
-const MOST_COINCIDENT: usize = 256;
+const MAX_COINCIDENT: usize = 256;
 
 /// Numbers of faces removed from a mesh.
 #[derive(Default)]
@@ -75,7 +75,7 @@ fn remove_from_mesh(mesh: &mut Mesh, object: &str) -> Result<Removed, SceneError
             continue;
         }
         others.push(face);
-        if others.len() > MOST_COINCIDENT {
+        if others.len() > MAX_COINCIDENT {
             return Err(too_many(&mesh.path, object, corners_of(mesh, face)));
         }
         remaining.push(face);
@@ -93,7 +93,7 @@ fn remove_from_mesh(mesh: &mut Mesh, object: &str) -> Result<Removed, SceneError
 
 fn too_many(path: &Path, object: &str, [a, b, c]: [Vec3; 3]) -> SceneError {
     let reason = format!(
-        "more than {MOST_COINCIDENT} triangles of object {object} have the corners {a}, {b} and {c}; allowed: {MOST_COINCIDENT}, since a \
+        "more than {MAX_COINCIDENT} triangles of object {object} have the corners {a}, {b} and {c}; allowed: {MAX_COINCIDENT}, since a \
          ray is tested against each; delete all but one"
     );
     SceneError::in_file(path, reason)
@@ -205,10 +205,10 @@ mod tests {
 
     #[test]
     fn too_many_different_faces_in_one_place_are_refused() {
-        let mut crowd = build_mesh(&CORNERS, vec![[0, 1, 2]; MOST_COINCIDENT + 1]);
+        let mut crowd = build_mesh(&CORNERS, vec![[0, 1, 2]; MAX_COINCIDENT + 1]);
         crowd.slots = (0..crowd.slots.len() as u32).collect();
         let Err(error) = remove_from_mesh(&mut crowd, "thing") else {
-            panic!("{} faces in one place", MOST_COINCIDENT + 1);
+            panic!("{} faces in one place", MAX_COINCIDENT + 1);
         };
         assert!(error.reason.contains("256"), "{error}");
     }

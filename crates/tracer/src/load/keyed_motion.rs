@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::document::Document;
 use super::error::SceneError;
 use super::rotation::{LARGEST_TURN, Rotation};
-use crate::limits::{CLOSEST_KEYS, MOST_KEYS};
+use crate::limits::{CLOSEST_KEYS, MAX_KEYS};
 use crate::motion::keys::key_times;
 use crate::{Interpolation, Key, Motion, Turn};
 
@@ -50,8 +50,8 @@ pub(super) fn build_motion(
     poses: &[Pose],
     interpolation: Interpolation,
 ) -> Result<Motion, SceneError> {
-    if !(1..=MOST_KEYS).contains(&poses.len()) {
-        let reason = format!("{what} has {} keys; allowed: 1 to {MOST_KEYS}", poses.len());
+    if !(1..=MAX_KEYS).contains(&poses.len()) {
+        let reason = format!("{what} has {} keys; allowed: 1 to {MAX_KEYS}", poses.len());
         return Err(document.error(place, reason));
     }
     let mut keys = Vec::new();

@@ -9,7 +9,7 @@ use super::document::Document;
 use super::error::SceneError;
 use super::keyed_motion::check_times;
 use super::schema::ObjectTable;
-use crate::limits::MOST_KEYS;
+use crate::limits::MAX_KEYS;
 
 /// OBJ file with one shape of a mesh.
 pub(super) struct MeshSource {
@@ -55,9 +55,9 @@ pub(super) fn read_mesh_sources(
         }
     };
     let count = shapes.get_ref().len();
-    if !(2..=MOST_KEYS).contains(&count) {
+    if !(2..=MAX_KEYS).contains(&count) {
         let reason = format!(
-            "{what} has {count} shapes; allowed: 2 to {MOST_KEYS}, or a mesh in their place"
+            "{what} has {count} shapes; allowed: 2 to {MAX_KEYS}, or a mesh in their place"
         );
         return Err(document.error(shapes.span(), reason));
     }

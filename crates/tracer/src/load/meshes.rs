@@ -17,7 +17,7 @@ use super::obj::ObjFile;
 use super::schema::ObjectTable;
 use super::texture::Textures;
 use super::translucency::Alpha;
-use crate::limits::{LARGEST_MESH_FILE, MOST_TRIANGLES};
+use crate::limits::{LARGEST_MESH_FILE, MAX_TRIANGLES};
 use crate::{Material, Mesh};
 
 /// Loader of meshes, materials and textures, each once.
@@ -165,9 +165,9 @@ impl<'a> MeshLoader<'a> {
         let first = &self.obj_files[&sources[0].path];
         let parts = first.parts_of(group);
         self.triangles += parts.map(|(_, part)| part.count_triangles()).sum::<usize>();
-        if self.triangles > MOST_TRIANGLES {
+        if self.triangles > MAX_TRIANGLES {
             let reason = format!(
-                "with {} the scene has {} triangles; allowed: {MOST_TRIANGLES}; simplify its meshes",
+                "with {} the scene has {} triangles; allowed: {MAX_TRIANGLES}; simplify its meshes",
                 sources[0].path.display(),
                 self.triangles
             );

@@ -12,7 +12,7 @@ use super::light::{check_albedo, check_radiance};
 use super::statements::{Statement, shorten, split_statements};
 use super::texture::{Textures, Use};
 use super::translucency::GLASS;
-use crate::limits::MOST_MATERIALS;
+use crate::limits::MAX_MATERIALS;
 use crate::{Material, Translucency};
 
 /// Albedo of faces without a material, and of materials with neither Kd nor map_Kd.
@@ -97,9 +97,9 @@ impl Libraries {
             if keyword == "newmtl" {
                 current = Some(statement.rest);
                 materials += 1;
-                if materials > MOST_MATERIALS {
+                if materials > MAX_MATERIALS {
                     return Err(fail(format!(
-                        "the file has more than {MOST_MATERIALS} materials; leave out those that no mesh uses"
+                        "the file has more than {MAX_MATERIALS} materials; leave out those that no mesh uses"
                     )));
                 }
             }

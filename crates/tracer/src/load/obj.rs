@@ -12,7 +12,7 @@ use super::mtl::{Libraries, default_material};
 use super::statements::{Statement, shorten, split_statements};
 use super::texture::Textures;
 use crate::Material;
-use crate::limits::{LARGEST_MATERIAL_FILE, LARGEST_NUMBER, MOST_TRIANGLES, MOST_VERTICES};
+use crate::limits::{LARGEST_MATERIAL_FILE, LARGEST_NUMBER, MAX_TRIANGLES, MAX_VERTICES};
 
 /// Group of faces before the first `g` or `o`, and after one without a name.
 const UNNAMED: &str = "unnamed_object";
@@ -150,12 +150,12 @@ impl ObjFile {
             "f" => self.read_face(statement),
             "v" => {
                 self.positions.push(read_position(statement)?);
-                check_count(self.positions.len(), MOST_VERTICES, "vertices")
+                check_count(self.positions.len(), MAX_VERTICES, "vertices")
             }
             "vt" => {
                 let numbers = statement.read_numbers(&[2, 3])?;
                 self.texcoords.push(Vec2::from_slice(&numbers));
-                check_count(self.texcoords.len(), MOST_VERTICES, "texture coordinates")
+                check_count(self.texcoords.len(), MAX_VERTICES, "texture coordinates")
             }
             "vn" => {
                 let normal = Vec3::from_slice(&statement.read_numbers(&[3])?);
@@ -163,7 +163,7 @@ impl ObjFile {
                     return Err("vn has no length; give it a direction".into());
                 }
                 self.normals.push(normal.as_dvec3().normalize().as_vec3());
-                check_count(self.normals.len(), MOST_VERTICES, "normals")
+                check_count(self.normals.len(), MAX_VERTICES, "normals")
             }
             _ => Ok(()),
         }
@@ -205,7 +205,7 @@ impl ObjFile {
             );
         }
         faces.push(face);
-        check_count(self.triangles, MOST_TRIANGLES, "triangles")
+        check_count(self.triangles, MAX_TRIANGLES, "triangles")
     }
 }
 

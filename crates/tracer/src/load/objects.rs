@@ -11,7 +11,7 @@ use super::object_motion::read_object_motion;
 use super::parents::OrderedObjects;
 use super::schema::{CameraTable, ObjectTable};
 use super::transform_range::TransformRange;
-use crate::limits::{MOST_EMISSIVE_TRIANGLES, MOST_PARENTS};
+use crate::limits::{MAX_EMISSIVE_TRIANGLES, MAX_PARENTS};
 use crate::{Camera, Motion, Object, Parent};
 
 /// Names that mean something else where objects are named.
@@ -97,9 +97,9 @@ impl<'a> ObjectLoader<'a> {
                 (parent.range, parent.ancestors + 1)
             }
         };
-        if ancestors > MOST_PARENTS {
+        if ancestors > MAX_PARENTS {
             let reason = format!(
-                "object \"{}\" has {ancestors} parents above it; allowed: {MOST_PARENTS}; attach it to one nearer to \
+                "object \"{}\" has {ancestors} parents above it; allowed: {MAX_PARENTS}; attach it to one nearer to \
                  the world",
                 name.get_ref()
             );
@@ -129,9 +129,9 @@ impl<'a> ObjectLoader<'a> {
                 self.emissive_triangles += triangles;
             }
         }
-        if self.emissive_triangles > MOST_EMISSIVE_TRIANGLES {
+        if self.emissive_triangles > MAX_EMISSIVE_TRIANGLES {
             let reason = format!(
-                "with {what} the scene has {} triangles that emit; allowed: {MOST_EMISSIVE_TRIANGLES}; simplify the \
+                "with {what} the scene has {} triangles that emit; allowed: {MAX_EMISSIVE_TRIANGLES}; simplify the \
                  meshes of its lights",
                 self.emissive_triangles
             );

@@ -88,13 +88,10 @@ impl<'a> OrderedObjects<'a> {
 
 /// Joins both ends of a path, and its middle if that is short.
 fn shorten_path(path: &[&str]) -> String {
-    const MOST_SHOWN: usize = 16;
-    if path.len() <= MOST_SHOWN {
+    const MAX_SHOWN: usize = 16;
+    if path.len() <= MAX_SHOWN {
         return path.join(" -> ");
     }
-    let [begin, end] = [
-        &path[..MOST_SHOWN / 2],
-        &path[path.len() - MOST_SHOWN / 2..],
-    ];
+    let [begin, end] = [&path[..MAX_SHOWN / 2], &path[path.len() - MAX_SHOWN / 2..]];
     format!("{} -> ... -> {}", begin.join(" -> "), end.join(" -> "))
 }

@@ -7,7 +7,7 @@ use frame::{check_png_palette, decode_srgb};
 use image::ImageFormat;
 
 use crate::Texture;
-use crate::limits::{LARGEST_IMAGE_FILE, MOST_TEXELS, MOST_TEXELS_TOGETHER};
+use crate::limits::{LARGEST_IMAGE_FILE, MAX_TEXELS, MAX_TEXELS_TOGETHER};
 
 use super::files::Files;
 use super::picture::Header;
@@ -64,14 +64,14 @@ impl Textures {
         };
         let broken = |error| format!("is broken: {error}");
         let header = Header::read(bytes, format).map_err(broken)?;
-        header.check(MOST_TEXELS)?;
+        header.check(MAX_TEXELS)?;
         if format == ImageFormat::Png {
             check_png_palette(bytes)?;
         }
         let together = self.texels + header.texels();
-        if together > MOST_TEXELS_TOGETHER {
+        if together > MAX_TEXELS_TOGETHER {
             return Err(format!(
-                "is {} x {}, which makes {together} texels of all textures together; allowed: {MOST_TEXELS_TOGETHER}; \
+                "is {} x {}, which makes {together} texels of all textures together; allowed: {MAX_TEXELS_TOGETHER}; \
                  scale some of them down",
                 header.width, header.height
             ));
@@ -122,8 +122,8 @@ mod tests {
             let texture = textures.decode(two.get_ref(), Path::new("two.png"), Use::Color);
             texture.map(|texture| texture.texels.len())
         };
-        assert_eq!(load(MOST_TEXELS_TOGETHER - 2), Ok(2));
-        let refusal = load(MOST_TEXELS_TOGETHER - 1).unwrap_err();
+        assert_eq!(load(MAX_TEXELS_TOGETHER - 2), Ok(2));
+        let refusal = load(MAX_TEXELS_TOGETHER - 1).unwrap_err();
         assert!(
             refusal.ends_with(
                 "texels of all textures together; allowed: 134217728; scale some of them down"

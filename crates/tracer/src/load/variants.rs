@@ -7,7 +7,7 @@ use super::document::Document;
 use super::error::{SceneError, check_name, join_names};
 use super::schema::{SceneTable, VariantTable};
 use crate::SceneId;
-use crate::limits::{MOST_OBJECTS, MOST_VARIANTS};
+use crate::limits::{MAX_OBJECTS, MAX_VARIANTS};
 
 /// Keys of an object that give a still pose.
 const STILL_POSE: [&str; 3] = ["translation", "rotation", "scale"];
@@ -211,9 +211,9 @@ fn read_variant_names(document: &Document, variants: &DeTable) -> Result<Vec<Str
             );
             return Err(document.error(name.span(), reason));
         }
-        if index == MOST_VARIANTS {
+        if index == MAX_VARIANTS {
             let reason = format!(
-                "the scene has {} variants; allowed: {MOST_VARIANTS}; move some to a folder of their own",
+                "the scene has {} variants; allowed: {MAX_VARIANTS}; move some to a folder of their own",
                 names.len()
             );
             return Err(document.error(name.span(), reason));
@@ -230,14 +230,14 @@ fn check_object_count(document: &Document, objects: &Spanned<DeValue>) -> Result
     let DeValue::Table(table) = objects.get_ref() else {
         return Ok(());
     };
-    if table.len() <= MOST_OBJECTS {
+    if table.len() <= MAX_OBJECTS {
         return Ok(());
     }
     let mut places: Vec<_> = table.keys().map(Spanned::span).collect();
     places.sort_by_key(|place| place.start);
     let reason = format!(
-        "the scene has {} objects; allowed: {MOST_OBJECTS}; join those that move together into one mesh",
+        "the scene has {} objects; allowed: {MAX_OBJECTS}; join those that move together into one mesh",
         table.len()
     );
-    Err(document.error(places[MOST_OBJECTS].clone(), reason))
+    Err(document.error(places[MAX_OBJECTS].clone(), reason))
 }

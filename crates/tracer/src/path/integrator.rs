@@ -16,7 +16,7 @@ use crate::stage::Stage;
 /// Bounce at which roulette begins; before it every path goes on.
 const ROULETTE_FROM: u32 = 3;
 /// Most bounces of a path. Roulette ends nearly all paths long before: at albedo 0.8 one in a million gets here.
-const MOST_BOUNCES: u32 = 64;
+const MAX_BOUNCES: u32 = 64;
 
 /// Traces paths through a stage.
 pub(crate) struct Integrator<'a> {
@@ -52,7 +52,7 @@ impl<'a> Integrator<'a> {
         let mut next_stop = first_stop;
         let mut density: RayDensity = None;
         let mut throughput = Vec3::ONE;
-        for depth in 0..MOST_BOUNCES {
+        for depth in 0..MAX_BOUNCES {
             let Some(Stop { hit, mirrors }) = next_stop else {
                 radiance += throughput * self.background_radiance(&ray, density);
                 return (radiance, depth);
@@ -102,7 +102,7 @@ impl<'a> Integrator<'a> {
             (next_stop, passed) = find_stop(self.stage, poses, &ray, || sampler.passage(depth));
             throughput *= passed;
         }
-        (radiance, MOST_BOUNCES)
+        (radiance, MAX_BOUNCES)
     }
 
     /// Gathers the light that a surface scatters, of lights and of the sky, and draws the path's next direction.

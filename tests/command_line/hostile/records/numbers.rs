@@ -90,7 +90,9 @@ fn every_command_refuses_a_scene_whose_exposures_show_nothing() {
         let table = format!("[display]\n{display}\n\n[camera]");
         bench.write("scene.toml", &SCENE.replace("[camera]", &table));
         for command in ["run", "truths render"] {
-            let words = split(command).into_iter().chain(["--quiet", "--out", "out"]);
+            let words = split(command)
+                .into_iter()
+                .chain(["--quiet", "--out", "out"]);
             assert_refused(&bench.shuttertruth(&words.collect::<Vec<_>>()), 2, parts);
         }
     }

@@ -137,13 +137,7 @@ fn circular_links_and_pipes_are_not_read_as_parts() {
 
     let path = bench.path(SECOND);
     fs::remove_file(&path).unwrap();
-    let refused = || {
-        assert_refused(
-            &merge(&bench, &["a", "b"]),
-            2,
-            &["b holds no replicates"],
-        )
-    };
+    let refused = || assert_refused(&merge(&bench, &["a", "b"]), 2, &["b holds no replicates"]);
     make_fifo(&path);
     refused();
     fs::remove_file(&path).unwrap();

@@ -13,10 +13,10 @@ use super::line_reader::{Line, read_lines};
 use crate::output::{print, was_interrupted};
 
 /// Upper limit on requests that wait; more are read later.
-const MOST_WAITING: usize = 1024;
+const MAX_WAITING: usize = 1024;
 
 /// Upper limit on cancelled requests that have not come yet.
-const MOST_CANCELLED: usize = 65_536;
+const MAX_CANCELLED: usize = 65_536;
 
 /// Characters of a line that an error shows.
 const SHOWN: usize = 200;
@@ -90,7 +90,7 @@ impl Inbox {
 
     /// Takes in all lines that have arrived.
     pub fn read(&mut self) -> Result<(), Error> {
-        while self.waiting.len() < MOST_WAITING {
+        while self.waiting.len() < MAX_WAITING {
             match self.lines.try_recv() {
                 Ok(text) => self.take(text)?,
                 Err(TryRecvError::Empty | TryRecvError::Disconnected) => return Ok(()),
@@ -110,9 +110,9 @@ impl Inbox {
                 self.waiting.push_back(ScoreRequest { id, params, scenes });
                 Ok(())
             }
-            Ok(Request::Cancel { cancel }) if self.cancelled.len() >= MOST_CANCELLED => {
+            Ok(Request::Cancel { cancel }) if self.cancelled.len() >= MAX_CANCELLED => {
                 let reason = format!(
-                    "{MOST_CANCELLED} requests that have not come are cancelled already, which is the most"
+                    "{MAX_CANCELLED} requests that have not come are cancelled already, which is the most"
                 );
                 print_reply(json!({"id": cancel, "error": reason}))
             }

@@ -28,7 +28,7 @@ use seen::{Seen, raise_to_errors};
 use space::decode_srgb;
 
 /// Upper limit on the exposures of HDR-FLIP.
-pub const MOST_EXPOSURES: u32 = 128;
+pub const MAX_EXPOSURES: u32 = 128;
 
 /// Maps LDR-FLIP, in [0, 1], of scene-linear images at `viewing.stops`, seen at 67.02 pixels per degree: a monitor
 /// 0.7 m wide with 3840 pixels, from 0.7 m away. The images are finite and of one size.

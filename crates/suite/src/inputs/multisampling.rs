@@ -3,7 +3,7 @@
 use frame::{ColorSampling, Frame, Raster};
 use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_on};
 
-use super::traced_again::settings_of;
+use crate::inputs::traced_again::settings_of;
 use crate::{Error, Monitor, named};
 
 /// Places of the four samples from the pixel's centre, in pixels: the standard pattern of Direct3D and Vulkan.
@@ -108,7 +108,7 @@ fn sample_settings(frame: &Frame) -> [RenderSettings; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::filter::test_frame::test_frame;
+    use crate::inputs::test_frame::test_frame;
 
     #[test]
     fn colour_is_the_mean_and_depth_is_that_of_the_chosen_sample() {

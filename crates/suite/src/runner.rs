@@ -3,8 +3,8 @@
 use filters::{Blur, CommandBlur, Filter, FilterError, Gpu, Input, Limits, Settings};
 use frame::Image;
 
-use super::choice::FilterChoice;
 use crate::Monitor;
+use crate::filter_choice::FilterChoice;
 
 /// A filter with its parameters, for images of one size.
 pub enum Runner<'g> {

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use frame::Frame;
 use tracer::{Defocus, Scene, trace_defocus, trace_frame};
 
-use super::traced_again::settings_of;
+use crate::inputs::traced_again::settings_of;
 use crate::{Error, Monitor, named};
 
 named! {

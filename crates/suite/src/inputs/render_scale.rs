@@ -3,8 +3,8 @@
 use frame::{Frame, Plane, Raster};
 use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_on};
 
-use super::resample::{Extent, read_bilinear, read_nearest};
-use super::traced_again::settings_of;
+use crate::inputs::resample::{Extent, read_bilinear, read_nearest};
+use crate::inputs::traced_again::settings_of;
 use crate::{Error, Monitor, named};
 
 named! {
@@ -138,7 +138,7 @@ fn bare(picture: [u32; 2]) -> Extent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::filter::test_frame::test_frame;
+    use crate::inputs::test_frame::test_frame;
 
     #[test]
     fn sizes_are_rounded() {

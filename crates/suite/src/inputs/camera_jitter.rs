@@ -3,7 +3,7 @@
 use frame::{Frame, Vectors};
 use tracer::{PixelGrid, PointMotion, Scene, trace_frame_on, trace_motion_on};
 
-use super::traced_again::settings_of;
+use crate::inputs::traced_again::settings_of;
 use crate::{Error, Monitor, named};
 
 /// Number of jitters before they repeat.

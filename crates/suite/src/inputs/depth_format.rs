@@ -3,7 +3,7 @@
 use frame::{FAR_DEPTH, Plane};
 use half::f16;
 
-use super::unorm::unorm;
+use crate::inputs::unorm::unorm;
 use crate::named;
 
 /// Near plane that reversed depth is computed with, in metres.

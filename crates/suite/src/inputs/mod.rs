@@ -1,16 +1,14 @@
-//! Filters with their parameters, the forms of their input, and their runs.
+//! Forms in which filters get their frames: formats, sizes and defects of the buffers, and how the frame was sampled.
 
 pub mod border;
 pub mod buffer_size;
 pub mod camera_jitter;
-pub mod choice;
 pub mod depth_format;
 pub mod depth_of_field;
 pub mod input_format;
 pub mod multisampling;
 pub mod render_scale;
 mod resample;
-pub mod runner;
 pub mod shutter_rule;
 #[cfg(test)]
 mod test_frame;

@@ -3,7 +3,7 @@
 use frame::{Frame, Vectors, VelocityKind};
 use tracer::{PointMotion, Scene, trace_motion};
 
-use super::traced_again::settings_of;
+use crate::inputs::traced_again::settings_of;
 use crate::{Error, named};
 
 /// Jitter of two consecutive frames, as temporal anti-aliasing has it: the second point of the Halton sequence of bases 2 and 3 less

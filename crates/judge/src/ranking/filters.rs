@@ -58,7 +58,7 @@ pub const RANK_RULE: &str = "Rank 2-4: one filter is better, two are too close t
                              the difference (on one scene, the noise floor).";
 
 /// Upper limit on presets that a summary ranks one by one.
-pub const MOST_RANKED: usize = 16;
+pub const MAX_RANKED: usize = 16;
 
 /// Lists the cases that a summary ranks: those of scenes at the frame rate of their files, or all where no scene is.
 pub fn list_summarized(cases: &[Case]) -> Vec<&Case> {
@@ -78,7 +78,7 @@ pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
         .collect();
     let presets = rank_by_score(&full, false);
     match presets.iter().map(Vec::len).sum() {
-        ..=MOST_RANKED => presets,
+        ..=MAX_RANKED => presets,
         _ => rank_by_score(&full, true),
     }
 }

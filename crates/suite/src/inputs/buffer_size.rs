@@ -84,7 +84,7 @@ fn nearest(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::filter::test_frame::test_frame;
+    use crate::inputs::test_frame::test_frame;
 
     /// Makes a frame whose velocity names its pixel, with one near pixel.
     fn frame_with_near_pixel(near: (u32, u32)) -> Frame {

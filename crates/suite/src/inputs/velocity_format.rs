@@ -3,7 +3,7 @@
 use frame::{Frame, Vectors};
 use half::f16;
 
-use super::unorm::unorm;
+use crate::inputs::unorm::unorm;
 use crate::named;
 
 /// Tile, and longest half-velocity, of McGuire et al. 2012, in pixels.

@@ -4,16 +4,16 @@ use frame::{Frame, VelocityKind};
 use serde::{Deserialize, Serialize};
 use tracer::Scene;
 
-use super::border::{Border, repeat_border, smear_margin};
-use super::buffer_size::BufferSize;
-use super::camera_jitter::CameraJitter;
-use super::depth_format::DepthFormat;
-use super::depth_of_field::DepthOfField;
-use super::multisampling::Multisampling;
-use super::render_scale::RenderScale;
-use super::shutter_rule::ShutterRule;
-use super::velocity_defect::VelocityDefect;
-use super::velocity_format::VelocityFormat;
+use crate::inputs::border::{Border, repeat_border, smear_margin};
+use crate::inputs::buffer_size::BufferSize;
+use crate::inputs::camera_jitter::CameraJitter;
+use crate::inputs::depth_format::DepthFormat;
+use crate::inputs::depth_of_field::DepthOfField;
+use crate::inputs::multisampling::Multisampling;
+use crate::inputs::render_scale::RenderScale;
+use crate::inputs::shutter_rule::ShutterRule;
+use crate::inputs::velocity_defect::VelocityDefect;
+use crate::inputs::velocity_format::VelocityFormat;
 use crate::{Error, Monitor};
 
 /// A kind of input, and the forms that it can have.
