@@ -84,8 +84,8 @@ fn bad_arguments_of_bench_are_refused() {
         (&["--filters", "no/such/folder"], &["no/such/folder"]),
         (&["--size", "0x0"], &["0x0", "WIDTHxHEIGHT"]),
         (&["--size", "640"], &["WIDTHxHEIGHT"]),
-        (&["--rounds", "19"], &["19", "20 to 10000"]),
-        (&["--rounds", "many"], &["many", "20 to 10000"]),
+        (&["--rounds", "19"], &["19 is not in 20..=10000"]),
+        (&["--rounds", "many"], &["'many' for '--rounds <N>'"]),
         (&["--adapter", "no such card"], &["no such card", "found:"]),
         (&["--speed", "3"], &["--speed"]),
     ];

@@ -74,7 +74,7 @@ fn bad_kinds_of_frames_are_refused() {
             ["--frame-sampling", "sharp"],
             ["sharp", "antialiased, point"],
         ),
-        (["--color", "point"], ["--color", "--frame-sampling point"]),
+        (["--color", "point"], ["--color", "auto, always, never"]),
         (["--sky-velocity", "maybe"], ["maybe", "off"]),
         (["--guard-band", "wide"], ["--guard-band", "wide"]),
         (["--guard-band", "99999"], ["200062x200030", "16384"]),

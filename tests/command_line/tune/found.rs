@@ -167,9 +167,6 @@ fn two_presets_are_compared_scene_by_scene() {
         text.contains("+0.0 %, 90 % CI +0.0 % to +0.0 %, over 7 scenes: undecided"),
         "{text}"
     );
-    let old = split("tune search --quiet --filter jump_flood --compare paper,tuned");
-    let output = bench.shuttertruth(&[&old[..], &more].concat());
-    assert_refused(&output, 2, &["--compare", "shuttertruth tune compare"]);
 }
 
 #[test]
