@@ -199,19 +199,18 @@ pub fn list_renders(root: &Path) -> Result<Vec<RenderPath>, FileError> {
 }
 
 fn list_below(
-    root: &Path,
+    folder: &Path,
     below: &Path,
     depth: u32,
     found: &mut Vec<RenderPath>,
 ) -> Result<(), FileError> {
-    let folder = root.join(below);
-    let fail = |source| FileError::io(&folder, "read", source);
-    for entry in fs::read_dir(&folder).map_err(fail)? {
+    let fail = |source| FileError::io(folder, "read", source);
+    for entry in fs::read_dir(folder).map_err(fail)? {
         let entry = entry.map_err(fail)?;
         let below = below.join(entry.file_name());
         let kind = entry.file_type().map_err(fail)?;
         if kind.is_dir() && depth > 0 {
-            list_below(root, &below, depth - 1, found)?;
+            list_below(&entry.path(), &below, depth - 1, found)?;
         } else if kind.is_file() {
             found.extend(RenderPath::parse(&below));
         }

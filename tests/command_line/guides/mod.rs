@@ -85,10 +85,6 @@ const NOT_RUN: [(&str, &str); 46] = [
         "a part of `make test`",
     ),
     (
-        "cargo bench -p suite --bench case -- railing jump_flood:paper 1920x1080",
-        "compiles in release mode",
-    ),
-    (
         "cargo bench -p shuttertruth-tracer",
         "compiles in release mode",
     ),
