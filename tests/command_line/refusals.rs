@@ -104,15 +104,15 @@ fn bad_arguments_are_refused_with_the_allowed_values() {
         let parts = ["file: is a file, where the output folder is to be"];
         assert_refused(&bench.shuttertruth(&words), 2, &parts);
     }
-    for command in ["run", "render"] {
+    for command in [&["run"][..], &["truths", "render"]] {
         let before = files_below(&bench.path("scenes"));
-        let words = [command, "--quiet", "--out", "scenes"];
+        let words = [command, &["--quiet", "--out", "scenes"]].concat();
         assert_refused(
             &bench.shuttertruth(&words),
             2,
             &["scenes/plate holds a scene"],
         );
-        assert_eq!(files_below(&bench.path("scenes")), before, "{command}");
+        assert_eq!(files_below(&bench.path("scenes")), before, "{command:?}");
     }
     assert_refused(
         &bench.shuttertruth(&[]),

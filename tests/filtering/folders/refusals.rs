@@ -14,7 +14,7 @@ fn a_wrong_folder_is_refused_with_place_and_reason() {
     let wrong: &[(&str, &str, &str, &[&str])] = &[
         ("filter.toml", "summary =", "sumary =", &["filter.toml:2:", "unknown field `sumary`", "expected one of"]),
         ("filter.toml", "alignment = \"centred\"", "", &["missing field `alignment`"]),
-        ("filter.toml", "\"centred\"", "\"central\"", &["filter.toml:3:", "central", "trailing, centred, leading"]),
+        ("filter.toml", "\"centred\"", "\"central\"", &["filter.toml:3:", "central", "`trailing`, `centred`, `leading`"]),
         ("filter.toml", "\"centre_blur\"", "\"Centre Blur\"", &["filter.toml:1:", "Centre Blur", "a-z"]),
         ("filter.toml", "\"centre_blur\"", "\"other\"", &["other.wgsl", "cannot be read"]),
         ("filter.toml", "default = 8", "default = 65", &["filter.toml:5:", "samples", "65", "a whole number from 2 to 64"]),

@@ -25,8 +25,8 @@ pub fn size_for_bounds<'a>(
             );
             if let Some(asked) = asked.filter(|asked| *asked != size) {
                 return Err(Error::Usage(format!(
-                    "{holds}, and the pictures are to have {}; leave the size out, or measure limits for it with `shuttertruth \
-                     calibrate` and put them into {} beside the scene",
+                    "{holds}, and the pictures are to have {}; leave the size out, or measure limits for it with \
+                     `shuttertruth limits calibrate` and put them into {} beside the scene",
                     text(asked),
                     sized_bounds_file(asked)
                 )));
