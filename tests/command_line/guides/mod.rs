@@ -17,7 +17,7 @@ use crate::bench::{stderr, stdout};
 use crate::links::find_pages;
 
 /// Commands that are not run, and why.
-const NOT_RUN: [(&str, &str); 46] = [
+const NOT_RUN: [(&str, &str); 45] = [
     (
         "shuttertruth truths render --scenes railing --size 1920x1080 --alignments trailing,centred --noise 0.01 --samples-per-pixel 64 --replicates 2 --out out",
         "takes minutes; a test renders both truths of a plate to a noise",
