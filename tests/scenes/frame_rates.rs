@@ -302,7 +302,7 @@ fn names_that_are_no_rates_are_refused() {
         ("0fps", "0 frames per second; allowed: 1 to 1000"),
         ("-24fps", "-24 frames per second; allowed"),
         ("2000fps", "2000 frames per second; allowed"),
-        ("NaNfps", "NaN frames per second; allowed"),
+        ("NaNfps", "variant \"NaNfps\" is unknown"),
         (
             "24fps_1-0s",
             "a shutter time of 1/0 s; allowed: 1/1 to 1/100000",
