@@ -56,7 +56,7 @@ pub type RunBounds = BTreeMap<SceneId, SceneBounds>;
 
 /// Compares every bounded score of a run with its limit: one finding per filter, scene and bound, in the order of the run's cases, and
 /// behind those of a case the ones of its sequence.
-/// Bars have no bounds. Pure: reads nothing, writes nothing.
+/// References have no bounds. Pure: reads nothing, writes nothing.
 pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
     let filters = run.cases.iter().filter(|case| !case.is_reference);
     filters

@@ -52,7 +52,7 @@ fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
 /// Places gathered files below a folder.
 ///
 /// # Errors
-/// As [`place_file`].
+/// A file is no regular one, or cannot be read or written.
 pub fn place_files(files: &Files, out: &Path) -> Result<(), FileError> {
     (files.iter()).try_for_each(|(below, file)| place_file(file, &out.join(below)))
 }

@@ -20,7 +20,7 @@ pub use claim::{Claim, Sharing, claim};
 pub use clear::clear_scene;
 pub use error::Error;
 pub use folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
-pub use gather::{Files, MAX_TAKEN_BYTES, gather, place_file, place_files};
+pub use gather::{Files, gather, place_files};
 pub use json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within};
 pub use json_lines::to_lines;
 pub use json_strings::check_strings;
