@@ -32,6 +32,7 @@ use program::{Cli, execute, find_new_place};
 use store::printable;
 use suite::Error;
 
+pub use output::terminal_text;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::{
     annotations, check_text, compare_table, junit, main_results, paired_table, picture_name,
