@@ -9,6 +9,7 @@ mod decision;
 mod decoys;
 mod evidence;
 mod finding;
+mod groups;
 mod judged_score;
 mod judgement;
 mod outcome;
@@ -30,9 +31,9 @@ pub use bounds::{
 pub use calibrate::{Calibration, Proposal, Sample, calibrate, default_metrics};
 pub use check::{CHECK_FORMAT, Check, check};
 pub use compare::{
-    Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
-    Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
-    compare_sizes, compare_with_last, pair_cases, rank_changes, score_change,
+    Agreement, Basis, Change, ChangeKind, FilterAtSizes, MeanChange, Pair, Reversal, RunComparison,
+    SettingChange, Side, SizeComparison, compare_runs, compare_sizes, pair_cases, rank_changes,
+    score_change,
 };
 pub use decision::Decision;
 pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
