@@ -39,7 +39,8 @@ pub use decision::Decision;
 pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
 pub use finding::{Finding, MAX_SAMPLES, number};
-pub use judged_score::{JudgedScore, judge_scores, judge_sequence};
+use judged_score::judge_sequence;
+pub use judged_score::{JudgedScore, judge_scores};
 pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
 pub use outcome::{Outcome, badness_within};
 pub use ranking::filters::{
@@ -67,14 +68,10 @@ pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
                 .unwrap_or_default();
             // A run with intervals has some in every case.
             let intervals = (!case.intervals.is_empty()).then_some(&case.intervals);
-            let of_frame = judge_scores(&case.scores, intervals, &bounds)
-                .into_iter()
-                .map(|judged| Finding::new(run, case, judged));
             let sequence = find_sequence(run, case);
-            let of_sequence = judge_sequence(sequence, run.frames, &bounds)
-                .into_iter()
-                .map(|judged| Finding::of_sequence(run, case, sequence, judged));
-            of_frame.chain(of_sequence).collect::<Vec<_>>()
+            let mut judged = judge_scores(&case.scores, intervals, &bounds);
+            judged.extend(judge_sequence(sequence, run.frames, &bounds));
+            (judged.into_iter()).map(move |judged| Finding::new(run, case, sequence, judged))
         })
         .collect()
 }
