@@ -11,6 +11,7 @@ use crate::bounds::Level;
 use crate::decision::Decision;
 use crate::decoys::Resemblance;
 use crate::judged_score::JudgedScore;
+use crate::numbers::number;
 use crate::outcome::{Outcome, limit_as_badness};
 use crate::worst::Worst;
 
@@ -168,38 +169,6 @@ impl Finding {
         match self.unit.as_str() {
             "" => number(value),
             unit => format!("{} {unit}", number(value)),
-        }
-    }
-}
-
-/// Formats a number with four significant digits, as people write it.
-pub fn number(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    let size = value.abs().log10().floor();
-    if (-4.0..6.0).contains(&size) {
-        format!("{value:.*}", (3.0 - size).max(0.0) as usize)
-    } else {
-        format!("{value:.3e}")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_four_digits_that_count() {
-        for (value, text) in [
-            (0.0, "0"),
-            (0.05, "0.05000"),
-            (-12.3456, "-12.35"),
-            (123456.0, "123456"),
-            (0.000_123_456, "0.0001235"),
-            (1.5e-7, "1.500e-7"),
-        ] {
-            assert_eq!(number(value), text);
         }
     }
 }

@@ -12,6 +12,7 @@ mod finding;
 mod groups;
 mod judged_score;
 mod judgement;
+mod numbers;
 mod outcome;
 mod ranking;
 mod results;
@@ -20,8 +21,7 @@ mod worst;
 use std::collections::BTreeMap;
 
 pub use baseline::{
-    Acceptance, BASELINE_FORMAT, Baseline, BaselineComparison, ComparisonKind, accept_scores,
-    compare_with_baseline,
+    Acceptance, Baseline, BaselineComparison, ComparisonKind, accept_scores, compare_with_baseline,
 };
 pub use bounds::{
     BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
@@ -38,17 +38,18 @@ pub use compare::{
 pub use decision::Decision;
 pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
-pub use finding::{Finding, MAX_SAMPLES, number};
+pub use finding::{Finding, MAX_SAMPLES};
 use judged_score::judge_sequence;
 pub use judged_score::{JudgedScore, judge_scores};
-pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
+pub use judgement::{JUDGEMENT_FILE, Judgement};
+pub use numbers::{number, round_to_digits};
 pub use outcome::{Outcome, badness_within};
 pub use ranking::filters::{
     MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
 };
 pub use ranking::lag::{lag_text, mean_lag};
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
-pub use results::{RESULTS_FORMAT, ResultCost, ResultScores, Results};
+pub use results::{ResultCost, ResultScores, Results};
 use suite::{Case, Run, Sequence};
 use tracer::SceneId;
 pub use worst::{BLOCK, CROP, Worst, worst_block};

@@ -172,8 +172,6 @@ fn read_margin(name: &str, width: f64, place: String) -> Result<(Metric, Margin)
     }
     match width.is_finite() && width >= 0.0 {
         true => Ok((metric, Margin { width, place })),
-        false => Err(format!(
-            "margin of {metric} is {width}; allowed: 0 or more"
-        )),
+        false => Err(format!("margin of {metric} is {width}; allowed: 0 or more")),
     }
 }
