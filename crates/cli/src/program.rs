@@ -37,7 +37,7 @@ pub enum Command {
     /// Run, and hold every score to its bound: pass or fail
     Check(check::CheckArgs),
     /// Measure a finished picture from any source
-    Score(scored::ScoreArgs),
+    Score(score::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
     Report(report::ReportArgs),
     /// Compare two finished runs: which scores changed by more than noise
@@ -208,6 +208,7 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
     let done = match &program.command {
         Command::Run(args) => run::execute(args),
         Command::Check(args) => return check::execute(args),
+        Command::Score(args) if args.frames > 1 => score_sequence::execute(args),
         Command::Score(args) => score::execute(args),
         Command::Report(args) => report::execute(args),
         Command::Compare(args) => compare::execute(args),

@@ -11,15 +11,14 @@ use judge::{
 };
 use metrics::Metric;
 use store::{printable_path, refuse_tracked};
-use suite::{Error, Run, open_gpu};
+use suite::{Case, Error, Run, open_gpu};
 use tracer::Location;
 
 use super::margins::{Margins, read_margins};
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, page_path, refuse_folder, write_run_page};
+use super::pages::{WrittenFile, page_lines, refuse_folder, write_judged_run, write_run_page};
 use super::result::Ending;
-use super::run_files::write_judged_run;
-use super::run_plan::{check_replicates_for_intervals, make_plan, read_case_bounds};
+use super::run_plan::{add_bounds, check_replicates_for_intervals, make_plan};
 use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
 use crate::output::{is_verbose, print, print_json, print_note};
 use crate::tables::{adapter_text, annotations, check_text, junit, summary, verdict_text};
@@ -181,9 +180,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     } = measure(&mut plan, gpu.as_ref())?;
     let mut findings = judge(&whole, &bounds);
     add_evidence(&whole, &mut findings, &plan.out)?;
-    write_judged_run(&whole, &findings, &plan.out)?;
-    let html = page_path(args.html.as_ref(), &plan.out);
-    let pages = write_run_page(&whole, &findings, &plan.out, &html)?;
+    let pages = write_judged_run(&whole, &findings, &plan.out, args.html.as_ref())?;
     findings.retain(|finding| run.cases.iter().any(|case| finding.is_of(case)));
     Ok(Judged {
         run,
@@ -234,30 +231,21 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
 
 /// Reads the bounds of a run's scenes, for pictures of the run's size, from the folder of scenes.
 fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
-    let mut found = RunBounds::new();
-    for case in &run.cases {
-        if found.contains_key(&case.scene) {
-            continue;
-        }
-        let size = (run.render.width, run.render.height);
-        let bounds = read_case_bounds(root, case, size)?.ok_or_else(|| {
-            if case.drawn.is_some() {
-                return Error::Usage(format!(
-                    "{}: an engine drew it, and its bounds lie beside what was ingested, which is not in {}; name the folder \
-                     above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check --scenes",
-                    case.scene,
-                    root
-                ));
-            }
-            let folder = root.join(&case.scene.name);
-            Error::Usage(format!(
-                "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",
-                folder
-            ))
-        })?;
-        found.insert(case.scene.clone(), bounds);
+    let mut bounds = RunBounds::new();
+    add_bounds(&mut bounds, run, root)?;
+    let is_missing = |case: &&Case| !bounds.contains_key(&case.scene);
+    match run.cases.iter().find(is_missing) {
+        None => Ok(bounds),
+        Some(case) if case.drawn.is_some() => refuse!(
+            "{}: an engine drew it, and its bounds lie beside what was ingested, which is not in {root}; name the folder \
+             above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check --scenes",
+            case.scene
+        ),
+        Some(case) => refuse!(
+            "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",
+            root.join(&case.scene.name)
+        ),
     }
-    Ok(found)
 }
 
 fn find_summary_file() -> Result<PathBuf, Error> {
