@@ -65,10 +65,10 @@ pub enum Command {
     People(PeopleCommand),
     /// Print completions for a shell
     #[command(hide = true)]
-    Completions(completions::CompletionsArgs),
+    Completions(description::CompletionsArgs),
     /// Write the pages of the manual
     #[command(hide = true)]
-    Man(man::ManArgs),
+    Man(description::ManArgs),
 }
 
 /// The commands of `tune`.
@@ -233,8 +233,8 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Limits(LimitsCommand::Calibrate(args)) => calibrate::execute(args),
         Command::People(PeopleCommand::Ask(args)) => ask::execute(args),
         Command::People(PeopleCommand::Preferences(args)) => preferences::execute(args),
-        Command::Completions(args) => completions::execute(args, Cli::all_visible()),
-        Command::Man(args) => man::execute(args, Cli::all_visible()),
+        Command::Completions(args) => description::print_completions(args, Cli::all_visible()),
+        Command::Man(args) => description::write_manual(args, Cli::all_visible()),
     };
     done.map(|()| Ending::Done)
 }

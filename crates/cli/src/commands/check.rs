@@ -6,19 +6,21 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Command, Id};
 use frame::FileError;
 use judge::{
-    BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
-    check_lengths, check_names, compare_with_baseline, judge, require_bounds, size_for_bounds,
+    BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, Side, add_evidence, bound_subframes,
+    check, check_lengths, check_names, compare_with_baseline, judge, require_bounds,
+    size_for_bounds,
 };
 use metrics::Metric;
 use store::{printable_path, refuse_tracked};
 use suite::{Case, Error, Run, open_gpu};
 use tracer::Location;
 
-use super::margins::{Margins, read_margins};
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_judged_run, write_run_page};
 use super::result::Ending;
-use super::run_plan::{add_bounds, check_replicates_for_intervals, make_plan};
+use super::run_plan::{
+    Margins, add_bounds, check_replicates_for_intervals, make_plan, read_margins,
+};
 use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
 use crate::output::{is_verbose, print, print_json, print_note};
 use crate::tables::{adapter_text, annotations, check_text, junit, summary, verdict_text};
@@ -107,17 +109,17 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
         measured.iter().for_each(|text| print_note(text));
     } else {
         let text = check_text(&checked, &folder, is_verbose());
-        let adapter = adapter_text(&run.adapter);
-        let pages = page_lines("report", &pages);
         let other = (baseline.iter()).find(|baseline| !baseline.is_of_class(&run.adapter));
         let note = other.map_or(String::new(), |baseline| {
             let theirs = adapter_text(&baseline.adapter);
             format!("the baseline is of another class of adapter: {theirs}\n")
         });
+        let pages = page_lines("report", &pages);
+        let adapter = adapter_text(&run.adapter);
         let measured = measured.map_or(String::new(), |text| text + "\n");
+        let verdict = verdict_text(&checked);
         print(&format!(
-            "{text}{note}{pages}adapter: {adapter}\n{measured}{}",
-            verdict_text(&checked)
+            "{text}{note}{pages}adapter: {adapter}\n{measured}{verdict}"
         ))?;
     }
     if args.github {
@@ -143,11 +145,9 @@ struct Judged {
 /// nothing is judged by them.
 fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
-    if let Some((width, height)) =
-        size_for_bounds(bounds.values(), &plan.filters, args.measure.size)?
-    {
-        (plan.render.width, plan.render.height) = (width, height);
-        plan.check()?;
+    let asked = args.measure.size;
+    if let Some(size) = size_for_bounds(bounds.values(), &plan.filters, asked)? {
+        (plan.render.width, plan.render.height) = size;
     }
     check_lengths(bounds.values(), &plan.filters, args.sequence.frames())?;
     plan.frames = args.sequence.frames();
@@ -163,10 +163,8 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
         require_bounds(root, bounds.iter(), &plan.filters, plan.frames)?;
     }
     if let Some(truths) = &plan.truths {
-        refuse_tracked(
-            truths,
-            "choose a folder or a pack outside of the repository for --truths",
-        )?;
+        let way_out = "choose a folder or a pack outside of the repository for --truths";
+        refuse_tracked(truths, way_out)?;
     }
     if !plan.no_cache {
         let way_out = "choose a folder outside of the repository for --out, or have all made anew with --no-cache";
@@ -192,15 +190,12 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
 
 /// Judges a finished run by the bounds beside its scenes: nothing is rendered, and no adapter is opened.
 fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judged, Error> {
-    let path = match path.is_dir() {
-        true => path.join("run.json"),
-        false => path.to_owned(),
+    let side = Side::read(path)?;
+    let folder = match side.folder() {
+        own if own.as_os_str().is_empty() => PathBuf::from("."),
+        own => own.to_owned(),
     };
-    let run = Run::read(&path)?;
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
-        _ => PathBuf::from("."),
-    };
+    let run = side.run;
     refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;
     let root = &args.measure.scenes.root.scenes_dir;
     let bounds = read_run_bounds(&run, root)?;
@@ -209,7 +204,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
         refuse!(
             "{}: none of its scores has a bound, and a check without bounds fails; bounds are read from {} and from the \
              folder of each scene below it: name another folder with --scenes-dir",
-            path.display(),
+            side.path.display(),
             root.join(BOUNDS_FILE)
         );
     }

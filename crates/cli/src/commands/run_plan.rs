@@ -1,12 +1,14 @@
 //! Plans of runs from the command line.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::FrameOptions;
 use judge::{
-    BOUNDS_FILE, BoundsFile, RunBounds, SceneBounds, read_bounds, read_bounds_beside_scenes,
-    read_bounds_file,
+    BOUNDS_FILE, BoundsFile, Margin, RunBounds, SceneBounds, read_bounds,
+    read_bounds_beside_scenes, read_bounds_file,
 };
+use metrics::Metric;
 use store::{Claim, Sharing, claim};
 use suite::{EngineScene, Error, FilterChoice, MIN_REPLICATES, Run, RunPlan, engine_name};
 use tracer::{Location, RenderSettings, Scene, SceneId};
@@ -229,5 +231,17 @@ pub fn check_replicates_for_intervals(replicates: u32) -> Result<(), Error> {
         few => refuse!(
             "--replicates {few}: {MIN_REPLICATES} or more are needed to tell how sure a score is"
         ),
+    }
+}
+
+/// Margins by the names of metrics.
+pub type Margins = BTreeMap<Metric, Margin>;
+
+/// Reads the margins by which scores may differ before it matters; none where the folder has no bounds.
+pub fn read_margins(root: &Location) -> Result<Margins, Error> {
+    let file = root.join(BOUNDS_FILE);
+    match file.exists() {
+        true => Ok(read_bounds_file(&file)?.margins),
+        false => Ok(BTreeMap::new()),
     }
 }

@@ -64,85 +64,76 @@ pub fn list_jobs(
     given: &ArgMatches,
     plan: &RunPlan,
 ) -> Result<Vec<Job>, Error> {
-    let (scenes, filters) = (
-        list_scene_words(args, plan)?,
-        list_filter_words(args, plan)?,
-    );
-    let parts = parts.map_or_else(|| plan.out.join("parts"), Path::to_owned);
-    let first = plan.render.seed;
-    let seeds: Vec<Option<u64>> = match runs {
-        None => vec![None],
-        Some(runs) => (0..runs.into())
-            .map(|run| Some(first.saturating_add(run)))
-            .collect(),
+    let whole = Planner {
+        given,
+        plan,
+        scenes: list_scene_words(args, plan)?,
+        filters: list_filter_words(args, plan)?,
+        seed: None,
+        parts: parts.map_or_else(|| plan.out.join("parts"), Path::to_owned),
+        out: plan.out.clone(),
     };
-    let mut command = match runs {
-        None => words(["run"]),
-        Some(_) => words(["limits", "calibrate"]),
-    };
-    command.extend(words_behind()?);
-    let (mut jobs, mut merged) = (Vec::new(), Vec::new());
-    for seed in seeds {
-        let of_seed = |folder: &Path| match seed {
-            Some(seed) => folder.join(format!("seed_{seed}")),
-            None => folder.to_owned(),
-        };
-        let parts = of_seed(&parts);
-        let planner = Planner {
-            given,
-            plan,
-            scenes: &scenes,
-            filters: &filters,
-            seed,
-            truths: plan.truths.clone().unwrap_or_else(|| parts.join("truths")),
-            parts,
-            out: of_seed(&plan.out),
-        };
-        jobs.extend(planner.list_jobs(&command)?);
-        merged.push(path_word(&planner.out.join("run.json"))?);
+    match runs {
+        None => whole.jobs_of_run(),
+        Some(runs) => whole.jobs_of_calibration(runs),
     }
-    let below_out = |file: String| path_word(&plan.out.join(file));
-    let bounds = scenes
-        .iter()
-        .map(|scene| below_out(format!("{}.bounds.toml", scene.id)));
-    let presets: usize = filters.iter().map(|filter| filter.presets).sum();
-    jobs.push(match runs {
-        // One process writes the report.
-        None => Job {
-            arguments: words(["report", "--quiet", &merged[0]]),
-            outputs: vec![below_out("report.html".to_owned())?],
-            inputs: merged,
-            ..Job::new("report", estimate_report(plan, presets * scenes.len()))
-        },
-        // The command itself reads all runs back.
-        Some(_) => Job {
-            arguments: command,
-            inputs: merged,
-            outputs: bounds.collect::<Result<_, _>>()?,
-            ..Job::last_of(&jobs, "calibrate")
-        },
-    });
-    Ok(jobs)
 }
 
 /// Planner of the jobs of one run: the only one, or that of a seed.
+#[derive(Clone)]
 struct Planner<'a> {
     given: &'a ArgMatches,
     plan: &'a RunPlan,
-    scenes: &'a [SceneWords],
-    filters: &'a [FilterWords],
+    scenes: Vec<SceneWords>,
+    filters: Vec<FilterWords>,
     seed: Option<u64>,
     /// Folder of the parts.
     parts: PathBuf,
-    /// Folder of the truths.
-    truths: PathBuf,
     /// Folder of the whole run.
     out: PathBuf,
 }
 
 impl Planner<'_> {
-    /// Lists the truths of every scene, references and filters, and the merge, which records the command line of the whole.
-    fn list_jobs(&self, command: &[String]) -> Result<Vec<Job>, Error> {
+    fn jobs_of_run(&self) -> Result<Vec<Job>, Error> {
+        let mut jobs = self.list_jobs(words(["run"]))?;
+        let presets: usize = self.filters.iter().map(|filter| filter.presets).sum();
+        let cost = estimate_report(self.plan, presets * self.scenes.len());
+        let run = self.below_out("run.json")?;
+        jobs.push(Job {
+            arguments: words(["report", "--quiet", &run]),
+            inputs: vec![run],
+            outputs: vec![self.below_out("report.html")?],
+            ..Job::new("report", cost)
+        });
+        Ok(jobs)
+    }
+
+    /// One run per seed, and the command itself, which reads all of them back.
+    fn jobs_of_calibration(&self, runs: u32) -> Result<Vec<Job>, Error> {
+        let command = words(["limits", "calibrate"]);
+        let (mut jobs, mut inputs) = (Vec::new(), Vec::new());
+        let first = self.plan.render.seed;
+        for seed in (0..runs).map(|run| first.saturating_add(u64::from(run))) {
+            let mut run = self.clone();
+            run.seed = Some(seed);
+            run.parts.push(format!("seed_{seed}"));
+            run.out.push(format!("seed_{seed}"));
+            jobs.extend(run.list_jobs(command.clone())?);
+            inputs.push(run.below_out("run.json")?);
+        }
+        let scenes = self.scenes.iter();
+        let bounds = scenes.map(|scene| self.below_out(&format!("{}.bounds.toml", scene.id)));
+        jobs.push(Job {
+            arguments: [command, words_behind()?].concat(),
+            inputs,
+            outputs: bounds.collect::<Result<_, _>>()?,
+            ..Job::last_of(&jobs, "calibrate")
+        });
+        Ok(jobs)
+    }
+
+    /// Lists the truths of every scene, references and filters, and the merge, which records this command line as one of `command`.
+    fn list_jobs(&self, command: Vec<String>) -> Result<Vec<Job>, Error> {
         let mut jobs = Vec::new();
         let mut parts = Vec::new();
         for (scene, costs) in self.scenes.iter().zip(estimate_jobs(self.plan)) {
@@ -154,7 +145,7 @@ impl Planner<'_> {
             }
             let references = costs.cases(costs.references);
             let mut of_scene = vec![self.case_job(scene, None, references)?];
-            for filter in self.filters {
+            for filter in &self.filters {
                 let cost = costs.cases(filter.presets * costs.inputs);
                 of_scene.push(self.case_job(scene, Some(filter), cost)?);
             }
@@ -173,9 +164,9 @@ impl Planner<'_> {
         let program = std::env::args().next();
         let program = program.unwrap_or_else(|| "shuttertruth".to_owned());
         (merge.arguments).extend(words(["--out", &path_word(&self.out)?, "--", &program]));
-        merge.arguments.extend_from_slice(command);
+        (merge.arguments).extend([command, words_behind()?].concat());
         merge.inputs = parts;
-        merge.outputs = vec![path_word(&self.out.join("run.json"))?];
+        merge.outputs = vec![self.below_out("run.json")?];
         jobs.push(merge);
         Ok(jobs)
     }
@@ -187,10 +178,10 @@ impl Planner<'_> {
         let alignments = names.join(",");
         job.arguments = words(["truths", "render", "--quiet", "--ladders"]);
         (job.arguments).extend(words(["--alignments", &alignments]));
-        self.push_own::<RenderArgs>(&mut job, scene, &self.truths)?;
+        self.push_own::<RenderArgs>(&mut job, scene, &self.truths())?;
         job.inputs = scene.files.clone();
         for frame in 0..self.plan.frames.count {
-            let folder = self.truths.join(scene.id.at_frame(frame).folder());
+            let folder = self.truths().join(scene.id.at_frame(frame).folder());
             // The last file that a render writes of a truth is that of its ladder.
             let truths = names.iter().flat_map(|name| {
                 [
@@ -218,7 +209,7 @@ impl Planner<'_> {
                 format!("/{}", filter.name),
                 std::slice::from_ref(filter),
             ),
-            None => ("references", String::new(), self.filters),
+            None => ("references", String::new(), &self.filters[..]),
         };
         let name = format!("{part}/{}{own}", scene.id);
         let folder = self.parts.join(&name);
@@ -231,9 +222,9 @@ impl Planner<'_> {
         }
         // What an engine drew has its truth beside it.
         if scene.is_rendered {
-            let truths = path_word(&self.truths)?;
+            let truths = path_word(&self.truths())?;
             job.arguments.extend(words(["--truths", &truths]));
-            job.inputs.extend(self.truths.is_file().then_some(truths));
+            (job.inputs).extend(self.truths().is_file().then_some(truths));
         }
         if self.seed.is_some() {
             (job.arguments).extend(words(["--intervals", "--jitter-frames", "0"]));
@@ -241,6 +232,17 @@ impl Planner<'_> {
         self.push_own::<RunArgs>(&mut job, scene, &folder)?;
         job.outputs = vec![path_word(&folder.join("run.json"))?];
         Ok(job)
+    }
+
+    /// Names a file in the folder of the whole run.
+    fn below_out(&self, file: &str) -> Result<String, Error> {
+        path_word(&self.out.join(file))
+    }
+
+    /// Finds the folder of the truths.
+    fn truths(&self) -> PathBuf {
+        let kept = self.plan.truths.clone();
+        kept.unwrap_or_else(|| self.parts.join("truths"))
     }
 
     /// Names a job.

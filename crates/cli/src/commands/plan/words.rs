@@ -112,6 +112,7 @@ fn files_below(folder: &Path) -> Result<Vec<String>, Error> {
 }
 
 /// A scene of a plan.
+#[derive(Clone)]
 pub struct SceneWords {
     /// Word for `--scenes`.
     pub word: String,
@@ -155,6 +156,7 @@ pub fn list_scene_words(args: &MeasureArgs, plan: &RunPlan) -> Result<Vec<SceneW
 }
 
 /// Some presets of one filter, which one job measures.
+#[derive(Clone)]
 pub struct FilterWords {
     /// Name of the job's folder, which no other filter of the plan has.
     pub name: String,
