@@ -54,7 +54,7 @@ pub struct Tally {
 
 impl Tally {
     /// Counts the findings of a level.
-    pub fn of<'a>(findings: impl IntoIterator<Item = &'a Finding>, level: Level) -> Self {
+    pub fn of<'a>(findings: impl IntoIterator<Item = &'a &'a Finding>, level: Level) -> Self {
         let mut tally = Self {
             all: 0,
             met: 0,

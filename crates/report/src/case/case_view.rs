@@ -16,9 +16,9 @@ pub struct CaseView<'a> {
     pub index: usize,
     /// Scores of the case.
     pub case: &'a Case,
-    /// Findings, one per bound; none where the run was not judged.
-    pub findings: Vec<Finding>,
-    /// Place to look at, per finding; none where it needs no explanation.
+    /// Findings, one per bound; none if the run was not judged.
+    pub findings: Vec<&'a Finding>,
+    /// Place to look at, per finding; none if it needs no explanation.
     pub evidence: Vec<Option<Evidence>>,
     /// Number of the scene in the run.
     pub scene: usize,
@@ -35,16 +35,19 @@ pub struct CaseView<'a> {
 }
 
 impl<'a> CaseView<'a> {
-    /// Reads the files of a case, given its number in the run, that of its scene, and the findings about it.
+    /// Reads the files of a case, given its number in the run, that of its scene, and the findings about the scene.
     pub fn read(
         run: &'a Run,
         index: usize,
         scene: usize,
-        findings: Vec<Finding>,
+        findings: &[&'a Finding],
         files: &mut SceneFiles,
     ) -> Result<Self, Error> {
         let case = &run.cases[index];
         let own = files.read_case(case)?;
+        let name = case.name();
+        let is_own = |own: &&&Finding| !case.is_reference && own.filter == name;
+        let findings: Vec<&Finding> = findings.iter().filter(is_own).copied().collect();
         let evidence: Vec<Option<Evidence>> = (findings.iter())
             .map(|finding| find_evidence(finding, case, &own, files))
             .collect::<Result<_, _>>()?;

@@ -203,7 +203,7 @@ impl SceneFiles {
             let planes = axes.map(|plane| self.planes.add(&plane));
             layers.push((Layer::Dilated, planes.to_vec()));
         }
-        layers.sort();
+        layers.sort_by_key(|(layer, _)| *layer as usize);
         Ok(CaseFiles {
             output,
             errors,
