@@ -3,8 +3,7 @@
 use judge::{CROP, Finding, Level, number};
 use maud::{Markup, html};
 
-use super::case_view::CaseView;
-use super::evidence::Evidence;
+use super::case_view::{CaseView, Evidence};
 use crate::address::case_anchor;
 use crate::finding_text::{Status, Tally, finding_line, limit_text, way_out, worst_frame_text};
 use crate::numbers::counted;

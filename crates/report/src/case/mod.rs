@@ -2,7 +2,6 @@
 
 pub mod bounds;
 pub mod case_view;
-mod evidence;
 pub mod legend;
 mod profile;
 mod profile_chart;
