@@ -29,6 +29,7 @@ pub use record::{
     CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, remove_altered_files,
 };
 pub use render_file::{
-    LADDER, MAX_REPLICATES, RenderFile, RenderPath, Wanted, ladder_folder, list_renders, take,
+    LADDER, MAX_REPLICATES, RenderFile, RenderPath, Wanted, ladder_folder, list_files,
+    list_renders, take,
 };
 pub use tracked::refuse_tracked;

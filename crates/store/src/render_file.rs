@@ -183,7 +183,7 @@ pub fn ladder_folder(alignment: Alignment) -> String {
     format!("ladder_{alignment}")
 }
 
-/// Folders between that of a run and a rendered file: those of the scene, of a later frame, and of replicates.
+/// Folders between that of a run and a file: those of the scene, of a later frame, and of a case or of replicates.
 const DEPTH: u32 = 3;
 
 /// Lists the rendered files below the folder of a run, scene by scene, and of each frame by frame. Looks nowhere else, and follows no
@@ -192,6 +192,21 @@ const DEPTH: u32 = 3;
 /// # Errors
 /// A folder cannot be read.
 pub fn list_renders(root: &Path) -> Result<Vec<RenderPath>, FileError> {
+    let files = list_files(root)?;
+    let mut found: Vec<RenderPath> = files
+        .iter()
+        .filter_map(|it| RenderPath::parse(it))
+        .collect();
+    found.sort();
+    Ok(found)
+}
+
+/// Lists the files that lie as deep below the folder of a run as its own do, but for hidden ones: a killed process may have left some.
+/// Follows no links.
+///
+/// # Errors
+/// A folder cannot be read.
+pub fn list_files(root: &Path) -> Result<Vec<PathBuf>, FileError> {
     let mut found = Vec::new();
     list_below(root, Path::new(""), DEPTH, &mut found)?;
     found.sort();
@@ -202,17 +217,21 @@ fn list_below(
     folder: &Path,
     below: &Path,
     depth: u32,
-    found: &mut Vec<RenderPath>,
+    found: &mut Vec<PathBuf>,
 ) -> Result<(), FileError> {
     let fail = |source| FileError::io(folder, "read", source);
     for entry in fs::read_dir(folder).map_err(fail)? {
         let entry = entry.map_err(fail)?;
-        let below = below.join(entry.file_name());
+        let name = entry.file_name();
         let kind = entry.file_type().map_err(fail)?;
+        if name.to_string_lossy().starts_with('.') {
+            continue;
+        }
+        let below = below.join(name);
         if kind.is_dir() && depth > 0 {
             list_below(&entry.path(), &below, depth - 1, found)?;
         } else if kind.is_file() {
-            found.extend(RenderPath::parse(&below));
+            found.push(below);
         }
     }
     Ok(())

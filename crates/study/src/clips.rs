@@ -163,7 +163,7 @@ fn list_items(run: &Run) -> Vec<Item> {
         let own = run.sequences.iter().filter(|own| !own.is_reference);
         let item = |own: &Sequence| Item {
             scene: own.scene.to_string(),
-            filter: own.filter.clone(),
+            filter: own.name.clone(),
             alignment: own.alignment,
             frames: own.frames.clone(),
         };

@@ -143,7 +143,7 @@ fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
             let is_wanted = |it: &&Sequence| {
                 !it.is_reference
                     && (it.scene == scene && it.alignment == own.alignment)
-                    && it.filter == filter
+                    && it.name == filter
             };
             let found = run.sequences.iter().find(is_wanted)?;
             let value = found.scores.get(*metric).value()?;

@@ -115,6 +115,6 @@ fn push_mean(
         own.map_or("n/a".to_owned(), |own| metric.number(own.mean))
     });
     let cells = (ranked_by.into_iter().chain(means)).chain(last.map(str::to_owned));
-    let name = bracket_name(&row.filter, row.is_reference);
+    let name = bracket_name(&row.name, row.is_reference);
     table.push_row(row.is_reference, name, cells);
 }

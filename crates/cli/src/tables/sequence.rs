@@ -129,16 +129,15 @@ fn order_rows<'a>(
     ranked: &[&RankedSequence],
 ) -> Vec<(String, &'a Sequence)> {
     let references = sequences.iter().filter(|own| own.is_reference);
-    let references =
-        references.map(|own| (format!("    {}", bracket_name(&own.filter, true)), *own));
+    let references = references.map(|own| (format!("    {}", bracket_name(&own.name, true)), *own));
     let filters = || sequences.iter().filter(|own| !own.is_reference);
     let with_rank = ranked.iter().filter_map(|own| {
         let mut filters = filters();
-        let sequence = filters.find(|sequence| sequence.filter == own.ranked.name)?;
+        let sequence = filters.find(|sequence| sequence.name == own.ranked.name)?;
         Some((ranked_name(&own.ranked), *sequence))
     });
-    let has_rank = |own: &Sequence| ranked.iter().any(|it| it.ranked.name == own.filter);
+    let has_rank = |own: &Sequence| ranked.iter().any(|it| it.ranked.name == own.name);
     let without = filters().filter(|own| !has_rank(own));
-    let without = without.map(|own| (format!("    {}", own.filter), *own));
+    let without = without.map(|own| (format!("    {}", own.name), *own));
     references.chain(with_rank).chain(without).collect()
 }

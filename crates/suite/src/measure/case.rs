@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use filters::{Command, Convention, FilterError, Gpu};
+use filters::{Command, Convention, FilterError};
 use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
@@ -11,11 +11,11 @@ use tracer::Defocus;
 
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
-use super::plan::RunPlan;
 use super::planned_case::{PictureSource, PlannedCase};
 use super::probes::{FilterOutput, blur_noise_frames, blur_with_probes};
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
+use super::scene::SceneContext;
 use super::stored_frames::StoredFrame;
 use crate::Error;
 use crate::engine_scene::EngineScene;
@@ -36,9 +36,7 @@ const OTHER_SHUTTER: &str = "the engine drew no truth of the run's common shutte
 
 /// Everything that cases of one scene and one shutter are measured with.
 pub(crate) struct CaseContext<'a> {
-    pub plan: &'a RunPlan,
-    pub gpu: Option<&'a Gpu>,
-    pub scene: RunScene<'a>,
+    pub scene: &'a SceneContext<'a>,
     pub frame: &'a Frame,
     /// The frame in the forms in which filters get it.
     pub stored_frames: &'a [StoredFrame],
@@ -137,16 +135,21 @@ impl CaseContext<'_> {
         let before = before.as_ref().unwrap_or(frame);
         let choice = &self.fit(choice, input);
         let picture = self.picture_size();
-        let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
-        let mut wide = Runner::with_wide_colors(self.gpu, choice, frame.size());
+        let mut runner = Runner::new(
+            self.scene.gpu,
+            choice,
+            frame.size(),
+            self.scene.plan.monitor,
+        )?;
+        let mut wide = Runner::with_wide_colors(self.scene.gpu, choice, frame.size());
         let mut output = blur_with_probes(
             &mut runner,
             wide.as_mut(),
             frame,
-            (before, self.scene.frame_index()),
+            (before, self.scene.scene.frame_index()),
             picture,
         )
-        .map_err(|error| name_scene(error, self.scene))?;
+        .map_err(|error| name_scene(error, self.scene.scene))?;
         let pass = self.pass_behind(input);
         if let Some(pass) = pass {
             output.picture = pass.apply(&output.picture);
@@ -188,7 +191,7 @@ impl CaseContext<'_> {
         let picture = self.picture_size();
         match input.scale.blurred_size(picture) {
             blurred if blurred == picture => choice.clone(),
-            [width, _] => self.plan.scaled_to(choice, width),
+            [width, _] => self.scene.plan.scaled_to(choice, width),
         }
     }
 
@@ -214,12 +217,12 @@ impl CaseContext<'_> {
         frame: &Frame,
         pass: Option<&Defocus>,
     ) -> Result<Option<Jitter>, Error> {
-        if self.plan.jitter_frames < 2 {
+        if self.scene.plan.jitter_frames < 2 {
             return Ok(None);
         }
-        let frames = self.plan.jitter_frames;
+        let frames = self.scene.plan.jitter_frames;
         let outputs = blur_noise_frames(runner, frame, frames, self.picture_size())
-            .map_err(|error| name_scene(error, self.scene))?;
+            .map_err(|error| name_scene(error, self.scene.scene))?;
         let outputs = outputs.map(|outputs| match pass {
             None => outputs,
             Some(pass) => outputs
@@ -250,7 +253,7 @@ impl CaseContext<'_> {
         };
         let folder = planned.id.folder();
         let files = write_case(
-            &self.plan.out.join(&folder),
+            &self.scene.plan.out.join(&folder),
             self.frame,
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
@@ -266,10 +269,10 @@ impl CaseContext<'_> {
         let truth = self.references.truth;
         let case = Case {
             id: planned.id.clone(),
-            family: self.scene.family(),
-            exposes: self.scene.exposes(),
-            drawn: self.scene.drawn(),
-            rate: self.scene.id().rate,
+            family: self.scene.scene.family(),
+            exposes: self.scene.scene.exposes(),
+            drawn: self.scene.scene.drawn(),
+            rate: self.scene.scene.id().rate,
             exposure: self.frame.exposure,
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),

@@ -79,9 +79,8 @@ impl SceneContext<'_> {
         let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
         let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
-        let measured = monitor.watch(&label, |watch| {
-            self.measure(&missing, &frame, advance, watch)
-        })?;
+        advance(self.render_steps());
+        let measured = monitor.watch(&label, |watch| self.measure(&missing, &frame, watch))?;
         let mut measured = measured.into_iter();
         let mut cases = Vec::new();
         for found in found {
@@ -95,7 +94,7 @@ impl SceneContext<'_> {
 
     /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or copies what an engine drew, and
     /// writes their pictures.
-    pub(super) fn render(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
+    fn render(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
         for (record, key) in self.render_records() {
             remove_altered_files(&record, &key);
         }
@@ -164,7 +163,7 @@ impl SceneContext<'_> {
     }
 
     /// Counts a frame and the truths.
-    pub(super) fn render_steps(&self) -> u64 {
+    fn render_steps(&self) -> u64 {
         1 + self.plan.alignments().len() as u64 * self.truth_steps()
     }
 

@@ -182,9 +182,7 @@ fn measure_sequence(
     );
     Ok(Sequence {
         scene: first.scene.clone(),
-        filter: first.name(),
-        is_reference: first.is_reference,
-        alignment: first.alignment,
+        filter: first.filter_id(),
         frames: frames.collect(),
         worst_frames: worst_frames(&measured),
         intervals: Intervals::new(),

@@ -1,20 +1,21 @@
-//! Merge of runs of which each measured some of the cases.
+//! Runs folded into one: those of which each measured some of the cases, and an earlier one that a narrower one keeps.
 
-mod case_order;
-mod checks;
+pub mod earlier;
 mod files;
-mod join;
+mod fold;
 mod order;
-mod run_part;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use frame::Alignment;
 use store::{Claim, Sharing, claim, place_files};
+use tracer::SceneId;
 
 use self::files::gather_files;
-use self::join::join_runs;
-use self::run_part::RunPart;
+use self::fold::{RunPart, fold_runs};
 use crate::Error;
+use crate::identity::FilterId;
 use crate::run::Run;
 
 /// A run that was merged.
@@ -38,16 +39,47 @@ pub fn holds_run(path: &Path) -> bool {
 /// Nothing is written if the parts differ in their settings, adapters or truths, if two hold one case with other scores, or if
 /// cases are missing.
 pub fn merge_runs(parts: &[PathBuf], command: Vec<String>, out: &Path) -> Result<MergedRun, Error> {
-    let parts: Vec<RunPart> = parts
-        .iter()
+    let parts: Vec<RunPart> = (parts.iter())
         .map(|path| RunPart::read(path))
         .collect::<Result<_, _>>()?;
     let run = Run {
         command,
-        ..join_runs(&parts)?
+        ..fold_runs(&parts)?
     };
+    check_complete(&run)?;
     let files = gather_files(&parts)?;
     let claim = claim(out, [], Sharing::Alone)?;
     place_files(&files, out)?;
     Ok(MergedRun { run, claim })
+}
+
+/// Refuses cases that no process could have measured together: scenes with different filters, and shutters without references.
+fn check_complete(run: &Run) -> Result<(), Error> {
+    // What an engine drew has one shutter, and leaves out filters of others.
+    let rendered = || run.cases.iter().filter(|case| case.drawn.is_none());
+    let scenes: BTreeSet<&SceneId> = rendered().map(|case| &case.scene).collect();
+    let filters: BTreeSet<FilterId> = rendered().map(|case| case.filter_id()).collect();
+    let (references, own): (Vec<_>, Vec<_>) = filters.iter().partition(|it| it.is_reference);
+    let mut shutters: BTreeSet<Alignment> = own.iter().map(|filter| filter.alignment).collect();
+    shutters.extend((!filters.is_empty()).then_some(run.common_alignment));
+    let has_references = |it: &&Alignment| references.iter().any(|own| own.alignment == **it);
+    if let Some(missing) = shutters.iter().find(|shutter| !has_references(shutter)) {
+        return Err(Error::Usage(format!(
+            "no part holds the references of the {missing} shutter; add the part with the references, measured with the same \
+             filters"
+        )));
+    }
+    let failed = (run.failures.iter()).map(|failure| (&failure.scene, failure.filter_id()));
+    let measured = rendered().map(|case| (&case.scene, case.filter_id()));
+    let found: BTreeSet<(&SceneId, FilterId)> = measured.chain(failed).collect();
+    for scene in scenes {
+        let missing = (filters.iter()).find(|filter| !found.contains(&(scene, (*filter).clone())));
+        if let Some(missing) = missing {
+            return Err(Error::Usage(format!(
+                "no part holds {scene} / {} ({} shutter), which other scenes have; add the part that measured it",
+                missing.name, missing.alignment
+            )));
+        }
+    }
+    Ok(())
 }

@@ -113,7 +113,7 @@ fn check_sequence(sequence: &Sequence) -> Result<(), String> {
         return Err(format!(
             "the sequence {} / {} is worst in {metric} at frame {frame}; allowed: 0 to {}",
             sequence.scene,
-            sequence.filter,
+            sequence.name,
             count.saturating_sub(1)
         ));
     }
@@ -122,13 +122,13 @@ fn check_sequence(sequence: &Sequence) -> Result<(), String> {
         None => Err(format!(
             "the sequence {} / {} has {} frames; allowed: up to {MAX_FRAMES}",
             sequence.scene,
-            sequence.filter,
+            sequence.name,
             sequence.frames.len()
         )),
         Some(path) => Err(format!(
             "the sequence {} / {} names the folder \"{}\"; allowed: folders below run.json",
             sequence.scene,
-            sequence.filter,
+            sequence.name,
             path.display()
         )),
     }
