@@ -9,7 +9,6 @@ mod folder;
 mod gather;
 mod json;
 mod json_lines;
-mod json_strings;
 mod printable;
 mod record;
 mod render_file;
@@ -23,7 +22,6 @@ pub use folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
 pub use gather::{Files, gather, place_files};
 pub use json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within};
 pub use json_lines::to_lines;
-pub use json_strings::check_strings;
 pub use printable::{printable, printable_lines, printable_path};
 pub use record::{
     CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, remove_altered_files,

@@ -159,6 +159,15 @@ fn names_in_a_run_are_printed_without_control_codes() {
     }
     let styled = terminal_text(&run_table(&side.run));
     assert!(styled.contains("\u{1b}[1m"), "{styled:?}");
+
+    let text = fs::read_to_string(bench.path("out/run.json")).unwrap();
+    let planted = text.replace("\"jump_flood\"", "\"a\\u001b[35m\\u009b2J\"");
+    assert_ne!(planted, text);
+    fs::write(bench.path("out/run.json"), planted).unwrap();
+    let compared = bench.shuttertruth(&["compare", "out", "out"]);
+    assert_done(&compared);
+    assert_tame(&compared);
+    assert!(stdout(&compared).contains("a\\u001b[35m\\u009b2J"));
 }
 
 #[test]

@@ -68,6 +68,8 @@ struct MeasuredPicture {
     jitter: Option<Jitter>,
     intervals: Intervals,
     dilated_velocity: Option<Vectors>,
+    /// The filter as it ran; none for other pictures.
+    choice: Option<FilterChoice>,
 }
 
 impl MeasuredPicture {
@@ -80,6 +82,7 @@ impl MeasuredPicture {
             jitter: None,
             intervals: Intervals::new(),
             dilated_velocity: None,
+            choice: None,
         }
     }
 }
@@ -133,15 +136,15 @@ impl CaseContext<'_> {
             stored.expect("the frame was stored in every form of the plan");
         // The first frame stands in for the one before it.
         let before = before.as_ref().unwrap_or(frame);
-        let choice = &self.fit(choice, input);
+        let choice = self.fit(choice, input);
         let picture = self.picture_size();
         let mut runner = Runner::new(
             self.scene.gpu,
-            choice,
+            &choice,
             frame.size(),
             self.scene.plan.monitor,
         )?;
-        let mut wide = Runner::with_wide_colors(self.scene.gpu, choice, frame.size());
+        let mut wide = Runner::with_wide_colors(self.scene.gpu, &choice, frame.size());
         let mut output = blur_with_probes(
             &mut runner,
             wide.as_mut(),
@@ -169,6 +172,7 @@ impl CaseContext<'_> {
             measurement,
             jitter,
             dilated_velocity,
+            choice: Some(choice),
         })
     }
 
@@ -179,11 +183,7 @@ impl CaseContext<'_> {
 
     /// Returns columns and rows of the picture.
     fn picture_size(&self) -> [u32; 2] {
-        let band = 2 * self.frame.guard_band;
-        [
-            self.frame.color.width - band,
-            self.frame.color.height - band,
-        ]
+        self.references.truth.size().into()
     }
 
     /// Returns the filter with its lengths in pixels of the picture that it gets, which may be smaller than the plan's.
@@ -258,11 +258,7 @@ impl CaseContext<'_> {
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
         )?;
-        let choice = match planned.source {
-            PictureSource::Filter(choice, input) => Some(self.fit(choice, input)),
-            _ => None,
-        };
-        let choice = choice.as_ref();
+        let choice = measured.choice.as_ref();
         let command = choice.and_then(|choice| choice.filter.command.as_ref());
         let convention = choice.map(|choice| choice.filter.convention);
         let convention = convention.filter(|it| *it != Convention::default());

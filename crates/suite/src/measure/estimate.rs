@@ -5,7 +5,7 @@ use std::convert::Infallible;
 
 use filters::Gpu;
 use frame::Alignment;
-use store::LADDER;
+use store::{LADDER, look_up_alone};
 use tracer::RenderSettings;
 
 use super::frames::visit_frames;
@@ -90,7 +90,8 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
     let mut estimate = RunEstimate::default();
     let visited = visit_frames(plan, &filters, gpu, |scene| {
         let planned = PlannedCase::all(plan, &filters, scene.scene);
-        let has_record = |case: &&PlannedCase| !plan.no_cache && scene.has_record(case);
+        let has_record =
+            |case: &&PlannedCase| !plan.no_cache && scene.read_case(case, look_up_alone).is_some();
         let read_back = planned.iter().filter(has_record).count();
         estimate.cases += planned.len();
         estimate.read_back += read_back;

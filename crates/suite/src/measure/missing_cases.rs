@@ -126,7 +126,7 @@ impl SceneContext<'_> {
             Ok(measured) => measured,
             Err(error) => return Ok(Err(self.failure(error, planned)?)),
         };
-        if let Some(key) = self.case_key(planned) {
+        if let Some(key) = self.case_keys(planned).into_iter().next() {
             put(&self.case_record(planned), key, &files, &case)?;
         }
         Ok(Ok(case))

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use filters::Gpu;
 use frame::{Alignment, Frame};
 use store::{
-    CASE_RECORD, RenderFile, clear_scene, look_up, look_up_alone, put, refuse_scene,
-    remove_altered_files, take,
+    CASE_RECORD, RenderFile, clear_scene, look_up, put, refuse_scene, remove_altered_files, take,
 };
 
 use super::pictures::{write_frame, write_truth};
@@ -66,7 +65,9 @@ impl SceneContext<'_> {
             clear_scene(&self.folder())?;
         }
         let planned = PlannedCase::all(self.plan, self.filters, self.scene);
-        let found: Vec<Option<Case>> = planned.iter().map(|case| self.read_case(case)).collect();
+        let found: Vec<Option<Case>> = (planned.iter())
+            .map(|case| self.read_case(case, look_up))
+            .collect();
         let read_back = found.iter().flatten().count();
         if read_back == found.len() && self.has_its_files() {
             return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
@@ -173,31 +174,21 @@ impl SceneContext<'_> {
     }
 
     /// Reads a case that was measured before, without its intervals where the plan asks for none. A plan that asks for intervals or ladders
-    /// takes no case without them.
-    fn read_case(&self, planned: &PlannedCase) -> Option<Case> {
+    /// takes no case without them. `look_up` may look at its pictures as well.
+    pub fn read_case(
+        &self,
+        planned: &PlannedCase,
+        look_up: fn(&Path, &str) -> Option<Case>,
+    ) -> Option<Case> {
         let record = self.case_record(planned);
-        let keys = self.keys_to_read(planned);
-        let mut case: Case = keys.iter().find_map(|key| look_up(&record, key))?;
+        let keys = self.case_keys(planned);
+        let mut case = keys.iter().find_map(|key| look_up(&record, key))?;
         if !self.plan.intervals {
             case.intervals.clear();
+            return Some(case);
         }
-        self.is_whole(&case).then_some(case)
-    }
-
-    /// Tells whether a case that was read has the intervals that the plan asks for.
-    fn is_whole(&self, case: &Case) -> bool {
-        case.is_reference
-            || case.drawn.is_some()
-            || !self.plan.intervals
-            || !case.intervals.is_empty()
-    }
-
-    /// Tells whether a case was measured before, without looking at its pictures.
-    pub fn has_record(&self, planned: &PlannedCase) -> bool {
-        let record = self.case_record(planned);
-        let keys = self.keys_to_read(planned);
-        let mut found = keys.iter().filter_map(|key| look_up_alone(&record, key));
-        found.any(|case: Case| self.is_whole(&case))
+        let has_intervals = !case.intervals.is_empty();
+        (has_intervals || case.is_reference || case.drawn.is_some()).then_some(case)
     }
 
     /// Tells whether the frame is to be rendered, and lists the truths that are, by the headers of files.
@@ -222,27 +213,19 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Returns the key that a case is recorded by.
-    pub(super) fn case_key(&self, planned: &PlannedCase) -> Option<String> {
-        self.keys_with(planned, &[self.plan.ladders]).pop()
-    }
-
-    /// Lists the keys of cases that the plan may take: where it asks for no ladder, it takes those that have one as well.
-    fn keys_to_read(&self, planned: &PlannedCase) -> Vec<String> {
-        match self.plan.ladders {
-            true => self.keys_with(planned, &[true]),
-            false => self.keys_with(planned, &[true, false]),
-        }
-    }
-
-    /// Returns a key for each answer to whether the case has a ladder; none where nothing is read back.
-    fn keys_with(&self, planned: &PlannedCase, ladders: &[bool]) -> Vec<String> {
+    /// Lists the keys of cases that the plan may take, at first the one that it records by: where it asks for no ladder, it takes those that
+    /// have one as well. None where nothing is read back.
+    pub(super) fn case_keys(&self, planned: &PlannedCase) -> Vec<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
         let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
             return Vec::new();
         };
         let alignments = [planned.id.alignment, self.plan.common_alignment()];
-        let key = |ladder: &bool| keys.case(&own, alignments, *ladder);
+        let ladders: &[bool] = match self.plan.ladders {
+            true => &[true],
+            false => &[false, true],
+        };
+        let key = |has_ladder: &bool| keys.case(&own, alignments, *has_ladder);
         ladders.iter().map(key).collect()
     }
 
