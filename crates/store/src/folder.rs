@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use frame::is_hidden;
+use frame::{FileError, is_hidden};
 use tracer::Scene;
 
 use crate::Error;
@@ -41,6 +41,13 @@ pub fn refuse_long_names(folders: &Path) -> Result<(), Error> {
         ))),
         _ => Ok(()),
     }
+}
+
+/// Names the folder that cannot be read on the way through those below it.
+pub(crate) fn walk_error(error: walkdir::Error) -> FileError {
+    let path = error.path().unwrap_or(Path::new("")).to_owned();
+    let source = error.into_io_error();
+    FileError::io(&path, "read", source.expect("links are not followed"))
 }
 
 /// Tells whether a path leads below the folder that it starts from, by names without control characters. Nothing is read or written

@@ -1,11 +1,13 @@
 //! Names of the files that are rendered, below the folder of a run.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
-use std::{fmt, fs};
 
 use frame::{Alignment, FileError, read_attribute, rung_file};
 use tracer::SceneId;
+use walkdir::{DirEntry, WalkDir};
 
+use crate::folder::walk_error;
 use crate::gather::place_file;
 
 /// Sub-frame counts of the ladder that N_eq is read from.
@@ -183,8 +185,8 @@ pub fn ladder_folder(alignment: Alignment) -> String {
     format!("ladder_{alignment}")
 }
 
-/// Folders between that of a run and a file: those of the scene, of a later frame, and of a case or of replicates.
-const DEPTH: u32 = 3;
+/// Depth of a file below the folder of a run: in those of the scene, of a later frame, and of a case or of replicates.
+const DEPTH: usize = 4;
 
 /// Lists the rendered files below the folder of a run, scene by scene, and of each frame by frame. Looks nowhere else, and follows no
 /// links.
@@ -207,34 +209,20 @@ pub fn list_renders(root: &Path) -> Result<Vec<RenderPath>, FileError> {
 /// # Errors
 /// A folder cannot be read.
 pub fn list_files(root: &Path) -> Result<Vec<PathBuf>, FileError> {
-    let mut found = Vec::new();
-    list_below(root, Path::new(""), DEPTH, &mut found)?;
-    found.sort();
-    Ok(found)
-}
-
-fn list_below(
-    folder: &Path,
-    below: &Path,
-    depth: u32,
-    found: &mut Vec<PathBuf>,
-) -> Result<(), FileError> {
-    let fail = |source| FileError::io(folder, "read", source);
-    for entry in fs::read_dir(folder).map_err(fail)? {
-        let entry = entry.map_err(fail)?;
-        let name = entry.file_name();
-        let kind = entry.file_type().map_err(fail)?;
-        if name.to_string_lossy().starts_with('.') {
-            continue;
-        }
-        let below = below.join(name);
-        if kind.is_dir() && depth > 0 {
-            list_below(&entry.path(), &below, depth - 1, found)?;
-        } else if kind.is_file() {
-            found.push(below);
+    let is_hidden = |entry: &DirEntry| entry.file_name().as_encoded_bytes().starts_with(b".");
+    let mut files = Vec::new();
+    let entries = WalkDir::new(root).max_depth(DEPTH).sort_by_file_name();
+    for entry in entries
+        .into_iter()
+        .filter_entry(|it| it.depth() == 0 || !is_hidden(it))
+    {
+        let entry = entry.map_err(walk_error)?;
+        if entry.file_type().is_file() {
+            let below = entry.path().strip_prefix(root).expect("it is below");
+            files.push(below.to_owned());
         }
     }
-    Ok(())
+    Ok(files)
 }
 
 #[cfg(test)]

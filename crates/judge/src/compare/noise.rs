@@ -147,13 +147,9 @@ impl TruthParts {
 
 /// Reads the picture that a filter made.
 fn read_picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
-    let file = read_exr(path)?;
+    let mut file = read_exr(path)?;
     file.expect_finite()?;
-    let mattes = (objects.iter()).map(|object| file.plane(&format!("coverage.{object}")));
-    Ok(Picture {
-        color: file.color("")?,
-        coverage: mattes.collect::<Result<_, _>>()?,
-    })
+    Ok(Picture::take_from(&mut file, "", objects)?)
 }
 
 /// Both pictures' scores against the whole truth, and against it without each pair of replicates.

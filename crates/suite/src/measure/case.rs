@@ -149,7 +149,7 @@ impl CaseContext<'_> {
             &mut runner,
             wide.as_mut(),
             frame,
-            (before, self.scene.scene.frame_index()),
+            (before, self.scene.scene.id().frame),
             picture,
         )
         .map_err(|error| name_scene(error, self.scene.scene))?;
@@ -263,10 +263,11 @@ impl CaseContext<'_> {
         let convention = choice.map(|choice| choice.filter.convention);
         let convention = convention.filter(|it| *it != Convention::default());
         let truth = self.references.truth;
+        let (family, exposes) = self.scene.scene.describe();
         let case = Case {
             id: planned.id.clone(),
-            family: self.scene.scene.family(),
-            exposes: self.scene.scene.exposes(),
+            family,
+            exposes,
             drawn: self.scene.scene.drawn(),
             rate: self.scene.scene.id().rate,
             exposure: self.frame.exposure,

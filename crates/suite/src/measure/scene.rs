@@ -155,7 +155,7 @@ impl SceneContext<'_> {
 
     /// Names the folder of the scene's files.
     pub(super) fn folder(&self) -> PathBuf {
-        self.scene.folder(&self.plan.out)
+        self.plan.out.join(self.scene.id().folder())
     }
 
     /// Counts the steps of the whole scene, as progress shows them: those of rendering, and the measuring.

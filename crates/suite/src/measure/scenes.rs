@@ -65,7 +65,7 @@ fn measure_all(
                 Err(failure) => run.failures.push(failure),
             }
         }
-        let frame = scene.scene.frame_index();
+        let frame = scene.scene.id().frame;
         if frame == 0 {
             run.cases.extend_from_slice(&cases);
             frames.clear();
