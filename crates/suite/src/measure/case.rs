@@ -68,8 +68,6 @@ struct MeasuredPicture {
     jitter: Option<Jitter>,
     intervals: Intervals,
     dilated_velocity: Option<Vectors>,
-    /// The filter as it ran; none for other pictures.
-    choice: Option<FilterChoice>,
 }
 
 impl MeasuredPicture {
@@ -82,7 +80,6 @@ impl MeasuredPicture {
             jitter: None,
             intervals: Intervals::new(),
             dilated_velocity: None,
-            choice: None,
         }
     }
 }
@@ -90,16 +87,16 @@ impl MeasuredPicture {
 impl CaseContext<'_> {
     /// Makes the picture, measures it, and writes it with its error maps; returns the names of the files as well.
     pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
-        let measured = match planned.source {
+        let measured = match &planned.source {
             PictureSource::Identity => self.measure_reference(self.frame.cropped().picture())?,
             PictureSource::ScatterOracle => {
                 self.measure_reference(self.references.oracle.clone())?
             }
             PictureSource::Accumulation(subframes) => {
-                let ladder = (self.read_rung)(subframes)?;
+                let ladder = (self.read_rung)(*subframes)?;
                 self.measure_reference(Picture::mean(&ladder.rungs[0].halves))?
             }
-            PictureSource::Filter(choice, input) => self.measure_filter(choice, input)?,
+            PictureSource::Filter(choice, input) => self.measure_filter(choice, *input)?,
             PictureSource::Engine(scene) => self.measure_engine(scene)?,
         };
         self.write(planned, measured)
@@ -113,14 +110,13 @@ impl CaseContext<'_> {
     /// Measures the engine's own picture, with intervals as the pictures of filters have them.
     fn measure_engine(&self, scene: &EngineScene) -> Result<MeasuredPicture, Error> {
         let picture = scene.read_picture(self.frame)?;
-        let measure = |reference: &Reference| -> Result<Measurement, MeasureError> {
+        let (measurement, intervals) = self.measure_with_intervals(|reference| {
             let mut measurement = reference.measure(&picture)?;
             measurement.scores.take_out_mattes(NO_MATTES);
             Ok(measurement)
-        };
-        let measurement = measure(&self.references.reference)?;
+        })?;
         Ok(MeasuredPicture {
-            intervals: self.measure_intervals(&measurement, measure)?,
+            intervals,
             ..MeasuredPicture::new(picture, measurement)
         })
     }
@@ -136,15 +132,14 @@ impl CaseContext<'_> {
             stored.expect("the frame was stored in every form of the plan");
         // The first frame stands in for the one before it.
         let before = before.as_ref().unwrap_or(frame);
-        let choice = self.fit(choice, input);
         let picture = self.picture_size();
         let mut runner = Runner::new(
             self.scene.gpu,
-            &choice,
+            choice,
             frame.size(),
             self.scene.plan.monitor,
         )?;
-        let mut wide = Runner::with_wide_colors(self.scene.gpu, &choice, frame.size());
+        let mut wide = Runner::with_wide_colors(self.scene.gpu, choice, frame.size());
         let mut output = blur_with_probes(
             &mut runner,
             wide.as_mut(),
@@ -163,16 +158,15 @@ impl CaseContext<'_> {
             false => None,
         };
         let jitter = self.measure_jitter(&mut runner, frame, pass)?;
-        let measurement = measure_output(&self.references.reference, &output)?;
+        let (measurement, intervals) =
+            self.measure_with_intervals(|reference| measure_output(reference, &output))?;
         Ok(MeasuredPicture {
-            intervals: self
-                .measure_intervals(&measurement, |reference| measure_output(reference, &output))?,
+            intervals,
             nonlinearity: Some(output.nonlinearity),
             picture: output.picture,
             measurement,
             jitter,
             dilated_velocity,
-            choice: Some(choice),
         })
     }
 
@@ -186,28 +180,20 @@ impl CaseContext<'_> {
         self.references.truth.size().into()
     }
 
-    /// Returns the filter with its lengths in pixels of the picture that it gets, which may be smaller than the plan's.
-    fn fit(&self, choice: &FilterChoice, input: InputFormat) -> FilterChoice {
-        let picture = self.picture_size();
-        match input.scale.blurred_size(picture) {
-            blurred if blurred == picture => choice.clone(),
-            [width, _] => self.scene.plan.scaled_to(choice, width),
-        }
-    }
-
-    /// Measures the intervals of the scores; empty where none are asked for.
-    fn measure_intervals(
+    /// Measures a picture, with the intervals of its scores; these are empty where none are asked for.
+    fn measure_with_intervals(
         &self,
-        measurement: &Measurement,
         measure: impl Fn(&Reference) -> Result<Measurement, MeasureError>,
-    ) -> Result<Intervals, MeasureError> {
+    ) -> Result<(Measurement, Intervals), MeasureError> {
+        let measurement = measure(&self.references.reference)?;
         let without_pairs = (self.references.without_pairs.iter())
             .map(|reference| Ok(measure(reference)?.scores))
             .collect::<Result<Vec<_>, MeasureError>>()?;
-        Ok(match without_pairs.as_slice() {
+        let intervals = match without_pairs.as_slice() {
             [] => Intervals::new(),
             without_pairs => intervals(&measurement.scores, without_pairs, Metric::all()),
-        })
+        };
+        Ok((measurement, intervals))
     }
 
     /// Separates the filter's noise from its other errors; none where it has no noise, or too few frames are asked for.
@@ -258,7 +244,10 @@ impl CaseContext<'_> {
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
         )?;
-        let choice = measured.choice.as_ref();
+        let choice = match &planned.source {
+            PictureSource::Filter(choice, _) => Some(choice),
+            _ => None,
+        };
         let command = choice.and_then(|choice| choice.filter.command.as_ref());
         let convention = choice.map(|choice| choice.filter.convention);
         let convention = convention.filter(|it| *it != Convention::default());

@@ -95,21 +95,6 @@ impl RunPlan {
         }
     }
 
-    /// Scales the filters to the plan's pictures.
-    pub(super) fn scaled_filters(&self) -> Vec<FilterChoice> {
-        let width = self.render.width;
-        (self.filters.iter())
-            .map(|choice| choice.scaled_to(width))
-            .collect()
-    }
-
-    /// Scales a filter of the plan to pictures of another width than the plan's.
-    pub(super) fn scaled_to(&self, choice: &FilterChoice, width: u32) -> FilterChoice {
-        let mut own = self.filters.iter();
-        let own = own.find(|own| own.name() == choice.name());
-        own.expect("it is a filter of the plan").scaled_to(width)
-    }
-
     /// Lists the scenes that are rendered, then those that engines drew.
     pub(crate) fn all_scenes(&self) -> Vec<RunScene<'_>> {
         let traced = self.scenes.iter().map(RunScene::Traced);

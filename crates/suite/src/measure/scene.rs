@@ -13,7 +13,6 @@ use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
 use crate::Error;
-use crate::filter_choice::FilterChoice;
 use crate::measure::scene_keys::SceneKeys;
 use crate::render::files::{find_missing, list_wanted};
 use crate::render::frames::render_frame;
@@ -25,8 +24,6 @@ use crate::run::failure::Failure;
 #[derive(Clone)]
 pub(crate) struct SceneContext<'a> {
     pub plan: &'a RunPlan,
-    /// The plan's filters, for pictures of its width.
-    pub filters: &'a [FilterChoice],
     pub gpu: Option<&'a Gpu>,
     pub scene: RunScene<'a>,
     /// Hashes that records are known by; none where the program cannot be hashed, and nothing is read back.
@@ -37,7 +34,6 @@ impl<'a> SceneContext<'a> {
     /// Prepares a scene of a plan for measuring. `program` is the hash of this program; none where it cannot be hashed.
     pub fn new(
         plan: &'a RunPlan,
-        filters: &'a [FilterChoice],
         gpu: Option<&'a Gpu>,
         program: Option<&str>,
         scene: RunScene<'a>,
@@ -45,7 +41,6 @@ impl<'a> SceneContext<'a> {
         let alignments = scene.alignments(plan.alignments());
         Self {
             plan,
-            filters,
             gpu,
             scene,
             keys: program.map(|program| SceneKeys::new(program, scene, &plan.render, alignments)),
@@ -64,7 +59,7 @@ impl SceneContext<'_> {
         if self.plan.no_cache {
             clear_scene(&self.folder())?;
         }
-        let planned = PlannedCase::all(self.plan, self.filters, self.scene);
+        let planned = PlannedCase::all(self.plan, self.scene);
         let found: Vec<Option<Case>> = (planned.iter())
             .map(|case| self.read_case(case, look_up))
             .collect();

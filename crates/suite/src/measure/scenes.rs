@@ -42,10 +42,9 @@ fn measure_all(
     run: &mut Run,
     watch: Watch,
 ) -> Result<(), Error> {
-    let filters = plan.scaled_filters();
     let mut frames: Vec<Vec<Case>> = Vec::new();
     let mut number = 0;
-    visit_frames(plan, &filters, gpu, |scene| {
+    visit_frames(plan, gpu, |scene| {
         let steps = scene.steps();
         let advance = |done: u64| {
             // A scene that is interrupted returns the error itself.

@@ -99,7 +99,7 @@ struct Planned(HashSet<(SceneId, FilterId)>);
 
 impl Planned {
     fn new(plan: &RunPlan) -> Self {
-        let of_scene = |scene| PlannedCase::all(plan, &plan.filters, scene);
+        let of_scene = |scene| PlannedCase::all(plan, scene);
         let planned = plan.all_scenes().into_iter().flat_map(of_scene);
         let both = planned.flat_map(|case| [case.id.of_preset(), case.id]);
         Self(both.map(|id| (id.scene.clone(), id.filter_id())).collect())
