@@ -7,17 +7,18 @@ use std::path::{Path, PathBuf};
 use filters::AdapterDescription;
 use tracer::SceneId;
 
-use super::fold::{RunPart, fold_runs};
+use super::fold::fold_runs;
 use crate::Error;
 use crate::identity::FilterId;
 use crate::measure::plan::RunPlan;
 use crate::measure::planned_case::PlannedCase;
 use crate::run::Run;
 use crate::run::case::Case;
+use crate::run::stored::StoredRun;
 
 /// The cases of an earlier run whose identities a plan does not name.
 pub struct EarlierCases {
-    kept: RunPart,
+    kept: StoredRun,
     /// Cases of the earlier run that are out of date: their scene has changed since.
     pub outdated: usize,
 }
@@ -68,9 +69,8 @@ impl EarlierCases {
             let is_current = outdated.iter().all(|case| case.scene != own.scene);
             is_current && !planned.has(&own.scene, &own.filter)
         });
-        let folder = plan.out.clone();
         Ok(Some(Self {
-            kept: RunPart { folder, run },
+            kept: StoredRun { path, run },
             outdated: outdated.iter().filter(|case| !case.is_reference).count(),
         }))
     }
@@ -86,8 +86,8 @@ impl EarlierCases {
     /// # Errors
     /// The kept cases are those of other settings than the run's.
     pub fn add_to(self, run: &Run) -> Result<Run, Error> {
-        let own = RunPart {
-            folder: self.kept.folder.clone(),
+        let own = StoredRun {
+            path: self.kept.path.clone(),
             run: run.clone(),
         };
         fold_runs(&[own, self.kept])

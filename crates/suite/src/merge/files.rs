@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use frame::{Alignment, read_attribute};
 use store::{Files, RenderFile, RenderPath, gather, list_files};
 
-use super::fold::RunPart;
 use crate::Error;
 use crate::measure::pictures::{CASE_FILES, FRAME_FILES, truth_files};
 use crate::run::Run;
+use crate::run::stored::StoredRun;
 
 /// Pictures that a run names: those of a case, or of one frame of a sequence.
 struct Pictures<'a> {
@@ -23,17 +23,17 @@ struct Pictures<'a> {
 
 /// Gathers the files of all cases and their scenes. A file that two parts hold must be the same in both, and no picture may be missing
 /// from all. Follows no links.
-pub(super) fn gather_files(parts: &[RunPart]) -> Result<Files, Error> {
+pub(super) fn gather_files(parts: &[StoredRun]) -> Result<Files, Error> {
     let lists = parts.iter().map(|part| {
         let own = list_pictures(&part.run).flat_map(|own| [own.scene, own.case.to_owned()]);
         let folders: BTreeSet<PathBuf> = own.collect();
-        let mut files = list_files(&part.folder)?;
+        let mut files = list_files(part.folder())?;
         files.retain(|file| {
             let scene = RenderPath::parse(file).map(|render| render.scene.folder());
             let folder = scene.as_deref().or(file.parent());
             folder.is_some_and(|folder| folders.contains(folder))
         });
-        Ok((&*part.folder, files))
+        Ok((part.folder(), files))
     });
     let files = gather(lists.collect::<Result<Vec<_>, Error>>()?)?;
     for part in parts {
@@ -62,7 +62,7 @@ fn list_pictures(run: &Run) -> impl Iterator<Item = Pictures<'_>> {
 }
 
 /// Refuses a case whose pictures, or those of its scene, no part holds, and one that was measured against another truth.
-fn check_pictures(part: &RunPart, own: &Pictures, files: &Files) -> Result<(), Error> {
+fn check_pictures(part: &StoredRun, own: &Pictures, files: &Files) -> Result<(), Error> {
     let of_case = CASE_FILES.iter().map(|name| own.case.join(name));
     let of_frame = FRAME_FILES.iter().map(|name| own.scene.join(name));
     let of_truth = truth_files(own.alignment).map(|name| own.scene.join(name));
@@ -70,7 +70,7 @@ fn check_pictures(part: &RunPart, own: &Pictures, files: &Files) -> Result<(), E
     if let Some(missing) = all.find(|below| !files.contains_key(below)) {
         return Err(Error::Usage(format!(
             "{}: no part holds {}, or it is a link; copy the folders of runs as a whole, or measure that case again",
-            part.file(),
+            part.path.display(),
             missing.display()
         )));
     }
@@ -80,7 +80,7 @@ fn check_pictures(part: &RunPart, own: &Pictures, files: &Files) -> Result<(), E
         true => Ok(()),
         false => Err(Error::Usage(format!(
             "{}: the truth of {} has the hash {}, and {} has {found}; measure that case again",
-            part.file(),
+            part.path.display(),
             own.case.display(),
             own.truth_hash,
             truth.display()

@@ -1,7 +1,6 @@
 //! Fold of runs: each of their cases, sequences and failures once, in the order in which one process measures them.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use tracer::SceneId;
@@ -13,40 +12,14 @@ use crate::run::Run;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::run::sequence::Sequence;
+use crate::run::stored::StoredRun;
 use crate::stats::overall::overall;
-
-/// A finished run, and the folder of its pictures.
-pub(super) struct RunPart {
-    /// Folder with `run.json`.
-    pub folder: PathBuf,
-    /// The run.
-    pub run: Run,
-}
-
-impl RunPart {
-    /// Reads a `run.json`, which is named itself or by its folder.
-    pub fn read(path: &Path) -> Result<Self, Error> {
-        let file = match path.is_dir() {
-            true => path.join("run.json"),
-            false => path.to_owned(),
-        };
-        Ok(Self {
-            run: Run::read(&file)?,
-            folder: file.parent().unwrap_or(Path::new("")).to_owned(),
-        })
-    }
-
-    /// Names its run.json.
-    pub fn file(&self) -> String {
-        self.folder.join("run.json").display().to_string()
-    }
-}
 
 /// Folds at least one run; the command is that of the first.
 ///
 /// # Errors
 /// Two runs differ in their settings or adapters, or hold one case with other scores.
-pub(super) fn fold_runs(parts: &[RunPart]) -> Result<Run, Error> {
+pub(super) fn fold_runs(parts: &[StoredRun]) -> Result<Run, Error> {
     let first = &parts[0];
     let mut with_adapter = parts.iter().filter(|part| part.run.adapter.is_some());
     let adapted = with_adapter.next().unwrap_or(first);
@@ -85,24 +58,24 @@ pub(super) fn fold_runs(parts: &[RunPart]) -> Result<Run, Error> {
 }
 
 /// Refuses a part that was measured in another way than another.
-fn check_settings(one: &RunPart, other: &RunPart) -> Result<(), Error> {
+fn check_settings(one: &StoredRun, other: &StoredRun) -> Result<(), Error> {
     match one.run.find_difference(&other.run) {
         None => Ok(()),
         Some((setting, own, its)) => Err(Error::Usage(format!(
             "{} has the {setting} {own}, {} has {its}; all parts of a run have the same {setting}",
-            one.file(),
-            other.file()
+            one.path.display(),
+            other.path.display()
         ))),
     }
 }
 
 /// Lists things of all parts, each once. Two of one scene and filter must be equal.
 fn list_once<T: Clone + Serialize>(
-    parts: &[RunPart],
+    parts: &[StoredRun],
     list: fn(&Run) -> &Vec<T>,
     key: impl Fn(&T) -> (SceneId, FilterId),
 ) -> Result<Vec<T>, Error> {
-    let mut found: HashMap<(SceneId, FilterId), (&T, &RunPart)> = HashMap::new();
+    let mut found: HashMap<(SceneId, FilterId), (&T, &StoredRun)> = HashMap::new();
     let mut all = Vec::new();
     for part in parts {
         for one in list(&part.run) {
@@ -117,8 +90,8 @@ fn list_once<T: Clone + Serialize>(
                 return Err(Error::Usage(format!(
                     "{} and {} hold {scene} / {filter} with other numbers; leave out one of them, or measure it again in both, with \
                      one build of the program",
-                    other_part.file(),
-                    part.file()
+                    other_part.path.display(),
+                    part.path.display()
                 )));
             }
         }

@@ -13,18 +13,11 @@ use store::{Claim, Sharing, claim, place_files};
 use tracer::SceneId;
 
 use self::files::gather_files;
-use self::fold::{RunPart, fold_runs};
+use self::fold::fold_runs;
 use crate::Error;
 use crate::identity::FilterId;
 use crate::run::Run;
-
-/// A run that was merged.
-pub struct MergedRun {
-    /// The whole run; its `run.json` is not written yet.
-    pub run: Run,
-    /// Claim on the folder, until that file is written.
-    pub claim: Claim,
-}
+use crate::run::stored::StoredRun;
 
 /// Tells whether a path names a finished run: its `run.json`, or its folder.
 pub fn holds_run(path: &Path) -> bool {
@@ -33,14 +26,18 @@ pub fn holds_run(path: &Path) -> bool {
 
 /// Joins the runs of all `parts`, each a `run.json` or its folder, and takes their pictures into `out`. The run is the one that a
 /// single process measures: its cases in the same order, the same means, and `command` as the words of its command line. Scenes
-/// and filters are ordered as the parts name them first.
+/// and filters are ordered as the parts name them first. Its `run.json` is not written yet, and the claim is on the folder until it is.
 ///
 /// # Errors
 /// Nothing is written if the parts differ in their settings, adapters or truths, if two hold one case with other scores, or if
 /// cases are missing.
-pub fn merge_runs(parts: &[PathBuf], command: Vec<String>, out: &Path) -> Result<MergedRun, Error> {
-    let parts: Vec<RunPart> = (parts.iter())
-        .map(|path| RunPart::read(path))
+pub fn merge_runs(
+    parts: &[PathBuf],
+    command: Vec<String>,
+    out: &Path,
+) -> Result<(Run, Claim), Error> {
+    let parts: Vec<StoredRun> = (parts.iter())
+        .map(|path| StoredRun::read(path))
         .collect::<Result<_, _>>()?;
     let run = Run {
         command,
@@ -50,7 +47,7 @@ pub fn merge_runs(parts: &[PathBuf], command: Vec<String>, out: &Path) -> Result
     let files = gather_files(&parts)?;
     let claim = claim(out, [], Sharing::Alone)?;
     place_files(&files, out)?;
-    Ok(MergedRun { run, claim })
+    Ok((run, claim))
 }
 
 /// Refuses cases that no process could have measured together: scenes with different filters, and shutters without references.

@@ -9,6 +9,7 @@ pub mod layers;
 pub mod overall;
 mod scaling;
 pub mod sequence;
+pub mod stored;
 
 use filters::AdapterDescription;
 use frame::Alignment;

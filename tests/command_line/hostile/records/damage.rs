@@ -6,10 +6,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use cli::{compare_table, run_table};
-use judge::{Acceptance, Baseline, Side, accept_scores, compare_runs};
+use judge::{Acceptance, Baseline, accept_scores, compare_runs};
 use report::{LARGEST_PAGE, compare_page, write_report};
 use serde_json::{Value, json};
-use suite::{Error, Run};
+use suite::{Error, Run, StoredRun};
 
 use crate::bench::{Bench, assert_done, assert_refused};
 
@@ -44,8 +44,8 @@ fn hostile(value: &Value) -> Vec<Value> {
 }
 
 /// Reads a run.json in memory, as every command does.
-fn read_everywhere(changed: &Path, whole: &Side) -> Result<(), Error> {
-    let side = Side::read(changed)?;
+fn read_everywhere(changed: &Path, whole: &StoredRun) -> Result<(), Error> {
+    let side = StoredRun::read(changed)?;
     let folder = changed.parent().unwrap();
     let _ = run_table(&side.run);
     let go_on = |_| std::ops::ControlFlow::Continue(());
@@ -83,7 +83,7 @@ fn a_changed_value_of_run_json_never_ends_the_program() {
     cases.truncate(1);
     cases.insert(0, last);
     fs::write(&path, whole.to_string()).unwrap();
-    let side = Side::read(&path).unwrap();
+    let side = StoredRun::read(&path).unwrap();
     let changed = bench.path("out/changed.json");
     read_everywhere(&path, &side).unwrap();
 
