@@ -1,7 +1,7 @@
 //! Names of the files that are rendered, below the folder of a run.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
+use std::{fmt, fs};
 
 use frame::{Alignment, FileError, read_attribute, rung_file};
 use tracer::SceneId;
@@ -209,12 +209,15 @@ pub fn list_renders(root: &Path) -> Result<Vec<RenderPath>, FileError> {
 /// # Errors
 /// A folder cannot be read.
 pub fn list_files(root: &Path) -> Result<Vec<PathBuf>, FileError> {
-    let is_hidden = |entry: &DirEntry| entry.file_name().as_encoded_bytes().starts_with(b".");
+    // A walk of a file yields the file.
+    fs::read_dir(root).map_err(|source| FileError::io(root, "read", source))?;
+    let is_shown = |entry: &DirEntry| !entry.file_name().as_encoded_bytes().starts_with(b".");
+    let entries = WalkDir::new(root).min_depth(1).max_depth(DEPTH);
     let mut files = Vec::new();
-    let entries = WalkDir::new(root).max_depth(DEPTH).sort_by_file_name();
     for entry in entries
+        .sort_by_file_name()
         .into_iter()
-        .filter_entry(|it| it.depth() == 0 || !is_hidden(it))
+        .filter_entry(is_shown)
     {
         let entry = entry.map_err(walk_error)?;
         if entry.file_type().is_file() {
