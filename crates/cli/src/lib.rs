@@ -20,7 +20,7 @@ mod tables;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use commands::ending::Ending;
+use commands::result::Ending;
 use environment::set_environment;
 use filters::FilterError;
 use output::{
@@ -46,7 +46,7 @@ pub fn run_program() -> ExitCode {
     let arguments =
         Cli::parse_words(std::env::args_os()).unwrap_or_else(|error| refuse_arguments(&error));
     set_output(arguments.output);
-    match execute(&arguments.command) {
+    match execute(&arguments) {
         Ok(Ending::Done) => ExitCode::SUCCESS,
         Ok(Ending::Failed(error)) => ExitCode::from(exit_code(&error)),
         Err(error) => {

@@ -1,8 +1,6 @@
 //! Tables of a comparison of two runs.
 
-use judge::{
-    Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, rank_changes,
-};
+use judge::{Basis, Change, ChangeKind, MeanChange, RunComparison, SettingChange, rank_changes};
 use metrics::Metric;
 use report::ChangeCells;
 
@@ -47,18 +45,13 @@ fn setting_line(setting: &SettingChange) -> String {
 fn means_table(means: &[MeanChange]) -> String {
     let mut table = change_table("mean over scenes");
     let mut filter = "";
-    for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
+    for mean in means.iter().filter(|mean| mean.kind != ChangeKind::Same) {
         if filter != mean.filter {
             filter = &mean.filter;
             let scenes = count_text(mean.scenes, "scene", "scenes");
             table.push_text(format!("{filter}, {scenes}"));
         }
-        let style = match mean.kind {
-            MeanKind::Better => good,
-            MeanKind::Worse => bad,
-            _ => doubtful,
-        };
-        push_change(&mut table, mean.metric, mean.into(), style);
+        push_change(&mut table, mean.metric, mean.kind, mean.into());
     }
     let mut text = match filter {
         "" => String::new(),
@@ -67,7 +60,7 @@ fn means_table(means: &[MeanChange]) -> String {
     let mut same = list_once(means.iter().map(|mean| mean.filter.as_str()));
     same.retain(|filter| {
         let mut own = means.iter().filter(|mean| mean.filter == *filter);
-        own.all(|mean| mean.kind == MeanKind::Same)
+        own.all(|mean| mean.kind == ChangeKind::Same)
     });
     if !same.is_empty() {
         let line = format!("nothing changed of: {}", same.join(", "));
@@ -86,13 +79,9 @@ fn changes_table(changes: &[Change]) -> String {
     for (scene, filter) in ranked.iter().take(CASES) {
         table.push_text(format!("{scene} / {filter}"));
         let own =
-            (changes.iter()).filter(|change| change.scene == **scene && change.filter == *filter);
-        for change in own.filter(|change| change.is_beyond_noise()) {
-            let style = match change.kind {
-                ChangeKind::Better => good,
-                _ => bad,
-            };
-            push_change(&mut table, change.metric, change.into(), style);
+            (changes.iter()).filter(|change| change.scene == **scene && change.filter == **filter);
+        for change in own.filter(|change| change.kind.is_decided()) {
+            push_change(&mut table, change.metric, change.kind, change.into());
         }
     }
     let mut text = "\n".to_owned() + &table.text();
@@ -108,8 +97,12 @@ fn change_table(title: &str) -> Table {
     Table::new(title, ["first", "second", "change", "95 % CI"]).with_words_in(3)
 }
 
-fn push_change(table: &mut Table, metric: Metric, cells: ChangeCells, style: fn(&str) -> String) {
-    let change = style(&cells.change);
+fn push_change(table: &mut Table, metric: Metric, kind: ChangeKind, cells: ChangeCells) {
+    let change = match kind {
+        ChangeKind::Better => good(&cells.change),
+        ChangeKind::Worse => bad(&cells.change),
+        _ => doubtful(&cells.change),
+    };
     table.push(
         metric.name(),
         [cells.first, cells.second, change, cells.interval],
@@ -117,7 +110,7 @@ fn push_change(table: &mut Table, metric: Metric, cells: ChangeCells, style: fn(
 }
 
 fn counts(changes: &[Change]) -> String {
-    let words: Vec<String> = (ChangeKind::ALL.iter())
+    let words: Vec<String> = (ChangeKind::OF_SCORES.iter())
         .map(|kind| {
             let count = changes.iter().filter(|change| change.kind == *kind).count();
             format!("{count} {}", kind.label())

@@ -138,10 +138,7 @@ mod tests {
         let text = table.text_in(40);
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
         assert!(lines[0].ends_with(&"y".repeat(70)) && lines[1].starts_with("FLIP"));
-        assert_eq!(
-            lines[2..],
-            [&"x".repeat(60)[..], "0.1 railing"]
-        );
+        assert_eq!(lines[2..], [&"x".repeat(60)[..], "0.1 railing"]);
         assert!(text.lines().skip(3).all(|line| line.len() <= 40), "{text}");
     }
 }

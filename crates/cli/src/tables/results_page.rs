@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use frame::Alignment;
-use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_with_last};
+use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
 use suite::{Error, MIN_SCENES};
 use tracer::{Family, Location, SceneId, SceneListing, list_scenes};
@@ -195,7 +195,7 @@ fn push_agreement(
     sealed: &Results,
     alignment: Alignment,
 ) -> Result<(), Error> {
-    let compared = compare_with_last(&[results, sealed], Metric::FLIP)?;
+    let compared = compare_sizes(&[results, sealed], Metric::FLIP)?;
     let mut of_shutter = compared.iter().filter(|own| own.alignment == alignment);
     let Some(SizeComparison { agreement, .. }) = of_shutter.next() else {
         return Ok(());
