@@ -1,6 +1,6 @@
 //! Sealed variants: scenes changed by a seed, which no tuning has met.
 
-mod chance;
+pub(crate) mod chance;
 mod mirror;
 mod times;
 
