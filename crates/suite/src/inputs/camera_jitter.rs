@@ -1,7 +1,7 @@
 //! Jitter of the camera, as temporal anti-aliasing has it.
 
 use frame::{Frame, Vectors};
-use tracer::{PixelGrid, PointMotion, Scene, trace_frame_on, trace_motion_on};
+use tracer::{PixelGrid, PointMotion, Scene, trace_frame_part, trace_motion_on};
 
 use crate::inputs::traced_again::settings_of;
 use crate::{Error, Monitor, named};
@@ -55,7 +55,7 @@ impl CameraJitter {
         }
         let label = format!("{} jittered frame", scene.id);
         let jittered = monitor.watch(&label, |watch| {
-            trace_frame_on(scene, &settings, &grid, watch)
+            trace_frame_part(scene, &settings, &grid, None, watch)
         })?;
         let velocity = match self {
             Self::LeftIn => add_jitter(&jittered, [0, 1].map(|axis| now[axis] - before[axis])),

@@ -1,7 +1,7 @@
 //! Frames with several samples per pixel (MSAA).
 
 use frame::{ColorSampling, Frame, Raster};
-use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_on};
+use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_part};
 
 use crate::inputs::traced_again::settings_of;
 use crate::{Error, Monitor, named};
@@ -47,7 +47,7 @@ impl Multisampling {
             (SAMPLES.into_iter().zip(sample_settings(frame)))
                 .map(|(offset, settings)| {
                     let size = [settings.width, settings.height];
-                    trace_frame_on(scene, &settings, &PixelGrid { size, offset }, watch)
+                    trace_frame_part(scene, &settings, &PixelGrid { size, offset }, None, watch)
                 })
                 .collect::<Result<Vec<Frame>, _>>()
         })?;

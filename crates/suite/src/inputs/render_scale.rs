@@ -1,7 +1,7 @@
 //! Frames that are rendered small and upscaled.
 
 use frame::{Frame, Plane, Raster};
-use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_on};
+use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_part};
 
 use crate::inputs::resample::{Extent, read_bilinear, read_nearest};
 use crate::inputs::traced_again::settings_of;
@@ -93,7 +93,7 @@ impl RenderScale {
         };
         let label = format!("{} frame at {} %", scene.id, self.percent());
         let small = monitor.watch(&label, |watch| {
-            trace_frame_on(scene, &settings, &grid, watch)
+            trace_frame_part(scene, &settings, &grid, None, watch)
         })?;
         Ok(match self.blurs_first() {
             true => small,
