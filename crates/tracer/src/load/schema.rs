@@ -96,7 +96,7 @@ pub(super) struct CameraKeyTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct BackgroundTable {
     pub(super) constant: Option<Spanned<[f32; 3]>>,
-    pub(super) gradient: Option<Spanned<GradientTable>>,
+    pub(super) gradient: Option<GradientTable>,
     pub(super) image: Option<Spanned<String>>,
     pub(super) strength: Option<Spanned<f32>>,
     pub(super) rotation: Option<f64>,
@@ -105,9 +105,9 @@ pub(super) struct BackgroundTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GradientTable {
-    pub(super) ground: [f32; 3],
-    pub(super) horizon: [f32; 3],
-    pub(super) zenith: [f32; 3],
+    pub(super) ground: Spanned<[f32; 3]>,
+    pub(super) horizon: Spanned<[f32; 3]>,
+    pub(super) zenith: Spanned<[f32; 3]>,
 }
 
 #[derive(Deserialize)]
