@@ -59,7 +59,7 @@ impl EnvironmentMap {
 
 /// Draws directions of an environment map roughly in proportion to its radiance.
 ///
-/// A texel is sampled by the mean of itself and its neighbours, so that every direction that interpolation makes bright can be
+/// A texel is chosen by the mean of itself and its neighbours, so that every direction that interpolation makes bright can be
 /// sampled. Within a texel directions are sampled evenly.
 pub(crate) struct EnvironmentSampler {
     /// Probability per steradian of each texel.

@@ -25,7 +25,7 @@ pub(crate) fn density_per_steradian(area: f64, distance: f64, cosine: f64) -> f6
     distance * distance / (area * cosine.abs())
 }
 
-/// Weight of a sample sampled with density `own` that `other` might have sampled as well: the power heuristic
+/// Weight of a sample of density `own` that `other` might have sampled as well: the power heuristic
 /// (Veach 1997, section 9.2).
 pub(crate) fn power_heuristic(own: f64, other: f64) -> f64 {
     let ratio = other / own;
