@@ -68,7 +68,7 @@ pub fn trace_defocus(
     let pixels = canvas.pixels();
     let meter = Meter::new(watch, pixels.len() as u64);
     let work = |task: &[u32]| task.len() as u64;
-    let recipes = for_each_pixel((stage, canvas), &pixels, (&meter, &work), |eye, pixel| {
+    let recipes = for_each_pixel((stage, canvas), &pixels, &meter, work, |eye, pixel| {
         find_recipe(integrator, pinhole, canvas, eye, pixel)
     })?;
     Ok(Defocus(Raster {

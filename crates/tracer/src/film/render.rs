@@ -89,7 +89,8 @@ impl Times<'_> {
 pub(crate) fn for_each_pixel<T: Send>(
     (stage, canvas): (&Stage, Canvas),
     pixels: &[u32],
-    (meter, work): (&Meter, &(dyn Fn(&[u32]) -> u64 + Sync)),
+    meter: &Meter,
+    work: impl Fn(&[u32]) -> u64 + Sync,
     result: impl Fn(&mut Eye, u32) -> T + Sync,
 ) -> Result<Vec<T>, TraceError> {
     let tasks = pixels
@@ -126,16 +127,11 @@ impl<'a> Film<'a> {
     ) -> Result<Vec<T>, TraceError> {
         let stage = self.integrator.stage;
         let work = |task: &[u32]| self.work(task);
-        for_each_pixel(
-            (stage, self.canvas),
-            pixels,
-            (meter, &work),
-            |eye, pixel| {
-                let replicates = self.replicates.clone();
-                let estimates = replicates.map(|replicate| self.estimate(eye, pixel, replicate));
-                result(&estimates.collect::<Vec<Vec<Estimate>>>())
-            },
-        )
+        for_each_pixel((stage, self.canvas), pixels, meter, work, |eye, pixel| {
+            let replicates = self.replicates.clone();
+            let estimates = replicates.map(|replicate| self.estimate(eye, pixel, replicate));
+            result(&estimates.collect::<Vec<Vec<Estimate>>>())
+        })
     }
 
     /// Estimates a pixel of every picture.

@@ -80,7 +80,8 @@ fn probe_pixels(
     for_each_pixel(
         place,
         &film.canvas.pixels(),
-        (meter, &no_work),
+        meter,
+        no_work,
         |eye, pixel| {
             let mut probes = before[pixel as usize].clone();
             let mut probed: Vec<(&Times, &mut PixelProbe)> = (film.times.iter().enumerate())
