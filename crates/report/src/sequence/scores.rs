@@ -22,7 +22,7 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
     html! {
         @for (scene, alignment) in groups {
             h3 { (scene) ", " (alignment) " shutter" }
-            (metric_table(None, &html! {
+            (metric_table("Scores over time", None, &html! {
                 @for (index, rank, own) in order_rows(run, scene, alignment) { (row(index, &rank, own, findings)) }
             }))
         }
@@ -60,7 +60,7 @@ fn order_rows<'a>(
 fn row(index: usize, rank: &str, own: &Sequence, findings: &[Finding]) -> Markup {
     html! {
         tr {
-            th {
+            th scope="row" {
                 (rank)
                 a href=(format!("#{index}")) {
                     @if own.is_reference { i { (own.name) } } @else { (own.name) }
