@@ -33,9 +33,8 @@ use suite::Error;
 pub use output::terminal_text;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::{
-    annotations, check_text, compare_table, junit, main_results, paired_table, picture_name,
-    preferences_table, ranking_text, results_filter_pages, results_page, run_table, score_table,
-    summary,
+    annotations, check_text, compare_table, junit, list_once, markdown_table, paired_table,
+    preferences_table, range_text, ranking_text, run_table, score_table, summary,
 };
 
 /// Runs the command of the command line and returns its exit code.
