@@ -78,8 +78,6 @@ fn refuse_arguments(error: &clap::Error) -> ! {
     }
     // Words may be names of files with control codes, which the message is to show as escapes.
     let words = std::env::args_os().map(|word| printable(&word.to_string_lossy()).into_owned());
-    match Cli::parse_words(words) {
-        Err(error) => error.exit(),
-        Ok(_) => error.exit(),
-    }
+    let shown = Cli::parse_words(words).err();
+    shown.as_ref().unwrap_or(error).exit()
 }

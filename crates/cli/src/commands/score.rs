@@ -84,19 +84,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     let name = args.image.file_name().unwrap_or(args.image.as_os_str());
     let name = name.to_string_lossy();
     let name = printable(&name);
-    let mut text = score_table(&truth.provenance.scene, &name, scores);
-    let drawn = (truth.provenance.engine.as_deref()).map_or(String::new(), |engine| {
-        let subframes = truth.provenance.samples_per_pixel;
-        format!(
-            "mean of {subframes} sub-frames that {} drew, ",
-            printable(engine_name(engine))
-        )
-    });
-    text += &format!(
-        "\ntruth: {drawn}{} shutter, open for {} frames\n",
-        truth.alignment,
-        truth.shutter.exposure()
-    );
+    let mut text = score_table(&truth.provenance.scene, &name, scores) + &truth_line(truth);
     for note in notes {
         text += &format!("{name}: {note}\n");
     }
@@ -111,6 +99,22 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
         text += &format!("not available: {}: {reason}{way_out}\n", names.join(", "));
     }
     text
+}
+
+/// Says what the truth is below a table of scores.
+pub fn truth_line(truth: &Truth) -> String {
+    let drawn = (truth.provenance.engine.as_deref()).map_or(String::new(), |engine| {
+        let subframes = truth.provenance.samples_per_pixel;
+        format!(
+            "mean of {subframes} sub-frames that {} drew, ",
+            printable(engine_name(engine))
+        )
+    });
+    format!(
+        "\ntruth: {drawn}{} shutter, open for {} frames\n",
+        truth.alignment,
+        truth.shutter.exposure()
+    )
 }
 
 /// Describes what was scored as JSON.

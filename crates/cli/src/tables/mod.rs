@@ -1,6 +1,5 @@
 //! Tables of results, in 80 columns.
 
-mod adapter;
 mod annotations;
 mod audit;
 mod bench;
@@ -8,7 +7,6 @@ mod cases;
 mod check;
 mod columns;
 mod comparison;
-mod failures;
 mod frame_rates;
 mod input_forms;
 mod jobs;
@@ -19,11 +17,9 @@ mod missing;
 mod preferences;
 mod ranking;
 mod scene_means;
-mod sensitivity;
 mod sequence;
 mod tuning;
 
-pub use self::adapter::*;
 pub use self::annotations::*;
 pub use self::audit::*;
 pub use self::bench::*;
@@ -31,7 +27,6 @@ pub use self::cases::*;
 pub use self::check::*;
 pub use self::columns::*;
 pub use self::comparison::*;
-pub use self::failures::*;
 pub use self::frame_rates::*;
 pub use self::input_forms::*;
 pub use self::jobs::*;
@@ -42,6 +37,5 @@ pub use self::missing::*;
 pub use self::preferences::*;
 pub use self::ranking::*;
 pub use self::scene_means::*;
-pub use self::sensitivity::*;
 pub use self::sequence::*;
 pub use self::tuning::*;
