@@ -10,7 +10,7 @@ use frame::{
 use store::printable_path;
 use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu};
 
-use super::convention::read_convention;
+use super::capture::read_convention;
 use super::render_settings::check_exposure;
 use crate::arguments::{AdapterArgs, ProgramArgs, frame_count};
 use crate::output::{make_silent_monitor, print};
