@@ -12,7 +12,6 @@ use suite::{
 use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
-use super::render_settings::make_render_settings;
 use crate::arguments::{
     Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size, within,
 };
@@ -112,7 +111,7 @@ fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Er
         Replicates::All(count) => *count,
         Replicates::Part(_) => RenderSettings::default().replicates,
     };
-    let settings = make_render_settings(&args.scenes, size, count)?;
+    let settings = args.scenes.render_settings(size, count);
     for frame in 1..args.frames {
         let later = scene.at_frame(frame);
         for alignment in &args.alignments {

@@ -85,18 +85,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     let name = name.to_string_lossy();
     let name = printable(&name);
     let mut text = score_table(&truth.provenance.scene, &name, scores);
-    let drawn = (truth.provenance.engine.as_deref()).map_or(String::new(), |engine| {
-        let subframes = truth.provenance.samples_per_pixel;
-        format!(
-            "mean of {subframes} sub-frames that {} drew, ",
-            printable(engine_name(engine))
-        )
-    });
-    text += &format!(
-        "\ntruth: {drawn}{} shutter, open for {} frames\n",
-        truth.alignment,
-        truth.shutter.exposure()
-    );
+    text += &truth_text(truth);
     for note in notes {
         text += &format!("{name}: {note}\n");
     }
@@ -111,6 +100,17 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
         text += &format!("not available: {}: {reason}{way_out}\n", names.join(", "));
     }
     text
+}
+
+/// Says which truth a picture was compared with.
+pub fn truth_text(truth: &Truth) -> String {
+    let drawn = (truth.provenance.engine.as_deref()).map_or(String::new(), |engine| {
+        let subframes = truth.provenance.samples_per_pixel;
+        let engine = printable(engine_name(engine));
+        format!("mean of {subframes} sub-frames that {engine} drew, ")
+    });
+    let (alignment, exposure) = (truth.alignment, truth.shutter.exposure());
+    format!("\ntruth: {drawn}{alignment} shutter, open for {exposure} frames\n")
 }
 
 /// Describes what was scored as JSON.
