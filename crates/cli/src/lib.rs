@@ -34,6 +34,7 @@ use store::printable;
 use suite::Error;
 use tracer::TraceError;
 
+pub use output::terminal_text;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::{
     annotations, check_text, compare_table, junit, main_results, paired_table, picture_name,
