@@ -21,7 +21,7 @@ impl RunPlan {
             )));
         }
         for scene in self.all_scenes() {
-            for case in PlannedCase::all(self, &self.filters, scene) {
+            for case in PlannedCase::all(self, scene) {
                 refuse_long_names(&case.id.folder())?;
             }
         }
