@@ -122,7 +122,7 @@ pub fn filter_json(filter: &Filter) -> serde_json::Value {
         "summary": filter.summary,
         "source": filter.source,
         "alignment": filter.alignment.name(),
-        "command": filter.command.as_ref().map(Command::words),
+        "command": filter.command.as_ref().map(|command| &command.words),
         "environment": filter.command.as_ref().map(|command| &command.environment),
         "compilers": filter.list_compilers(),
         "parameters": filter.parameters.iter().map(parameter).collect::<Vec<_>>(),
@@ -176,7 +176,7 @@ fn filter_text(filter: &Filter) -> String {
 
 /// Describes the program of a filter, and the variables that it wants to see.
 fn command_text(command: &Command) -> String {
-    let words = command.words().join(" ");
+    let words = command.words.join(" ");
     let mut text = format!("    runs: {}\n", printable(&words));
     if !command.environment.is_empty() {
         let names = command.environment.join(" ");

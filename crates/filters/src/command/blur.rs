@@ -70,7 +70,10 @@ impl CommandBlur {
         let [frame, out] = ["frame.exr", "out.exr"].map(|name| place.join(name));
         write_exr(&frame, &make_frame_file(color, input))
             .map_err(|error| self.refuse_frame_file(error))?;
-        let mut process = Process::new(self.program());
+        let mut process = Process::new(match self.is_in_folder() {
+            true => self.command.folder.join(self.program()),
+            false => PathBuf::from(self.program()),
+        });
         process
             .args(self.arguments(input, &frame, &out))
             .current_dir(&self.command.folder)
@@ -102,22 +105,18 @@ impl CommandBlur {
             };
             self.refuse(format!(
                 "`{} {}` {reason}{said}",
-                self.command.program,
+                self.program(),
                 words.join(" ")
             ))
         })
     }
 
-    fn program(&self) -> PathBuf {
-        if self.is_in_folder() {
-            self.command.folder.join(&self.command.program)
-        } else {
-            PathBuf::from(&self.command.program)
-        }
+    fn program(&self) -> &str {
+        &self.command.words[0]
     }
 
     fn is_in_folder(&self) -> bool {
-        self.command.program.contains(['/', '\\'])
+        self.program().contains(['/', '\\'])
     }
 
     fn arguments(&self, input: &Input, frame: &Path, out: &Path) -> Vec<String> {
@@ -131,7 +130,7 @@ impl CommandBlur {
                 parameter => self.settings.values.get(parameter)?.to_string(),
             })
         };
-        (self.command.arguments.iter())
+        (self.command.words[1..].iter())
             .map(|word| {
                 fill_placeholders(word, value).expect("placeholders were checked with filter.toml")
             })
@@ -204,7 +203,7 @@ impl CommandBlur {
     }
 
     fn describe_start_failure(&self, error: &std::io::Error) -> String {
-        let program = &self.command.program;
+        let program = self.program();
         let folder = self.command.folder.display();
         match (self.is_in_folder(), error.kind()) {
             (false, ErrorKind::NotFound) => format!(

@@ -55,7 +55,7 @@ pub(crate) struct Pass {
     /// True if a whole workgroup runs for each of those texels, instead of one invocation.
     pub workgroup_per_texel: bool,
     /// Number of runs.
-    pub repeat: Repeat,
+    pub repeat: Count,
 }
 
 impl Pass {
@@ -73,15 +73,15 @@ impl Pass {
     }
 }
 
-/// Number of times that a pass runs.
+/// A number of runs or of pixels.
 #[derive(Clone, Debug, PartialEq, serde::Deserialize)]
 #[serde(
     untagged,
-    expecting = "repeat is a count from 1 or the name of an integer parameter"
+    expecting = "a unit or repeat is a count from 1 or the name of an integer parameter"
 )]
-pub(crate) enum Repeat {
+pub(crate) enum Count {
     /// A fixed number.
-    Times(u32),
+    Number(u32),
     /// The value of this integer parameter.
     Parameter(String),
 }

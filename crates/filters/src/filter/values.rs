@@ -3,17 +3,14 @@
 use super::convention::{CONVENTION_VALUES, Convention};
 use super::parameter::Parameter;
 
-/// Numbers of the frame and of the pass, each with its meaning.
-const NUMBERS: [(&str, &str); 6] = [
-    ("width", "pixels per row"),
-    ("height", "rows"),
-    ("exposure", "time that the shutter is open, in frames"),
-    (
-        "frame_index",
-        "a number that changes the noise, and nothing else",
-    ),
-    ("iteration", "run of the pass, from 0"),
-    ("iterations", "number of runs of the pass"),
+/// Numbers of the frame and of the pass.
+const NUMBERS: [&str; 6] = [
+    "width",
+    "height",
+    "exposure",
+    "frame_index",
+    "iteration",
+    "iterations",
 ];
 
 /// Values of several numbers, each with their count. `resolution[0]` is the first number.
@@ -42,9 +39,7 @@ pub(crate) fn count_numbers(
     convention: &Convention,
 ) -> Option<usize> {
     let is_parameter = (parameters.iter()).any(|parameter| parameter.name == name);
-    let is_number = is_parameter
-        || NUMBERS.iter().any(|(known, _)| *known == name)
-        || convention.value(name).is_some();
+    let is_number = is_parameter || NUMBERS.contains(&name) || convention.value(name).is_some();
     if is_number {
         return Some(1);
     }
@@ -102,43 +97,10 @@ pub(crate) fn list_values(parameters: &[Parameter], convention: &Convention) -> 
     let matrices = MATRICES.map(str::to_owned).into_iter();
     let previous = MATRICES.map(|name| format!("{PREVIOUS}{name}"));
     let names = (parameters.iter().map(|parameter| parameter.name.clone()))
-        .chain(NUMBERS.map(|(name, _)| name.to_owned()))
+        .chain(NUMBERS.map(str::to_owned))
         .chain(of_convention.map(str::to_owned))
         .chain(LISTS.map(|(name, _)| name.to_owned()))
         .chain(matrices.chain(previous));
     let known = names.filter(|name| count_numbers(name, parameters, convention).is_some());
     known.collect::<Vec<_>>().join(", ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::DepthKind;
-
-    #[test]
-    fn names_stand_for_as_many_numbers_as_they_say() {
-        let plain = Convention::default();
-        let projected = Convention {
-            depth: DepthKind::Reversed,
-            near: Some(0.1),
-            ..plain
-        };
-        for (name, without, with) in [
-            ("width", Some(1), Some(1)),
-            ("resolution", Some(2), Some(2)),
-            ("resolution[1]", Some(1), Some(1)),
-            ("resolution[2]", None, None),
-            ("width[0]", None, None),
-            ("previous_view", Some(16), Some(16)),
-            ("view[16]", None, None),
-            ("inverse_projection", None, Some(16)),
-            ("previous_view_projection[15]", None, Some(1)),
-            ("previous_previous_view", None, None),
-            ("near", None, Some(1)),
-            ("far", None, None),
-        ] {
-            assert_eq!(count_numbers(name, &[], &plain), without, "{name}");
-            assert_eq!(count_numbers(name, &[], &projected), with, "{name}");
-        }
-    }
 }

@@ -9,7 +9,6 @@ use super::kernels::Kernels;
 use super::place::Place;
 use super::transfer::{row_bytes, to_texels, velocity_texels};
 use super::uniforms::FrameValues;
-use super::uploaded_input::UploadedInput;
 use crate::filter::History;
 use crate::input::{CameraUse, find_pixel, is_finite};
 use crate::{Convention, Filter, FilterError, Format, Input, Settings};
@@ -57,10 +56,12 @@ impl<'g> Blur<'g> {
             camera_use: filter.camera_use(),
             convention: filter.convention,
             history: filter.history.clone(),
-            passes: {
-                let specialised = kernels.specialise(settings)?;
-                BoundPasses::new(gpu, &specialised, settings, [width, height])?
-            },
+            passes: BoundPasses::new(
+                gpu,
+                &*kernels.specialise(settings)?,
+                settings,
+                [width, height],
+            )?,
         })
     }
 
@@ -86,47 +87,9 @@ impl<'g> Blur<'g> {
             "every colour has one of the frame before"
         );
         self.upload_layers(input, before)?;
-        self.blur_all(input.color.len(), |index| {
-            self.upload_color(input.color[index], before.color[index]);
-        })
-    }
-
-    /// Blurs an input that is on the GPU already, as [`Blur::run`] does.
-    pub fn run_uploaded(&mut self, input: &UploadedInput) -> Result<Vec<Image>, FilterError> {
-        assert_eq!(
-            (&self.filter, self.size),
-            (&input.filter, input.size),
-            "an input stays on the GPU for one filter and size"
-        );
-        let copy = |from, name| self.gpu.copy(from, self.passes.target(name));
-        self.gpu.catch_errors(self.place("upload"), || {
-            self.passes.upload_frame(self.gpu, input.frame);
-            copy(&input.velocity, "velocity");
-            copy(&input.depth, "depth");
-            for history in &self.history {
-                match history {
-                    History::Velocity => copy(&input.velocity, history.texture()),
-                    History::Depth => copy(&input.depth, history.texture()),
-                    History::Color => {}
-                }
-            }
-        })?;
-        self.blur_all(input.color.len(), |index| {
-            copy(&input.color[index], "color");
-            if self.history.contains(&History::Color) {
-                copy(&input.color[index], History::Color.texture());
-            }
-        })
-    }
-
-    /// Blurs each of several colours, which `place_color` uploads by its index.
-    fn blur_all(
-        &self,
-        count: usize,
-        place_color: impl Fn(usize),
-    ) -> Result<Vec<Image>, FilterError> {
-        let outputs = (0..count).map(|index| {
-            (self.gpu).catch_errors(self.place("upload"), || place_color(index))?;
+        let colors = input.color.iter().zip(before.color).enumerate();
+        let outputs = colors.map(|(index, (color, before))| {
+            self.upload_color(color, before)?;
             // Results that do not depend on colour stay from the first image.
             self.blur(|dispatch| index == 0 || dispatch.depends_on_color)
         });
@@ -257,39 +220,40 @@ impl<'g> Blur<'g> {
         self.check(input)?;
         self.upload_layers(input, input)?;
         let color = input.color.first().expect("there is a colour to blur");
-        (self.gpu).catch_errors(self.place("upload"), || self.upload_color(color, color))
+        self.upload_color(color, color)
     }
 
     /// Uploads all but the colour, and what the filter reads of the frame before.
     fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
-        let velocity = |input| velocity_texels(&self.convention, input);
-        let depth = |input: &Input| self.convention.convert_depth(input.depth).pixels;
-        let upload = |name, values: &[f32]| self.gpu.upload(self.passes.target(name), values);
+        let texels = |layer: &str, input: &Input| match layer {
+            "velocity" => velocity_texels(&self.convention, input),
+            _ => self.convention.convert_depth(input.depth).pixels,
+        };
+        let history = self.history.iter().filter(|it| **it != History::Color);
+        let history = history.map(|it| (it.texture(), it.input(), before));
+        let own = ["velocity", "depth"].map(|layer| (layer, layer, input));
         self.gpu.catch_errors(self.place("upload"), || {
-            upload("velocity", &velocity(input));
-            upload("depth", &depth(input));
             let frame = FrameValues::of(input, &self.convention);
             self.passes.upload_frame(self.gpu, frame);
-            for history in &self.history {
-                match history {
-                    History::Velocity => upload(history.texture(), &velocity(before)),
-                    History::Depth => upload(history.texture(), &depth(before)),
-                    History::Color => {}
-                }
+            for (texture, layer, input) in own.into_iter().chain(history) {
+                let target = self.passes.target(texture);
+                self.gpu.upload(target, &texels(layer, input));
             }
         })
     }
 
     /// Uploads a colour, and that of the frame before if the filter reads it.
-    fn upload_color(&self, color: &Image, before: &Image) {
+    fn upload_color(&self, color: &Image, before: &Image) -> Result<(), FilterError> {
         let upload = |name, color| {
             let texels = to_texels(color, self.color_scale());
             self.gpu.upload(self.passes.target(name), &texels);
         };
-        upload("color", color);
-        if self.history.contains(&History::Color) {
-            upload(History::Color.texture(), before);
-        }
+        self.gpu.catch_errors(self.place("upload"), || {
+            upload("color", color);
+            if self.history.contains(&History::Color) {
+                upload(History::Color.texture(), before);
+            }
+        })
     }
 
     /// Returns the factor on colours that the shaders expect.

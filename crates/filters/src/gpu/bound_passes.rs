@@ -10,12 +10,11 @@ use super::dispatch::Dispatch;
 use super::kernels::{Compiled, Specialised};
 use super::levels::{Levels, WrittenLevels};
 use super::loop_counts::LoopCounts;
-use super::place::Place;
 use super::targets::Targets;
 use super::transfer::Target;
 use super::uniforms::FrameValues;
 use crate::shader::{Role, UniformBlock, Variable};
-use crate::{Filter, FilterError, Format, Pass, Repeat, Settings};
+use crate::{Filter, FilterError, Format, Pass, Settings};
 
 /// Everything of a filter that lives on the GPU.
 #[derive(Debug)]
@@ -42,21 +41,16 @@ impl BoundPasses {
         size: [u32; 2],
     ) -> Result<Self, FilterError> {
         let Specialised { filter, passes, .. } = kernels;
-        let place_of = |pass| Place {
-            filter: &filter.name,
-            pass,
-        };
         let targets = Targets::new(gpu, filter, settings, size)?;
-        let times = |pass: &Pass| match &pass.repeat {
-            Repeat::Times(times) => *times,
-            Repeat::Parameter(name) => settings.count(name),
-        };
+        let times = |pass: &Pass| settings.count(&pass.repeat);
         let count: u32 = filter.passes.iter().map(times).sum();
         let counts = (gpu.loop_limit).map(|limit| {
-            gpu.catch_errors(place_of("counts"), || LoopCounts::new(gpu, limit, count))
+            gpu.catch_errors(filter.place("counts"), || {
+                LoopCounts::new(gpu, limit, count)
+            })
         });
         let format = targets.current("output").format;
-        let mark = gpu.catch_errors(place_of("textures"), || create_mark(gpu, size, format))?;
+        let mark = gpu.catch_errors(filter.place("textures"), || create_mark(gpu, size, format))?;
         let mut binder = Binder {
             gpu,
             filter,
@@ -139,10 +133,7 @@ impl Binder<'_> {
     ) -> Result<(), FilterError> {
         let (gpu, filter) = (self.gpu, self.filter);
         let (shader, entry) = (filter.shader(pass), filter.entry_point(pass));
-        let place = Place {
-            filter: &filter.name,
-            pass: &pass.entry,
-        };
+        let place = filter.place(&pass.entry);
         for iteration in 0..iterations {
             let value = |name: &str| match name {
                 "iteration" => f64::from(iteration),

@@ -10,13 +10,11 @@ use wgpu::naga::ShaderStage;
 use super::binding::{CompiledStage, Pipeline, create_pipeline};
 use super::device::Gpu;
 use super::limits::Limits;
-use super::place::Place;
 use super::targets::list_target_formats;
-use super::uploaded_input::UploadedInput;
 use crate::printable::escape_controls;
 use crate::shader::{Code, Shader, count_loop_iterations, run_on_large_stack};
 use crate::translate::{list_constants, specialise};
-use crate::{Filter, FilterError, Input, Pass, Settings};
+use crate::{Filter, FilterError, Pass, Settings};
 
 /// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels) makes blurs without compiling again.
 #[derive(Debug)]
@@ -101,11 +99,6 @@ impl<'g> Kernels<'g> {
         cached.push(made.clone());
         Ok(made)
     }
-
-    /// Uploads an input once, for any number of blurs of this filter.
-    pub fn upload(&self, input: &Input) -> Result<UploadedInput, FilterError> {
-        UploadedInput::new(self.gpu, &self.filter, input)
-    }
 }
 
 /// Lists the specialisation constants of each pass.
@@ -164,11 +157,7 @@ fn compile_pass(
             missing.insert(compile_shader(gpu, filter, &filter.shaders[index])?);
         }
     }
-    let place = Place {
-        filter: &filter.name,
-        pass: &pass.entry,
-    };
-    let compiled = gpu.catch_errors(place, || {
+    let compiled = gpu.catch_errors(filter.place(&pass.entry), || {
         let indices = indices.into_iter().flatten().zip(filter.stages(pass));
         let stages = indices.map(|(index, (shader, entry))| {
             let (module, counted_at) = &modules[&index];
@@ -198,11 +187,7 @@ fn compile_shader(
         (_, _, Code::Wgsl(text)) => wgpu::ShaderSource::Wgsl(text.as_str().into()),
         (_, _, Code::Module(module)) => wgpu::ShaderSource::Naga(Cow::Owned((**module).clone())),
     };
-    let place = Place {
-        filter: &filter.name,
-        pass: "kernels",
-    };
-    let module = gpu.catch_errors(place, || {
+    let module = gpu.catch_errors(filter.place("kernels"), || {
         gpu.device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(&filter.name),

@@ -1,7 +1,7 @@
 //! Place of an error on the GPU: the filter and the pass.
 
 use super::device::Gpu;
-use crate::FilterError;
+use crate::{Filter, FilterError};
 
 /// Filter and pass that an error belongs to.
 #[derive(Clone, Copy)]
@@ -17,6 +17,16 @@ impl Place<'_> {
             filter: self.filter.to_owned(),
             pass: self.pass.to_owned(),
             reason: reason.to_string(),
+        }
+    }
+}
+
+impl Filter {
+    /// Names a pass of this filter, for errors.
+    pub(super) fn place<'a>(&'a self, pass: &'a str) -> Place<'a> {
+        Place {
+            filter: &self.name,
+            pass,
         }
     }
 }

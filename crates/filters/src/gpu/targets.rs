@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use super::device::Gpu;
-use super::place::Place;
 use super::transfer::{Target, count_texels};
 use crate::filter::{INPUTS, Rounding};
 use crate::shader::{EntryPoint, Role, Variable};
@@ -159,11 +158,7 @@ impl Targets {
                  declare fewer or smaller textures"
             )));
         }
-        let place = Place {
-            filter: &filter.name,
-            pass: "textures",
-        };
-        gpu.catch_errors(place, || {
+        gpu.catch_errors(filter.place("textures"), || {
             let made = descriptions.into_iter().map(|planned| {
                 let make = |_| {
                     gpu.create_target(

@@ -59,7 +59,7 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
     }
     match failures.is_empty() {
         true => Ok(()),
-        false => Err(FilterError::TriedOut(shorten(failures))),
+        false => Err(FilterError::Refused(shorten(failures).join("\n"))),
     }
 }
 

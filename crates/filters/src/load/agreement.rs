@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::filter::{INPUTS, Lines, PassShader};
 use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, written_texture};
 use crate::translate::check_texture;
-use crate::{Expression, Filter, FilterError, Pass, Repeat, Stage};
+use crate::{Count, Expression, Filter, FilterError, Pass, Stage};
 
 /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
 /// passes read and write.
@@ -116,7 +116,7 @@ impl Check<'_> {
             let mut divisors =
                 (textures.iter()).flat_map(|texture| texture.divided_by.iter().flatten());
             blocks.any(|block| block.reads(name))
-                || repeats.any(|repeat| matches!(repeat, Repeat::Parameter(known) if known == name))
+                || repeats.any(|repeat| matches!(repeat, Count::Parameter(known) if known == name))
                 || divisors.any(|divisor| divisor.reads(name))
                 || (passes.iter().filter_map(|pass| pass.shader.as_ref()))
                     .flat_map(PassShader::list_expressions)

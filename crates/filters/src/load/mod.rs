@@ -39,12 +39,12 @@ impl Filter {
 
     /// Loads a filter that the program brings along.
     pub fn builtin(name: &str) -> Result<Self, FilterError> {
-        let folder = BUILTIN
-            .get_dir(name)
-            .ok_or_else(|| FilterError::UnknownFilter {
-                name: name.to_owned(),
-                known: Self::builtin_names(),
-            })?;
+        let folder = BUILTIN.get_dir(name).ok_or_else(|| {
+            FilterError::Refused(format!(
+                "no built-in filter is called \"{name}\"; allowed: {}; a folder of your own is given by its path, such as ./{name}",
+                Self::builtin_names().join(", ")
+            ))
+        })?;
         let text = |path: &Path| {
             let file = BUILTIN.get_file(path);
             file.and_then(|file| file.contents_utf8())

@@ -6,12 +6,21 @@ use super::file::File;
 use crate::filter::{PLACEHOLDERS, fill_placeholders};
 use crate::{Command, FilterError, Parameter};
 
-/// Reads the words of a command; refuses unknown placeholders, and a command without those that it needs.
+/// Reads the words of a command, and the variables that it is to get. Refuses unknown placeholders, and a command without those that
+/// it needs.
 pub(super) fn read_command(
     file: &File,
-    words: &Spanned<Vec<String>>,
+    words: Option<&Spanned<Vec<String>>>,
+    environment: Option<&Spanned<Vec<String>>>,
     parameters: &[Parameter],
-) -> Result<Command, FilterError> {
+) -> Result<Option<Command>, FilterError> {
+    if let Some(variables) = environment {
+        check_environment(variables.get_ref(), words.is_some())
+            .map_err(|reason| file.at(variables, format!("environment: {reason}")))?;
+    }
+    let Some(words) = words else {
+        return Ok(None);
+    };
     let refuse = |reason: String| file.at(words, format!("command: {reason}"));
     let Some((program, arguments)) = words.get_ref().split_first() else {
         return Err(refuse("is empty; its first word is the program".into()));
@@ -55,50 +64,32 @@ pub(super) fn read_command(
             )));
         }
     }
-    Ok(Command {
-        program: program.clone(),
-        arguments: arguments.to_vec(),
-        folder: find_folder(file)?,
-        environment: Vec::new(),
+    // It holds wherever the program is started.
+    let manifest = std::path::absolute(file.path)
+        .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
+    Ok(Some(Command {
+        words: words.get_ref().clone(),
+        folder: (manifest.parent().expect("a file lies in a folder")).to_owned(),
+        environment: environment.map_or(Vec::new(), |names| names.get_ref().clone()),
         manifest: file.path.to_owned(),
         line: file.line(words.span().start),
-    })
-}
-
-/// Adds the variables that the command is to get.
-pub(super) fn add_environment(
-    file: &File,
-    names: Option<&Spanned<Vec<String>>>,
-    command: Option<Command>,
-) -> Result<Option<Command>, FilterError> {
-    let Some(names) = names else {
-        return Ok(command);
-    };
-    let refuse = |reason: String| Err(file.at(names, format!("environment: {reason}")));
-    let Some(command) = command else {
-        return refuse("is for a program; kernels have none".into());
-    };
-    if let Some(name) = names.get_ref().iter().find(|name| !is_variable(name)) {
-        return refuse(format!(
-            "\"{name}\" names no variable; allowed: letters, digits and _, and no digit first; the value comes from \
-             whoever runs the program"
-        ));
-    }
-    Ok(Some(Command {
-        environment: names.get_ref().clone(),
-        ..command
     }))
 }
 
-fn is_variable(name: &str) -> bool {
+/// Refuses variables for kernels, and names that no variable has.
+fn check_environment(names: &[String], is_command: bool) -> Result<(), String> {
+    if !is_command {
+        return Err("is for a program; kernels have none".into());
+    }
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    name.chars().all(is_part) && name.starts_with(|first: char| !first.is_ascii_digit())
-}
-
-/// Finds the absolute folder of filter.toml, which holds wherever a program is started.
-fn find_folder(file: &File) -> Result<std::path::PathBuf, FilterError> {
-    let manifest = std::path::absolute(file.path)
-        .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
-    let folder = manifest.parent().expect("a file lies in a folder");
-    Ok(folder.to_owned())
+    let is_variable = |name: &str| {
+        name.chars().all(is_part) && name.starts_with(|first: char| !first.is_ascii_digit())
+    };
+    match names.iter().find(|name| !is_variable(name)) {
+        None => Ok(()),
+        Some(name) => Err(format!(
+            "\"{name}\" names no variable; allowed: letters, digits and _, and no digit first; the value comes from \
+             whoever runs the program"
+        )),
+    }
 }

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::filter::{count_numbers, explain_unknown, list_values};
-use crate::{Convention, Expression, Kind, Parameter, Texture};
+use crate::{Convention, Count, Expression, Kind, Parameter, Texture};
 
 /// A number, or a text with an expression.
 #[derive(Deserialize)]
@@ -106,7 +106,7 @@ impl Names<'_> {
                 ));
             }
             NumberEntry::Text(text) if is_identifier(text) && !is_size(text) => {
-                self.check_count(text)?;
+                self.check_parameter(text)?;
             }
             _ => {}
         }
@@ -116,12 +116,21 @@ impl Names<'_> {
         })
     }
 
-    /// Refuses a name that is no integer parameter from 1, which a count or a length needs.
-    pub fn check_count(&self, name: &str) -> Result<(), String> {
+    /// Finds the largest value of a count or a length. Refuses 0, and a name that is no integer parameter from 1.
+    pub fn find_largest(&self, count: &Count) -> Result<u32, String> {
+        match count {
+            Count::Number(0) => Err("0; allowed: 1 or more".into()),
+            Count::Number(number) => Ok(*number),
+            Count::Parameter(name) => self.check_parameter(name),
+        }
+    }
+
+    /// Returns the largest value of an integer parameter; refuses any other name, and a range that begins below 1.
+    pub fn check_parameter(&self, name: &str) -> Result<u32, String> {
         let parameter = self.parameters.iter().find(|known| known.name == name);
         match parameter.map(|parameter| &parameter.kind) {
             None => Err(format!("\"{name}\" is no parameter of this filter")),
-            Some(Kind::Integer { min, .. }) if *min >= 1 => Ok(()),
+            Some(Kind::Integer { min, max, .. }) if *min >= 1 => Ok(max.unsigned_abs()),
             Some(_) => Err(format!(
                 "\"{name}\" is not an integer parameter whose range begins at 1 or more"
             )),

@@ -6,7 +6,7 @@ use frame::Alignment;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::command::{add_environment, read_command};
+use super::command::read_command;
 use super::convention::read_convention;
 use super::file::File;
 use super::number::{IDENTIFIER, Names, is_identifier};
@@ -15,7 +15,7 @@ use super::pass_shader::PassEntry;
 use super::passes::{TextureEntry, read_passes, read_textures};
 use super::presets::{PresetEntry, read_presets};
 use crate::filter::{DEFAULT_TIME_LIMIT, History, Lines};
-use crate::{Convention, Filter, FilterError, Length, ReachBy};
+use crate::{Convention, Filter, FilterError, ReachBy};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -65,10 +65,8 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         })
     };
     let parameters = read_parameters(&file, &manifest.parameter)?;
-    let command = (manifest.command.as_ref())
-        .map(|words| read_command(&file, words, &parameters))
-        .transpose()?;
-    let command = add_environment(&file, manifest.environment.as_ref(), command)?;
+    let (words, variables) = (manifest.command.as_ref(), manifest.environment.as_ref());
+    let command = read_command(&file, words, variables, &parameters)?;
     let is_command = command.is_some();
     let convention = read_convention(&file, manifest.convention.as_ref(), is_command)?;
     let mut names = Names {
@@ -117,15 +115,12 @@ fn check_reach_by(
     let ReachBy {
         parameter, unit, ..
     } = spanned.get_ref();
-    let unit = match unit {
-        Length::Pixels(0) => Err("0; allowed: 1 pixel or more".to_owned()),
-        Length::Pixels(_) => Ok(()),
-        Length::Parameter(parameter) => names.check_count(parameter),
-    };
-    let parameter = names.check_count(parameter);
-    parameter
+    let unit = names.find_largest(unit);
+    names
+        .check_parameter(parameter)
         .map_err(|reason| format!("parameter = {reason}"))
         .and(unit.map_err(|reason| format!("unit = {reason}")))
+        .map(|_| ())
         .map_err(|reason| file.at(spanned, format!("reach_by: {reason}")))
 }
 

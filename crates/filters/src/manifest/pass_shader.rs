@@ -11,7 +11,7 @@ use super::file::File;
 use super::number::{Names, NumberEntry};
 use crate::filter::{PassShader, Stage, VertexShader};
 use crate::translate::Language;
-use crate::{FilterError, Repeat};
+use crate::{Count, FilterError};
 
 /// `[[pass]]`.
 #[derive(Deserialize)]
@@ -21,7 +21,7 @@ pub(super) struct PassEntry {
     pub over: Option<String>,
     #[serde(default)]
     pub workgroup_per_texel: bool,
-    pub repeat: Option<Repeat>,
+    pub repeat: Option<Count>,
     pub shader: Option<Spanned<String>>,
     pub stage: Option<Stage>,
     pub targets: Option<Vec<String>>,

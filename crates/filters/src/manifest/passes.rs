@@ -7,9 +7,7 @@ use super::file::File;
 use super::number::{IDENTIFIER, Names, NumberEntry, NumbersEntry, is_identifier};
 use super::pass_shader::{PassEntry, read_shader};
 use crate::filter::{PassShader, Stage};
-use crate::{
-    Expression, FilterError, Format, Holds, Kind, Parameter, Pass, Repeat, Rounding, Texture,
-};
+use crate::{Count, Expression, FilterError, Format, Holds, Pass, Rounding, Texture};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -123,8 +121,7 @@ pub(super) fn read_passes(
     let mut passes = Vec::new();
     let mut dispatches = 0u32;
     for spanned in entries {
-        let pass = read_pass(file, spanned, names)?;
-        let times = most_runs(&pass.repeat, names.parameters);
+        let (pass, times) = read_pass(file, spanned, names)?;
         dispatches = dispatches.saturating_add(times);
         if dispatches > MAX_DISPATCHES {
             let reason = format!(
@@ -139,7 +136,12 @@ pub(super) fn read_passes(
     Ok(passes)
 }
 
-fn read_pass(file: &File, spanned: &Spanned<PassEntry>, names: Names) -> Result<Pass, FilterError> {
+/// Reads a pass; returns how often it runs with the largest value that is allowed, too.
+fn read_pass(
+    file: &File,
+    spanned: &Spanned<PassEntry>,
+    names: Names,
+) -> Result<(Pass, u32), FilterError> {
     let PassEntry {
         entry,
         over,
@@ -161,34 +163,33 @@ fn read_pass(file: &File, spanned: &Spanned<PassEntry>, names: Names) -> Result<
         (Some(entry), None) => entry.clone(),
         (_, Some(shader)) => name_pass(shader),
     };
-    let repeat = repeat.clone().unwrap_or(Repeat::Times(1));
-    let reason = match (over, &repeat) {
-        (Some(over), _) if !names.textures.iter().any(|it| it.name == *over) => Some(format!(
-            "over = \"{over}\" names no declared texture; leave it out to run over the image"
-        )),
-        (None, _) if *workgroup_per_texel => Some(
-            "workgroup_per_texel = true without over; name the texture whose texels get a workgroup each"
-                .into(),
-        ),
-        (_, Repeat::Times(0)) => Some("repeat = 0; allowed: 1 or more".into()),
-        (_, Repeat::Parameter(parameter)) => {
-            let checked = names.check_count(parameter).err();
-            checked.map(|reason| format!("repeat = {reason}"))
+    let refuse = |reason: String| file.at(spanned, format!("pass \"{entry}\": {reason}"));
+    match over {
+        Some(over) if !names.textures.iter().any(|it| it.name == *over) => {
+            return Err(refuse(format!(
+                "over = \"{over}\" names no declared texture; leave it out to run over the image"
+            )));
         }
-        (_, Repeat::Times(_)) => None,
-    };
-    match reason {
-        Some(reason) => Err(file.at(spanned, format!("pass \"{entry}\": {reason}"))),
-        None => Ok(Pass {
-            entry,
-            shader_index: 0,
-            vertex_index: None,
-            shader,
-            over: over.clone(),
-            workgroup_per_texel: *workgroup_per_texel,
-            repeat,
-        }),
+        None if *workgroup_per_texel => {
+            return Err(refuse(
+                "workgroup_per_texel = true without over; name the texture whose texels get a workgroup each".into(),
+            ));
+        }
+        _ => {}
     }
+    let repeat = repeat.clone().unwrap_or(Count::Number(1));
+    let times = names.find_largest(&repeat);
+    let times = times.map_err(|reason| refuse(format!("repeat = {reason}")))?;
+    let pass = Pass {
+        entry,
+        shader_index: 0,
+        vertex_index: None,
+        shader,
+        over: over.clone(),
+        workgroup_per_texel: *workgroup_per_texel,
+        repeat,
+    };
+    Ok((pass, times))
 }
 
 /// Names a pass with a shader of its own: after its entry point, or after its file where that is called `main` as all are.
@@ -197,19 +198,5 @@ fn name_pass(shader: &PassShader) -> String {
     match (&shader.entry[..], stem) {
         ("main", Some(stem)) => stem.to_owned(),
         (entry, _) => entry.to_owned(),
-    }
-}
-
-/// Returns how often a pass runs with the largest value that is allowed.
-fn most_runs(repeat: &Repeat, parameters: &[Parameter]) -> u32 {
-    match repeat {
-        Repeat::Times(times) => *times,
-        Repeat::Parameter(name) => {
-            let mut known = parameters.iter().filter(|known| known.name == *name);
-            match known.next().map(|known| &known.kind) {
-                Some(Kind::Integer { max, .. }) => u32::try_from(*max).unwrap_or(0),
-                _ => unreachable!("the parameter was found to be an integer"),
-            }
-        }
     }
 }
