@@ -9,24 +9,14 @@ use super::convention::{
 impl Convention {
     /// Converts velocity in pixels per frame to the engine's.
     pub fn convert_velocity(&self, velocity: &Vectors, exposure: f64) -> Vectors {
-        let factors = self.velocity_factors([velocity.width, velocity.height], exposure);
-        velocity.map(|[x, y]| {
-            [
-                (f64::from(*x) * factors[0]) as f32,
-                (f64::from(*y) * factors[1]) as f32,
-            ]
-        })
+        let [x, y] = self.velocity_factors([velocity.width, velocity.height], exposure);
+        velocity.map(|v| [(f64::from(v[0]) * x) as f32, (f64::from(v[1]) * y) as f32])
     }
 
     /// Converts the engine's velocity to pixels per frame.
     pub fn restore_velocity(&self, velocity: &Vectors, exposure: f64) -> Vectors {
-        let factors = self.velocity_factors([velocity.width, velocity.height], exposure);
-        velocity.map(|[x, y]| {
-            [
-                (f64::from(*x) / factors[0]) as f32,
-                (f64::from(*y) / factors[1]) as f32,
-            ]
-        })
+        let [x, y] = self.velocity_factors([velocity.width, velocity.height], exposure);
+        velocity.map(|v| [(f64::from(v[0]) / x) as f32, (f64::from(v[1]) / y) as f32])
     }
 
     /// Returns the engine's velocity of a surface that moves by a pixel per frame to the right and down.

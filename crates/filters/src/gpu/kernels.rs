@@ -133,7 +133,7 @@ fn compile(
     });
     let passes = passes.unwrap_or_else(|panic| {
         let reason = format!("wgpu fails on it: {panic}");
-        Err(refuse(gpu, &filter, "kernels", reason))
+        Err(refuse(gpu, &filter, "kernels", &reason))
     })?;
     Ok(Specialised {
         constants,
@@ -157,7 +157,7 @@ fn compile_pass(
             missing.insert(compile_shader(gpu, filter, &filter.shaders[index])?);
         }
     }
-    let compiled = gpu.catch_errors(filter.place(&pass.entry), || {
+    let compiled = gpu.catch(|| {
         let indices = indices.into_iter().flatten().zip(filter.stages(pass));
         let stages = indices.map(|(index, (shader, entry))| {
             let (module, counted_at) = &modules[&index];
@@ -169,7 +169,7 @@ fn compile_pass(
         let pipeline = create_pipeline(gpu, &named, &list_target_formats(filter, pass));
         Compiled { stages, pipeline }
     });
-    compiled.map_err(|error| explain(gpu, filter, &pass.entry, error))
+    compiled.map_err(|reason| refuse(gpu, filter, &pass.entry, &reason))
 }
 
 /// Compiles a module. Its loops are counted if the adapter ends long ones, but for those of vertex stages, which may store nothing.
@@ -187,26 +187,19 @@ fn compile_shader(
         (_, _, Code::Wgsl(text)) => wgpu::ShaderSource::Wgsl(text.as_str().into()),
         (_, _, Code::Module(module)) => wgpu::ShaderSource::Naga(Cow::Owned((**module).clone())),
     };
-    let module = gpu.catch_errors(filter.place("kernels"), || {
+    let module = gpu.catch(|| {
         gpu.device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(&filter.name),
                 source,
             })
     });
-    let module = module.map_err(|error| explain(gpu, filter, "kernels", error))?;
+    let module = module.map_err(|reason| refuse(gpu, filter, "kernels", &reason))?;
     Ok((module, counted_at))
 }
 
-fn explain(gpu: &Gpu, filter: &Filter, pass: &str, error: FilterError) -> FilterError {
-    match error {
-        FilterError::Gpu { reason, .. } => refuse(gpu, filter, pass, reason),
-        error => error,
-    }
-}
-
 /// Makes an error of what wgpu or the driver says of a pass or of all kernels; it names the file and the adapter.
-fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: String) -> FilterError {
+fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: &str) -> FilterError {
     let known = filter.passes.iter().find(|known| known.entry == pass);
     let line = known.and_then(|known| filter.entry_point(known).line);
     let line = line.map_or(String::new(), |line| format!(":{line}"));
@@ -217,13 +210,9 @@ fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: String) -> FilterError
         .map(str::trim)
         .filter(|line| !line.is_empty());
     let lines: Vec<String> = lines.map(escape_controls).collect();
-    FilterError::Gpu {
-        filter: filter.name.clone(),
-        pass: pass.to_owned(),
-        reason: format!(
-            "{path}{line} is refused by adapter \"{}\": {}",
-            gpu.adapter.name,
-            lines.join(" ")
-        ),
-    }
+    filter.place(pass).refuse(format!(
+        "{path}{line} is refused by adapter \"{}\": {}",
+        gpu.adapter.name,
+        lines.join(" ")
+    ))
 }

@@ -38,6 +38,11 @@ impl Gpu {
         place: Place,
         work: impl FnOnce() -> T,
     ) -> Result<T, FilterError> {
+        self.catch(work).map_err(|error| place.refuse(error))
+    }
+
+    /// Does `work`, and returns what wgpu says if it refuses any of it.
+    pub(super) fn catch<T>(&self, work: impl FnOnce() -> T) -> Result<T, String> {
         let [memory, internal, validation] = [
             wgpu::ErrorFilter::OutOfMemory,
             wgpu::ErrorFilter::Internal,
@@ -48,7 +53,7 @@ impl Gpu {
         let errors = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
         match errors.into_iter().flatten().next() {
             None => Ok(value),
-            Some(error) => Err(place.refuse(error)),
+            Some(error) => Err(error.to_string()),
         }
     }
 }

@@ -10,7 +10,6 @@ use include_dir::{Dir, include_dir};
 use crate::shader::Shader;
 use crate::translate::{MAX_MODULE_BYTES, stays_below, translate};
 use crate::{Filter, FilterError, manifest};
-use agreement::check_agreement;
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 
@@ -101,7 +100,7 @@ fn parse_filter(
         }
     }
     filter.shaders = shaders;
-    check_agreement(&filter)?;
+    filter.check_agreement()?;
     Ok(filter)
 }
 

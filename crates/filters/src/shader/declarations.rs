@@ -11,10 +11,9 @@ use super::compiled_by::CompiledBy;
 use super::entry_point::{EntryPoint, find_entry_points};
 use super::nesting::check_nesting;
 use super::source::Source;
-use super::stack::run_on_large_stack;
+use super::stack::guard;
 use super::variable::{Variable, find_variable};
 use crate::FilterError;
-use crate::printable::escape_controls;
 
 /// WGSL that is appended to every filter's kernels.
 const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
@@ -71,6 +70,11 @@ impl Default for Code {
 pub(crate) const CAPABILITIES: Capabilities =
     Capabilities::MULTISAMPLED_SHADING.union(Capabilities::CUBE_ARRAY_TEXTURES);
 
+/// Makes a validator of shaders that engines wrote, which may compute in 64 bits.
+pub(crate) fn engine_validator() -> Validator {
+    Validator::new(ValidationFlags::all(), CAPABILITIES | Capabilities::FLOAT64)
+}
+
 /// Parses WGSL that stands alone, without common.wgsl.
 pub(crate) fn parse_wgsl(path: &Path, text: &str) -> Result<Module, FilterError> {
     check_nesting(path, text)?;
@@ -94,17 +98,7 @@ impl Shader {
     /// sees it.
     pub fn parse(path: &Path, kernels: &str) -> Result<Self, FilterError> {
         check_nesting(path, kernels)?;
-        let parsed = run_on_large_stack(|| Self::parse_here(path, kernels));
-        parsed.unwrap_or_else(|panic| {
-            let panic = escape_controls(&panic);
-            Err(FilterError::in_file(
-                path,
-                None,
-                format!(
-                    "naga, which reads WGSL, fails on it: {panic}; write it otherwise, or make it smaller"
-                ),
-            ))
-        })
+        guard(path, "reads WGSL", || Self::parse_here(path, kernels))
     }
 
     fn parse_here(path: &Path, kernels: &str) -> Result<Self, FilterError> {

@@ -1,9 +1,8 @@
 //! Formats of the textures that a shader stores to, changed in its module.
 
-use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 use wgpu::naga::{ImageClass, Module, ResourceBinding, Span, Type, TypeInner};
 
-use super::declarations::{CAPABILITIES, Code, Shader};
+use super::declarations::{Code, Shader, engine_validator};
 use super::texel::Format;
 use super::variable::Role;
 
@@ -25,9 +24,7 @@ impl Shader {
             }
         }
         if let Some(module) = module {
-            let capabilities = CAPABILITIES | Capabilities::FLOAT64;
-            let mut validator = Validator::new(ValidationFlags::all(), capabilities);
-            validator.validate(&module).ok()?;
+            engine_validator().validate(&module).ok()?;
             stored.code = Code::Module(Box::new(module));
         }
         Some(stored)

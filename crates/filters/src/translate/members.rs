@@ -94,7 +94,7 @@ fn spell_out(filter: &Filter, values: &[Expression], is_by_rows: bool) -> Vec<Ex
 }
 
 fn describe(numbers: &[(u32, NumberKind)]) -> String {
-    let kind = numbers.first().map_or("nothing", |(_, kind)| kind.name());
+    let kind = numbers.first().map_or("nothing", |(_, kind)| kind);
     match numbers.len() {
         1 => kind.to_owned(),
         count => format!("{count} x {kind}"),
