@@ -1,27 +1,26 @@
 //! Run of a filter on the GPU: uploads the frame, dispatches the passes, reads the image back.
 
+use std::sync::Arc;
+
 use frame::{Image, Raster};
 
 use super::bound_passes::{BoundPasses, mark_of};
 use super::device::Gpu;
 use super::dispatch::Dispatch;
-use super::kernels::Kernels;
+use super::kernels::{Kernels, Specialised};
 use super::place::Place;
 use super::transfer::{row_bytes, to_texels, velocity_texels};
 use super::uniforms::FrameValues;
 use crate::filter::History;
-use crate::input::{CameraUse, find_pixel, is_finite};
-use crate::{Convention, Filter, FilterError, Format, Input, Settings};
+use crate::input::{find_pixel, is_finite};
+use crate::{Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
 #[derive(Debug)]
 pub struct Blur<'g> {
     pub(super) gpu: &'g Gpu,
-    filter: String,
     size: [u32; 2],
-    camera_use: CameraUse,
-    convention: Convention,
-    history: Vec<History>,
+    kernels: Arc<Specialised>,
     pub(super) passes: BoundPasses,
 }
 
@@ -46,28 +45,26 @@ impl<'g> Blur<'g> {
         width: u32,
         height: u32,
     ) -> Result<Self, FilterError> {
-        let Kernels { gpu, filter, .. } = kernels;
-        settings.check(filter)?;
-        check_size(gpu, filter, width, height)?;
+        let gpu = kernels.gpu;
+        settings.check(&kernels.filter)?;
+        check_size(gpu, &kernels.filter, width, height)?;
+        let kernels = kernels.specialise(settings)?;
+        let size = [width, height];
         Ok(Self {
             gpu,
-            filter: filter.name.clone(),
-            size: [width, height],
-            camera_use: filter.camera_use(),
-            convention: filter.convention,
-            history: filter.history.clone(),
-            passes: BoundPasses::new(
-                gpu,
-                &*kernels.specialise(settings)?,
-                settings,
-                [width, height],
-            )?,
+            size,
+            passes: BoundPasses::new(gpu, &kernels, settings, size)?,
+            kernels,
         })
+    }
+
+    fn filter(&self) -> &Filter {
+        &self.kernels.filter
     }
 
     /// Refuses an input that the filter cannot read.
     pub(super) fn check(&self, input: &Input) -> Result<(), FilterError> {
-        input.check(&self.filter, self.size, self.camera_use)
+        input.check(self.filter(), self.size)
     }
 
     /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter. For filters with
@@ -117,7 +114,7 @@ impl<'g> Blur<'g> {
                     frame_index,
                     ..*input
                 },
-                &self.convention,
+                &self.filter().convention,
             );
             self.passes.upload_frame(self.gpu, frame);
             let first = outputs.is_empty();
@@ -209,10 +206,7 @@ impl<'g> Blur<'g> {
 
     /// Names a pass of this filter, for errors.
     pub(super) fn place<'a>(&'a self, pass: &'a str) -> Place<'a> {
-        Place {
-            filter: &self.filter,
-            pass,
-        }
+        self.filter().place(pass)
     }
 
     /// Uploads an input and its first colour, as at the beginning of a sequence.
@@ -226,14 +220,18 @@ impl<'g> Blur<'g> {
     /// Uploads all but the colour, and what the filter reads of the frame before.
     fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
         let texels = |layer: &str, input: &Input| match layer {
-            "velocity" => velocity_texels(&self.convention, input),
-            _ => self.convention.convert_depth(input.depth).pixels,
+            "velocity" => velocity_texels(&self.filter().convention, input),
+            _ => self.filter().convention.convert_depth(input.depth).pixels,
         };
-        let history = self.history.iter().filter(|it| **it != History::Color);
+        let history = self
+            .filter()
+            .history
+            .iter()
+            .filter(|it| **it != History::Color);
         let history = history.map(|it| (it.texture(), it.input(), before));
         let own = ["velocity", "depth"].map(|layer| (layer, layer, input));
         self.gpu.catch_errors(self.place("upload"), || {
-            let frame = FrameValues::of(input, &self.convention);
+            let frame = FrameValues::of(input, &self.filter().convention);
             self.passes.upload_frame(self.gpu, frame);
             for (texture, layer, input) in own.into_iter().chain(history) {
                 let target = self.passes.target(texture);
@@ -250,7 +248,7 @@ impl<'g> Blur<'g> {
         };
         self.gpu.catch_errors(self.place("upload"), || {
             upload("color", color);
-            if self.history.contains(&History::Color) {
+            if self.filter().history.contains(&History::Color) {
                 upload(History::Color.texture(), before);
             }
         })
@@ -258,7 +256,7 @@ impl<'g> Blur<'g> {
 
     /// Returns the factor on colours that the shaders expect.
     fn color_scale(&self) -> f32 {
-        self.convention.color_scale.unwrap_or(1.0) as f32
+        self.filter().convention.color_scale.unwrap_or(1.0) as f32
     }
 
     /// Runs one dispatch and waits for it, so that an error names the pass that takes too long.
@@ -269,7 +267,7 @@ impl<'g> Blur<'g> {
             dispatch.encode(&mut encoder);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
-        self.gpu.wait(place, self.passes.time_limit)
+        self.gpu.wait(place, self.filter().time_limit)
     }
 }
 

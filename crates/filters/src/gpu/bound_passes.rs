@@ -21,8 +21,6 @@ use crate::{Filter, FilterError, Format, Pass, Settings};
 pub(super) struct BoundPasses {
     /// Dispatches in the order in which they run.
     pub dispatches: Vec<Dispatch>,
-    /// Longest time that each may take, in seconds.
-    pub time_limit: f64,
     /// Loop iterations of every dispatch, if they are counted.
     pub loop_counts: Option<LoopCounts>,
     /// Content of the output until a pass has written it.
@@ -68,7 +66,6 @@ impl BoundPasses {
         }
         Ok(Self {
             dispatches: binder.dispatches,
-            time_limit: filter.time_limit,
             loop_counts: binder.loop_counts,
             mark,
             targets: binder.targets,
