@@ -29,7 +29,4 @@ pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
 pub use reach::ReachBy;
 pub use settings::Settings;
-pub(crate) use values::{
-    MATRICES, MATRIX_NUMBERS, count_numbers, explain_unknown, find_matrix, list_values,
-    split_element,
-};
+pub(crate) use values::{MATRICES, MATRIX_NUMBERS, explain_unknown, find_matrix, split_element};

@@ -46,10 +46,8 @@ pub(crate) struct Pass {
     pub entry: String,
     /// The shader, if the pass names one of its own.
     pub shader: Option<PassShader>,
-    /// Index of the shader among those of the filter.
-    pub(crate) shader_index: usize,
-    /// Index of the shader of its vertex stage.
-    pub(crate) vertex_index: Option<usize>,
+    /// Indices of the shaders of its stages among those of the filter.
+    pub(crate) shaders: Vec<usize>,
     /// Texture whose texels it runs over; `None` for the image's pixels.
     pub over: Option<String>,
     /// True if a whole workgroup runs for each of those texels, instead of one invocation.

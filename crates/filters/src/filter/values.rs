@@ -1,7 +1,8 @@
 //! Names of values that members of uniform blocks may have, besides parameters.
 
-use super::convention::{CONVENTION_VALUES, Convention};
-use super::parameter::Parameter;
+use super::convention::CONVENTION_VALUES;
+use super::definition::Filter;
+use crate::input::CameraUse;
 
 /// Numbers of the frame and of the pass.
 const NUMBERS: [&str; 6] = [
@@ -32,28 +33,60 @@ pub(crate) const PREVIOUS: &str = "previous_";
 /// Numbers of a matrix.
 pub(crate) const MATRIX_NUMBERS: usize = 16;
 
-/// Counts the numbers that a name stands for; none for an unknown name.
-pub(crate) fn count_numbers(
-    name: &str,
-    parameters: &[Parameter],
-    convention: &Convention,
-) -> Option<usize> {
-    let is_parameter = (parameters.iter()).any(|parameter| parameter.name == name);
-    let is_number = is_parameter || NUMBERS.contains(&name) || convention.value(name).is_some();
-    if is_number {
-        return Some(1);
+impl Filter {
+    /// Counts the numbers that a name stands for; none for an unknown name.
+    pub(crate) fn count_numbers(&self, name: &str) -> Option<usize> {
+        let is_parameter = (self.parameters.iter()).any(|parameter| parameter.name == name);
+        if is_parameter || NUMBERS.contains(&name) || self.convention.value(name).is_some() {
+            return Some(1);
+        }
+        let count = |whole: &str| {
+            let list = LISTS.iter().find(|(known, _)| *known == whole);
+            let is_known = find_matrix(whole).is_some_and(|(matrix, _)| {
+                self.convention.near.is_some() || !MATRICES[matrix].ends_with("projection")
+            });
+            let matrix = is_known.then_some(MATRIX_NUMBERS);
+            list.map(|(_, count)| *count).or(matrix)
+        };
+        match split_element(name) {
+            Some((whole, index)) => count(whole).filter(|count| index < *count).map(|_| 1),
+            None => count(name),
+        }
     }
-    let count = |whole: &str| {
-        let list = LISTS.iter().find(|(known, _)| *known == whole);
-        let is_known = find_matrix(whole).is_some_and(|(matrix, _)| {
-            convention.near.is_some() || !MATRICES[matrix].ends_with("projection")
-        });
-        let matrix = is_known.then_some(MATRIX_NUMBERS);
-        list.map(|(_, count)| *count).or(matrix)
-    };
-    match split_element(name) {
-        Some((whole, index)) => count(whole).filter(|count| index < *count).map(|_| 1),
-        None => count(name),
+
+    /// Lists the names of all values, for messages.
+    pub(crate) fn list_values(&self) -> String {
+        let of_convention = CONVENTION_VALUES.into_iter();
+        let matrices = MATRICES.map(str::to_owned).into_iter();
+        let previous = MATRICES.map(|name| format!("{PREVIOUS}{name}"));
+        let names = (self
+            .parameters
+            .iter()
+            .map(|parameter| parameter.name.clone()))
+        .chain(NUMBERS.map(str::to_owned))
+        .chain(of_convention.map(str::to_owned))
+        .chain(LISTS.map(|(name, _)| name.to_owned()))
+        .chain(matrices.chain(previous));
+        let known = names.filter(|name| self.count_numbers(name).is_some());
+        known.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Returns true if a shader reads where the camera is, or how it moved.
+    pub fn reads_camera(&self) -> bool {
+        let CameraUse {
+            reprojection,
+            matrices,
+        } = self.camera_use();
+        reprojection || matrices
+    }
+
+    /// Lists the parts of the camera the shaders read.
+    pub(crate) fn camera_use(&self) -> CameraUse {
+        let mut blocks = self.shaders.iter().flat_map(|shader| &shader.blocks);
+        CameraUse {
+            reprojection: self.shaders.iter().any(|shader| shader.reads_reprojection),
+            matrices: blocks.any(|block| block.reads_any(&is_of_matrix)),
+        }
     }
 }
 
@@ -74,7 +107,7 @@ pub(crate) fn split_element(name: &str) -> Option<(&str, usize)> {
 }
 
 /// Returns true for a number of a matrix.
-pub(crate) fn is_of_matrix(name: &str) -> bool {
+fn is_of_matrix(name: &str) -> bool {
     split_element(name).is_some_and(|(whole, _)| find_matrix(whole).is_some())
 }
 
@@ -89,18 +122,4 @@ pub(crate) fn explain_unknown(name: &str) -> Option<&'static str> {
         "near" | "far" => Some("needs to stand in [convention]"),
         _ => None,
     }
-}
-
-/// Lists all names, for messages.
-pub(crate) fn list_values(parameters: &[Parameter], convention: &Convention) -> String {
-    let of_convention = CONVENTION_VALUES.into_iter();
-    let matrices = MATRICES.map(str::to_owned).into_iter();
-    let previous = MATRICES.map(|name| format!("{PREVIOUS}{name}"));
-    let names = (parameters.iter().map(|parameter| parameter.name.clone()))
-        .chain(NUMBERS.map(str::to_owned))
-        .chain(of_convention.map(str::to_owned))
-        .chain(LISTS.map(|(name, _)| name.to_owned()))
-        .chain(matrices.chain(previous));
-    let known = names.filter(|name| count_numbers(name, parameters, convention).is_some());
-    known.collect::<Vec<_>>().join(", ")
 }

@@ -130,10 +130,10 @@ fn create_layout(
 /// Creates the pipeline of a kernel, or of a fragment shader with its vertex stage if there is one.
 pub(super) fn create_pipeline(
     gpu: &Gpu,
-    stages: &[(&CompiledStage, &EntryPoint)],
+    stages: &[(CompiledStage, &EntryPoint)],
     targets: &[wgpu::TextureFormat],
 ) -> Pipeline {
-    let (stage, entry) = stages[0];
+    let (stage, entry) = &stages[0];
     let layouts: Vec<_> = (stages.iter().map(|(stage, _)| Some(&stage.layout))).collect();
     let layout = gpu
         .device
@@ -180,10 +180,10 @@ fn triangle(@builtin(vertex_index) index: u32) -> Corner {{
 fn create_render_pipeline(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
-    stages: &[(&CompiledStage, &EntryPoint)],
+    stages: &[(CompiledStage, &EntryPoint)],
     targets: &[wgpu::TextureFormat],
 ) -> wgpu::RenderPipeline {
-    let (stage, entry) = stages[0];
+    let (stage, entry) = &stages[0];
     let triangle;
     let (corners, corner) = match stages.get(1) {
         Some((vertex, entry)) => (&vertex.module, &entry.name[..]),

@@ -12,7 +12,7 @@ use super::device::Gpu;
 use super::limits::Limits;
 use super::targets::list_target_formats;
 use crate::printable::escape_controls;
-use crate::shader::{Code, Shader, count_loop_iterations, run_on_large_stack};
+use crate::shader::{Shader, count_loop_iterations, run_on_large_stack};
 use crate::translate::{list_constants, specialise};
 use crate::{Filter, FilterError, Pass, Settings};
 
@@ -85,10 +85,9 @@ impl<'g> Kernels<'g> {
             let Some(shader) = pass.shader.as_ref().filter(|_| own != cached) else {
                 continue;
             };
-            let indices = [Some(pass.shader_index), pass.vertex_index];
-            for (stage, index) in shader.stages().iter().zip(indices.into_iter().flatten()) {
-                let made = &self.filter.shaders[index];
-                filter.shaders[index] = specialise(&self.filter, stage, made, settings)?;
+            for (stage, index) in shader.stages().iter().zip(&pass.shaders) {
+                let made = &self.filter.shaders[*index];
+                filter.shaders[*index] = specialise(&self.filter, stage, made, settings)?;
             }
         }
         let made = Arc::new(compile(self.gpu, filter, constants, Some(&first))?);
@@ -151,22 +150,21 @@ fn compile_pass(
     pass: &Pass,
     modules: &mut Modules,
 ) -> Result<Compiled, FilterError> {
-    let indices = [Some(pass.shader_index), pass.vertex_index];
-    for index in indices.into_iter().flatten() {
-        if let Entry::Vacant(missing) = modules.entry(index) {
-            missing.insert(compile_shader(gpu, filter, &filter.shaders[index])?);
+    for index in &pass.shaders {
+        if let Entry::Vacant(missing) = modules.entry(*index) {
+            missing.insert(compile_shader(gpu, filter, &filter.shaders[*index])?);
         }
     }
     let compiled = gpu.catch(|| {
-        let indices = indices.into_iter().flatten().zip(filter.stages(pass));
-        let stages = indices.map(|(index, (shader, entry))| {
-            let (module, counted_at) = &modules[&index];
-            CompiledStage::new(gpu, shader, entry, module.clone(), *counted_at)
+        let stages = pass.shaders.iter().zip(filter.stages(pass));
+        let stages = stages.map(|(index, (shader, entry))| {
+            let (module, counted_at) = &modules[index];
+            let stage = CompiledStage::new(gpu, shader, entry, module.clone(), *counted_at);
+            (stage, entry)
         });
-        let stages: Vec<CompiledStage> = stages.collect();
-        let entries = filter.stages(pass).into_iter().map(|(_, entry)| entry);
-        let named: Vec<_> = stages.iter().zip(entries).collect();
-        let pipeline = create_pipeline(gpu, &named, &list_target_formats(filter, pass));
+        let stages: Vec<_> = stages.collect();
+        let pipeline = create_pipeline(gpu, &stages, &list_target_formats(filter, pass));
+        let stages = stages.into_iter().map(|(stage, _)| stage).collect();
         Compiled { stages, pipeline }
     });
     compiled.map_err(|reason| refuse(gpu, filter, &pass.entry, &reason))
@@ -182,11 +180,11 @@ fn compile_shader(
     let is_vertex = entries.any(|entry| entry.stage == ShaderStage::Vertex);
     let limit = gpu.loop_limit.filter(|_| !is_vertex);
     let counted_at = limit.map(|_| shader.find_free_binding());
-    let source = match (limit, counted_at, &shader.code) {
-        (Some(limit), Some(binding), code) => count_loop_iterations(code, binding, limit.safe()),
-        (_, _, Code::Wgsl(text)) => wgpu::ShaderSource::Wgsl(text.as_str().into()),
-        (_, _, Code::Module(module)) => wgpu::ShaderSource::Naga(Cow::Owned((**module).clone())),
+    let module = match (limit, counted_at) {
+        (Some(limit), Some(at)) => count_loop_iterations(&shader.module, at, limit.safe()),
+        _ => (*shader.module).clone(),
     };
+    let source = wgpu::ShaderSource::Naga(Cow::Owned(module));
     let module = gpu.catch(|| {
         gpu.device
             .create_shader_module(wgpu::ShaderModuleDescriptor {

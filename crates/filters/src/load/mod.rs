@@ -94,8 +94,7 @@ fn parse_filter(
             let is_noisy = entries.any(|entry| entry.draws_noise);
             (stages[0].entry_points.iter_mut()).for_each(|entry| entry.draws_noise = is_noisy);
             let pass = &mut filter.passes[index];
-            pass.shader_index = shaders.len();
-            pass.vertex_index = (stages.len() > 1).then_some(shaders.len() + 1);
+            pass.shaders = (shaders.len()..shaders.len() + stages.len()).collect();
             shaders.extend(stages);
         }
     }

@@ -9,7 +9,7 @@ use toml::Spanned;
 use super::command::read_command;
 use super::convention::read_convention;
 use super::file::File;
-use super::number::{IDENTIFIER, Names, is_identifier};
+use super::number::{IDENTIFIER, is_identifier};
 use super::parameters::{ParameterEntry, read_parameters};
 use super::pass_shader::PassEntry;
 use super::passes::{TextureEntry, read_passes, read_textures};
@@ -67,56 +67,51 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     let parameters = read_parameters(&file, &manifest.parameter)?;
     let (words, variables) = (manifest.command.as_ref(), manifest.environment.as_ref());
     let command = read_command(&file, words, variables, &parameters)?;
-    let is_command = command.is_some();
-    let convention = read_convention(&file, manifest.convention.as_ref(), is_command)?;
-    let mut names = Names {
-        textures: &[],
-        parameters: &parameters,
-        convention: &convention,
-    };
-    let textures = read_textures(&file, &manifest.texture, names)?;
-    names.textures = &textures;
-    if let Some(reach_by) = &manifest.reach_by {
-        check_reach_by(&file, reach_by, names)?;
-    }
-    Ok(Filter {
+    let mut filter = Filter {
         name: manifest.name.get_ref().clone(),
-        presets: read_presets(
-            &file,
-            &manifest.preset,
-            &parameters,
-            manifest.reference_width.as_ref(),
-        )?,
-        passes: read_passes(&file, &manifest.pass, names)?,
-        convention,
-        history: read_history(&file, &manifest)?,
-        command,
-        time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
-        reach_by: manifest.reach_by.map(Spanned::into_inner),
-        textures,
-        parameters,
         summary: check_sentence("summary", Some(&manifest.summary))?,
         source: check_sentence("source", manifest.source.as_ref())?,
         reach: check_sentence("reach", manifest.reach.as_ref())?,
         cannot: check_sentence("cannot", manifest.cannot.as_ref())?,
         alignment: manifest.alignment,
         mirror_symmetric: manifest.mirror_symmetric,
+        convention: read_convention(&file, manifest.convention.as_ref(), command.is_some())?,
+        history: read_history(&file, &manifest)?,
+        command,
+        time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
+        presets: read_presets(
+            &file,
+            &manifest.preset,
+            &parameters,
+            manifest.reference_width.as_ref(),
+        )?,
+        parameters,
+        reach_by: None,
+        textures: Vec::new(),
+        passes: Vec::new(),
         shaders: Vec::new(),
         lines,
-    })
+    };
+    if let Some(reach_by) = &manifest.reach_by {
+        check_reach_by(&file, reach_by, &filter)?;
+    }
+    filter.reach_by = manifest.reach_by.map(Spanned::into_inner);
+    filter.textures = read_textures(&file, &manifest.texture, &filter)?;
+    filter.passes = read_passes(&file, &manifest.pass, &filter)?;
+    Ok(filter)
 }
 
 /// Refuses a reach that does not come from integer parameters.
 fn check_reach_by(
     file: &File,
     spanned: &Spanned<ReachBy>,
-    names: Names,
+    filter: &Filter,
 ) -> Result<(), FilterError> {
     let ReachBy {
         parameter, unit, ..
     } = spanned.get_ref();
-    let unit = names.find_largest(unit);
-    names
+    let unit = filter.find_largest(unit);
+    filter
         .check_parameter(parameter)
         .map_err(|reason| format!("parameter = {reason}"))
         .and(unit.map_err(|reason| format!("unit = {reason}")))

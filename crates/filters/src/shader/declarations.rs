@@ -23,8 +23,8 @@ const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
 pub(crate) struct Shader {
     /// The filter's file.
     pub path: PathBuf,
-    /// The kernels themselves.
-    pub code: Code,
+    /// The kernels themselves, validated; those of the filter's WGSL file with common.wgsl.
+    pub module: Arc<Module>,
     /// Resource variables of group 0, in order of declaration.
     pub variables: Vec<Variable>,
     /// Uniform blocks, by the index in `Role::Block`.
@@ -37,33 +37,6 @@ pub(crate) struct Shader {
     pub compiled: Option<Arc<Vec<u8>>>,
     /// Compiler that made it, if its language needs one.
     pub compiled_by: Option<CompiledBy>,
-}
-
-/// Kernels in a form that wgpu takes.
-#[derive(Clone, Debug)]
-pub(crate) enum Code {
-    /// WGSL: the filter's file, then common.wgsl.
-    Wgsl(String),
-    /// A validated module, translated from another language.
-    Module(Box<Module>),
-}
-
-impl Code {
-    /// Returns the kernels as a module of their own.
-    pub fn to_module(&self) -> Module {
-        match self {
-            Self::Wgsl(text) => {
-                front::wgsl::parse_str(text).expect("the kernels were parsed when loaded")
-            }
-            Self::Module(module) => (**module).clone(),
-        }
-    }
-}
-
-impl Default for Code {
-    fn default() -> Self {
-        Self::Wgsl(String::new())
-    }
 }
 
 /// Capabilities of every device; kernels can `enable` nothing more.
@@ -139,7 +112,7 @@ impl Shader {
             blocks,
             compiled: None,
             compiled_by: None,
-            code: Code::Wgsl(source.text),
+            module: Arc::new(module),
         })
     }
 

@@ -1,23 +1,15 @@
 //! Counters in kernels that tell how many loop iterations each invocation takes.
 
-use std::borrow::Cow;
-
 use wgpu::naga::{
     AddressSpace, AtomicFunction, BinaryOperator, Block, EntryPoint, Expression, Function,
     FunctionArgument, FunctionResult, GlobalVariable, Handle, Literal, MemoryDecorations, Module,
     Range, ResourceBinding, Scalar, Span, Statement, StorageAccess, Type, TypeInner,
 };
 
-use super::declarations::Code;
-
 /// Rewrites validated kernels so that every invocation counts its loop iterations. Counts from `least` on raise the number in the
 /// storage buffer at `binding`.
-pub(crate) fn count_loop_iterations(
-    code: &Code,
-    binding: u32,
-    least: u32,
-) -> wgpu::ShaderSource<'static> {
-    let mut module = code.to_module();
+pub(crate) fn count_loop_iterations(module: &Module, binding: u32, least: u32) -> Module {
+    let mut module = module.clone();
     let counter = Counter::declare(&mut module, binding);
     let functions = module.functions.iter_mut().map(|(_, function)| function);
     let entries = module.entry_points.iter_mut();
@@ -31,7 +23,7 @@ pub(crate) fn count_loop_iterations(
         let callee = module.functions.append(callee, Span::UNDEFINED);
         module.entry_points[index].function = counter.report_from(callee, arguments, result, least);
     }
-    wgpu::ShaderSource::Naga(Cow::Owned(module))
+    module
 }
 
 /// Makes the body of an entry point a function that another one can call; returns the arguments and the result of the entry point

@@ -17,7 +17,7 @@ mod variable;
 
 pub(crate) use block::{BlockNumber, Member, NumberKind, UniformBlock, list_members, name_element};
 pub(crate) use compiled_by::try_each;
-pub(crate) use declarations::{Code, Shader, engine_validator, parse_wgsl};
+pub(crate) use declarations::{Shader, engine_validator, parse_wgsl};
 pub(crate) use entry_point::{EntryPoint, find_entry_points};
 pub(crate) use loop_counter::count_loop_iterations;
 pub(crate) use sampling::{SamplerFilter, Sampling, Wrap};

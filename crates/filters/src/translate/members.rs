@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use wgpu::naga::{Handle, Module, Type};
 
-use crate::filter::{Binding, MATRIX_NUMBERS, list_values};
+use crate::filter::{Binding, MATRIX_NUMBERS};
 use crate::shader::{BlockNumber, Member, NumberKind, UniformBlock, list_members, name_element};
 use crate::{Expression, Filter};
 
@@ -41,7 +41,7 @@ pub(super) fn fill_block(
                     member.name,
                     describe(&member.numbers),
                     member.offset,
-                    list_values(&filter.parameters, &filter.convention)
+                    filter.list_values()
                 )
             })?;
         let is_by_rows = by_rows.contains(&(member.name.clone(), member.offset));
