@@ -7,8 +7,8 @@ use judge::{Side, compare_runs};
 use report::compare_page;
 use suite::Error;
 
-use super::margins::read_margins;
 use super::pages::write_page;
+use super::run_plan::read_margins;
 use crate::arguments::RootArgs;
 use crate::output::{make_monitor, print, print_json};
 use crate::tables::compare_table;
@@ -34,10 +34,10 @@ pub struct CompareArgs {
 /// Reads two finished runs, prints what changed, and writes the page.
 pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     let (first, second) = (Side::read(&args.first)?, Side::read(&args.second)?);
-    let mut compared = make_monitor().watch("cases that changed", |watch| {
-        compare_runs(&first, &second, watch)
+    let margins = read_margins(&args.root.scenes_dir)?;
+    let compared = make_monitor().watch("cases that changed", |watch| {
+        compare_runs(&first, &second, &margins, watch)
     })?;
-    compared.apply_margins(&read_margins(&args.root.scenes_dir)?);
     let written = match &args.html {
         Some(html) => write_page(&compare_page(&compared, &first, &second)?, html)?.line("written"),
         None => String::new(),

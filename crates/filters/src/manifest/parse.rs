@@ -67,8 +67,10 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     let parameters = read_parameters(&file, &manifest.parameter)?;
     let (words, variables) = (manifest.command.as_ref(), manifest.environment.as_ref());
     let command = read_command(&file, words, variables, &parameters)?;
+    let width = manifest.reference_width.as_ref();
     let mut filter = Filter {
         name: manifest.name.get_ref().clone(),
+        folder: None,
         summary: check_sentence("summary", Some(&manifest.summary))?,
         source: check_sentence("source", manifest.source.as_ref())?,
         reach: check_sentence("reach", manifest.reach.as_ref())?,
@@ -79,12 +81,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         history: read_history(&file, &manifest)?,
         command,
         time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
-        presets: read_presets(
-            &file,
-            &manifest.preset,
-            &parameters,
-            manifest.reference_width.as_ref(),
-        )?,
+        presets: read_presets(&file, &manifest.preset, &parameters, width)?,
         parameters,
         reach_by: None,
         textures: Vec::new(),
