@@ -188,8 +188,6 @@ mod tests {
             ("2 ^ (taps - 1)", 8.0),
             ("2 ^ -1", 0.5),
             ("2 * (1 + taps) / 4", 2.5),
-            ("floor(width / 20)", 4.0),
-            ("ceil(width / 80) * 8", 16.0),
             ("ceil(-0.5) + ceil (taps)", 4.0),
             ("max(1, floor(taps / 8)) + min(taps, 2 * 3)", 5.0),
             ("0.5e1 + .5", 5.5),
@@ -203,7 +201,6 @@ mod tests {
     fn what_is_no_expression_is_refused() {
         for (text, says) in [
             ("", "without a value"),
-            ("1 +", "without a value"),
             ("(1", "bracket without"),
             ("ceil(1", "bracket without"),
             ("ceil 1", "unknown name \"ceil\""),

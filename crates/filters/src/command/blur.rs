@@ -8,7 +8,7 @@ use std::time::Duration;
 use frame::{ExrFile, FileError, Image, read_exr, write_exr};
 
 use super::environment::collect_environment;
-use super::process::{End, Limits, run_process};
+use super::process::{End, run_process};
 use crate::filter::fill_placeholders;
 use crate::input::{FRAMES_PER_SECOND, find_pixel, is_finite};
 use crate::{Command, Filter, FilterError, Input, Settings};
@@ -73,11 +73,8 @@ impl CommandBlur {
             .current_dir(&self.command().folder)
             .env_clear()
             .envs(collect_environment(&self.command().environment));
-        let limits = Limits {
-            time: Duration::from_secs_f64(self.filter.time_limit),
-            out: (&out, self.max_bytes()),
-        };
-        let (end, output) = run_process(process, &limits, self.interrupted)
+        let limit = Duration::from_secs_f64(self.filter.time_limit);
+        let (end, output) = run_process(process, limit, (&out, self.max_bytes()), self.interrupted)
             .map_err(|error| self.refuse(self.describe_start_failure(&error)))?;
         let outcome = match end {
             End::Interrupted => return Err(FilterError::Interrupted),

@@ -237,7 +237,6 @@ mod tests {
     #[test]
     fn conventions_that_say_too_little_are_refused() {
         for (text, says) in [
-            ("velocity_per = 'second'", "frames_per_second"),
             ("depth = 'ndc'\nnear = 2\nfar = 1", "far = 1 is not beyond"),
             ("near = 1", "are for depth"),
             ("color_scale = -1", "color_scale = -1"),

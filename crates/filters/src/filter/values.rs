@@ -14,8 +14,8 @@ const NUMBERS: [&str; 6] = [
     "iterations",
 ];
 
-/// Values of several numbers, each with their count. `resolution[0]` is the first number.
-const LISTS: [(&str, usize); 2] = [("resolution", 2), ("jitter", 2)];
+/// Values of two numbers. `resolution[0]` is the first number.
+const PAIRS: [&str; 2] = ["resolution", "jitter"];
 
 /// Matrices of the camera of this frame. With `previous_` before its name, each is that of the frame before.
 pub(crate) const MATRICES: [&str; 6] = [
@@ -41,12 +41,11 @@ impl Filter {
             return Some(1);
         }
         let count = |whole: &str| {
-            let list = LISTS.iter().find(|(known, _)| *known == whole);
+            let pair = PAIRS.contains(&whole).then_some(2);
             let is_known = find_matrix(whole).is_some_and(|(matrix, _)| {
                 self.convention.near.is_some() || !MATRICES[matrix].ends_with("projection")
             });
-            let matrix = is_known.then_some(MATRIX_NUMBERS);
-            list.map(|(_, count)| *count).or(matrix)
+            pair.or(is_known.then_some(MATRIX_NUMBERS))
         };
         match split_element(name) {
             Some((whole, index)) => count(whole).filter(|count| index < *count).map(|_| 1),
@@ -65,7 +64,7 @@ impl Filter {
             .map(|parameter| parameter.name.clone()))
         .chain(NUMBERS.map(str::to_owned))
         .chain(of_convention.map(str::to_owned))
-        .chain(LISTS.map(|(name, _)| name.to_owned()))
+        .chain(PAIRS.map(str::to_owned))
         .chain(matrices.chain(previous));
         let known = names.filter(|name| self.count_numbers(name).is_some());
         known.collect::<Vec<_>>().join(", ")

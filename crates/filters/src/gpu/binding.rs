@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use wgpu::naga::ShaderStage;
+use wgpu::naga::{ScalarKind, ShaderStage};
 
 use super::device::Gpu;
 use crate::shader::{EntryPoint, Role, SamplerFilter, Sampling, Shader, Variable, Wrap};
@@ -94,8 +94,13 @@ fn create_layout(
         let variable = &shader.variables[*index];
         let ty = match variable.role {
             Role::Block(_) => buffer(wgpu::BufferBindingType::Uniform),
-            Role::Read(texel) => wgpu::BindingType::Texture {
-                sample_type: texel.wgpu(entry.interpolated.contains(index)),
+            Role::Read(kind) => wgpu::BindingType::Texture {
+                sample_type: match kind {
+                    ScalarKind::Uint => wgpu::TextureSampleType::Uint,
+                    _ => wgpu::TextureSampleType::Float {
+                        filterable: entry.interpolated.contains(index),
+                    },
+                },
                 view_dimension: wgpu::TextureViewDimension::D2,
                 multisampled: false,
             },

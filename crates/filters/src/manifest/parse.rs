@@ -50,7 +50,11 @@ struct Manifest {
 pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     let file = File { path, text };
     let manifest: Manifest = file.read("")?;
-    check_name(&file, &manifest.name)?;
+    let name = manifest.name.get_ref();
+    if !is_identifier(name) {
+        let reason = format!("name \"{name}\": {IDENTIFIER}; it also names the WGSL file");
+        return Err(file.at(&manifest.name, reason));
+    }
     check_method(&file, &manifest)?;
     let lines = Lines {
         path: path.to_owned(),
@@ -69,7 +73,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     let command = read_command(&file, words, variables, &parameters)?;
     let width = manifest.reference_width.as_ref();
     let mut filter = Filter {
-        name: manifest.name.get_ref().clone(),
+        name: name.clone(),
         folder: None,
         summary: check_sentence("summary", Some(&manifest.summary))?,
         source: check_sentence("source", manifest.source.as_ref())?,
@@ -150,19 +154,6 @@ fn read_history(file: &File, manifest: &Manifest) -> Result<Vec<History>, Filter
         history.push(*own.get_ref());
     }
     Ok(history)
-}
-
-fn check_name(file: &File, name: &Spanned<String>) -> Result<(), FilterError> {
-    match is_identifier(name.get_ref()) {
-        true => Ok(()),
-        false => Err(file.at(
-            name,
-            format!(
-                "name \"{}\": {IDENTIFIER}; it also names the WGSL file",
-                name.get_ref()
-            ),
-        )),
-    }
 }
 
 /// Refuses a filter that is neither a command nor passes over kernels, or both.

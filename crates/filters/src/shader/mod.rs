@@ -24,5 +24,4 @@ pub(crate) use sampling::{SamplerFilter, Sampling, Wrap};
 pub(crate) use source::tidy;
 pub(crate) use stack::{guard, run_on_large_stack};
 pub use texel::Format;
-pub(crate) use texel::Texel;
 pub(crate) use variable::{FRAME_PREFIX, Role, Variable, find_image_role, written_texture};

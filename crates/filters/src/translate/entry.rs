@@ -117,11 +117,6 @@ pub(super) fn set_constants(
     Ok(())
 }
 
-fn name_stage(stage: ShaderStage) -> &'static str {
-    match stage {
-        ShaderStage::Compute => "compute",
-        ShaderStage::Fragment => "fragment",
-        ShaderStage::Vertex => "vertex",
-        _ => "other",
-    }
+fn name_stage(stage: ShaderStage) -> String {
+    format!("{stage:?}").to_lowercase()
 }
