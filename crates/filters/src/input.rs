@@ -2,6 +2,7 @@
 
 use frame::{Camera, Image, Plane, Raster, Reprojection, Vectors};
 
+use crate::filter::CameraUse;
 use crate::{Filter, FilterError};
 
 /// Frames per second of frames that do not say their rate, for filters whose convention does not either.
@@ -72,14 +73,6 @@ impl Input<'_> {
         }
         Ok(())
     }
-}
-
-/// Parts of the camera that a filter reads.
-pub(crate) struct CameraUse {
-    /// The camera's motion over the pixels.
-    pub reprojection: bool,
-    /// Its matrices.
-    pub matrices: bool,
 }
 
 /// Returns true if no value is infinite or NaN.

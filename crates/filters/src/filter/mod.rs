@@ -29,4 +29,6 @@ pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
 pub use reach::ReachBy;
 pub use settings::Settings;
-pub(crate) use values::{MATRICES, MATRIX_NUMBERS, explain_unknown, find_matrix, split_element};
+pub(crate) use values::{
+    CameraUse, MATRICES, MATRIX_NUMBERS, explain_unknown, find_matrix, split_element,
+};

@@ -2,7 +2,6 @@
 
 use super::convention::CONVENTION_VALUES;
 use super::definition::Filter;
-use crate::input::CameraUse;
 
 /// Numbers of the frame and of the pass.
 const NUMBERS: [&str; 6] = [
@@ -32,6 +31,14 @@ pub(crate) const PREVIOUS: &str = "previous_";
 
 /// Numbers of a matrix.
 pub(crate) const MATRIX_NUMBERS: usize = 16;
+
+/// Parts of the camera that a filter reads.
+pub(crate) struct CameraUse {
+    /// The camera's motion over the pixels.
+    pub reprojection: bool,
+    /// Its matrices.
+    pub matrices: bool,
+}
 
 impl Filter {
     /// Counts the numbers that a name stands for; none for an unknown name.

@@ -6,8 +6,7 @@ use super::file::File;
 use crate::filter::{PLACEHOLDERS, fill_placeholders};
 use crate::{Command, FilterError, Parameter};
 
-/// Reads the words of a command, and the variables that it is to get. Refuses unknown placeholders, and a command without those that
-/// it needs.
+/// Reads the words of a command, and the variables that it is to get; none for a filter with kernels.
 pub(super) fn read_command(
     file: &File,
     words: Option<&Spanned<Vec<String>>>,
@@ -21,18 +20,33 @@ pub(super) fn read_command(
     let Some(words) = words else {
         return Ok(None);
     };
-    let refuse = |reason: String| file.at(words, format!("command: {reason}"));
-    let Some((program, arguments)) = words.get_ref().split_first() else {
-        return Err(refuse("is empty; its first word is the program".into()));
+    check_words(words.get_ref(), parameters)
+        .map_err(|reason| file.at(words, format!("command: {reason}")))?;
+    // It holds wherever the program is started.
+    let manifest = std::path::absolute(file.path)
+        .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
+    Ok(Some(Command {
+        words: words.get_ref().clone(),
+        folder: (manifest.parent().expect("a file lies in a folder")).to_owned(),
+        environment: environment.map_or(Vec::new(), |names| names.get_ref().clone()),
+        manifest: file.path.to_owned(),
+        line: file.line(words.span().start),
+    }))
+}
+
+/// Refuses a command without a program, unknown placeholders, and a command without those that it needs.
+fn check_words(words: &[String], parameters: &[Parameter]) -> Result<(), String> {
+    let Some((program, arguments)) = words.split_first() else {
+        return Err("is empty; its first word is the program".into());
     };
     if program.is_empty() {
-        return Err(refuse("its first word, the program, is empty".into()));
+        return Err("its first word, the program, is empty".into());
     }
     let names: Vec<&str> = parameters.iter().map(|known| known.name.as_str()).collect();
     if let Some(name) = names.iter().find(|name| PLACEHOLDERS.contains(name)) {
-        return Err(refuse(format!(
+        return Err(format!(
             "{{{name}}} already stands for something of the frame; call the parameter otherwise"
-        )));
+        ));
     }
     let mut found = Vec::new();
     for word in arguments {
@@ -45,35 +59,22 @@ pub(super) fn read_command(
             let allowed: Vec<String> = (PLACEHOLDERS.iter().chain(&names))
                 .map(|name| format!("{{{name}}}"))
                 .collect();
-            refuse(format!(
+            format!(
                 "\"{word}\" {reason}; allowed: {}, and {{{{ or }}}} for a brace",
                 allowed.join(", ")
-            ))
+            )
         })?;
     }
-    for (name, why) in [
+    let files = [
         ("frame", "the file to be blurred"),
         ("out", "the file to be written"),
-    ]
-    .into_iter()
-    .chain(names.iter().map(|name| (*name, "a declared parameter")))
-    {
-        if !found.iter().any(|word| word == name) {
-            return Err(refuse(format!(
-                "{{{name}}} is missing: it stands for {why}"
-            )));
-        }
+    ];
+    let declared = names.iter().map(|name| (*name, "a declared parameter"));
+    let mut needed = files.into_iter().chain(declared);
+    match needed.find(|(name, _)| !found.iter().any(|word| word == name)) {
+        None => Ok(()),
+        Some((name, why)) => Err(format!("{{{name}}} is missing: it stands for {why}")),
     }
-    // It holds wherever the program is started.
-    let manifest = std::path::absolute(file.path)
-        .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
-    Ok(Some(Command {
-        words: words.get_ref().clone(),
-        folder: (manifest.parent().expect("a file lies in a folder")).to_owned(),
-        environment: environment.map_or(Vec::new(), |names| names.get_ref().clone()),
-        manifest: file.path.to_owned(),
-        line: file.line(words.span().start),
-    }))
 }
 
 /// Refuses variables for kernels, and names that no variable has.
