@@ -218,7 +218,9 @@ fn shorten(mut lines: Vec<String>) -> String {
     }
     lines.sort_by_key(|line| !line.to_lowercase().contains("error"));
     said = lines.join("\n");
-    said.truncate(said.floor_char_boundary(MAX_MESSAGE_BYTES));
+    let mut ends = (0..=MAX_MESSAGE_BYTES).rev();
+    let end = ends.find(|end| said.is_char_boundary(*end));
+    said.truncate(end.unwrap_or(0));
     let left = lines.len() - said.lines().count();
     format!("{}\n... {left} more lines", said.trim_end())
 }

@@ -58,7 +58,7 @@ pub(super) fn fill_block(
         let placed = member.numbers.iter().zip(values);
         numbers.extend(placed.map(|((offset, kind), value)| BlockNumber {
             offset: *offset,
-            kind: *kind,
+            kind,
             value: value.clone(),
         }));
     }
