@@ -62,11 +62,6 @@ impl<'g> Blur<'g> {
         &self.kernels.filter
     }
 
-    /// Refuses an input that the filter cannot read.
-    pub(super) fn check(&self, input: &Input) -> Result<(), FilterError> {
-        input.check(self.filter(), self.size)
-    }
-
     /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter. For filters with
     /// history the frame before is the input itself, as at the beginning of a sequence.
     pub fn run(&mut self, input: &Input) -> Result<Vec<Image>, FilterError> {
@@ -76,8 +71,8 @@ impl<'g> Blur<'g> {
     /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame. That has as
     /// many colour images, which go with those of the input.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
-        self.check(input)?;
-        self.check(before)?;
+        input.check(self.filter(), self.size)?;
+        before.check(self.filter(), self.size)?;
         assert_eq!(
             input.color.len(),
             before.color.len(),
@@ -153,7 +148,7 @@ impl<'g> Blur<'g> {
 
     fn refuse_pixel(&self, [x, y]: [u32; 2], [r, g, b, _]: &[f32; 4]) -> FilterError {
         let mut dispatches = self.passes.dispatches.iter();
-        let writer = dispatches.rfind(|dispatch| dispatch.writes_output);
+        let writer = dispatches.rfind(|dispatch| dispatch.writes("output"));
         let place = self.place(writer.map_or("output", |dispatch| &dispatch.entry));
         let mark = mark_of(self.passes.target("output").format);
         if [r, g, b].iter().any(|it| it.to_bits() == mark.to_bits()) {
@@ -211,7 +206,7 @@ impl<'g> Blur<'g> {
 
     /// Uploads an input and its first colour, as at the beginning of a sequence.
     pub(super) fn upload_first(&self, input: &Input) -> Result<(), FilterError> {
-        self.check(input)?;
+        input.check(self.filter(), self.size)?;
         self.upload_layers(input, input)?;
         let color = input.color.first().expect("there is a colour to blur");
         self.upload_color(color, color)

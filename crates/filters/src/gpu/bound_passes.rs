@@ -75,10 +75,7 @@ impl BoundPasses {
 
     /// Copies the mark to the output if every dispatch that writes it is wanted. Pixels that keep the mark were not written.
     pub fn mark_output(&self, gpu: &Gpu, is_wanted: impl Fn(&Dispatch) -> bool) {
-        let mut writers = self
-            .dispatches
-            .iter()
-            .filter(|dispatch| dispatch.writes_output);
+        let mut writers = (self.dispatches.iter()).filter(|it| it.writes("output"));
         if writers.all(is_wanted) {
             gpu.copy(&self.mark, self.target("output"));
         }
@@ -166,7 +163,6 @@ impl Binder<'_> {
                 bytes: sum_bytes(targets, filter, pass, &levels),
                 depends_on_color: depends_on.0,
                 depends_on_noise: depends_on.1,
-                writes_output: entry.writes.contains("output"),
                 written: (entry.writes.iter())
                     .filter(|name| levels.of_written(name) == 0)
                     .map(|name| (name.clone(), targets.written(entry, name).clone()))
