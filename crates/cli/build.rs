@@ -38,18 +38,13 @@ fn describe_source() -> String {
     let Some(commit) = git(&["rev-parse", "--short=12", "HEAD"]).filter(|_| is_own) else {
         return "unknown commit: built without git".to_owned();
     };
-    for path in git(&["rev-parse", "--git-path", "logs/HEAD"])
-        .iter()
-        .map(String::as_str)
-        .chain(SOURCES)
-    {
+    let log = git(&["rev-parse", "--git-path", "logs/HEAD"]);
+    for path in log.as_deref().into_iter().chain(SOURCES) {
         println!("cargo::rerun-if-changed={path}");
     }
-    let changed =
-        git(&["status", "--porcelain", "--untracked-files=no"]).is_none_or(|text| !text.is_empty());
-    match changed {
-        true => format!("commit {commit} with changes"),
-        false => format!("commit {commit}"),
+    match git(&["status", "--porcelain", "--untracked-files=no"]).as_deref() {
+        Some("") => format!("commit {commit}"),
+        _ => format!("commit {commit} with changes"),
     }
 }
 

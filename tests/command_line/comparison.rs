@@ -293,6 +293,6 @@ fn identity_overall(run: &Run) -> ([f64; 2], Overall) {
     let mean = run
         .overall
         .iter()
-        .find(|mean| (&mean.filter[..], mean.metric) == ("identity:default", Metric::FLIP));
+        .find(|mean| (&mean.name[..], mean.metric) == ("identity:default", Metric::FLIP));
     (scores.try_into().unwrap(), mean.unwrap().clone())
 }

@@ -309,7 +309,7 @@ fn a_sequence_is_shown_at_its_rate() {
     let jod = |bench: &Bench, scene: &str| {
         let run = bench.read_run();
         let mut own = run.sequences.iter();
-        let own = own.find(|own| own.scene == scene && own.filter == "identity:default");
+        let own = own.find(|own| own.scene == scene && own.name == "identity:default");
         let jod = own
             .expect("it has a sequence")
             .scores

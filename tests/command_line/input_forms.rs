@@ -33,7 +33,7 @@ fn the_jitter_of_a_sequence_goes_on_from_frame_to_frame() {
     assert_done(&bench.run(&split(words)));
     let run = bench.read_run();
     let find = |name: &str| {
-        let own = run.sequences.iter().find(|own| own.filter == name);
+        let own = run.sequences.iter().find(|own| own.name == name);
         own.expect("it has a sequence")
     };
     let [still, jittered] = ["identity:default", "identity:default jitter=left_in"].map(find);

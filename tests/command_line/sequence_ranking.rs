@@ -34,7 +34,7 @@ fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
         for own in run.sequences.iter().filter(|own| own.scene == "plate") {
             let mut own = own.clone();
             own.scene.clone_from(&name);
-            let value = PERFECT_JOD - lost(&own.filter, f64::from(scene));
+            let value = PERFECT_JOD - lost(&own.name, f64::from(scene));
             *own.scores.get_mut(RANKED_BY) = Measured::score(value, PERFECT_JOD - floor);
             made.sequences.push(own);
         }
@@ -78,7 +78,7 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     for own in ranking.iter().flatten() {
         let shown = |scene: &str| {
             let mut sequences = run.sequences.iter().filter(|it| !it.is_reference);
-            let found = sequences.find(|it| it.scene == scene && it.filter == own.ranked.name);
+            let found = sequences.find(|it| it.scene == scene && it.name == own.ranked.name);
             RANKED_BY.shown(found.unwrap().scores.get(RANKED_BY).value().unwrap())
         };
         let [plate, slow] = ["plate", "slow"].map(shown);

@@ -37,7 +37,7 @@ fn write_noisy(bench: &Bench, name: &str, index: &str) {
 #[track_caller]
 fn find<'a>(run: &'a Run, filter: &str) -> &'a Sequence {
     let mut own = run.sequences.iter().filter(|own| !own.is_reference);
-    own.find(|own| own.filter == format!("{filter}:default"))
+    own.find(|own| own.name == format!("{filter}:default"))
         .expect("the run has a sequence of the filter")
 }
 

@@ -6,7 +6,7 @@ use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
     Background, Key, Motion, PixelGrid, PointMotion, RenderSettings, Scene, TraceError, frame_hash,
-    trace_frame, trace_frame_on, trace_motion_on,
+    trace_frame, trace_frame_part, trace_motion_on,
 };
 
 const WIDTH: u32 = 36;
@@ -51,7 +51,7 @@ fn drifting_sphere() -> Scene {
 fn render_on(size: [u32; 2], offset: [f64; 2]) -> Frame {
     let grid = PixelGrid { size, offset };
     let settings = render_settings(WIDTH, HEIGHT);
-    trace_frame_on(&drifting_sphere(), &settings, &grid, &unwatched).expect("allowed")
+    trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched).expect("allowed")
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn a_grid_without_pixels_is_refused() {
         offset: [0.0; 2],
     };
     let settings = render_settings(WIDTH, HEIGHT);
-    let refused = trace_frame_on(&drifting_sphere(), &settings, &grid, &unwatched);
+    let refused = trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched);
     assert!(matches!(
         refused,
         Err(TraceError::Size {

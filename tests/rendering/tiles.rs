@@ -3,8 +3,8 @@
 use frame::{Alignment, Tile, VelocityKind};
 use tests::{scenes, unwatched};
 use tracer::{
-    LadderTracer, RenderSettings, TruthTracer, load_scene, trace_frame, trace_frame_tile,
-    trace_truth,
+    LadderTracer, PixelGrid, RenderSettings, TruthTracer, load_scene, trace_frame,
+    trace_frame_part, trace_truth,
 };
 
 fn settings() -> RenderSettings {
@@ -77,8 +77,9 @@ fn a_tile_of_a_frame_holds_what_the_frame_holds_there() {
         ..settings()
     };
     let whole = trace_frame(&scene, &settings, &unwatched).unwrap();
+    let grid = PixelGrid::of_picture(settings.width, settings.height);
     for tile in tiles(46, 30) {
-        let part = trace_frame_tile(&scene, &settings, tile, &unwatched).unwrap();
+        let part = trace_frame_part(&scene, &settings, &grid, Some(tile), &unwatched).unwrap();
         assert_eq!(part.color, whole.color.part(tile), "{tile:?}");
         assert_eq!(part.velocity, whole.velocity.part(tile));
         assert_eq!(part.depth, whole.depth.part(tile));

@@ -116,7 +116,7 @@ fn make_run() -> Run {
 
 fn mean<'a>(run: &'a Run, filter: &str, metric: &str) -> &'a Overall {
     let mut found = run.overall.iter();
-    let found = found.find(|mean| mean.filter == filter && mean.metric.name() == metric);
+    let found = found.find(|mean| mean.name == filter && mean.metric.name() == metric);
     found.unwrap_or_else(|| panic!("{metric} of {filter} has no mean"))
 }
 
@@ -242,7 +242,7 @@ fn skill_over_scenes_is_a_ratio_of_means() {
     let means = overall(&cases);
     let found = means
         .iter()
-        .find(|mean| mean.filter == "kino:default" && mean.metric == Metric::SKILL)
+        .find(|mean| mean.name == "kino:default" && mean.metric == Metric::SKILL)
         .unwrap();
     let [way, gained] = [0.6 * (0.154 - 0.024), 0.6 * (0.154 - 0.087)];
     let due = (gained + 0.010) / (way + 0.001);

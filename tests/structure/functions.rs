@@ -12,7 +12,6 @@ const EXCEPTIONS: &[(&str, &str)] = &[
     ("crates/cli/src/commands/check.rs", "execute"),
     ("crates/cli/src/tables/tuning.rs", "tuning_table"),
     ("crates/metrics/src/sequence/reference.rs", "measure"),
-    ("crates/suite/src/measure/missing_cases.rs", "measure"),
     ("crates/tracer/src/accel/bvh.rs", "traverse"),
     ("crates/tracer/src/load/mod.rs", "load_scene_and_files"),
     ("crates/tracer/src/path/integrator.rs", "follow_path"),

@@ -1,20 +1,28 @@
-//! Tests of the command line itself, and of every command that the guides show.
+//! Tests that hold pages to the command line, which nobody outside of this crate can see: the page of all commands, and every command
+//! that a guide shows.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::{CommandFactory, Parser};
+use clap::{Command, CommandFactory, Parser};
 
 use crate::program::Cli;
+
+/// Columns of the help on the page of all commands.
+const WIDTH: usize = 100;
 
 #[test]
 fn the_command_line_is_consistent() {
     Cli::command().debug_assert();
 }
 
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
 /// Reads all pages that show commands.
 fn read_pages() -> Vec<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let root = root();
     let mut paths: Vec<PathBuf> = ["README.md", "scenes/README.md", "shaders/README.md"]
         .map(|page| root.join(page))
         .to_vec();
@@ -48,16 +56,10 @@ fn find_commands(page: &str) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// Splits a line as a shell does, with quotes, comments, and a file that the output goes to.
+/// Splits a line as a shell does, without the file that the output goes to.
 fn split_words(line: &str) -> Vec<String> {
-    let command = line.split(" #").next().unwrap_or_default();
-    let command = command.split(" > ").next().unwrap_or_default();
-    let parts = command.split(['"', '\'']).enumerate();
-    let words = parts.flat_map(|(index, part)| match index % 2 {
-        0 => part.split_whitespace().map(str::to_owned).collect(),
-        _ => vec![part.to_owned()],
-    });
-    words.collect()
+    let words = shlex::split(line).unwrap_or_else(|| panic!("{line}: no words"));
+    words.into_iter().take_while(|word| word != ">").collect()
 }
 
 #[test]
@@ -70,5 +72,40 @@ fn every_command_that_the_guides_show_is_one() {
         if let Err(error) = Cli::try_parse_from(&command) {
             panic!("{}: {error}", command.join(" "));
         }
+    }
+}
+
+/// Makes the page of all commands: its own introduction, then the help.
+fn commands_page(written: &str) -> String {
+    let program = Cli::command_line();
+    let introduction = written.split("\n## ").next().unwrap_or_default();
+    let mut text = introduction.to_owned() + &help(&program);
+    let commands = program.get_subcommands();
+    for command in commands.filter(|own| own.get_name() != "help") {
+        text += &help(command);
+        text.extend(command.get_subcommands().map(help));
+    }
+    text
+}
+
+fn help(command: &Command) -> String {
+    let mut command = command.clone().term_width(WIDTH);
+    let name = command.get_bin_name().unwrap_or("shuttertruth").to_owned();
+    let help = command.render_help().to_string();
+    let lines = help.lines().map(str::trim_end).collect::<Vec<_>>();
+    format!("\n## {name}\n\n```text\n{}\n```\n", lines.join("\n"))
+}
+
+#[test]
+fn the_page_of_commands_is_the_help() {
+    let written = fs::read_to_string(root().join("docs/commands.md")).unwrap();
+    let expected = commands_page(&written);
+    if written != expected {
+        let fresh = std::env::temp_dir().join("commands.md");
+        fs::write(&fresh, expected).unwrap();
+        panic!(
+            "docs/commands.md is not what the help says; copy {} over it",
+            fresh.display()
+        );
     }
 }

@@ -9,8 +9,6 @@ macro_rules! refuse {
 
 mod arguments;
 mod commands;
-#[cfg(test)]
-mod commands_page;
 mod environment;
 #[cfg(test)]
 mod guides;

@@ -22,7 +22,8 @@ impl Picture {
         }
     }
 
-    pub(crate) fn push(&self, file: &mut ExrFile, layer: &str, objects: &[String]) {
+    /// Adds the channels of colour and coverage, in a named layer or at the top, to a file.
+    pub fn push(&self, file: &mut ExrFile, layer: &str, objects: &[String]) {
         self.clone().move_to(file, layer, objects);
     }
 
@@ -35,7 +36,7 @@ impl Picture {
     }
 
     /// Takes the picture out of a file.
-    pub(crate) fn take_from(
+    pub fn take_from(
         file: &mut ExrFile,
         layer: &str,
         objects: &[String],

@@ -32,7 +32,7 @@ pub use calibrate::{Calibration, Proposal, Sample, calibrate, default_metrics};
 pub use check::{CHECK_FORMAT, Check, check};
 pub use compare::{
     Agreement, Basis, Change, ChangeKind, FilterAtSizes, MeanChange, Pair, Reversal, RunComparison,
-    SettingChange, Side, SizeComparison, compare_runs, compare_sizes, pair_cases, rank_changes,
+    SettingChange, SizeComparison, compare_runs, compare_sizes, pair_cases, rank_changes,
     score_change,
 };
 pub use decision::Decision;

@@ -185,7 +185,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_value_outside_of_its_interval_stands_beside_it() {
+    fn a_value_outside_of_its_interval_is_written_after_it() {
         let interval = Interval {
             low: 0.051_98,
             high: 0.053_32,
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_distance_is_printed_beside_a_limit_on_a_distance() {
+    fn a_distance_is_printed_with_a_limit_on_a_distance() {
         let finding: Finding = serde_json::from_value(serde_json::json!({
             "kind": "kept", "level": "required", "scene": "fan", "filter": "kino:default",
             "metric": "extent", "unit": "", "value": 0.9615,

@@ -57,7 +57,7 @@ pub fn run_page(run: &Run, content: &PageContent, html: &Path) -> String {
                         "Below are the first frames of sequences of " (run.frames.count) " frames. "
                         "They play on the page "
                         @if content.links_sequences { a href=(SEQUENCES_PAGE) { (SEQUENCES_PAGE) } } @else { (SEQUENCES_PAGE) }
-                        " beside run.json."
+                        " next to run.json."
                     }
                 }
                 (content.overview)

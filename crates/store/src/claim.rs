@@ -6,6 +6,7 @@ use std::path::Path;
 
 use frame::{FileError, remove_leftovers};
 use tracer::Scene;
+use walkdir::WalkDir;
 
 use crate::Error;
 use crate::folder::{refuse_long_names, refuse_scene, scene_folder};
@@ -50,7 +51,7 @@ pub fn claim<'a>(
     if sharing == Sharing::Alone {
         remove_leftovers(out);
         for folder in &folders {
-            remove_all_leftovers(folder, DEPTH);
+            remove_all_leftovers(folder);
         }
     }
     Ok(claim)
@@ -98,19 +99,14 @@ fn lock(out: &Path, sharing: Sharing) -> Result<Option<File>, Error> {
     }
 }
 
-/// Folders below a scene's own: those of later frames, and below them those of cases and replicates.
-const DEPTH: u32 = 2;
-
-/// Removes leftovers in a scene's folder and in those below it.
-fn remove_all_leftovers(folder: &Path, depth: u32) {
+/// Removes leftovers in a scene's folder and in those below it: of later frames, and of cases and replicates.
+fn remove_all_leftovers(folder: &Path) {
     remove_leftovers(folder);
-    if depth == 0 {
-        return;
-    }
-    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-        // Nothing behind a link is ours.
-        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
-            remove_all_leftovers(&entry.path(), depth - 1);
+    // Nothing beyond a link is ours.
+    let entries = WalkDir::new(folder).min_depth(1).max_depth(2);
+    for entry in entries.into_iter().flatten() {
+        if entry.file_type().is_dir() {
+            remove_leftovers(entry.path());
         }
     }
 }

@@ -1,12 +1,13 @@
 //! Removal of a scene's files, so that they are made anew.
 
 use std::ffi::OsStr;
-use std::fs::{DirEntry, FileType};
 use std::path::Path;
 
 use frame::FileError;
+use walkdir::WalkDir;
 
 use crate::Error;
+use crate::folder::walk_error;
 use crate::record::CASE_RECORD;
 use crate::render_file::RenderFile;
 
@@ -16,54 +17,32 @@ use crate::render_file::RenderFile;
 /// # Errors
 /// A folder is a link, or a file cannot be removed.
 pub fn clear_scene(folder: &Path) -> Result<(), Error> {
-    if let Ok(found) = std::fs::symlink_metadata(folder) {
-        refuse_link(folder, found.file_type())?;
+    if !folder.exists() {
+        return Ok(());
     }
-    for entry in entries(folder)? {
+    for entry in WalkDir::new(folder).max_depth(2) {
+        let entry = entry.map_err(walk_error)?;
         let path = entry.path();
-        let kind = (entry.file_type()).map_err(|source| FileError::io(&path, "read", source))?;
-        if kind.is_dir() || path.is_dir() {
-            refuse_link(&path, kind)?;
-            for inner in entries(&path)? {
-                remove(folder, &inner.path())?;
-            }
-        } else {
-            remove(folder, &path)?;
+        if entry.depth() < 2 && entry.path_is_symlink() && path.is_dir() {
+            return Err(Error::Refused(format!(
+                "{} is a link, and nothing beyond one is removed; remove the link, or take another output folder",
+                path.display()
+            )));
+        }
+        if !entry.file_type().is_dir() && is_made(path.strip_prefix(folder).unwrap_or(path)) {
+            std::fs::remove_file(path).map_err(|source| FileError::io(path, "remove", source))?;
         }
     }
     Ok(())
 }
 
-/// Removes a file below a scene's folder if it is a rendered one, or a record.
-fn remove(folder: &Path, path: &Path) -> Result<(), FileError> {
-    let below = path.strip_prefix(folder).unwrap_or(path);
+/// Tells whether a file below a scene's folder is a rendered one, or a record.
+fn is_made(below: &Path) -> bool {
     let rendered = match below.extension() == Some(OsStr::new("json")) {
         true => below.with_extension("exr"),
         false => below.to_owned(),
     };
-    match below.ends_with(CASE_RECORD) || RenderFile::parse(&rendered).is_some() {
-        false => Ok(()),
-        true => std::fs::remove_file(path).map_err(|source| FileError::io(path, "remove", source)),
-    }
-}
-
-/// Lists a folder; nothing where there is none.
-fn entries(folder: &Path) -> Result<Vec<DirEntry>, FileError> {
-    if !folder.exists() {
-        return Ok(Vec::new());
-    }
-    let listed = std::fs::read_dir(folder).and_then(Iterator::collect);
-    listed.map_err(|source| FileError::io(folder, "read", source))
-}
-
-fn refuse_link(path: &Path, kind: FileType) -> Result<(), Error> {
-    match kind.is_symlink() {
-        false => Ok(()),
-        true => Err(Error::Refused(format!(
-            "{} is a link, and nothing behind one is removed; remove the link, or take another output folder",
-            path.display()
-        ))),
-    }
+    below.ends_with(CASE_RECORD) || RenderFile::parse(&rendered).is_some()
 }
 
 #[cfg(test)]

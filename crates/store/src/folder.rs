@@ -2,6 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use frame::{FileError, is_hidden};
 use tracer::Scene;
 
 use crate::Error;
@@ -42,8 +43,18 @@ pub fn refuse_long_names(folders: &Path) -> Result<(), Error> {
     }
 }
 
-/// Tells whether a path leads below the folder that it starts from. Nothing is read or written elsewhere.
+/// Names the folder that cannot be read on the way through those below it.
+pub(crate) fn walk_error(error: walkdir::Error) -> FileError {
+    let path = error.path().unwrap_or(Path::new("")).to_owned();
+    let source = error.into_io_error();
+    FileError::io(&path, "read", source.expect("links are not followed"))
+}
+
+/// Tells whether a path leads below the folder that it starts from, by names without control characters. Nothing is read or written
+/// elsewhere.
 pub fn is_below(path: &Path) -> bool {
     let mut parts = path.components().peekable();
-    parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
+    parts.peek().is_some()
+        && parts.all(|part| matches!(part, Component::Normal(_)))
+        && !path.to_string_lossy().contains(is_hidden)
 }

@@ -6,6 +6,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, read_bounded, write_atomically};
+use same_file::is_same_file;
 
 use crate::Error;
 
@@ -38,7 +39,7 @@ pub fn gather<'a>(
 /// Refuses two files of one name with other bytes.
 fn check_same(one: &Path, other: &Path) -> Result<(), Error> {
     let read = |path: &Path| read_bounded(path, MAX_TAKEN_BYTES);
-    if is_one_file(one, other) || read(one)? == read(other)? {
+    if is_same_file(one, other).is_ok_and(|same| same) || read(one)? == read(other)? {
         return Ok(());
     }
     Err(Error::Refused(format!(
@@ -70,7 +71,7 @@ pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
             reason: "is no regular file; allowed: files as this program writes them".to_owned(),
         });
     }
-    if is_one_file(from, to) {
+    if is_same_file(from, to).is_ok_and(|same| same) {
         return Ok(());
     }
     if let Some(folder) = to.parent() {
@@ -85,21 +86,6 @@ pub fn place_file(from: &Path, to: &Path) -> Result<(), FileError> {
         Ok(()) => Ok(()),
         // Another disk, or a system without such names.
         Err(_) => write_atomically(to, &read_bounded(from, MAX_TAKEN_BYTES)?),
-    }
-}
-
-/// Tells whether two paths name one file, so that nothing needs to be read.
-fn is_one_file(one: &Path, other: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        let id = |path: &Path| fs::metadata(path).map(|found| (found.dev(), found.ino()));
-        matches!((id(one), id(other)), (Ok(one), Ok(other)) if one == other)
-    }
-    #[cfg(not(unix))]
-    {
-        let id = |path: &Path| path.canonicalize();
-        matches!((id(one), id(other)), (Ok(one), Ok(other)) if one == other)
     }
 }
 

@@ -9,7 +9,6 @@ mod folder;
 mod gather;
 mod json;
 mod json_lines;
-mod json_strings;
 mod printable;
 mod record;
 mod render_file;
@@ -23,12 +22,12 @@ pub use folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
 pub use gather::{Files, gather, place_files};
 pub use json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within};
 pub use json_lines::to_lines;
-pub use json_strings::check_strings;
 pub use printable::{printable, printable_lines, printable_path};
 pub use record::{
     CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, remove_altered_files,
 };
 pub use render_file::{
-    LADDER, MAX_REPLICATES, RenderFile, RenderPath, Wanted, ladder_folder, list_renders, take,
+    LADDER, MAX_REPLICATES, RenderFile, RenderPath, Wanted, ladder_folder, list_files,
+    list_renders, take,
 };
 pub use tracked::refuse_tracked;

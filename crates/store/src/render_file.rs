@@ -5,7 +5,9 @@ use std::{fmt, fs};
 
 use frame::{Alignment, FileError, read_attribute, rung_file};
 use tracer::SceneId;
+use walkdir::{DirEntry, WalkDir};
 
+use crate::folder::walk_error;
 use crate::gather::place_file;
 
 /// Sub-frame counts of the ladder that N_eq is read from.
@@ -183,8 +185,8 @@ pub fn ladder_folder(alignment: Alignment) -> String {
     format!("ladder_{alignment}")
 }
 
-/// Folders between that of a run and a rendered file: those of the scene, of a later frame, and of replicates.
-const DEPTH: u32 = 3;
+/// Depth of a file below the folder of a run: in those of the scene, of a later frame, and of a case or of replicates.
+const DEPTH: usize = 4;
 
 /// Lists the rendered files below the folder of a run, scene by scene, and of each frame by frame. Looks nowhere else, and follows no
 /// links.
@@ -192,30 +194,38 @@ const DEPTH: u32 = 3;
 /// # Errors
 /// A folder cannot be read.
 pub fn list_renders(root: &Path) -> Result<Vec<RenderPath>, FileError> {
-    let mut found = Vec::new();
-    list_below(root, Path::new(""), DEPTH, &mut found)?;
+    let files = list_files(root)?;
+    let mut found: Vec<RenderPath> = files
+        .iter()
+        .filter_map(|it| RenderPath::parse(it))
+        .collect();
     found.sort();
     Ok(found)
 }
 
-fn list_below(
-    folder: &Path,
-    below: &Path,
-    depth: u32,
-    found: &mut Vec<RenderPath>,
-) -> Result<(), FileError> {
-    let fail = |source| FileError::io(folder, "read", source);
-    for entry in fs::read_dir(folder).map_err(fail)? {
-        let entry = entry.map_err(fail)?;
-        let below = below.join(entry.file_name());
-        let kind = entry.file_type().map_err(fail)?;
-        if kind.is_dir() && depth > 0 {
-            list_below(&entry.path(), &below, depth - 1, found)?;
-        } else if kind.is_file() {
-            found.extend(RenderPath::parse(&below));
+/// Lists the files that lie as deep below the folder of a run as its own do, but for hidden ones: a killed process may have left some.
+/// Follows no links.
+///
+/// # Errors
+/// A folder cannot be read.
+pub fn list_files(root: &Path) -> Result<Vec<PathBuf>, FileError> {
+    // A walk of a file yields the file.
+    fs::read_dir(root).map_err(|source| FileError::io(root, "read", source))?;
+    let is_shown = |entry: &DirEntry| !entry.file_name().as_encoded_bytes().starts_with(b".");
+    let entries = WalkDir::new(root).min_depth(1).max_depth(DEPTH);
+    let mut files = Vec::new();
+    for entry in entries
+        .sort_by_file_name()
+        .into_iter()
+        .filter_entry(is_shown)
+    {
+        let entry = entry.map_err(walk_error)?;
+        if entry.file_type().is_file() {
+            let below = entry.path().strip_prefix(root).expect("it is below");
+            files.push(below.to_owned());
         }
     }
-    Ok(())
+    Ok(files)
 }
 
 #[cfg(test)]

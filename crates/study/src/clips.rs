@@ -165,7 +165,7 @@ fn list_items(run: &Run) -> Vec<Item> {
         let own = run.sequences.iter().filter(|own| !own.is_reference);
         let item = |own: &Sequence| Item {
             scene: own.scene.clone(),
-            filter: own.filter.clone(),
+            filter: own.name.clone(),
             alignment: own.alignment,
             frames: own.frames.clone(),
         };

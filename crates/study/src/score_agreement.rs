@@ -160,7 +160,7 @@ fn find_badness(
         Metric::Sequence(metric) => {
             let mut all = run.sequences.iter();
             let found = all.find(|own| {
-                (own.is_reference, &own.scene, own.alignment) == wanted && own.filter == *filter
+                (own.is_reference, &own.scene, own.alignment) == wanted && own.name == *filter
             });
             found?.scores.get(metric).value()
         }

@@ -41,7 +41,6 @@ pub use inputs::multisampling::Multisampling;
 pub use inputs::render_scale::RenderScale;
 pub use inputs::shutter_rule::ShutterRule;
 pub use inputs::velocity_format::VelocityFormat;
-pub use measure::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
 pub use measure::estimate::{
     JobCost, RunEstimate, SceneJobs, estimate_case_seconds, estimate_jobs, estimate_render_seconds,
     estimate_report, estimate_run,
@@ -51,7 +50,8 @@ pub use measure::plan::RunPlan;
 pub use measure::probes::{filter_input, pack_planes, unpack_planes};
 pub use measure::scenes::measure_scenes;
 pub use measure::sequence::{CHANGE_PICTURE, SEQUENCE_PICTURE};
-pub use merge::{MergedRun, holds_run, merge_runs};
+pub use merge::earlier::{EarlierCases, find_newer_sizes, folder_for_size};
+pub use merge::{holds_run, merge_runs};
 pub use monitor::{Monitor, Step};
 pub use pack::unpacked::{Unpacked, take_pack};
 pub use pack::write_pack;
@@ -69,6 +69,7 @@ pub use run::failure::{Failure, refuse_failures};
 pub use run::layers::write_layers;
 pub use run::overall::Overall;
 pub use run::sequence::{Frames, MAX_FRAMES, Sequence, SequenceFrame, worst_frames};
+pub use run::stored::StoredRun;
 pub use run::{FORMAT, Run};
 pub use runner::{Runner, open_adapter, open_gpu};
 pub use score::finished_picture::{FinishedPicture, read_finished_picture};

@@ -22,7 +22,7 @@ pub fn frame_hash(scene: &Scene, settings: &RenderSettings) -> String {
     content_hash(scene, "frame", &own)
 }
 
-/// The content hash of the frame that [`trace_frame_on`](crate::trace_frame_on) would render; on the picture's own pixels it is that
+/// The content hash of the frame that [`trace_frame_part`](crate::trace_frame_part) would render; on the picture's own pixels it is that
 /// of [`frame_hash`].
 pub(crate) fn grid_hash(scene: &Scene, settings: &RenderSettings, grid: &PixelGrid) -> String {
     let frame = frame_hash(scene, settings);

@@ -8,7 +8,7 @@ use crate::error::TraceError;
 use crate::film::at_instant::InstantView;
 use crate::film::canvas::Canvas;
 use crate::film::eye::{Eye, EyeRay};
-use crate::film::render::PIXELS_PER_TASK;
+use crate::film::render::for_each_pixel;
 use crate::material::surface::Sight;
 use crate::motion::lens::LensPoint;
 use crate::path::integrator::Integrator;
@@ -67,23 +67,14 @@ pub fn trace_defocus(
     let pinhole = &InstantView::of_pinhole(stage, canvas);
     let pixels = canvas.pixels();
     let meter = Meter::new(watch, pixels.len() as u64);
-    let tasks = pixels
-        .par_chunks(PIXELS_PER_TASK)
-        .map(|task| {
-            meter.check()?;
-            let mut eye = Eye::new(stage, canvas);
-            let recipes: Vec<Recipe> = (task.iter())
-                .map(|&pixel| find_recipe(integrator, pinhole, canvas, &mut eye, pixel))
-                .collect();
-            meter.advance(task.len() as u64);
-            Ok(recipes)
-        })
-        .collect::<Result<Vec<Vec<Recipe>>, TraceError>>()?;
-    meter.check()?;
+    let work = |task: &[u32]| task.len() as u64;
+    let recipes = for_each_pixel((stage, canvas), &pixels, &meter, work, |eye, pixel| {
+        find_recipe(integrator, pinhole, canvas, eye, pixel)
+    })?;
     Ok(Defocus(Raster {
         width: canvas.width,
         height: canvas.height,
-        pixels: tasks.into_iter().flatten().collect(),
+        pixels: recipes,
     }))
 }
 

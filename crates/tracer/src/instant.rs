@@ -60,40 +60,16 @@ pub fn trace_frame(
     watch: Watch,
 ) -> Result<Frame, TraceError> {
     let own = PixelGrid::of_picture(settings.width, settings.height);
-    trace_frame_on(scene, settings, &own, watch)
+    trace_frame_part(scene, settings, &own, None, watch)
 }
 
-/// Renders the instant as [`trace_frame`] does, on another grid of pixels over the picture of the settings. The guard band is in
-/// pixels of the grid.
+/// Renders the instant as [`trace_frame`] does, on another grid of pixels over the picture of the settings, and all of it or a tile.
+/// Guard band and tile are in pixels of the grid; a tile counts from the band's corner. Its rasters have its size, and hold what
+/// those of the whole frame hold there.
 ///
 /// # Errors
 /// The settings or the grid do not fit the scene, a pixel is not finite, or the watcher cancelled.
-pub fn trace_frame_on(
-    scene: &Scene,
-    settings: &RenderSettings,
-    grid: &PixelGrid,
-    watch: Watch,
-) -> Result<Frame, TraceError> {
-    trace_part(scene, settings, grid, None, watch)
-}
-
-/// Renders a tile of the frame of [`trace_frame`], in the pixels of its rasters, with the guard band. The rasters have the tile's
-/// size, and hold what those of the frame hold there.
-///
-/// # Errors
-/// The settings do not fit the scene, a pixel is not finite, or the watcher cancelled.
-pub fn trace_frame_tile(
-    scene: &Scene,
-    settings: &RenderSettings,
-    tile: Tile,
-    watch: Watch,
-) -> Result<Frame, TraceError> {
-    let own = PixelGrid::of_picture(settings.width, settings.height);
-    trace_part(scene, settings, &own, Some(tile), watch)
-}
-
-/// Renders a tile of the instant on a grid of pixels; all of it where no tile is named.
-fn trace_part(
+pub fn trace_frame_part(
     scene: &Scene,
     settings: &RenderSettings,
     grid: &PixelGrid,

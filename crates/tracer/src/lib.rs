@@ -37,9 +37,7 @@ pub use defocus::{Defocus, trace_defocus};
 pub use error::TraceError;
 pub use frame_rate::FrameRate;
 pub use geometry::ray::{Hit, Ray};
-pub use instant::{
-    PointLayers, trace_frame, trace_frame_on, trace_frame_tile, trace_motion, trace_motion_on,
-};
+pub use instant::{PointLayers, trace_frame, trace_frame_part, trace_motion, trace_motion_on};
 pub use ladder::{LadderTracer, trace_ladder};
 pub use limits::MAX_SAMPLES;
 pub use load::{

@@ -170,11 +170,6 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Size of trees and triangles in memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        self.tree.bytes()
-    }
-
     /// The unit normal of the facet that a ray met, on the ray's side.
     pub fn facet(&self, poses: &mut Poses, ray: &Ray, hit: &Hit) -> DVec3 {
         Surface::at(self.scene, poses.pose(hit.object), ray, hit).facet

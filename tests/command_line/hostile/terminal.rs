@@ -8,8 +8,8 @@ use cli::{
     annotations, check_text, compare_table, ranking_text, run_table, summary, terminal_text,
 };
 use frame::{Alignment, Frame, Truth};
-use judge::{CHECK_FORMAT, Check, Decision, Side, check, compare_runs};
-use suite::Failure;
+use judge::{CHECK_FORMAT, Check, Decision, check, compare_runs};
+use suite::{Failure, StoredRun};
 use tracer::SceneId;
 
 use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
@@ -125,8 +125,8 @@ fn names_in_a_run_are_printed_without_control_codes() {
     let bench = Bench::two_scenes();
     assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
     let name = "a\n::error::b\u{1b}[35m\u{9b}2J";
-    let whole = Side::read(&bench.path("out")).unwrap();
-    let mut side = Side::read(&bench.path("out")).unwrap();
+    let whole = StoredRun::read(&bench.path("out")).unwrap();
+    let mut side = StoredRun::read(&bench.path("out")).unwrap();
     let first = side.run.cases[0].scene.clone();
     // Cases of the first scene stay, to be compared.
     for case in (side.run.cases.iter_mut()).filter(|case| case.scene != first) {
@@ -159,6 +159,15 @@ fn names_in_a_run_are_printed_without_control_codes() {
     }
     let styled = terminal_text(&run_table(&side.run));
     assert!(styled.contains("\u{1b}[1m"), "{styled:?}");
+
+    let text = fs::read_to_string(bench.path("out/run.json")).unwrap();
+    let planted = text.replace("\"jump_flood\"", "\"a\\u001b[35m\\u009b2J\"");
+    assert_ne!(planted, text);
+    fs::write(bench.path("out/run.json"), planted).unwrap();
+    let compared = bench.shuttertruth(&["compare", "out", "out"]);
+    assert_done(&compared);
+    assert_tame(&compared);
+    assert!(stdout(&compared).contains("a\\u001b[35m\\u009b2J"));
 }
 
 #[test]

@@ -102,7 +102,7 @@ fn answers_that_no_page_of_this_run_asked_for_are_refused() {
     );
     refuse_text(
         &text.replacen("\"left\"", "\"neither\\n::error::\"", 1),
-        &["control characters"],
+        &["unknown field `neither", "| ::error::`"],
     );
     refuse_text(
         &json!({"format": 1}).to_string(),

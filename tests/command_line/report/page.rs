@@ -237,7 +237,7 @@ fn costs_come_from_the_bench_beside_the_run() {
     let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
     assert_done(&bench.run(&split(words)));
     let without = make_page(&bench);
-    assert!(without.contains("Nothing was timed beside this run."));
+    assert!(without.contains("This run has no bench.json."));
     let words =
         "bench --quiet --filters identity,jump_flood:paper,mcguire:paper --size 64x32 --out out";
     assert_done(&bench.shuttertruth(&split(words)));

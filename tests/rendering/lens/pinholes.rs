@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
-    Background, Camera, Key, Motion, PixelGrid, RenderSettings, Scene, trace_frame, trace_frame_on,
-    trace_truth,
+    Background, Camera, Key, Motion, PixelGrid, RenderSettings, Scene, trace_frame,
+    trace_frame_part, trace_truth,
 };
 
 use super::with_lens;
@@ -89,7 +89,7 @@ fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
                 size: [WIDTH, HEIGHT],
                 offset: offset.into(),
             };
-            trace_frame_on(&scene, &settings(64), &grid, &unwatched).unwrap()
+            trace_frame_part(&scene, &settings(64), &grid, None, &unwatched).unwrap()
         })
         .collect();
     let pictures = |frame: &Frame| Picture {

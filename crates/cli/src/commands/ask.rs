@@ -4,11 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use glob::Pattern;
-use judge::Side;
 use report::write_ask_folder;
 use store::printable_path;
 use study::{Question, SECONDS_PER_QUESTION, Study, StudyChoice, draw_session, make_study};
-use suite::Error;
+use suite::{Error, StoredRun};
 
 use crate::arguments::{parse_glob, parse_named};
 use crate::output::{count_text, print, print_json, push_wrapped};
@@ -46,7 +45,7 @@ pub struct AskArgs {
 
 /// Reads a finished run, and writes a page that asks people about its pictures.
 pub fn execute(args: &AskArgs) -> Result<(), Error> {
-    let side = Side::read(&args.run)?;
+    let side = StoredRun::read(&args.run)?;
     let choice = StudyChoice {
         scenes: args.scenes.clone(),
         filters: args.filters.clone(),

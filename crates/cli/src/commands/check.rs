@@ -6,13 +6,12 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Command, Id};
 use frame::FileError;
 use judge::{
-    BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, Side, add_evidence, bound_subframes,
-    check, check_lengths, check_names, compare_with_baseline, judge, require_bounds,
-    size_for_bounds,
+    BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
+    check_lengths, check_names, compare_with_baseline, judge, require_bounds, size_for_bounds,
 };
 use metrics::Metric;
 use store::{printable_path, refuse_tracked};
-use suite::{Case, Error, Run, open_gpu};
+use suite::{Case, Error, Run, StoredRun, open_gpu};
 use tracer::Location;
 
 use super::measured_run::{MeasuredRun, measure};
@@ -190,7 +189,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
 
 /// Judges a finished run by the bounds beside its scenes: nothing is rendered, and no adapter is opened.
 fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judged, Error> {
-    let side = Side::read(path)?;
+    let side = StoredRun::read(path)?;
     let folder = match side.folder() {
         own if own.as_os_str().is_empty() => PathBuf::from("."),
         own => own.to_owned(),

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use judge::{Side, compare_runs};
+use judge::compare_runs;
 use report::compare_page;
-use suite::Error;
+use suite::{Error, StoredRun};
 
 use super::pages::write_page;
 use super::run_plan::read_margins;
@@ -33,7 +33,10 @@ pub struct CompareArgs {
 
 /// Reads two finished runs, prints what changed, and writes the page.
 pub fn execute(args: &CompareArgs) -> Result<(), Error> {
-    let (first, second) = (Side::read(&args.first)?, Side::read(&args.second)?);
+    let (first, second) = (
+        StoredRun::read(&args.first)?,
+        StoredRun::read(&args.second)?,
+    );
     let margins = read_margins(&args.root.scenes_dir)?;
     let compared = make_monitor().watch("cases that changed", |watch| {
         compare_runs(&first, &second, &margins, watch)

@@ -8,9 +8,7 @@ use tracer::{SceneListing, list_scenes};
 use crate::arguments::{AdapterArgs, RootArgs};
 use crate::output::{make_silent_monitor, print, print_json, print_note};
 use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
-use crate::tables::{
-    details_text, filter_json, filters_text, input_json, inputs_text, scene_json, scenes_text,
-};
+use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};
 
 #[derive(Debug, Args)]
 pub struct ListArgs {
@@ -44,7 +42,7 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     if args.what == ["inputs"] {
         let kinds = InputFormat::kinds();
         return match args.json {
-            true => print_json(&kinds.iter().map(input_json).collect::<Vec<_>>()),
+            true => print_json(&kinds),
             false => print(&inputs_text(&kinds)),
         };
     }
@@ -53,7 +51,7 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
     let (scenes, filters) = find_named(args)?;
     if args.json {
         return print_json(&serde_json::json!({
-            "scenes": scenes.iter().map(scene_json).collect::<Vec<_>>(),
+            "scenes": scenes,
             "filters": filters.iter().map(filter_json).collect::<Vec<_>>(),
         }));
     }

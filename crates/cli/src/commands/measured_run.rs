@@ -34,7 +34,7 @@ pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Err
         None => finished.clone(),
         Some(earlier) => {
             print_note(&kept_text(&earlier));
-            earlier.add_to(&finished)
+            earlier.add_to(&finished)?
         }
     };
     Ok(MeasuredRun {

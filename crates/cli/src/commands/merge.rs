@@ -48,11 +48,10 @@ fn join_runs(args: &MergeArgs) -> Result<(), Error> {
         [] => std::env::args().collect(),
         words => words.to_vec(),
     };
-    let merged = merge_runs(&args.parts, command, &args.out)?;
+    let (run, _claim) = merge_runs(&args.parts, command, &args.out)?;
     // It would be about another run.json.
     let _ = std::fs::remove_file(args.out.join(JUDGEMENT_FILE));
-    write_run(&merged.run, &args.out)?;
-    let run = &merged.run;
+    write_run(&run, &args.out)?;
     let mut text = failures_text(&run.failures);
     text += &format!(
         "{} ({} of {})\n",

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use glob::Pattern;
-use judge::Side;
 use study::{Study, StudyChoice, find_preferences, make_study, read_sessions, refuse_other_run};
-use suite::{Error, Run};
+use suite::{Error, Run, StoredRun};
 
 use crate::output::{print, print_json};
 use crate::tables::preferences_table;
@@ -30,7 +29,7 @@ pub fn execute(args: &PreferencesArgs) -> Result<(), Error> {
     let run = args
         .run
         .as_ref()
-        .map(|path| read_run(&Side::read(path)?, &study));
+        .map(|path| read_run(&StoredRun::read(path)?, &study));
     let run = run.transpose()?;
     let found = find_preferences(&study, &sessions, run.as_ref())?;
     match args.json {
@@ -40,7 +39,7 @@ pub fn execute(args: &PreferencesArgs) -> Result<(), Error> {
 }
 
 /// Takes a run whose pictures are those of the study.
-fn read_run(side: &Side, study: &Study) -> Result<Run, Error> {
+fn read_run(side: &StoredRun, study: &Study) -> Result<Run, Error> {
     let exact = |name: &String| Pattern::new(&Pattern::escape(name)).expect("it is escaped");
     let filters = study.shutters.iter().flat_map(|own| &own.filters);
     let choice = StudyChoice {

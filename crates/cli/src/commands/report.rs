@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use judge::{Judgement, Side};
+use judge::Judgement;
 use report::{TuneFolder, tuning_page, write_gallery};
 use store::printable_path;
-use suite::{Error, write_layers};
+use suite::{Error, StoredRun, write_layers};
 
 use super::pages::{WrittenFile, page_lines, page_path, write_page, write_run_page};
 use crate::output::{make_monitor, print, print_json};
@@ -62,7 +62,7 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
 
 /// Writes the page of a run, and its layers; returns the page's files, then those of the layers.
 fn write_run_report(args: &ReportArgs) -> Result<(Vec<WrittenFile>, Vec<WrittenFile>), Error> {
-    let side = Side::read(&args.run)?;
+    let side = StoredRun::read(&args.run)?;
     let (run, folder) = (&side.run, side.folder());
     let is_other_asked = args.exr.is_some() || args.gallery.is_some();
     let mut pages = match &args.html {

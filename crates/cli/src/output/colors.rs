@@ -6,7 +6,12 @@ use store::printable;
 
 /// Marks a title, which has one line.
 pub fn heading(text: &str) -> String {
-    paint('\u{fdd1}', &printable(text))
+    bold(&printable(text))
+}
+
+/// Marks the titles of columns.
+pub fn bold(text: &str) -> String {
+    paint('\u{fdd1}', text)
 }
 
 /// Marks text of less weight.

@@ -68,20 +68,3 @@ pub fn count_text(count: usize, one: &str, many: &str) -> String {
         count => format!("{count} {many}"),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_lines_break_between_words_and_long_words_do_not() {
-        let mut text = String::new();
-        push_wrapped(&mut text, 2, &["word"; 30].join(" "));
-        push_wrapped(&mut text, 2, &"x".repeat(100));
-        let lines: Vec<&str> = text.lines().collect();
-        assert_eq!(lines.len(), 3);
-        assert!(lines[0].chars().count() <= USUAL_COLUMNS && lines[0].starts_with("  word"));
-        assert!(lines[1].starts_with("      word"));
-        assert_eq!(lines[2].trim(), "x".repeat(100));
-    }
-}

@@ -2,7 +2,7 @@
 
 use store::printable;
 
-use crate::output::{faint, heading, terminal_columns, width};
+use crate::output::{bold, faint, terminal_columns, width};
 
 /// Columns between two cells: the more that fit.
 const GAPS: [usize; 2] = [2, 1];
@@ -14,15 +14,8 @@ pub struct Table {
     titles: Vec<String>,
     /// Columns that hold words, aligned to the left.
     left: Vec<usize>,
-    lines: Vec<TableLine>,
-}
-
-/// A line of a table.
-enum TableLine {
-    /// Text across all columns.
-    Text(String),
-    /// A name and its cells; dimmed or not.
-    Row(Vec<String>, bool),
+    /// The only cell of a line of text, or a name and its cells; dimmed or not.
+    lines: Vec<(Vec<String>, bool)>,
 }
 
 impl Table {
@@ -32,8 +25,9 @@ impl Table {
         others: impl IntoIterator<Item = T>,
     ) -> Self {
         let others = others.into_iter().map(Into::into);
+        let titles = std::iter::once(name.into()).chain(others);
         Self {
-            titles: std::iter::once(name.into()).chain(others).collect(),
+            titles: titles.map(|title| printable(&title).into_owned()).collect(),
             left: vec![0],
             lines: Vec::new(),
         }
@@ -48,7 +42,7 @@ impl Table {
     /// Adds a line of text that belongs to no column.
     pub fn push_text(&mut self, text: impl Into<String>) {
         let text = printable(&text.into()).into_owned();
-        self.lines.push(TableLine::Text(text));
+        self.lines.push((vec![text], false));
     }
 
     /// Adds a row.
@@ -66,7 +60,7 @@ impl Table {
         let row = std::iter::once(name.into()).chain(cells);
         let row: Vec<String> = row.map(|cell| printable(&cell).into_owned()).collect();
         assert_eq!(row.len(), self.titles.len(), "every column has a cell");
-        self.lines.push(TableLine::Row(row, dimmed));
+        self.lines.push((row, dimmed));
     }
 
     /// Lays out the table. Where a row does not fit the terminal, long names have a line of their own.
@@ -75,9 +69,14 @@ impl Table {
     }
 
     fn text_in(&self, columns: usize) -> String {
-        let widths: Vec<usize> = (0..self.titles.len())
-            .map(|column| self.width_of(column))
-            .collect();
+        let mut widths: Vec<usize> = self.titles.iter().map(|title| width(title)).collect();
+        // The title of the names is further to the left than they are.
+        widths[0] = widths[0].saturating_sub(INDENT);
+        for (cells, _) in self.lines.iter().filter(|(cells, _)| cells.len() > 1) {
+            for (widest, cell) in widths.iter_mut().zip(cells) {
+                *widest = width(cell).max(*widest);
+            }
+        }
         let room = |gap: usize| {
             let others: usize = widths[1..].iter().map(|width| width + gap).sum();
             columns.saturating_sub(INDENT + others)
@@ -87,12 +86,12 @@ impl Table {
             false => GAPS[1],
         };
         let name = widths[0].min(room(gap));
-        let mut text =
-            heading(&self.row_text(&self.titles, (INDENT + name, 0, gap), &widths)) + "\n";
-        for line in &self.lines {
-            text += &match line {
-                TableLine::Text(line) => line.clone(),
-                TableLine::Row(cells, dimmed) => {
+        let titles = self.row_text(&self.titles, (INDENT + name, 0, gap), &widths);
+        let mut text = bold(&titles) + "\n";
+        for (cells, dimmed) in &self.lines {
+            text += &match cells.as_slice() {
+                [line] => line.clone(),
+                cells => {
                     let row = self.row_text(cells, (name, INDENT, gap), &widths);
                     if *dimmed { faint(&row) } else { row }
                 }
@@ -100,17 +99,6 @@ impl Table {
             text += "\n";
         }
         text
-    }
-
-    fn width_of(&self, column: usize) -> usize {
-        // The title of the names is further to the left than they are.
-        let indent = if column == 0 { INDENT } else { 0 };
-        let cells = self.lines.iter().filter_map(|line| match line {
-            TableLine::Text(_) => None,
-            TableLine::Row(cells, _) => Some(width(&cells[column])),
-        });
-        let title = width(&self.titles[column]).saturating_sub(indent);
-        cells.fold(title, usize::max)
     }
 
     /// Lays out cells: the first in a width of its own after an indent, the others after gaps.
@@ -143,21 +131,14 @@ impl Table {
 mod tests {
     use super::*;
 
-    fn make_table() -> Table {
-        let mut table = Table::new("filter", ["FLIP", "scene"]).with_words_in(2);
-        table.push("a", ["-69.6".into(), "fan".into()]);
-        table.push("b:c", ["28209.7".into(), "railing".into()]);
-        table
-    }
-
     #[test]
     fn a_name_that_does_not_fit_has_a_line_of_its_own() {
-        let mut table = make_table();
-        table.push("x".repeat(60), ["0.1".into(), "fan".into()]);
+        let mut table = Table::new("y".repeat(70), ["FLIP", "scene"]).with_words_in(2);
+        table.push("x".repeat(60), ["0.1".into(), "railing".into()]);
         let text = table.text_in(40);
-        let lines: Vec<&str> = text.lines().collect();
-        assert_eq!(lines[3].trim(), "x".repeat(60));
-        assert!(lines[4].trim_start().starts_with("0.1"));
-        assert!(lines[4].chars().count() <= 40, "{text}");
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        assert!(lines[0].ends_with(&"y".repeat(70)) && lines[1].starts_with("FLIP"));
+        assert_eq!(lines[2..], [&"x".repeat(60)[..], "0.1 railing"]);
+        assert!(text.lines().skip(3).all(|line| line.len() <= 40), "{text}");
     }
 }

@@ -45,17 +45,6 @@ pub fn inputs_text(kinds: &[InputKind]) -> String {
     text
 }
 
-/// Describes a kind of input as JSON.
-pub fn input_json(kind: &InputKind) -> serde_json::Value {
-    let forms = kind.forms.iter();
-    let forms = forms.map(|form| serde_json::json!({"name": form.name, "help": form.help}));
-    serde_json::json!({
-        "name": kind.name,
-        "help": kind.help,
-        "forms": forms.collect::<Vec<_>>(),
-    })
-}
-
 /// Describes scenes and filters in detail.
 pub fn details_text(scenes: &[SceneListing], filters: &[Filter]) -> String {
     let mut text = String::new();
@@ -70,16 +59,6 @@ pub fn details_text(scenes: &[SceneListing], filters: &[Filter]) -> String {
     text
 }
 
-/// Describes a scene as JSON.
-pub fn scene_json(scene: &SceneListing) -> serde_json::Value {
-    serde_json::json!({
-        "name": scene.name,
-        "family": scene.family,
-        "exposes": scene.exposes,
-        "variants": scene.variants,
-    })
-}
-
 /// Describes a filter as JSON.
 pub fn filter_json(filter: &Filter) -> serde_json::Value {
     let parameter = |parameter: &Parameter| {
@@ -92,16 +71,6 @@ pub fn filter_json(filter: &Filter) -> serde_json::Value {
             "doc": parameter.doc,
         })
     };
-    let preset = |preset: &Preset| {
-        serde_json::json!({
-            "name": preset.name,
-            "doc": preset.doc,
-            "source": preset.source,
-            "reference_width": preset.reference_width,
-            "values": preset.values,
-            "tuned": preset.tuned,
-        })
-    };
     serde_json::json!({
         "name": filter.name,
         "summary": filter.summary,
@@ -111,13 +80,12 @@ pub fn filter_json(filter: &Filter) -> serde_json::Value {
         "environment": filter.command.as_ref().map(|command| &command.environment),
         "compilers": filter.list_compilers(),
         "parameters": filter.parameters.iter().map(parameter).collect::<Vec<_>>(),
-        "presets": filter.presets.iter().map(preset).collect::<Vec<_>>(),
+        "presets": filter.presets,
     })
 }
 
 fn push_scene(text: &mut String, scene: &SceneListing) {
-    let family = serde_json::to_value(scene.family).expect("a family is a word");
-    let family = family.as_str().unwrap_or_default();
+    let family = scene.family.name();
     push_wrapped(text, 2, &format!("{}  ({family})", scene.name));
     push_wrapped(text, 4, &scene.exposes);
     if !scene.variants.is_empty() {

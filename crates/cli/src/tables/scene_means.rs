@@ -113,6 +113,6 @@ fn push_mean(
         cells.push(cell(mean, |mean| metric.number(mean.mean)));
     }
     cells.extend(last.map(str::to_owned));
-    let name = bracket_name(&row.filter, row.is_reference);
+    let name = bracket_name(&row.name, row.is_reference);
     table.push_row(row.is_reference, name, cells);
 }

@@ -121,15 +121,15 @@ fn order_rows<'a>(
 ) -> Vec<(String, &'a Sequence)> {
     let mut rows = Vec::new();
     for own in sequences.iter().filter(|own| own.is_reference) {
-        rows.push((format!("    {}", bracket_name(&own.filter, true)), *own));
+        rows.push((format!("    {}", bracket_name(&own.name, true)), *own));
     }
     let filters = || sequences.iter().filter(|own| !own.is_reference);
     for RankedSequence { ranked, .. } in ranked {
-        let own = filters().find(|own| own.filter == ranked.name);
+        let own = filters().find(|own| own.name == ranked.name);
         rows.extend(own.map(|own| (ranked_name(ranked), *own)));
     }
-    for own in filters().filter(|own| !ranked.iter().any(|it| it.ranked.name == own.filter)) {
-        rows.push((format!("    {}", own.filter), *own));
+    for own in filters().filter(|own| !ranked.iter().any(|it| it.ranked.name == own.name)) {
+        rows.push((format!("    {}", own.name), *own));
     }
     rows
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::parameter::Value;
 
 /// Named values for a filter's parameters.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Preset {
     /// Name on the command line.
     pub name: String,

@@ -13,7 +13,7 @@ use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use tracer::SceneId;
 
-use store::{check_strings, read_text};
+use store::read_text;
 use suite::Error;
 
 pub use accept::{Acceptance, accept_scores};
@@ -44,8 +44,7 @@ impl Baseline {
     /// Reads a file that [`Baseline::write`] wrote.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = read_text(path)?;
-        let parsed = check_strings(&text).and_then(|()| serde_json::from_str(&text));
-        let baseline: Self = parsed.map_err(|error| {
+        let baseline: Self = serde_json::from_str(&text).map_err(|error| {
             Error::Usage(format!(
                 "{}: no baseline: {error}; `shuttertruth limits accept` writes one",
                 path.display()

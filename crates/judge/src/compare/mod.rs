@@ -6,14 +6,13 @@ mod mean;
 mod noise;
 mod pairing;
 mod settings;
-mod side;
 mod sizes;
 
 use std::collections::BTreeMap;
 
 use metrics::Metric;
 use serde::Serialize;
-use suite::{Error, PROGRAM};
+use suite::{Error, PROGRAM, StoredRun};
 use tracer::Watch;
 
 use crate::bounds::Margin;
@@ -22,7 +21,6 @@ pub use change::{Basis, Change, ChangeKind, rank_changes, score_change};
 pub use mean::MeanChange;
 pub use pairing::{Pair, pair_cases};
 pub use settings::SettingChange;
-pub use side::Side;
 pub use sizes::{Agreement, FilterAtSizes, Reversal, SizeComparison, compare_sizes};
 
 use margin::apply_margins;
@@ -58,8 +56,8 @@ pub struct RunComparison {
 /// Compares two runs. Separates changes from noise by the truths' replicates and the pictures, if their files exist, and counts none
 /// below its margin; writes nothing. `watch` hears of every pair of cases.
 pub fn compare_runs(
-    first: &Side,
-    second: &Side,
+    first: &StoredRun,
+    second: &StoredRun,
     margins: &BTreeMap<Metric, Margin>,
     watch: Watch,
 ) -> Result<RunComparison, Error> {

@@ -8,12 +8,13 @@ use metrics::{
     SkillMetric, jackknife,
 };
 use store::RenderFile;
-use suite::{Error, MIN_REPLICATES, SHARP, make_oracle, sharp_picture, truths_without_pairs};
+use suite::{
+    Error, MIN_REPLICATES, SHARP, StoredRun, make_oracle, sharp_picture, truths_without_pairs,
+};
 use tracer::{Progress, TraceError, Watch};
 
 use crate::compare::change::{Change, Uncertainty};
 use crate::compare::pairing::Pair;
-use crate::compare::side::Side;
 
 /// Metrics that are compared.
 const METRICS: [Metric; 9] = [
@@ -30,7 +31,7 @@ const METRICS: [Metric; 9] = [
 
 /// Measures the change of every score of every pair.
 pub fn measure_changes(
-    sides: [&Side; 2],
+    sides: [&StoredRun; 2],
     pairs: &[Pair],
     watch: Watch,
 ) -> Result<Vec<Change>, Error> {
@@ -79,7 +80,7 @@ struct TruthParts {
 
 impl TruthParts {
     /// Reads the parts from the first run that still has all files of the truth; none if neither has.
-    fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
+    fn read(sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<Self>, Error> {
         for side in sides {
             let folder = side.folder().join(pair.first.scene.folder());
             if let Some(parts) = Self::read_below(&folder, pair, side.run.render.replicates)? {
@@ -122,7 +123,7 @@ impl TruthParts {
     }
 
     /// Scores both pictures; none if one is missing.
-    fn compare(&self, sides: [&Side; 2], pair: &Pair) -> Result<Option<PairedScores>, Error> {
+    fn compare(&self, sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<PairedScores>, Error> {
         let files = pair.files(sides, "output.exr");
         if !files.iter().all(|file| file.is_file()) {
             return Ok(None);
@@ -147,13 +148,9 @@ impl TruthParts {
 
 /// Reads the picture that a filter made.
 fn read_picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
-    let file = read_exr(path)?;
+    let mut file = read_exr(path)?;
     file.expect_finite()?;
-    let mattes = (objects.iter()).map(|object| file.plane(&format!("coverage.{object}")));
-    Ok(Picture {
-        color: file.color("")?,
-        coverage: mattes.collect::<Result<_, _>>()?,
-    })
+    Ok(Picture::take_from(&mut file, "", objects)?)
 }
 
 /// Both pictures' scores against the whole truth, and against it without each pair of replicates.

@@ -3,9 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
-use suite::{Case, CaseId, Error, Run};
-
-use crate::compare::side::Side;
+use suite::{Case, CaseId, Error, Run, StoredRun};
 
 /// A case that two runs have.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +16,7 @@ pub struct Pair<'a> {
 
 impl Pair<'_> {
     /// Returns the paths of a file of both cases.
-    pub fn files(&self, [first, second]: [&Side; 2], name: &str) -> [PathBuf; 2] {
+    pub fn files(&self, [first, second]: [&StoredRun; 2], name: &str) -> [PathBuf; 2] {
         [first.file(self.first, name), second.file(self.second, name)]
     }
 }
@@ -42,10 +40,14 @@ pub fn cases_missing_from(run: &Run, other: &Run) -> Vec<String> {
 }
 
 /// Refuses runs whose scores do not compare.
-pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(), Error> {
+pub fn check_comparable(
+    first: &StoredRun,
+    second: &StoredRun,
+    pairs: &[Pair],
+) -> Result<(), Error> {
     let refuse = |reason: String| Err(Error::Usage(format!("{}: {reason}", second.path.display())));
     let there = first.path.display();
-    let size = |side: &Side| format!("{}x{}", side.run.render.width, side.run.render.height);
+    let size = |side: &StoredRun| format!("{}x{}", side.run.render.width, side.run.render.height);
     let [expected, found] = [first, second].map(size);
     if found != expected {
         return refuse(format!(
@@ -54,8 +56,9 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
         ));
     }
     if pairs.is_empty() {
-        let scenes = |side: &Side| names(side.run.cases.iter().map(|case| case.scene.to_string()));
-        let filters = |side: &Side| {
+        let scenes =
+            |side: &StoredRun| names(side.run.cases.iter().map(|case| case.scene.to_string()));
+        let filters = |side: &StoredRun| {
             let cases = side.run.cases.iter().filter(|case| !case.is_reference);
             names(cases.map(|case| case.filter.clone()))
         };

@@ -43,7 +43,7 @@ fn list_filters(run: &Run) -> Vec<(&Sequence, &Case)> {
         .collect();
     let sequences = run.sequences.iter().filter(|own| !own.is_reference);
     let with_case =
-        sequences.filter_map(|own| Some((own, *cases.get(&(&own.scene, own.filter_id()))?)));
+        sequences.filter_map(|own| Some((own, *cases.get(&(&own.scene, own.filter.clone()))?)));
     with_case.collect()
 }
 
@@ -57,7 +57,7 @@ fn rank(
     let losses: Vec<RankedScore> = own.iter().filter_map(loss_of).collect();
     let with_means = |lost: RankedFilter| {
         let sequences: Vec<&Sequence> = (own.iter().map(|(sequence, _)| *sequence))
-            .filter(|own| own.filter == lost.name && own.alignment == lost.alignment)
+            .filter(|own| own.name == lost.name && own.alignment == lost.alignment)
             .filter(|own| own.scene.rate == lost.rate)
             .collect();
         RankedSequence {
@@ -80,7 +80,7 @@ fn loss_of((own, case): &(&Sequence, &Case)) -> Option<RankedScore> {
     Some(RankedScore {
         scene: own.scene.clone(),
         filter: case.filter.clone(),
-        name: own.filter.clone(),
+        name: own.name.clone(),
         alignment: own.alignment,
         value: PERFECT_JOD - score.value,
         floor: PERFECT_JOD - score.floor,

@@ -79,7 +79,7 @@ fn sequence_section(finding: &Finding) -> Markup {
             (verdict_head(finding))
             p {
                 @if let Some(frame) = worst_frame_text(finding) { (sentence(&frame)) " (" code { (finding.pictures.display()) } "). " }
-                "To see it play, open " code { (SEQUENCES_PAGE) } " beside run.json."
+                "To see it play, open " code { (SEQUENCES_PAGE) } " next to run.json."
             }
         }
     }

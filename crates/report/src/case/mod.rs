@@ -220,7 +220,7 @@ fn truth_facts(view: &CaseView) -> Markup {
                         (Some(_), Some(traced)) => {
                             a href=(format!("#{}", case_anchor(traced))) { (traced.scene) } ", path traced; no score of this case is against it"
                         },
-                        (Some(scene), None) => { "not in this run: measure " (scene) " beside it" },
+                        (Some(scene), None) => { "not in this run: measure " (scene) " in the same run" },
                         (None, _) => "none: the engine drew no scene of ours",
                     }
                 }

@@ -7,47 +7,39 @@ use suite::Case;
 
 use super::case_view::CaseView;
 use crate::finding_text::{Status, interval_text, limit_text};
+use crate::table::Column::Plain;
+use crate::table::grouped_table;
+
+const CAPTION: &str = "Scores, estimated without the truth's noise where there is a 95 % CI; grey: the interval, and the object that the \
+                       score is about. run.json holds more.";
 
 /// Lists the scores of all groups.
 pub fn score_rows(page: &CaseView) -> Markup {
-    let case = page.case;
     let all = Metric::all();
-    html! {
-        table.scores {
-            caption {
-                "Scores, estimated without the truth's noise where there is a 95 % CI; grey: the interval, and the object that the score is about. run.json holds more."
+    let bodies = html! {
+        @for group in Group::SHOWN {
+            tbody {
+                tr.group { th scope="rowgroup" colspan="5" { (group.title()) } }
+                @for metric in all.iter().filter(|metric| metric.group() == group) { (row(page, *metric)) }
             }
-            thead {
+        }
+        @if let Some(jitter) = &page.case.jitter {
+            tbody {
+                tr.group { th scope="rowgroup" colspan="5" { "The filter's own noise" } }
                 tr {
-                    th scope="col" { "score" }
-                    th scope="col" { "value" }
-                    th scope="col" { "floor" }
-                    th scope="col" { "limit" }
-                    th scope="col" { "what it says" }
-                }
-            }
-            @for group in Group::SHOWN {
-                tbody {
-                    tr.group { th scope="rowgroup" colspan="5" { (group.title()) } }
-                    @for metric in all.iter().filter(|metric| metric.group() == group) { (row(page, *metric)) }
-                }
-            }
-            @if let Some(jitter) = &case.jitter {
-                tbody {
-                    tr.group { th scope="rowgroup" colspan="5" { "The filter's own noise" } }
-                    tr {
-                        th scope="row" { "noise" }
-                        td { (format!("{:.0} %", 100.0 * jitter.noise_share())) }
-                        td {}
-                        td {}
-                        td.meaning {
-                            "part of the squared error that averaging takes away, by " (jitter.frames) " frames"
-                        }
+                    th scope="row" { "noise" }
+                    td { (format!("{:.0} %", 100.0 * jitter.noise_share())) }
+                    td {}
+                    td {}
+                    td.meaning {
+                        "part of the squared error that averaging takes away, by " (jitter.frames) " frames"
                     }
                 }
             }
         }
-    }
+    };
+    let columns = ["score", "value", "floor", "limit", "what it says"].map(Plain);
+    grouped_table(Some("scores"), "Scores", Some(CAPTION), &columns, &bodies)
 }
 
 fn row(page: &CaseView, metric: Metric) -> Markup {

@@ -16,10 +16,3 @@ pub fn is_undominated(own: [f64; 2], all: &[[f64; 2]]) -> bool {
     let beats = |other: &[f64; 2]| other[0] <= own[0] && other[1] <= own[1] && *other != own;
     !all.iter().any(beats)
 }
-
-#[test]
-fn a_point_that_another_one_beats_in_both_coordinates_is_dominated() {
-    let all = [[0.0, 1.0], [-2.0, 1.0], [-2.0, 0.9], [-3.0, 1.4]];
-    let found = all.map(|own| is_undominated(own, &all));
-    assert_eq!(found, [false, false, true, true]);
-}

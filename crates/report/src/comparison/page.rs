@@ -1,9 +1,9 @@
 //! Page of a comparison.
 
-use judge::{Change, ChangeKind, MeanChange, Pair, RunComparison, Side, pair_cases, rank_changes};
+use judge::{Change, ChangeKind, MeanChange, Pair, RunComparison, pair_cases, rank_changes};
 use maud::{Markup, html};
 use metrics::Metric;
-use suite::Error;
+use suite::{Error, StoredRun};
 
 use super::cells::ChangeCells;
 use super::pictures::Pictures;
@@ -19,8 +19,8 @@ const SHOWN: usize = 12;
 /// Makes the page of a comparison. Reads the pictures of what changed most and writes no file; the same runs make the same bytes.
 pub fn compare_page(
     compared: &RunComparison,
-    first: &Side,
-    second: &Side,
+    first: &StoredRun,
+    second: &StoredRun,
 ) -> Result<String, Error> {
     let ranked = rank_changes(&compared.changes);
     let both = pair_cases(&first.run, &second.run);

@@ -1,9 +1,9 @@
 //! Pictures of a case in two runs.
 
 use frame::{Plane, read_exr};
-use judge::{Pair, Side};
+use judge::Pair;
 use store::RenderFile;
-use suite::Error;
+use suite::{Error, StoredRun};
 
 use crate::pixels::png::{embed_file, embed_picture};
 
@@ -19,7 +19,7 @@ pub struct Pictures {
 
 impl Pictures {
     /// Reads the pictures; none where one of the runs has no picture of the case.
-    pub fn read(sides: [&Side; 2], pair: &Pair) -> Result<Option<Self>, Error> {
+    pub fn read(sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<Self>, Error> {
         let [first, second] = pair.files(sides, "output.png");
         let (Some(first), Some(second)) = (embed_file(&first)?, embed_file(&second)?) else {
             return Ok(None);
@@ -39,7 +39,7 @@ impl Pictures {
     }
 }
 
-fn change(sides: [&Side; 2], pair: &Pair) -> Result<Option<String>, Error> {
+fn change(sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<String>, Error> {
     let files = pair.files(sides, "errors.exr");
     if !files.iter().all(|file| file.is_file()) {
         return Ok(None);

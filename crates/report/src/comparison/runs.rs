@@ -3,9 +3,8 @@
 use std::collections::HashSet;
 
 use frame::Alignment;
-use judge::Side;
 use maud::{Markup, html};
-use suite::{Case, Run};
+use suite::{Case, Run, StoredRun};
 use tracer::SceneId;
 
 use crate::run_facts::facts;
@@ -13,7 +12,7 @@ use crate::table::Column::{Plain, Text};
 use crate::table::scroll_table;
 
 /// Lists the settings of both runs, and the truths that they share.
-pub fn both_runs(first: &Side, second: &Side) -> Markup {
+pub fn both_runs(first: &StoredRun, second: &StoredRun) -> Markup {
     let rows = facts(&first.run).into_iter().zip(facts(&second.run));
     let settings = html! {
         tr {

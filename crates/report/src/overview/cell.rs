@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_tell_005_from_012_beside_an_outlier() {
+    fn colours_tell_005_from_012_despite_an_outlier() {
         let scores = [
             0.02, 0.04, 0.05, 0.06, 0.08, 0.1, 0.12, 0.15, 0.2, 0.25, 9.0,
         ];

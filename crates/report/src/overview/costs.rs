@@ -25,7 +25,7 @@ pub fn costs(table: &CaseTable) -> Markup {
             h2 { "Costs" }
             @match &table.bench {
                 None => p {
-                    "Nothing was timed beside this run. " code { "shuttertruth bench" }
+                    "This run has no bench.json. " code { "shuttertruth bench" }
                     ", with the run's folder, times its filters; then report again."
                 },
                 Some(bench) => {

@@ -3,16 +3,14 @@
 pub mod bench_file;
 mod cell;
 pub mod costs;
-mod headlines;
 mod pareto;
 mod score_table;
 mod winners;
 
 use costs::costs;
-use headlines::{TABLE_SCORES, better};
 use judge::{Level, lag_text};
 use maud::{Markup, html};
-use metrics::Metric;
+use metrics::{Ideal, Metric};
 use score_table::score_table;
 use tracer::SceneId;
 use winners::{sequence_winners, winners};
@@ -24,6 +22,19 @@ use crate::finding_text::Tally;
 use crate::numbers::counted;
 use crate::pixels::scene_files::find_traced;
 use crate::run_facts::provenance;
+
+/// Scores with the titles of their tables, in the order of the page.
+const TABLE_SCORES: [(Metric, &str); 9] = [
+    (Metric::FLIP, "FLIP"),
+    (Metric::SKILL, "Skill"),
+    (Metric::CommonFlip, "FLIP*"),
+    (Metric::SUBFRAMES, "N_eq"),
+    (Metric::GROWTH, "Growth"),
+    (Metric::LOSS, "Loss"),
+    (Metric::Bleed, "Bleed"),
+    (Metric::LABEL, "Label TV"),
+    (Metric::PSNR, "PSNR"),
+];
 
 /// Shows the scores of all cases, costs, and what the run depended on. `thumbnails` are addresses of the scenes' truths.
 pub fn overview(table: &CaseTable, views: &[CaseView], thumbnails: &[String]) -> Markup {
@@ -104,7 +115,7 @@ fn engines(table: &CaseTable) -> Markup {
             p.note {
                 strong { (case.scene) } ": frame and truth are not ours. The truth is the " (drawn.truth_text()) "."
                 @if let Some(traced) = find_traced(table.run, case) {
-                    " Ours is that of " strong { (traced.scene) } ", path traced; the pictures of both stand side by side."
+                    " Ours is that of " strong { (traced.scene) } ", path traced; the pictures of both can be compared."
                 }
             }
         }
@@ -145,5 +156,14 @@ fn key(is_checked: bool) -> Markup {
             }
             "Italics and open marks: references. Arrows: beyond the scale. Click a heading to sort."
         }
+    }
+}
+
+/// Names the values that are good.
+fn better(metric: Metric) -> String {
+    match metric.ideal() {
+        Ideal::Lowest => "low is good".to_owned(),
+        Ideal::Highest => "high is good".to_owned(),
+        Ideal::Target(target) => format!("{target} is good"),
     }
 }

@@ -42,7 +42,7 @@ fn rank_rows<'a>(table: &CaseTable<'a>, metric: Metric) -> Vec<Vec<Row<'a>>> {
         .filter(|own| own.metric == metric && Some(own.rate) == rate)
         .collect();
     let row = |filter: &FilterId| {
-        let overall = means.iter().find(|own| own.filter_id() == *filter).copied();
+        let overall = means.iter().find(|own| own.filter == *filter).copied();
         let of_rate = |case: &Case| rate.is_none_or(|rate| case.rate == rate);
         let scores = (table.cases_of(filter)).filter(|(_, case)| of_rate(case));
         let only = mean(scores.filter_map(|(_, case)| case.estimate(metric)));

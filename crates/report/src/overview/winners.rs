@@ -56,7 +56,7 @@ pub fn sequence_winners(run: &Run) -> Markup {
                 }
             }
             p.note {
-                "Sequences are ranked by JOD: " (RANKED_BY.row().meaning) ". " code { (SEQUENCES_PAGE) } " beside run.json shows all of their scores."
+                "Sequences are ranked by JOD: " (RANKED_BY.row().meaning) ". " code { (SEQUENCES_PAGE) } " next to run.json shows all of their scores."
             }
         }
     }

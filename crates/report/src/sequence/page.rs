@@ -115,7 +115,7 @@ fn rates(own: f64) -> Vec<f64> {
 }
 
 fn name(own: &Sequence) -> String {
-    format!("{} / {} ({})", own.scene, own.filter, own.alignment)
+    format!("{} / {} ({})", own.scene, own.name, own.alignment)
 }
 
 /// Lists what the player needs of a sequence. Paths are relative to the page; errors are roots of squares in thousandths of white.

@@ -5,6 +5,8 @@ use maud::{Markup, html};
 use metrics::SequenceMetric;
 use suite::{Run, SceneMean};
 
+use crate::table::{Column, scroll_table};
+
 /// Makes a table per shutter; nothing where the run has one scene, whose own table is ranked.
 pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
     let groups = match scenes {
@@ -21,28 +23,18 @@ pub fn ranking_tables(run: &Run, scenes: usize) -> Markup {
             }
             @for group in &groups {
                 h3 { (group[0].ranked.alignment) " shutter" @if let Some(rate) = group[0].ranked.rate { ", " (rate.text()) } }
-                (metric_table(Some("worst scene"), &html! { @for own in group { (row(own, scenes)) } }))
+                (metric_table("Means over scenes", Some("worst scene"), &html! { @for own in group { (row(own, scenes)) } }))
             }
         }
     }
 }
 
 /// Writes a table of filters with a column for every score of sequences, and perhaps one more.
-pub fn metric_table(last: Option<&str>, rows: &Markup) -> Markup {
-    html! {
-        div.scroll {
-            table {
-                thead {
-                    tr {
-                        th { "filter" }
-                        @for metric in SequenceMetric::ALL { th title=(metric.row().meaning) { (metric.row().name) } }
-                        @if let Some(title) = last { th { (title) } }
-                    }
-                }
-                tbody { (rows) }
-            }
-        }
-    }
+pub fn metric_table(label: &str, last: Option<&'static str>, rows: &Markup) -> Markup {
+    let metrics = SequenceMetric::ALL.iter().map(|own| own.row().name);
+    let columns = ["filter"].into_iter().chain(metrics).chain(last);
+    let columns: Vec<Column> = columns.map(Column::Plain).collect();
+    scroll_table(None, label, None, &columns, rows)
 }
 
 fn row(own: &RankedSequence, scenes: usize) -> Markup {
@@ -50,7 +42,7 @@ fn row(own: &RankedSequence, scenes: usize) -> Markup {
     let (scene, worst) = &ranked.worst;
     html! {
         tr {
-            th { (ranked.rank_text()) " " (ranked.name) }
+            th scope="row" { (ranked.rank_text()) " " (ranked.name) }
             @for (metric, mean) in &own.means { td { (mean_text(*metric, mean.as_ref())) } }
             td {
                 (scene) " " (RANKED_BY.shown_text(*worst))

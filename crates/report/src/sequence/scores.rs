@@ -22,7 +22,7 @@ pub fn score_tables(run: &Run, findings: &[Finding]) -> Markup {
     html! {
         @for (scene, alignment) in groups {
             h3 { (scene) ", " (alignment) " shutter" }
-            (metric_table(None, &html! {
+            (metric_table("Scores over time", None, &html! {
                 @for (index, rank, own) in order_rows(run, scene, alignment) { (row(index, &rank, own, findings)) }
             }))
         }
@@ -43,7 +43,7 @@ fn order_rows<'a>(
     let ranked: Vec<RankedSequence> = rank_sequences_on(run, scene).concat();
     let place = |own: &Sequence| {
         let mut ranked = ranked.iter().map(|own| &own.ranked);
-        ranked.position(|it| it.name == own.filter && it.alignment == own.alignment)
+        ranked.position(|it| it.name == own.name && it.alignment == own.alignment)
     };
     let all = run.sequences.iter().enumerate();
     let rows = all.filter(|(_, own)| own.scene == *scene && own.alignment == alignment);
@@ -60,10 +60,10 @@ fn order_rows<'a>(
 fn row(index: usize, rank: &str, own: &Sequence, findings: &[Finding]) -> Markup {
     html! {
         tr {
-            th {
+            th scope="row" {
                 (rank)
                 a href=(format!("#{index}")) {
-                    @if own.is_reference { i { (own.filter) } } @else { (own.filter) }
+                    @if own.is_reference { i { (own.name) } } @else { (own.name) }
                 }
             }
             @for metric in SequenceMetric::ALL { (cell(own, metric, finding_about(own, metric, findings))) }
@@ -93,7 +93,7 @@ fn finding_about<'a>(
 ) -> Option<&'a Finding> {
     findings.iter().find(|finding| {
         let key = (finding.metric, &finding.scene, &finding.filter);
-        !own.is_reference && key == (Metric::Sequence(metric), &own.scene, &own.filter)
+        !own.is_reference && key == (Metric::Sequence(metric), &own.scene, &own.name)
     })
 }
 

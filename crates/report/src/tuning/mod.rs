@@ -1,21 +1,19 @@
 //! Page of a tuning: its choice, its trials, and how far to trust them.
 
 mod choice;
-mod convergence;
 mod folder;
-mod folds;
-mod front;
-mod importance;
+mod parameters;
 mod scenes;
-mod settings;
-mod slices;
-
-use maud::{Markup, html};
-
-use crate::document::{Document, Siblings};
-use suite::Error;
+mod trials;
 
 pub use folder::TuneFolder;
+use maud::{Markup, html};
+use suite::Error;
+use tune::{JournalHeader, Tuning};
+
+use crate::document::{Document, Siblings};
+use crate::table::Column::{Plain, Text};
+use crate::table::scroll_table;
 
 /// Writes the page of a folder that `tune` made. The same folder makes the same bytes.
 pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
@@ -23,18 +21,18 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
         @if let Some(tuning) = &folder.tuning { (choice::summary(tuning)) }
         @if let Some(tuning) = &folder.tuning { (choice::values(tuning)) }
         @if !folder.trials.is_empty() {
-            (front::front_section(folder))
-            (convergence::convergence(&folder.trials))
+            (trials::front_section(folder))
+            (trials::convergence(&folder.trials))
         }
         @if let Some(tuning) = &folder.tuning {
-            (folds::folds(&tuning.folds))
+            (scenes::folds(&tuning.folds))
             (scenes::tuned_on(tuning))
             (scenes::held_out(&tuning.held_out))
         }
-        @if let Some(found) = &folder.sensitivity { (importance::importance(found)) }
-        (slices::slices(folder))
+        @if let Some(found) = &folder.sensitivity { (parameters::importance(found)) }
+        (parameters::slices(folder))
         @if let Some(tuning) = &folder.tuning { (failures(tuning)) }
-        @if let Some(header) = &folder.header { (settings::settings(header)) }
+        @if let Some(header) = &folder.header { (settings(header)) }
     };
     let (title, subtitle) = match &folder.header {
         Some(header) => (
@@ -62,7 +60,7 @@ pub fn tuning_page(folder: &TuneFolder) -> Result<String, Error> {
     Ok(document.render())
 }
 
-fn failures(tuning: &tune::Tuning) -> Markup {
+fn failures(tuning: &Tuning) -> Markup {
     html! {
         @if !tuning.failed.is_empty() {
             section {
@@ -71,6 +69,45 @@ fn failures(tuning: &tune::Tuning) -> Markup {
                     @for (trial, reason) in &tuning.failed { li { "trial " (trial) ": " (reason) } }
                 }
             }
+        }
+    }
+}
+
+/// Lists all that the trials depended on, and the hashes of the truths.
+fn settings(header: &JournalHeader) -> Markup {
+    let limit = |limit: Option<f64>| match limit {
+        Some(limit) => format!("{limit} times the start's"),
+        None => "none".to_owned(),
+    };
+    let racing = match header.race {
+        true => "clearly worse candidates are dropped",
+        false => "none",
+    };
+    let measured: Vec<&str> = header.objectives.iter().map(|it| it.name()).collect();
+    let facts = [
+        ("program", header.program.clone()),
+        ("filter", format!("{}:{}", header.filter, header.start)),
+        ("measured", measured.join(", ")),
+        ("cost at most", limit(header.cost_at_most)),
+        ("lateral bleed at most", limit(header.bleed_at_most)),
+        ("racing", racing.to_owned()),
+        ("seed of the search", header.seed.to_string()),
+    ];
+    let scenes = html! {
+        @for (scene, hash) in &header.scenes { tr { th scope="row" { (scene) } td.text { code { (hash) } } } }
+    };
+    html! {
+        section.provenance {
+            h2 { "Provenance" }
+            dl {
+                @for (term, text) in facts { div { dt { (term) } dd { (text) } } }
+                @for (name, value) in &header.values {
+                    @if !header.vary.contains_key(name) { div { dt { (name) } dd { (value) ", not varied" } } }
+                }
+            }
+            (scroll_table(Some("stacked"), "Scenes", Some("Scenes in the order in which candidates meet them"), &[
+                Plain("scene"), Text("hash of the truth"),
+            ], &scenes))
         }
     }
 }

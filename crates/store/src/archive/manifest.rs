@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder::is_below;
 use crate::gather::MAX_TAKEN_BYTES;
-use crate::json_strings::check_strings;
 use crate::render_file::{RenderFile, RenderPath};
 
 /// Version of the layout of a pack; it rises when a reader of the old one would misread the new one.
@@ -60,7 +59,6 @@ impl Manifest {
     pub(super) fn parse(bytes: &[u8], archive: u64) -> Result<Self, String> {
         let broken = |error: String| format!("{MANIFEST} is no manifest of a pack: {error}");
         let text = std::str::from_utf8(bytes).map_err(|error| broken(error.to_string()))?;
-        check_strings(text).map_err(|error| broken(error.to_string()))?;
         check_format(text).map_err(broken)?;
         let manifest: Self =
             serde_json::from_str(text).map_err(|error| broken(error.to_string()))?;

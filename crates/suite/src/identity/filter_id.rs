@@ -3,15 +3,18 @@
 use std::fmt;
 
 use frame::Alignment;
+use serde::{Deserialize, Serialize};
 
 /// A filter preset with one form of its input, or a reference with one shutter. As a text: `jump_flood:paper`, and of a reference, which
 /// every alignment has of its own, `identity (trailing)`.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct FilterId {
-    /// True of a reference: `identity`, `scatter_oracle`, `accumulate:N`.
-    pub is_reference: bool,
     /// `jump_flood:paper`, followed by what is not as usual.
+    #[serde(rename = "filter")]
     pub name: String,
+    /// True of a reference: `identity`, `scatter_oracle`, `accumulate:N`.
+    #[serde(rename = "bar")]
+    pub is_reference: bool,
     /// Shutter alignment that it is scored against.
     pub alignment: Alignment,
 }

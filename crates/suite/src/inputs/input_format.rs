@@ -18,6 +18,7 @@ use super::velocity_format::VelocityFormat;
 use crate::{Error, Monitor};
 
 /// A kind of input, and the forms that it can have.
+#[derive(Serialize)]
 pub struct InputKind {
     /// Name, as in `velocity=float16`.
     pub name: &'static str,
@@ -28,12 +29,14 @@ pub struct InputKind {
 }
 
 /// One form of a kind of input.
+#[derive(Serialize)]
 pub struct InputForm {
     /// Name, as in `velocity=float16`.
     pub name: &'static str,
     /// What it is, in a sentence.
     pub help: &'static str,
     /// The frame in this form, and in the full form otherwise.
+    #[serde(skip)]
     pub format: InputFormat,
 }
 

@@ -1,7 +1,7 @@
 //! Frames that are rendered again in another form.
 
 use frame::Frame;
-use tracer::{PixelGrid, RenderSettings, Scene, TraceError, Watch, trace_frame_on};
+use tracer::{PixelGrid, RenderSettings, Scene, TraceError, Watch, trace_frame_part};
 
 use crate::{Error, Monitor};
 
@@ -20,7 +20,7 @@ impl Renderer<'_> {
         grid: &PixelGrid,
     ) -> Result<Frame, Error> {
         self.watch(what, |watch| {
-            trace_frame_on(self.scene, settings, grid, watch)
+            trace_frame_part(self.scene, settings, grid, None, watch)
         })
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use filters::{Convention, FilterError, Gpu};
+use filters::{Convention, FilterError};
 use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
@@ -11,11 +11,11 @@ use tracer::Defocus;
 
 use super::dilated_velocity::read_dilated_velocity;
 use super::pictures::write_case;
-use super::plan::RunPlan;
 use super::planned_case::{PictureSource, PlannedCase};
 use super::probes::{FilterOutput, blur_noise_frames, blur_with_probes};
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
+use super::scene::SceneContext;
 use super::stored_frames::StoredFrame;
 use crate::Error;
 use crate::engine_scene::EngineScene;
@@ -36,9 +36,7 @@ const OTHER_SHUTTER: &str = "the engine drew no truth of the run's common shutte
 
 /// Everything that cases of one scene and one shutter are measured with.
 pub(crate) struct CaseContext<'a> {
-    pub plan: &'a RunPlan,
-    pub gpu: Option<&'a Gpu>,
-    pub scene: RunScene<'a>,
+    pub scene: &'a SceneContext<'a>,
     pub frame: &'a Frame,
     /// The frame in the forms in which filters get it.
     pub stored_frames: &'a [StoredFrame],
@@ -89,16 +87,16 @@ impl MeasuredPicture {
 impl CaseContext<'_> {
     /// Makes the picture, measures it, and writes it with its error maps; returns the names of the files as well.
     pub fn measure(&self, planned: &PlannedCase) -> Result<(Case, Vec<String>), Error> {
-        let measured = match planned.source {
+        let measured = match &planned.source {
             PictureSource::Identity => self.measure_reference(self.frame.cropped().picture())?,
             PictureSource::ScatterOracle => {
                 self.measure_reference(self.references.oracle.clone())?
             }
             PictureSource::Accumulation(subframes) => {
-                let ladder = (self.read_rung)(subframes)?;
+                let ladder = (self.read_rung)(*subframes)?;
                 self.measure_reference(Picture::mean(&ladder.rungs[0].halves))?
             }
-            PictureSource::Filter(choice, input) => self.measure_filter(choice, input)?,
+            PictureSource::Filter(choice, input) => self.measure_filter(choice, *input)?,
             PictureSource::Engine(scene) => self.measure_engine(scene)?,
         };
         self.write(planned, measured)
@@ -112,14 +110,13 @@ impl CaseContext<'_> {
     /// Measures the engine's own picture, with intervals as the pictures of filters have them.
     fn measure_engine(&self, scene: &EngineScene) -> Result<MeasuredPicture, Error> {
         let picture = scene.read_picture(self.frame)?;
-        let measure = |reference: &Reference| -> Result<Measurement, MeasureError> {
+        let (measurement, intervals) = self.measure_with_intervals(|reference| {
             let mut measurement = reference.measure(&picture)?;
             measurement.scores.take_out_mattes(NO_MATTES);
             Ok(measurement)
-        };
-        let measurement = measure(&self.references.reference)?;
+        })?;
         Ok(MeasuredPicture {
-            intervals: self.measure_intervals(&measurement, measure)?,
+            intervals,
             ..MeasuredPicture::new(picture, measurement)
         })
     }
@@ -135,18 +132,22 @@ impl CaseContext<'_> {
             stored.expect("the frame was stored in every form of the plan");
         // The first frame stands in for the one before it.
         let before = before.as_ref().unwrap_or(frame);
-        let choice = &self.fit(choice, input);
         let picture = self.picture_size();
-        let mut runner = Runner::new(self.gpu, choice, frame.size(), self.plan.monitor)?;
-        let mut wide = Runner::with_wide_colors(self.gpu, choice, frame.size());
+        let mut runner = Runner::new(
+            self.scene.gpu,
+            choice,
+            frame.size(),
+            self.scene.plan.monitor,
+        )?;
+        let mut wide = Runner::with_wide_colors(self.scene.gpu, choice, frame.size());
         let mut output = blur_with_probes(
             &mut runner,
             wide.as_mut(),
             frame,
-            (before, self.scene.frame_index()),
+            (before, self.scene.scene.id().frame),
             picture,
         )
-        .map_err(|error| name_scene(error, self.scene))?;
+        .map_err(|error| name_scene(error, self.scene.scene))?;
         let pass = self.pass_behind(input);
         if let Some(pass) = pass {
             output.picture = pass.apply(&output.picture);
@@ -157,10 +158,10 @@ impl CaseContext<'_> {
             false => None,
         };
         let jitter = self.measure_jitter(&mut runner, frame, pass)?;
-        let measurement = measure_output(&self.references.reference, &output)?;
+        let (measurement, intervals) =
+            self.measure_with_intervals(|reference| measure_output(reference, &output))?;
         Ok(MeasuredPicture {
-            intervals: self
-                .measure_intervals(&measurement, |reference| measure_output(reference, &output))?,
+            intervals,
             nonlinearity: Some(output.nonlinearity),
             picture: output.picture,
             measurement,
@@ -176,35 +177,23 @@ impl CaseContext<'_> {
 
     /// Returns columns and rows of the picture.
     fn picture_size(&self) -> [u32; 2] {
-        let band = 2 * self.frame.guard_band;
-        [
-            self.frame.color.width - band,
-            self.frame.color.height - band,
-        ]
+        self.references.truth.size().into()
     }
 
-    /// Returns the filter with its lengths in pixels of the picture that it gets, which may be smaller than the plan's.
-    fn fit(&self, choice: &FilterChoice, input: InputFormat) -> FilterChoice {
-        let picture = self.picture_size();
-        match input.scale.blurred_size(picture) {
-            blurred if blurred == picture => choice.clone(),
-            [width, _] => self.plan.scaled_to(choice, width),
-        }
-    }
-
-    /// Measures the intervals of the scores; empty where none are asked for.
-    fn measure_intervals(
+    /// Measures a picture, with the intervals of its scores; these are empty where none are asked for.
+    fn measure_with_intervals(
         &self,
-        measurement: &Measurement,
         measure: impl Fn(&Reference) -> Result<Measurement, MeasureError>,
-    ) -> Result<Intervals, MeasureError> {
+    ) -> Result<(Measurement, Intervals), MeasureError> {
+        let measurement = measure(&self.references.reference)?;
         let without_pairs = (self.references.without_pairs.iter())
             .map(|reference| Ok(measure(reference)?.scores))
             .collect::<Result<Vec<_>, MeasureError>>()?;
-        Ok(match without_pairs.as_slice() {
+        let intervals = match without_pairs.as_slice() {
             [] => Intervals::new(),
             without_pairs => intervals(&measurement.scores, without_pairs, Metric::all()),
-        })
+        };
+        Ok((measurement, intervals))
     }
 
     /// Separates the filter's noise from its other errors; none where it has no noise, or too few frames are asked for.
@@ -214,12 +203,12 @@ impl CaseContext<'_> {
         frame: &Frame,
         pass: Option<&Defocus>,
     ) -> Result<Option<Jitter>, Error> {
-        if self.plan.jitter_frames < 2 {
+        if self.scene.plan.jitter_frames < 2 {
             return Ok(None);
         }
-        let frames = self.plan.jitter_frames;
+        let frames = self.scene.plan.jitter_frames;
         let outputs = blur_noise_frames(runner, frame, frames, self.picture_size())
-            .map_err(|error| name_scene(error, self.scene))?;
+            .map_err(|error| name_scene(error, self.scene.scene))?;
         let outputs = outputs.map(|outputs| match pass {
             None => outputs,
             Some(pass) => outputs
@@ -250,26 +239,26 @@ impl CaseContext<'_> {
         };
         let folder = planned.id.folder();
         let files = write_case(
-            &self.plan.out.join(&folder),
+            &self.scene.plan.out.join(&folder),
             self.frame,
             (picture, measured.dilated_velocity.as_ref()),
             measurement,
         )?;
-        let choice = match planned.source {
-            PictureSource::Filter(choice, input) => Some(self.fit(choice, input)),
+        let choice = match &planned.source {
+            PictureSource::Filter(choice, _) => Some(choice),
             _ => None,
         };
-        let choice = choice.as_ref();
         let command = choice.and_then(|choice| choice.filter.command.as_ref());
         let convention = choice.map(|choice| choice.filter.convention);
         let convention = convention.filter(|it| *it != Convention::default());
         let truth = self.references.truth;
+        let (family, exposes) = self.scene.scene.describe();
         let case = Case {
             id: planned.id.clone(),
-            family: self.scene.family(),
-            exposes: self.scene.exposes(),
-            drawn: self.scene.drawn(),
-            rate: self.scene.id().rate,
+            family,
+            exposes,
+            drawn: self.scene.scene.drawn(),
+            rate: self.scene.scene.id().rate,
             exposure: self.frame.exposure,
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),

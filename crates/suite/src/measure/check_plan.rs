@@ -14,7 +14,7 @@ impl RunPlan {
     pub fn check(&self) -> Result<(), Error> {
         self.check_frames()?;
         for scene in self.all_scenes() {
-            for case in PlannedCase::all(self, &self.filters, scene) {
+            for case in PlannedCase::all(self, scene) {
                 refuse_long_names(&case.id.folder())?;
             }
         }

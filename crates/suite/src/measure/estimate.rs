@@ -5,7 +5,7 @@ use std::convert::Infallible;
 
 use filters::Gpu;
 use frame::Alignment;
-use store::LADDER;
+use store::{LADDER, look_up_alone};
 use tracer::RenderSettings;
 
 use super::frames::visit_frames;
@@ -85,12 +85,12 @@ impl SceneJobs {
 
 /// Estimates a run: cases and truths that lie in the folder take no time. Does not read their pictures, and measures nothing.
 pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
-    let filters = plan.scaled_filters();
     let pixels = count_pixels(&plan.render);
     let mut estimate = RunEstimate::default();
-    let visited = visit_frames(plan, &filters, gpu, |scene| {
-        let planned = PlannedCase::all(plan, &filters, scene.scene);
-        let has_record = |case: &&PlannedCase| !plan.no_cache && scene.has_record(case);
+    let visited = visit_frames(plan, gpu, |scene| {
+        let planned = PlannedCase::all(plan, scene.scene);
+        let has_record =
+            |case: &&PlannedCase| !plan.no_cache && scene.read_case(case, look_up_alone).is_some();
         let read_back = planned.iter().filter(has_record).count();
         estimate.cases += planned.len();
         estimate.read_back += read_back;
@@ -125,7 +125,7 @@ pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let all = plan.all_scenes().into_iter();
     let jobs = all.map(|scene| {
         let memory = scene.memory(&plan.render, truths, plan.inputs.len());
-        let planned = PlannedCase::all(plan, &plan.filters, scene);
+        let planned = PlannedCase::all(plan, scene);
         SceneJobs {
             render: (scene.traced()).map(|_| JobCost {
                 cpu_seconds,

@@ -6,25 +6,23 @@ use store::hash_program;
 use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use super::scene::SceneContext;
-use crate::filter_choice::FilterChoice;
 
 /// Visits every scene of a plan, and behind each its later frames, of which one at a time is in memory.
 pub(super) fn visit_frames<E>(
     plan: &RunPlan,
-    filters: &[FilterChoice],
     gpu: Option<&Gpu>,
     mut visit: impl FnMut(&SceneContext) -> Result<(), E>,
 ) -> Result<(), E> {
     let program = hash_program();
     let program = program.as_deref();
     for scene in plan.all_scenes() {
-        visit(&SceneContext::new(plan, filters, gpu, program, scene))?;
+        visit(&SceneContext::new(plan, gpu, program, scene))?;
         for frame in 1..plan.frames.count {
             // What an engine drew has one frame; plans with more are refused.
             if let RunScene::Traced(scene) = scene {
                 let later = scene.at_frame(frame);
                 let later = RunScene::Traced(&later);
-                visit(&SceneContext::new(plan, filters, gpu, program, later))?;
+                visit(&SceneContext::new(plan, gpu, program, later))?;
             }
         }
     }

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use filters::FilterError;
-use frame::{Accumulation, Alignment, Frame, Ladder, Truth};
+use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::{ColorReference, Reference};
 use store::put;
-use tracer::{Defocus, Progress, Scene, Watch};
+use tracer::{Defocus, Progress, Scene, TraceError, Watch};
 
 use super::case::{CaseContext, CommonTruth};
 use super::plan::RunPlan;
@@ -31,17 +31,14 @@ impl SceneContext<'_> {
         &self,
         missing: &[&PlannedCase],
         frame: &Frame,
-        advance: &dyn Fn(u64),
         watch: Watch,
     ) -> Result<Vec<Result<Case, Failure>>, Error> {
-        advance(self.render_steps());
         if missing.is_empty() {
             return Ok(Vec::new());
         }
-        let viewing = frame.display.into();
         let is_needed = |input: &&InputFormat| missing.iter().any(|case| case.id.input == **input);
         let inputs: Vec<InputFormat> = self.plan.inputs.iter().filter(is_needed).copied().collect();
-        let stored_frames = store_frames(self.plan, self.filters, self.scene, &inputs, frame)?;
+        let stored_frames = store_frames(self.plan, self.scene, &inputs, frame)?;
         let depth_of_field = self.prepare_passes(&inputs, frame)?;
         let common_alignment = self.plan.common_alignment();
         let has_others = (missing.iter()).any(|case| case.id.alignment != common_alignment);
@@ -52,54 +49,36 @@ impl SceneContext<'_> {
         let mut cases = BTreeMap::new();
         for alignment in alignments {
             let is_common = alignment == common_alignment;
-            let own: Vec<(usize, &&PlannedCase)> = (missing.iter().enumerate())
-                .filter(|(_, case)| case.id.alignment == alignment)
-                .collect();
+            let own = missing.iter().copied().enumerate();
+            let own = own.filter(|(_, case)| case.id.alignment == alignment);
+            let own: Vec<(usize, &PlannedCase)> = own.collect();
             if own.is_empty() && !is_common {
                 continue;
             }
             let truth = self.read_truth(alignment)?;
             if own.is_empty() {
                 // Only FLIP is measured against it, which needs no ladder and no oracle.
+                let viewing = frame.display.into();
                 common = Some(Reference::new(&frame.cropped(), &truth, None, &viewing)?.into());
                 continue;
             }
-            let has_filters = own.iter().any(|(_, case)| !case.id.is_reference);
-            let without_pairs = match has_filters && self.plan.intervals {
-                true => self.truths_without_pairs(alignment)?,
-                false => Vec::new(),
-            };
-            let references = TruthReferences::new(
+            let without_pairs = self.truths_without_pairs(alignment, &own)?;
+            let references = self.references(frame, &truth, &without_pairs)?;
+            let context = CaseContext {
+                scene: self,
                 frame,
-                &truth,
-                || self.read_sharp(&truth),
-                self.read_rungs(&truth),
-                &without_pairs,
-                &viewing,
-            )?;
+                stored_frames: &stored_frames,
+                depth_of_field: depth_of_field.as_ref(),
+                references: &references,
+                read_rung: &|subframes| self.read_rung(&truth, subframes),
+                common: match &common {
+                    _ if is_common => CommonTruth::Own,
+                    Some(reference) => CommonTruth::Other(reference),
+                    None => CommonTruth::Missing,
+                },
+            };
             for (at, planned) in own {
-                let progress = Progress {
-                    done: cases.len() as u64,
-                    total: missing.len() as u64,
-                };
-                if watch(progress).is_break() {
-                    return Err(tracer::TraceError::Cancelled.into());
-                }
-                let context = CaseContext {
-                    plan: self.plan,
-                    gpu: self.gpu,
-                    scene: self.scene,
-                    frame,
-                    stored_frames: &stored_frames,
-                    depth_of_field: depth_of_field.as_ref(),
-                    references: &references,
-                    read_rung: &|subframes| self.read_rung(&truth, subframes),
-                    common: match &common {
-                        _ if is_common => CommonTruth::Own,
-                        Some(reference) => CommonTruth::Other(reference),
-                        None => CommonTruth::Missing,
-                    },
-                };
+                check_watch(watch, cases.len(), missing.len())?;
                 cases.insert(at, self.measure_case(&context, planned)?);
             }
             if is_common && has_others {
@@ -107,6 +86,20 @@ impl SceneContext<'_> {
             }
         }
         Ok(cases.into_values().collect())
+    }
+
+    /// Prepares a truth for measuring. All pictures of a scene are seen at the exposures of its frame.
+    fn references<'t>(
+        &self,
+        frame: &Frame,
+        truth: &'t Truth,
+        without_pairs: &'t [Truth],
+    ) -> Result<TruthReferences<'t>, Error> {
+        let read_sharp = || Ok(self.read_rung(truth, SHARP)?.rungs.remove(0));
+        let rungs = self.scene.rungs(self.plan.ladders).iter();
+        let rungs = rungs.map(|rung| self.read_rung(truth, *rung));
+        let viewing = frame.display.into();
+        TruthReferences::new(frame, truth, read_sharp, rungs, without_pairs, &viewing)
     }
 
     /// Prepares the pass of depth of field behind filters; none where all of them come last.
@@ -133,7 +126,7 @@ impl SceneContext<'_> {
             Ok(measured) => measured,
             Err(error) => return Ok(Err(self.failure(error, planned)?)),
         };
-        if let Some(key) = self.case_key(planned) {
+        if let Some(key) = self.case_keys(planned).into_iter().next() {
             put(&self.case_record(planned), key, &files, &case)?;
         }
         Ok(Ok(case))
@@ -175,17 +168,6 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Reads the rung that is the sharp picture of the shutter's middle, or renders it.
-    fn read_sharp(&self, truth: &Truth) -> Result<Accumulation, Error> {
-        Ok(self.read_rung(truth, SHARP)?.rungs.remove(0))
-    }
-
-    /// Reads the rungs of the ladder of a truth, one after another.
-    fn read_rungs(&self, truth: &Truth) -> impl Iterator<Item = Result<Ladder, Error>> {
-        let rungs = self.scene.rungs(self.plan.ladders);
-        rungs.iter().map(|rung| self.read_rung(truth, *rung))
-    }
-
     /// Reads a rung of the ladder of a truth, or renders it.
     fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
         match self.scene {
@@ -201,15 +183,35 @@ impl SceneContext<'_> {
         LadderFiles::new(scene, &self.plan.render, truth, &self.plan.out)
     }
 
-    /// Makes the truths of an alignment without one pair of replicates each. None of what an engine drew: sub-frames are no random
-    /// samples, and those without some of them have holes.
-    fn truths_without_pairs(&self, alignment: Alignment) -> Result<Vec<Truth>, Error> {
+    /// Makes the truths of an alignment without one pair of replicates each, where cases of filters get intervals. None of what an engine
+    /// drew: sub-frames are no random samples, and those without some of them have holes.
+    fn truths_without_pairs(
+        &self,
+        alignment: Alignment,
+        cases: &[(usize, &PlannedCase)],
+    ) -> Result<Vec<Truth>, Error> {
+        let has_filters = cases.iter().any(|(_, case)| !case.id.is_reference);
         let RunScene::Traced(scene) = self.scene else {
             return Ok(Vec::new());
         };
+        if !has_filters || !self.plan.intervals {
+            return Ok(Vec::new());
+        }
         let RunPlan { render, out, .. } = self.plan;
         let files = TruthFiles::new(scene, render, alignment, out, self.plan.monitor);
         let replicates = files.replicates(0..render.replicates)?;
         Ok(truths_without_pairs(&replicates)?)
+    }
+}
+
+/// Notes how many cases are measured; ends the work where the caller interrupts it.
+fn check_watch(watch: Watch, done: usize, total: usize) -> Result<(), TraceError> {
+    let progress = Progress {
+        done: done as u64,
+        total: total as u64,
+    };
+    match watch(progress).is_break() {
+        true => Err(TraceError::Cancelled),
+        false => Ok(()),
     }
 }

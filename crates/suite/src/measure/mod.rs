@@ -3,7 +3,6 @@
 pub mod case;
 mod check_plan;
 pub mod dilated_velocity;
-pub mod earlier;
 pub mod estimate;
 mod frames;
 mod missing_cases;

@@ -79,10 +79,7 @@ fn output_file(
     dilated_velocity: Option<&Vectors>,
 ) -> ExrFile {
     let mut file = ExrFile::new(output.color.width, output.color.height);
-    file.push_color("", &output.color);
-    for (object, matte) in objects.iter().zip(&output.coverage) {
-        file.push_plane(&format!("coverage.{object}"), matte);
-    }
+    output.push(&mut file, "", objects);
     if let Some(velocity) = dilated_velocity {
         for (axis, name) in ["dilated.X", "dilated.Y"].into_iter().enumerate() {
             file.push_plane(name, &velocity.map(|motion| motion[axis]));

@@ -2,16 +2,18 @@
 
 use std::path::PathBuf;
 
+use filters::AdapterDescription;
 use frame::Alignment;
 use tracer::{RenderSettings, Scene};
 
 use super::part::Part;
 use super::run_scene::RunScene;
-use crate::Monitor;
 use crate::engine_scene::EngineScene;
 use crate::filter_choice::FilterChoice;
 use crate::inputs::input_format::InputFormat;
 use crate::run::sequence::Frames;
+use crate::run::{FORMAT, Run};
+use crate::{Monitor, PROGRAM};
 
 /// Everything that a run is told to do.
 pub struct RunPlan {
@@ -75,19 +77,22 @@ impl Default for RunPlan {
 }
 
 impl RunPlan {
-    /// Scales the filters to the plan's pictures.
-    pub(super) fn scaled_filters(&self) -> Vec<FilterChoice> {
-        let width = self.render.width;
-        (self.filters.iter())
-            .map(|choice| choice.scaled_to(width))
-            .collect()
-    }
-
-    /// Scales a filter of the plan to pictures of another width than the plan's.
-    pub(super) fn scaled_to(&self, choice: &FilterChoice, width: u32) -> FilterChoice {
-        let mut own = self.filters.iter();
-        let own = own.find(|own| own.name() == choice.name());
-        own.expect("it is a filter of the plan").scaled_to(width)
+    /// Returns the run of this plan before anything is measured: what all of its cases share.
+    pub(crate) fn facts(&self, adapter: Option<&AdapterDescription>) -> Run {
+        Run {
+            format: FORMAT,
+            program: PROGRAM.to_owned(),
+            command: Vec::new(),
+            adapter: adapter.cloned(),
+            render: self.render,
+            common_alignment: self.common_alignment(),
+            frames: self.frames,
+            cases: Vec::new(),
+            sequences: Vec::new(),
+            failures: Vec::new(),
+            overall: Vec::new(),
+            read_back: 0,
+        }
     }
 
     /// Lists the scenes that are rendered, then those that engines drew.

@@ -24,7 +24,6 @@ pub(crate) struct PlannedCase<'a> {
 }
 
 /// A maker of pictures: a filter, or one of the references that filters are compared with.
-#[derive(Clone, Copy)]
 pub(crate) enum PictureSource<'a> {
     /// The frame as it is.
     Identity,
@@ -32,8 +31,8 @@ pub(crate) enum PictureSource<'a> {
     ScatterOracle,
     /// The mean of a number of sub-frames.
     Accumulation(u32),
-    /// A filter that gets the frame in some form.
-    Filter(&'a FilterChoice, InputFormat),
+    /// A filter, for pictures of the width in which it gets the frame, and the form of the frame.
+    Filter(Box<FilterChoice>, InputFormat),
     /// The engine that drew the frame.
     Engine(&'a EngineScene),
 }
@@ -41,7 +40,7 @@ pub(crate) enum PictureSource<'a> {
 impl<'a> PlannedCase<'a> {
     /// Lists the reference pictures of each alignment, the picture of the scene's engine, then one case per filter preset and form
     /// of its input. Filters of another alignment than all of a scene's truths are left out.
-    pub fn all(plan: &'a RunPlan, filters: &'a [FilterChoice], scene: RunScene<'a>) -> Vec<Self> {
+    pub fn all(plan: &RunPlan, scene: RunScene<'a>) -> Vec<Self> {
         debug_assert!(SUBFRAMES.iter().all(|count| LADDER.contains(count)));
         let alignments = scene.alignments(plan.alignments());
         let references = alignments.iter().flat_map(|alignment| {
@@ -63,9 +62,11 @@ impl<'a> PlannedCase<'a> {
             alignments.contains(&choice.filter.alignment)
                 && !(scene.drawn().is_some() && choice.filter.reads_camera())
         };
-        let filters = filters.iter().filter(is_measured).flat_map(|choice| {
+        let picture = [plan.render.width, plan.render.height];
+        let filters = plan.filters.iter().filter(is_measured).flat_map(|choice| {
             plan.inputs.iter().map(move |input| {
-                let source = PictureSource::Filter(choice, *input);
+                let [width, _] = input.scale.blurred_size(picture);
+                let source = PictureSource::Filter(Box::new(choice.scaled_to(width)), *input);
                 Self::new(scene, choice.filter.alignment, source)
             })
         });
@@ -75,15 +76,15 @@ impl<'a> PlannedCase<'a> {
     }
 
     fn new(scene: RunScene, alignment: Alignment, source: PictureSource<'a>) -> Self {
-        let (filter, preset) = match source {
+        let (filter, preset) = match &source {
             PictureSource::Identity => (IDENTITY, String::new()),
             PictureSource::ScatterOracle => (SCATTER_ORACLE, String::new()),
             PictureSource::Accumulation(subframes) => (ACCUMULATE, subframes.to_string()),
             PictureSource::Filter(choice, _) => (&*choice.filter.name, choice.preset.clone()),
             PictureSource::Engine(scene) => (scene.filter_name(), String::new()),
         };
-        let (input, overrides) = match source {
-            PictureSource::Filter(choice, input) => (input, choice.overrides.clone()),
+        let (input, overrides) = match &source {
+            PictureSource::Filter(choice, input) => (*input, choice.overrides.clone()),
             _ => Default::default(),
         };
         let is_reference = !matches!(source, PictureSource::Filter(..) | PictureSource::Engine(_));
@@ -103,7 +104,7 @@ impl<'a> PlannedCase<'a> {
     /// is a program, because nothing records what that does.
     pub fn inputs(&self, plan: &RunPlan, adapter: Option<&AdapterDescription>) -> Option<String> {
         // The hash of an engine's frame covers the engine's picture.
-        let PictureSource::Filter(choice, input) = self.source else {
+        let PictureSource::Filter(choice, input) = &self.source else {
             return Some(format!("{} {}", self.id.filter, self.id.preset));
         };
         let FilterChoice {
@@ -111,7 +112,7 @@ impl<'a> PlannedCase<'a> {
             preset,
             settings,
             ..
-        } = choice;
+        } = &**choice;
         // A filter holds the text of its kernels.
         filter.command.is_none().then(|| {
             format!(

@@ -158,21 +158,12 @@ pub fn filter_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
 
 /// Packs three planes to an image; the last image is filled up with zeros.
 pub fn pack_planes(planes: &[Plane]) -> Vec<Image> {
-    planes
-        .chunks(3)
-        .map(|chunk| {
-            let size = &chunk[0];
-            Raster {
-                width: size.width,
-                height: size.height,
-                pixels: (0..size.pixels.len())
-                    .map(|at| {
-                        std::array::from_fn(|c| chunk.get(c).map_or(0.0, |plane| plane.pixels[at]))
-                    })
-                    .collect(),
-            }
+    let pack = |chunk: &[Plane]| {
+        Raster::from_fn(chunk[0].width, chunk[0].height, |x, y| {
+            std::array::from_fn(|c| chunk.get(c).map_or(0.0, |plane| *plane.at(x, y)))
         })
-        .collect()
+    };
+    planes.chunks(3).map(pack).collect()
 }
 
 /// Takes planes out of images again.

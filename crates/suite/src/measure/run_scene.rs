@@ -1,14 +1,12 @@
 //! A scene of a run: rendered from its files, or drawn by an engine.
 
-use std::path::{Path, PathBuf};
-
 use frame::Alignment;
 use store::LADDER;
 use tracer::{Family, RenderSettings, Scene, SceneId};
 
 use crate::Error;
 use crate::engine_scene::EngineScene;
-use crate::render::ladders::{SHARP, needed_rungs};
+use crate::render::ladders::needed_rungs;
 use crate::render::memory::{bound_memory, count_measured, refuse_beyond_free};
 use crate::render::settings::frame_settings;
 use crate::run::case::Drawn;
@@ -39,24 +37,11 @@ impl<'a> RunScene<'a> {
         }
     }
 
-    /// Returns the frame of the scene's own clock, by which the noise of filters changes.
-    pub fn frame_index(self) -> u32 {
-        self.traced().map_or(0, |scene| scene.id.frame)
-    }
-
-    /// Returns the family; none of an engine's scene.
-    pub fn family(self) -> Option<Family> {
+    /// Returns the family, none of an engine's scene, and what the scene exposes.
+    pub fn describe(self) -> (Option<Family>, String) {
         match self {
-            Self::Traced(scene) => Some(scene.family),
-            Self::Drawn(_) => None,
-        }
-    }
-
-    /// Says what the scene exposes.
-    pub fn exposes(self) -> String {
-        match self {
-            Self::Traced(scene) => scene.exposes.clone(),
-            Self::Drawn(scene) => scene.exposes(),
+            Self::Traced(scene) => (Some(scene.family), scene.exposes.clone()),
+            Self::Drawn(scene) => (None, scene.exposes()),
         }
     }
 
@@ -71,11 +56,6 @@ impl<'a> RunScene<'a> {
                 step: scene.step,
             }),
         }
-    }
-
-    /// Names the folder of the scene's files below `out`.
-    pub fn folder(self, out: &Path) -> PathBuf {
-        out.join(self.id().folder())
     }
 
     /// Lists the shutter alignments that there are truths of, among those of a plan.
@@ -99,16 +79,9 @@ impl<'a> RunScene<'a> {
     /// unless the frame is that, then those of a plan that asks for rendered ladders or not.
     pub fn accumulations(self, planned: &[u32], alignment: Alignment, ladders: bool) -> Vec<u32> {
         let rungs = self.rungs(ladders);
-        let sharp = [SHARP].into_iter();
-        sharp
-            .filter(|rung| needed_rungs(alignment, false).contains(rung))
-            .chain(
-                planned
-                    .iter()
-                    .copied()
-                    .filter(|count| rungs.contains(count)),
-            )
-            .collect()
+        let sharp = needed_rungs(alignment, false).iter();
+        let others = planned.iter().filter(|count| rungs.contains(count));
+        sharp.chain(others).copied().collect()
     }
 
     /// Returns the content hash of the truth of one alignment.

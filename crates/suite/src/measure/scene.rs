@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use filters::Gpu;
 use frame::{Alignment, Frame};
 use store::{
-    CASE_RECORD, RenderFile, clear_scene, look_up, look_up_alone, put, refuse_scene,
-    remove_altered_files, take,
+    CASE_RECORD, RenderFile, clear_scene, look_up, put, refuse_scene, remove_altered_files, take,
 };
 
 use super::pictures::{write_frame, write_truth};
@@ -14,7 +13,6 @@ use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
 use crate::Error;
-use crate::filter_choice::FilterChoice;
 use crate::measure::scene_keys::SceneKeys;
 use crate::render::files::{find_missing, list_wanted};
 use crate::render::frames::render_frame;
@@ -26,8 +24,6 @@ use crate::run::failure::Failure;
 #[derive(Clone)]
 pub(crate) struct SceneContext<'a> {
     pub plan: &'a RunPlan,
-    /// The plan's filters, for pictures of its width.
-    pub filters: &'a [FilterChoice],
     pub gpu: Option<&'a Gpu>,
     pub scene: RunScene<'a>,
     /// Hashes that records are known by; none where the program cannot be hashed, and nothing is read back.
@@ -38,7 +34,6 @@ impl<'a> SceneContext<'a> {
     /// Prepares a scene of a plan for measuring. `program` is the hash of this program; none where it cannot be hashed.
     pub fn new(
         plan: &'a RunPlan,
-        filters: &'a [FilterChoice],
         gpu: Option<&'a Gpu>,
         program: Option<&str>,
         scene: RunScene<'a>,
@@ -46,7 +41,6 @@ impl<'a> SceneContext<'a> {
         let alignments = scene.alignments(plan.alignments());
         Self {
             plan,
-            filters,
             gpu,
             scene,
             keys: program.map(|program| SceneKeys::new(program, scene, &plan.render, alignments)),
@@ -65,8 +59,10 @@ impl SceneContext<'_> {
         if self.plan.no_cache {
             clear_scene(&self.folder())?;
         }
-        let planned = PlannedCase::all(self.plan, self.filters, self.scene);
-        let found: Vec<Option<Case>> = planned.iter().map(|case| self.read_case(case)).collect();
+        let planned = PlannedCase::all(self.plan, self.scene);
+        let found: Vec<Option<Case>> = (planned.iter())
+            .map(|case| self.read_case(case, look_up))
+            .collect();
         let read_back = found.iter().flatten().count();
         if read_back == found.len() && self.has_its_files() {
             return Ok((found.into_iter().flatten().map(Ok).collect(), read_back));
@@ -79,9 +75,8 @@ impl SceneContext<'_> {
         let missing: Vec<&PlannedCase> = missing.map(|(case, _)| case).collect();
         let label = format!("{} blurs and scores", self.scene.id());
         let monitor = self.plan.monitor;
-        let measured = monitor.watch(&label, |watch| {
-            self.measure(&missing, &frame, advance, watch)
-        })?;
+        advance(self.render_steps());
+        let measured = monitor.watch(&label, |watch| self.measure(&missing, &frame, watch))?;
         let mut measured = measured.into_iter();
         let mut cases = Vec::new();
         for found in found {
@@ -95,7 +90,7 @@ impl SceneContext<'_> {
 
     /// Renders the scene's frame and one truth per alignment that a filter of the plan declares, or copies what an engine drew, and
     /// writes their pictures.
-    pub(super) fn render(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
+    fn render(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
         for (record, key) in self.render_records() {
             remove_altered_files(&record, &key);
         }
@@ -155,7 +150,7 @@ impl SceneContext<'_> {
 
     /// Names the folder of the scene's files.
     pub(super) fn folder(&self) -> PathBuf {
-        self.scene.folder(&self.plan.out)
+        self.plan.out.join(self.scene.id().folder())
     }
 
     /// Counts the steps of the whole scene, as progress shows them: those of rendering, and the measuring.
@@ -164,7 +159,7 @@ impl SceneContext<'_> {
     }
 
     /// Counts a frame and the truths.
-    pub(super) fn render_steps(&self) -> u64 {
+    fn render_steps(&self) -> u64 {
         1 + self.plan.alignments().len() as u64 * self.truth_steps()
     }
 
@@ -174,31 +169,21 @@ impl SceneContext<'_> {
     }
 
     /// Reads a case that was measured before, without its intervals where the plan asks for none. A plan that asks for intervals or ladders
-    /// takes no case without them.
-    fn read_case(&self, planned: &PlannedCase) -> Option<Case> {
+    /// takes no case without them. `look_up` may look at its pictures as well.
+    pub fn read_case(
+        &self,
+        planned: &PlannedCase,
+        look_up: fn(&Path, &str) -> Option<Case>,
+    ) -> Option<Case> {
         let record = self.case_record(planned);
-        let keys = self.keys_to_read(planned);
-        let mut case: Case = keys.iter().find_map(|key| look_up(&record, key))?;
+        let keys = self.case_keys(planned);
+        let mut case = keys.iter().find_map(|key| look_up(&record, key))?;
         if !self.plan.intervals {
             case.intervals.clear();
+            return Some(case);
         }
-        self.is_whole(&case).then_some(case)
-    }
-
-    /// Tells whether a case that was read has the intervals that the plan asks for.
-    fn is_whole(&self, case: &Case) -> bool {
-        case.is_reference
-            || case.drawn.is_some()
-            || !self.plan.intervals
-            || !case.intervals.is_empty()
-    }
-
-    /// Tells whether a case was measured before, without looking at its pictures.
-    pub fn has_record(&self, planned: &PlannedCase) -> bool {
-        let record = self.case_record(planned);
-        let keys = self.keys_to_read(planned);
-        let mut found = keys.iter().filter_map(|key| look_up_alone(&record, key));
-        found.any(|case: Case| self.is_whole(&case))
+        let has_intervals = !case.intervals.is_empty();
+        (has_intervals || case.is_reference || case.drawn.is_some()).then_some(case)
     }
 
     /// Tells whether the frame is to be rendered, and lists the truths that are, by the headers of files.
@@ -223,27 +208,19 @@ impl SceneContext<'_> {
         }
     }
 
-    /// Returns the key that a case is recorded by.
-    pub(super) fn case_key(&self, planned: &PlannedCase) -> Option<String> {
-        self.keys_with(planned, &[self.plan.ladders]).pop()
-    }
-
-    /// Lists the keys of cases that the plan may take: where it asks for no ladder, it takes those that have one as well.
-    fn keys_to_read(&self, planned: &PlannedCase) -> Vec<String> {
-        match self.plan.ladders {
-            true => self.keys_with(planned, &[true]),
-            false => self.keys_with(planned, &[true, false]),
-        }
-    }
-
-    /// Returns a key for each answer to whether the case has a ladder; none where nothing is read back.
-    fn keys_with(&self, planned: &PlannedCase, ladders: &[bool]) -> Vec<String> {
+    /// Lists the keys of cases that the plan may take, at first the one that it records by: where it asks for no ladder, it takes those that
+    /// have one as well. None where nothing is read back.
+    pub(super) fn case_keys(&self, planned: &PlannedCase) -> Vec<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
         let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {
             return Vec::new();
         };
         let alignments = [planned.id.alignment, self.plan.common_alignment()];
-        let key = |ladder: &bool| keys.case(&own, alignments, *ladder);
+        let ladders: &[bool] = match self.plan.ladders {
+            true => &[true],
+            false => &[false, true],
+        };
+        let key = |has_ladder: &bool| keys.case(&own, alignments, *has_ladder);
         ladders.iter().map(key).collect()
     }
 

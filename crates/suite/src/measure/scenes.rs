@@ -6,12 +6,10 @@ use tracer::{Progress, Watch};
 use super::frames::{count_frames, visit_frames};
 use super::plan::RunPlan;
 use super::sequence::measure_sequences;
+use crate::Error;
+use crate::run::Run;
 use crate::run::case::Case;
-use crate::run::failure::Failure;
-use crate::run::sequence::Sequence;
-use crate::run::{FORMAT, Run};
 use crate::stats::overall::overall;
-use crate::{Error, PROGRAM};
 
 /// Renders, filters, measures and writes every case below `plan.out`, but not `run.json` itself. Reads back what an earlier run
 /// measured of the same inputs and left there. `gpu` is what [`open_gpu`](crate::open_gpu) opened for the plan's filters.
@@ -30,46 +28,23 @@ pub fn measure_scenes(
         true => format!("{count} scenes in all"),
         false => format!("{count} frames in all"),
     };
-    let Measured {
-        cases,
-        sequences,
-        failures,
-        read_back,
-    } = monitor.watch(&label, |watch| measure_all(plan, gpu, watch))?;
-    Ok(Run {
-        format: FORMAT,
-        program: PROGRAM.to_owned(),
-        command,
-        adapter: gpu.map(|gpu| gpu.adapter.clone()),
-        render: plan.render,
-        common_alignment: plan.common_alignment(),
-        overall: overall(&cases),
-        frames: plan.frames,
-        sequences,
-        failures,
-        cases,
-        read_back,
-    })
+    let mut run = plan.facts(gpu.map(|gpu| &gpu.adapter));
+    run.command = command;
+    monitor.watch(&label, |watch| measure_all(plan, gpu, &mut run, watch))?;
+    run.overall = overall(&run.cases);
+    Ok(run)
 }
 
-/// What was measured of all scenes.
-#[derive(Default)]
-struct Measured {
-    /// Cases of the first frame of each scene.
-    cases: Vec<Case>,
-    sequences: Vec<Sequence>,
-    failures: Vec<Failure>,
-    /// Number of cases of all frames that were read back.
-    read_back: usize,
-}
-
-/// Measures scene after scene, and of each frame after frame.
-fn measure_all(plan: &RunPlan, gpu: Option<&Gpu>, watch: Watch) -> Result<Measured, Error> {
-    let filters = plan.scaled_filters();
-    let mut all = Measured::default();
+/// Measures scene after scene, and of each frame after frame, into a run.
+fn measure_all(
+    plan: &RunPlan,
+    gpu: Option<&Gpu>,
+    run: &mut Run,
+    watch: Watch,
+) -> Result<(), Error> {
     let mut frames: Vec<Vec<Case>> = Vec::new();
     let mut number = 0;
-    visit_frames(plan, &filters, gpu, |scene| {
+    visit_frames(plan, gpu, |scene| {
         let steps = scene.steps();
         let advance = |done: u64| {
             // A scene that is interrupted returns the error itself.
@@ -79,26 +54,25 @@ fn measure_all(plan: &RunPlan, gpu: Option<&Gpu>, watch: Watch) -> Result<Measur
             });
         };
         advance(0);
-        let (measured, found) = scene.measure_cases(&advance)?;
+        let (measured, read_back) = scene.measure_cases(&advance)?;
         number += 1;
-        all.read_back += found;
+        run.read_back += read_back;
         let mut cases = Vec::new();
         for case in measured {
             match case {
                 Ok(case) => cases.push(case),
-                Err(failure) => all.failures.push(failure),
+                Err(failure) => run.failures.push(failure),
             }
         }
-        let frame = scene.scene.frame_index();
+        let frame = scene.scene.id().frame;
         if frame == 0 {
-            all.cases.extend_from_slice(&cases);
+            run.cases.extend_from_slice(&cases);
             frames.clear();
         }
         frames.push(cases);
         if frame > 0 && frame + 1 == plan.frames.count {
-            all.sequences.extend(measure_sequences(plan, &frames)?);
+            run.sequences.extend(measure_sequences(plan, &frames)?);
         }
-        Ok::<(), Error>(())
-    })?;
-    Ok(all)
+        Ok(())
+    })
 }

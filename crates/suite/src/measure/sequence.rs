@@ -1,7 +1,5 @@
 //! Scores of sequences, from the pictures that the frames' cases left.
 
-use std::path::Path;
-
 use frame::{Alignment, Image, Raster, Truth, read_exr, read_png, write_animated_png, write_png};
 use metrics::{Instant, SequenceReference, SequenceScores};
 use store::{RenderFile, RenderPath};
@@ -151,10 +149,12 @@ impl SequenceTruths<'_> {
 }
 
 impl RunPlan {
-    /// Reads the pictures that the cases of a sequence left, frame after frame.
+    /// Reads the colours of the pictures that the cases of a sequence left, frame after frame.
     fn read_outputs(&self, cases: &[&Case]) -> Result<Vec<Image>, Error> {
-        let folders = cases.iter().map(|case| self.out.join(&case.folder));
-        folders.map(|folder| read_picture(&folder)).collect()
+        let paths = cases
+            .iter()
+            .map(|case| self.out.join(&case.folder).join("output.exr"));
+        paths.map(|path| Ok(read_exr(&path)?.color("")?)).collect()
     }
 }
 
@@ -182,9 +182,7 @@ fn measure_sequence(
     );
     Ok(Sequence {
         scene: first.scene.clone(),
-        filter: first.name(),
-        is_reference: first.is_reference,
-        alignment: first.alignment,
+        filter: first.filter_id(),
         frames: frames.collect(),
         worst_frames: worst_frames(&measured),
         intervals: Intervals::new(),
@@ -226,9 +224,4 @@ fn beside(pictures: &[Image]) -> Image {
     Raster::from_fn(all, pictures[0].height, |x, y| {
         *pictures[(x / width) as usize].at(x % width, y)
     })
-}
-
-/// Reads the colour of a picture that a case left.
-fn read_picture(folder: &Path) -> Result<Image, Error> {
-    Ok(read_exr(&folder.join("output.exr"))?.color("")?)
 }

@@ -6,7 +6,6 @@ use tracer::Scene;
 use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use crate::Error;
-use crate::filter_choice::FilterChoice;
 use crate::inputs::input_format::InputFormat;
 use crate::render::frames::render_frame;
 
@@ -21,12 +20,11 @@ pub(crate) struct StoredFrame {
 /// Stores the frame of a scene in every form, and for filters with history the frame before it.
 pub(super) fn store_frames(
     plan: &RunPlan,
-    filters: &[FilterChoice],
     scene: RunScene,
     formats: &[InputFormat],
     frame: &Frame,
 ) -> Result<Vec<StoredFrame>, Error> {
-    let before = read_frame_before(plan, filters, scene)?;
+    let before = read_frame_before(plan, scene)?;
     let store = |format: &InputFormat, frame: &Frame, scene: Option<&Scene>| {
         format.apply(frame, scene, plan.monitor)
     };
@@ -44,12 +42,8 @@ pub(super) fn store_frames(
 }
 
 /// Reads the frame before that of a later frame, with its scene.
-fn read_frame_before(
-    plan: &RunPlan,
-    filters: &[FilterChoice],
-    scene: RunScene,
-) -> Result<Option<(Scene, Frame)>, Error> {
-    let mut filters = filters.iter();
+fn read_frame_before(plan: &RunPlan, scene: RunScene) -> Result<Option<(Scene, Frame)>, Error> {
+    let mut filters = plan.filters.iter();
     let has_history = filters.any(|choice| !choice.filter.history.is_empty());
     let later = scene
         .traced()

@@ -1,29 +1,23 @@
-//! Merge of runs of which each measured some of the cases.
+//! Runs folded into one: those of which each measured some of the cases, and an earlier one that a narrower one keeps.
 
-mod case_order;
-mod checks;
+pub mod earlier;
 mod files;
-mod join;
+mod fold;
 mod order;
-mod run_part;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use frame::Alignment;
 use store::{Claim, Sharing, claim, place_files};
+use tracer::SceneId;
 
 use self::files::gather_files;
-use self::join::join_runs;
-use self::run_part::RunPart;
+use self::fold::fold_runs;
 use crate::Error;
+use crate::identity::FilterId;
 use crate::run::Run;
-
-/// A run that was merged.
-pub struct MergedRun {
-    /// The whole run; its `run.json` is not written yet.
-    pub run: Run,
-    /// Claim on the folder, until that file is written.
-    pub claim: Claim,
-}
+use crate::run::stored::StoredRun;
 
 /// Tells whether a path names a finished run: its `run.json`, or its folder.
 pub fn holds_run(path: &Path) -> bool {
@@ -32,22 +26,57 @@ pub fn holds_run(path: &Path) -> bool {
 
 /// Joins the runs of all `parts`, each a `run.json` or its folder, and takes their pictures into `out`. The run is the one that a
 /// single process measures: its cases in the same order, the same means, and `command` as the words of its command line. Scenes
-/// and filters are ordered as the parts name them first.
+/// and filters are ordered as the parts name them first. Its `run.json` is not written yet, and the claim is on the folder until it is.
 ///
 /// # Errors
 /// Nothing is written if the parts differ in their settings, adapters or truths, if two hold one case with other scores, or if
 /// cases are missing.
-pub fn merge_runs(parts: &[PathBuf], command: Vec<String>, out: &Path) -> Result<MergedRun, Error> {
-    let parts: Vec<RunPart> = parts
-        .iter()
-        .map(|path| RunPart::read(path))
+pub fn merge_runs(
+    parts: &[PathBuf],
+    command: Vec<String>,
+    out: &Path,
+) -> Result<(Run, Claim), Error> {
+    let parts: Vec<StoredRun> = (parts.iter())
+        .map(|path| StoredRun::read(path))
         .collect::<Result<_, _>>()?;
     let run = Run {
         command,
-        ..join_runs(&parts)?
+        ..fold_runs(&parts)?
     };
+    check_complete(&run)?;
     let files = gather_files(&parts)?;
     let claim = claim(out, [], Sharing::Alone)?;
     place_files(&files, out)?;
-    Ok(MergedRun { run, claim })
+    Ok((run, claim))
+}
+
+/// Refuses cases that no process could have measured together: scenes with different filters, and shutters without references.
+fn check_complete(run: &Run) -> Result<(), Error> {
+    // What an engine drew has one shutter, and leaves out filters of others.
+    let rendered = || run.cases.iter().filter(|case| case.drawn.is_none());
+    let scenes: BTreeSet<&SceneId> = rendered().map(|case| &case.scene).collect();
+    let filters: BTreeSet<FilterId> = rendered().map(|case| case.filter_id()).collect();
+    let (references, own): (Vec<_>, Vec<_>) = filters.iter().partition(|it| it.is_reference);
+    let mut shutters: BTreeSet<Alignment> = own.iter().map(|filter| filter.alignment).collect();
+    shutters.extend((!filters.is_empty()).then_some(run.common_alignment));
+    let has_references = |it: &&Alignment| references.iter().any(|own| own.alignment == **it);
+    if let Some(missing) = shutters.iter().find(|shutter| !has_references(shutter)) {
+        return Err(Error::Usage(format!(
+            "no part holds the references of the {missing} shutter; add the part with the references, measured with the same \
+             filters"
+        )));
+    }
+    let failed = (run.failures.iter()).map(|failure| (&failure.scene, failure.filter_id()));
+    let measured = rendered().map(|case| (&case.scene, case.filter_id()));
+    let found: BTreeSet<(&SceneId, FilterId)> = measured.chain(failed).collect();
+    for scene in scenes {
+        let missing = (filters.iter()).find(|filter| !found.contains(&(scene, (*filter).clone())));
+        if let Some(missing) = missing {
+            return Err(Error::Usage(format!(
+                "no part holds {scene} / {} ({} shutter), which other scenes have; add the part that measured it",
+                missing.name, missing.alignment
+            )));
+        }
+    }
+    Ok(())
 }

@@ -1,27 +1,71 @@
-//! One order of names from several lists of them.
+//! The order in which one process measures scenes and filters.
 
-/// Orders all names of some lists. Names of one list keep their order: a name that is new stands behind the name before it, or
-/// before the one behind it; one with neither comes last.
-pub(super) fn merge_order<T: PartialEq + Clone>(lists: impl IntoIterator<Item = Vec<T>>) -> Vec<T> {
+use frame::Alignment;
+use tracer::SceneId;
+
+use crate::identity::FilterId;
+use crate::run::Run;
+
+/// Scenes and filters in the order in which runs name them.
+pub(super) struct Order {
+    /// Scenes that are rendered, then those that engines drew.
+    scenes: Vec<(bool, SceneId)>,
+    filters: Vec<FilterId>,
+}
+
+impl Order {
+    /// Orders scenes and filters as the runs name them first.
+    pub fn new<'a>(runs: impl Iterator<Item = &'a Run> + Clone) -> Self {
+        let cases = runs.clone().map(|run| &run.cases);
+        let all_scenes = cases.clone().map(|cases| {
+            let scenes = cases
+                .iter()
+                .map(|case| (case.drawn.is_some(), case.scene.clone()));
+            scenes.collect()
+        });
+        let mut scenes = merge_order(all_scenes);
+        scenes.sort_by_key(|(is_drawn, _)| *is_drawn);
+        let of_scenes = cases.flat_map(|cases| cases.chunk_by(|one, next| one.scene == next.scene));
+        let measured = of_scenes.map(|own| own.iter().map(|case| case.filter_id()).collect());
+        let failed = runs.flat_map(|run| &run.failures);
+        let failed = failed.map(|failure| vec![failure.filter_id()]);
+        Self {
+            filters: merge_order(measured.chain(failed)),
+            scenes,
+        }
+    }
+
+    /// Returns the place of a frame: scene after scene, and of each frame after frame.
+    pub fn scene(&self, scene: &SceneId) -> (usize, u32) {
+        let first = scene.at_frame(0);
+        let place = self.scenes.iter().position(|(_, own)| *own == first);
+        (place.unwrap_or(self.scenes.len()), scene.frame)
+    }
+
+    /// Returns the place of a filter in its scene: references of one shutter after the other, then filters.
+    pub fn filter(&self, filter: &FilterId) -> (bool, Option<Alignment>, Option<usize>) {
+        let shutter = filter.is_reference.then_some(filter.alignment);
+        let place = self.filters.iter().position(|own| own == filter);
+        (!filter.is_reference, shutter, place)
+    }
+}
+
+/// Orders all names of some lists. Names of one list keep their order: a name that is new comes after the name before it, or before the
+/// one after it; one with neither comes last.
+fn merge_order<T: PartialEq + Clone>(lists: impl IntoIterator<Item = Vec<T>>) -> Vec<T> {
     let mut order: Vec<T> = Vec::new();
     for list in lists {
         let place = |name: &T, order: &[T]| order.iter().position(|other| other == name);
+        let mut before: Option<usize> = None;
         for (index, name) in list.iter().enumerate() {
-            if place(name, &order).is_some() {
-                continue;
-            }
-            let behind = index
-                .checked_sub(1)
-                .and_then(|before| place(&list[before], &order));
-            let before = list[index + 1..]
-                .iter()
-                .find_map(|next| place(next, &order));
-            let at = match (behind, before) {
-                (Some(behind), _) => behind + 1,
-                (None, Some(before)) => before,
-                (None, None) => order.len(),
-            };
-            order.insert(at, name.clone());
+            let at = place(name, &order).unwrap_or_else(|| {
+                let after = || list[index..].iter().find_map(|next| place(next, &order));
+                let at = (before.map(|before| before + 1)).or_else(after);
+                let at = at.unwrap_or(order.len());
+                order.insert(at, name.clone());
+                at
+            });
+            before = Some(at);
         }
     }
     order

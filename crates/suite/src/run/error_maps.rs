@@ -69,14 +69,8 @@ impl<'a> ErrorMaps<'a> {
     fn measure_again(&self) -> Result<Measurement, Error> {
         let Self { case, folder, .. } = self;
         let (frame, truth) = case.read_frame_and_truth(folder)?;
-        let output = read_exr(&folder.join(&case.folder).join("output.exr"))?;
-        let mattes = truth.objects.iter();
-        let picture = Picture {
-            color: output.color("")?,
-            coverage: mattes
-                .map(|object| output.plane(&format!("coverage.{object}")))
-                .collect::<Result<_, _>>()?,
-        };
+        let mut output = read_exr(&folder.join(&case.folder).join("output.exr"))?;
+        let picture = Picture::take_from(&mut output, "", &truth.objects)?;
         let reference = Reference::new(&frame, &truth, None, &frame.display.into())?;
         Ok(reference.measure(&picture)?)
     }

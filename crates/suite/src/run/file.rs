@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use store::{MAX_REPLICATES, MAX_RUN_BYTES, check_strings, is_below, read_text_within, to_lines};
+use store::{MAX_REPLICATES, MAX_RUN_BYTES, is_below, read_text_within, to_lines};
 
 use super::case::Case;
 use super::sequence::{MAX_FRAMES, Sequence};
@@ -40,7 +40,6 @@ impl Run {
 /// Parses a run.json; the error says what is wrong with it, and what is allowed.
 fn parse(text: &str) -> Result<Run, String> {
     let broken = |error: serde_json::Error| format!("no run of this program: {error}");
-    check_strings(text).map_err(broken)?;
     let run: Run = serde_json::from_str(text).map_err(broken)?;
     if run.format != FORMAT {
         return Err(format!("has format {}; allowed: {FORMAT}", run.format));
@@ -103,32 +102,26 @@ fn check_case(case: &Case) -> Result<(), String> {
 }
 
 fn check_sequence(sequence: &Sequence) -> Result<(), String> {
-    let paths = sequence
-        .frames
-        .iter()
-        .flat_map(|frame| [&frame.scene, &frame.folder]);
+    let name = format!("the sequence {} / {}", sequence.scene, sequence.name);
     let count = sequence.frames.len();
+    if count > MAX_FRAMES as usize {
+        return Err(format!(
+            "{name} has {count} frames; allowed: up to {MAX_FRAMES}"
+        ));
+    }
     let mut worst = sequence.worst_frames.iter();
     if let Some((metric, frame)) = worst.find(|(_, frame)| **frame as usize >= count) {
         return Err(format!(
-            "the sequence {} / {} is worst in {metric} at frame {frame}; allowed: 0 to {}",
-            sequence.scene,
-            sequence.filter,
+            "{name} is worst in {metric} at frame {frame}; allowed: 0 to {}",
             count.saturating_sub(1)
         ));
     }
-    match paths.into_iter().find(|path| !is_below(path)) {
-        None if sequence.frames.len() <= MAX_FRAMES as usize => Ok(()),
-        None => Err(format!(
-            "the sequence {} / {} has {} frames; allowed: up to {MAX_FRAMES}",
-            sequence.scene,
-            sequence.filter,
-            sequence.frames.len()
-        )),
+    let frames = sequence.frames.iter();
+    let mut paths = frames.flat_map(|frame| [&frame.scene, &frame.folder]);
+    match paths.find(|path| !is_below(path)) {
+        None => Ok(()),
         Some(path) => Err(format!(
-            "the sequence {} / {} names the folder \"{}\"; allowed: folders below run.json",
-            sequence.scene,
-            sequence.filter,
+            "{name} names the folder \"{}\"; allowed: folders below run.json",
             path.display()
         )),
     }

@@ -9,6 +9,7 @@ pub mod layers;
 pub mod overall;
 mod scaling;
 pub mod sequence;
+pub mod stored;
 
 use filters::AdapterDescription;
 use frame::Alignment;
@@ -61,24 +62,35 @@ pub struct Run {
     pub read_back: usize,
 }
 
-/// Lists name and value of every setting that all cases of a run share, but for its adapter.
-pub(crate) fn list_run_settings(
-    program: &str,
-    common: Alignment,
-    frames: Frames,
-    render: &RenderSettings,
-) -> Vec<(&'static str, String)> {
-    // A single frame is shown at no rate; run.json leaves it out.
-    let Frames { count, per_second } = match frames.is_one() {
-        true => Frames::default(),
-        false => frames,
-    };
-    let frames = format!("{count} at {per_second} per second");
-    let mut settings = vec![
-        ("program", program.to_owned()),
-        ("common shutter", common.to_string()),
-        ("number of frames", frames),
-    ];
-    settings.extend(list_settings(render));
-    settings
+impl Run {
+    /// Finds the first setting that all cases of a run share and two runs do not, with both values.
+    pub(crate) fn find_difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
+        let both = std::iter::zip(self.list_settings(), other.list_settings());
+        let settings = both.map(|((setting, own), (_, its))| (setting, own, its));
+        // A run of programs alone has no adapter, and goes with any.
+        let adapters = self.adapter.as_ref().zip(other.adapter.as_ref());
+        let adapters = adapters.map(|(own, its)| {
+            let text = |it: &AdapterDescription| format!("{} ({})", it.name, it.driver);
+            ("adapter and driver", text(own), text(its))
+        });
+        settings.chain(adapters).find(|(_, own, its)| own != its)
+    }
+
+    fn list_settings(&self) -> Vec<(&'static str, String)> {
+        // A single frame is shown at no rate; run.json leaves it out.
+        let Frames { count, per_second } = match self.frames.is_one() {
+            true => Frames::default(),
+            false => self.frames,
+        };
+        let mut settings = vec![
+            ("program", self.program.clone()),
+            ("common shutter", self.common_alignment.to_string()),
+            (
+                "number of frames",
+                format!("{count} at {per_second} per second"),
+            ),
+        ];
+        settings.extend(list_settings(&self.render));
+        settings
+    }
 }

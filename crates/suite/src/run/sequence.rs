@@ -1,9 +1,9 @@
 //! A sequence: pictures of consecutive frames of one scene, with scores over time.
 
 use std::collections::BTreeMap;
+use std::ops::Deref;
 use std::path::PathBuf;
 
-use frame::Alignment;
 use metrics::{Metric, SequenceMeasurement, SequenceScores};
 use serde::{Deserialize, Serialize};
 use tracer::SceneId;
@@ -19,13 +19,9 @@ pub const MAX_FRAMES: u32 = 1000;
 pub struct Sequence {
     /// Scene.
     pub scene: SceneId,
-    /// `filter:preset`, and behind that the form of its input where that is not the default.
-    pub filter: String,
-    /// True for a reference picture.
-    #[serde(rename = "bar")]
-    pub is_reference: bool,
-    /// The shutter alignment that the filter declares and is scored against.
-    pub alignment: Alignment,
+    /// Filter or reference.
+    #[serde(flatten)]
+    pub filter: FilterId,
     /// Scores over time.
     pub scores: SequenceScores,
     /// 95 % confidence intervals of the scores; empty where none were asked for.
@@ -39,18 +35,18 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    /// Returns the identity of the filter or reference.
-    pub fn filter_id(&self) -> FilterId {
-        FilterId {
-            is_reference: self.is_reference,
-            name: self.filter.clone(),
-            alignment: self.alignment,
-        }
-    }
-
     /// Tells whether it starts with a case.
     pub fn is_of(&self, case: &CaseId) -> bool {
-        self.scene == case.scene && self.filter_id() == case.filter_id()
+        self.scene == case.scene && self.filter == case.filter_id()
+    }
+}
+
+/// A sequence is a filter's, with scores.
+impl Deref for Sequence {
+    type Target = FilterId;
+
+    fn deref(&self) -> &FilterId {
+        &self.filter
     }
 }
 

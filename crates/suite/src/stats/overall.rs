@@ -63,9 +63,7 @@ fn mean(own: &[&Case], metric: Metric, all: &[Case]) -> Option<Overall> {
     (scores.len() >= 2).then(|| {
         let found = scene_mean(&scores, TWO_SIDED);
         Overall {
-            filter: own[0].name(),
-            is_reference: own[0].is_reference,
-            alignment: own[0].alignment,
+            filter: own[0].filter_id(),
             rate: own[0].rate,
             metric,
             scenes: scores.len(),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use frame::{Alignment, Frame, Replicate, Shutter, Tile, Truth, read_attribute, read_exr};
 use store::{LADDER, RenderFile};
-use tracer::{LadderTracer, RenderSettings, Scene, TruthTracer, trace_frame_tile};
+use tracer::{LadderTracer, PixelGrid, RenderSettings, Scene, TruthTracer, trace_frame_part};
 
 use super::difference::find_difference;
 use super::scene_renders::SceneRenders;
@@ -99,8 +99,9 @@ fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
     };
     let own = tracer::frame_hash(work.scene, &settings);
     work.expect_hash(RenderFile::Frame, &provenance.content_hash, &own)?;
+    let grid = PixelGrid::of_picture(settings.width, settings.height);
     work.trace_tiles(&[RenderFile::Frame], frame.size(), |_, tile, watch| {
-        Ok(trace_frame_tile(work.scene, &settings, tile, watch)?.to_exr())
+        Ok(trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?.to_exr())
     })
 }
 

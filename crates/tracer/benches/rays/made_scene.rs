@@ -18,29 +18,19 @@ const SPHERES_SIDE: u32 = 5;
 /// Shutter interval of all rays, in frames.
 pub const SHUTTER: [f64; 2] = [-1.0, 0.0];
 
-/// Makes the scene. Every sphere drifts by two radii over the shutter interval and turns, or all stand still where they are in
-/// mid-shutter.
-pub fn made_scene(moving: bool) -> Scene {
-    let still = |mesh, name: String| Object {
+/// Makes the scene. Every sphere drifts by two radii over the shutter interval and turns.
+pub fn made_scene() -> Scene {
+    let object = |mesh, name: String, motion| Object {
         name,
         mesh,
         materials: vec![0],
-        motion: Motion::still(Key::REST),
+        motion,
         parent: Parent::World,
     };
-    let mut objects = vec![still(0, "ground".into())];
-    for index in 0..SPHERES_SIDE * SPHERES_SIDE {
-        let motion = drift(index);
-        let motion = if moving {
-            motion
-        } else {
-            Motion::still(mid_shutter(&motion))
-        };
-        objects.push(Object {
-            motion,
-            ..still(1, format!("sphere_{index}"))
-        });
-    }
+    let ground_object = object(0, "ground".into(), Motion::still(Key::REST));
+    let spheres = (0..SPHERES_SIDE * SPHERES_SIDE)
+        .map(|index| object(1, format!("sphere_{index}"), drift(index)));
+    let objects = std::iter::once(ground_object).chain(spheres).collect();
     Scene {
         id: SceneId::new("made", None),
         exposes: "the speed of rays".into(),
@@ -98,17 +88,6 @@ fn drift(index: u32) -> Motion {
             },
         ],
         ..Motion::default()
-    }
-}
-
-fn mid_shutter(motion: &Motion) -> Key {
-    let (_, orientation, translation) = motion
-        .at(0.5 * (SHUTTER[0] + SHUTTER[1]))
-        .to_scale_rotation_translation();
-    Key {
-        translation,
-        orientation,
-        ..Key::REST
     }
 }
 

@@ -51,9 +51,10 @@ struct Field<'a> {
 }
 
 impl<'a> Field<'a> {
-    fn new(scene: &'a Scene) -> Self {
-        let stage = Stage::new(scene, SHUTTER[0], SHUTTER[1]);
-        let primary = camera_rays(scene);
+    /// Prepares rays at times in `[from, to]`. At one time nothing moves.
+    fn new(scene: &'a Scene, [from, to]: [f64; 2]) -> Self {
+        let stage = Stage::new(scene, from, to);
+        let primary = camera_rays(scene, [from, to]);
         let (diffuse, shadow) = bounces(&stage, &primary);
         Self {
             stage,
@@ -87,10 +88,11 @@ impl<'a> Field<'a> {
 
 /// Prints the rays per second of each kind, and the ratios of variants.
 fn print_rates() {
-    let scenes = [made_scene(false), made_scene(true)];
-    let fields = scenes.each_ref().map(Field::new);
-    let triangles: usize = (scenes[0].objects.iter())
-        .map(|object| scenes[0].meshes[object.mesh].triangles.len())
+    let scene = made_scene();
+    let in_mid_shutter = [0.5 * (SHUTTER[0] + SHUTTER[1]); 2];
+    let fields = [in_mid_shutter, SHUTTER].map(|times| Field::new(&scene, times));
+    let triangles: usize = (scene.objects.iter())
+        .map(|object| scene.meshes[object.mesh].triangles.len())
         .sum();
     println!(
         "\n{triangles} triangles, one thread, {RAYS} rays, best of {TURNS} turns of each of {PARTS} parts, Mray/s"
@@ -99,7 +101,7 @@ fn print_rates() {
         "{:10} {:>8} {:>8} {:>14} {:>9} {:>14}",
         "", "still", "moving", "still/moving", "portable", "still/portable"
     );
-    let portable = Field::new(&scenes[0]).portable();
+    let portable = Field::new(&scene, in_mid_shutter).portable();
     for kind in KINDS {
         let best = best_of([
             &|part| once(|| fields[0].trace(kind, part)),
@@ -114,16 +116,7 @@ fn print_rates() {
             still / portable
         );
     }
-    let stored: usize = scenes[0]
-        .meshes
-        .iter()
-        .map(|mesh| mesh.triangles.len())
-        .sum();
-    println!(
-        "{} path; trees and triangles take {:.0} bytes for each of the {stored} triangles of the meshes",
-        fields[0].stage.traversal(),
-        fields[0].stage.bytes() as f64 / stored as f64
-    );
+    println!("{} path", fields[0].stage.traversal());
 }
 
 /// Measures the time of some work.
@@ -157,7 +150,7 @@ fn number(index: usize, dimension: usize) -> f64 {
 }
 
 /// Camera rays in rows from left to right, as a renderer takes them, each with a time of its own.
-fn camera_rays(scene: &Scene) -> Vec<TimedRay> {
+fn camera_rays(scene: &Scene, [from, to]: [f64; 2]) -> Vec<TimedRay> {
     let view = scene.camera.view(0.0, scene.width, scene.height);
     let columns = 341; // about 16:9
     let rows = RAYS / columns;
@@ -165,7 +158,7 @@ fn camera_rays(scene: &Scene) -> Vec<TimedRay> {
         .map(|index| {
             let x = ((index % columns) as f64 + 0.5) / columns as f64 * f64::from(scene.width);
             let y = ((index / columns) as f64 + 0.5) / rows as f64 * f64::from(scene.height);
-            let time = SHUTTER[0] + number(index, 0) * (SHUTTER[1] - SHUTTER[0]);
+            let time = from + number(index, 0) * (to - from);
             (view.ray(x, y), time)
         })
         .collect()

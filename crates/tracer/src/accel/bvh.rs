@@ -79,19 +79,9 @@ impl Leaves {
     pub fn count(&self) -> u32 {
         self.starts.len() as u32 - 1
     }
-
-    /// Size in memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        size_of_val(self.starts.as_slice()) + size_of_val(self.order.as_slice())
-    }
 }
 
 impl Tree {
-    /// Size in memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice())
-    }
-
     /// Visits the leaves below a node that the ray may enter before the limit, in units of its direction: roughly from near
     /// to far where `SORTED`, else in any order.
     ///

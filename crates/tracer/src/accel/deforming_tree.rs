@@ -49,14 +49,6 @@ impl<'a> DeformingTree<'a> {
         }
     }
 
-    /// Size of the trees in memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        let trees = self.trees.iter();
-        trees
-            .map(|slice| slice.tree.bytes() + slice.leaves.bytes())
-            .sum()
-    }
-
     /// Size of the stack that [`DeformingTree::traverse`] needs.
     pub fn stack_size(&self) -> usize {
         let sizes = self.trees.iter().map(|slice| slice.tree.stack_size);

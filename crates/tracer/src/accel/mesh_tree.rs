@@ -32,14 +32,6 @@ impl<'a> MeshTree<'a> {
         }
     }
 
-    /// Size of trees and triangles in memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        match self {
-            MeshTree::Rigid(tree) => tree.bytes(),
-            MeshTree::Deforming(tree) => tree.bytes(),
-        }
-    }
-
     /// Size of the stack that [`MeshTree::traverse`] needs.
     pub fn stack_size(&self) -> usize {
         match self {

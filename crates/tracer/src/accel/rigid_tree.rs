@@ -73,11 +73,6 @@ impl RigidTree {
         self.tree = None;
     }
 
-    /// Size of tree and triangles in memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        self.tree.as_ref().map_or(0, Tree::bytes) + size_of_val(self.leaves.as_slice())
-    }
-
     /// Size of the stack that [`RigidTree::traverse`] needs.
     pub fn stack_size(&self) -> usize {
         self.tree.as_ref().map_or(0, |tree| tree.stack_size)

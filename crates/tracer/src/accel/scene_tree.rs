@@ -109,12 +109,6 @@ impl<'a> SceneTree<'a> {
         })
     }
 
-    /// Size of trees and triangles in memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        let meshes: usize = self.meshes.iter().flatten().map(MeshTree::bytes).sum();
-        meshes + self.world.tree.bytes()
-    }
-
     /// Finds the nearest surface at `t > 0`; among equally near ones that of the lowest object, then triangle.
     #[inline(always)]
     pub fn closest<L: Lanes>(

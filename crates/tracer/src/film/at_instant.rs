@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, Vec3};
 use crate::film::canvas::Canvas;
 use crate::film::eye::EyeRay;
 use crate::geometry::ray::{Hit, LIFT, Ray};
-use crate::motion::camera::View;
+use crate::motion::camera::{Target, View};
 use crate::motion::lens::LensPoint;
 use crate::motion::poses::Poses;
 use crate::path::integrator::Integrator;
@@ -125,7 +125,7 @@ impl InstantView {
             time: 0.0,
             ..*hit
         };
-        let place = self.view.project_through(point, *from);
+        let place = self.view.project_through(Target::Point(point), *from);
         InstantPoint {
             place,
             is_shown: same_side
@@ -143,7 +143,7 @@ impl InstantView {
         direction: DVec3,
         from: LensPoint,
     ) -> InstantPoint {
-        let place = self.view.project_direction_through(direction, from);
+        let place = self.view.project_through(Target::Infinity(direction), from);
         let ray = Ray {
             origin: self.view.eye(from),
             direction,

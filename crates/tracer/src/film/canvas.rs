@@ -93,30 +93,18 @@ impl Canvas {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashSet;
+
     use super::*;
 
     #[test]
-    fn pixels_inside_have_the_numbers_of_a_bare_picture_and_all_numbers_differ() {
-        let bare = Canvas::bare(5, 3);
+    fn every_pixel_has_a_number_of_its_own() {
         let padded = Canvas {
             guard_band: 2,
-            ..bare
+            ..Canvas::bare(5, 3)
         };
-        let mut numbers: Vec<u32> = padded
-            .pixels()
-            .iter()
-            .map(|&pixel| padded.seed_number(pixel))
-            .collect();
-        for pixel in padded.pixels() {
-            let [x, y] = padded.corner(pixel);
-            if (0.0..5.0).contains(&x) && (0.0..3.0).contains(&y) {
-                let of_bare = (y * 5.0 + x) as u32;
-                assert_eq!(padded.seed_number(pixel), of_bare);
-                assert_eq!(bare.corner(of_bare), [x, y]);
-            }
-        }
-        numbers.sort_unstable();
-        numbers.dedup();
-        assert_eq!(numbers.len(), 9 * 7);
+        let numbers = padded.pixels().into_iter();
+        let different: HashSet<u32> = numbers.map(|pixel| padded.seed_number(pixel)).collect();
+        assert_eq!(different.len(), 9 * 7);
     }
 }

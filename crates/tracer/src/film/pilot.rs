@@ -41,27 +41,13 @@ struct TilePilot {
     moves: bool,
 }
 
-/// The tiles of a canvas' picture.
-#[derive(Clone, Copy)]
-struct Tiles {
-    canvas: Canvas,
-}
-
-impl Tiles {
-    /// A raster with one value per tile.
-    fn filled<T: Clone>(self, value: T) -> Raster<T> {
-        let [width, height] =
-            [self.canvas.width, self.canvas.height].map(|side| side.div_ceil(TILE));
-        Raster::filled(width, height, value)
-    }
-
-    /// The index of a pixel's tile in such a raster. A pixel of the guard band has the nearest tile of the picture.
-    fn index<T>(self, raster: &Raster<T>, pixel: u32) -> usize {
-        let [x, y] = self.canvas.corner(pixel).map(|at| at.max(0.0) as u32);
-        let column = x.min(self.canvas.width - 1) / TILE;
-        let row = y.min(self.canvas.height - 1) / TILE;
-        (row * raster.width + column) as usize
-    }
+/// The column and the row of a pixel's tile. A pixel of the guard band has the nearest tile of the picture.
+fn find_tile(canvas: Canvas, pixel: u32) -> [u32; 2] {
+    let [x, y] = canvas.corner(pixel).map(|at| at.max(0.0) as u32);
+    [
+        x.min(canvas.width - 1) / TILE,
+        y.min(canvas.height - 1) / TILE,
+    ]
 }
 
 /// Chooses the samples of every pixel of a film, with at most `mean` on the average over its picture.
@@ -87,13 +73,11 @@ pub(crate) fn choose_samples(
     let probes = pilot.render(&pixels, &meter, |replicates| {
         probe_pixel(replicates, moving)
     })?;
-    let tiles = Tiles {
-        canvas: pilot.canvas,
-    };
-    let mut found = tiles.filled(TilePilot::default());
+    let [columns, rows] = [pilot.canvas.width, pilot.canvas.height].map(|side| side.div_ceil(TILE));
+    let mut found = Raster::filled(columns, rows, TilePilot::default());
     for (&pixel, probe) in pixels.iter().zip(&probes) {
-        let index = tiles.index(&found, pixel);
-        let tile = &mut found.pixels[index];
+        let [column, row] = find_tile(pilot.canvas, pixel);
+        let tile = &mut found.pixels[(row * columns + column) as usize];
         tile.pixels += 1.0;
         tile.variance += probe.variance;
         tile.coverage_variance += probe.coverage_variance;
@@ -119,7 +103,8 @@ pub(crate) fn choose_samples(
         (weight * variance.at(x, y) / cost).sqrt()
     });
     let demand: Vec<f64> = (pilot.canvas.pixels().into_iter())
-        .map(|pixel| demands.pixels[tiles.index(&demands, pixel)])
+        .map(|pixel| find_tile(pilot.canvas, pixel))
+        .map(|[column, row]| *demands.at(column, row))
         .collect();
     Ok(SampleCounts::share(pilot.canvas, &demand, mean))
 }

@@ -16,9 +16,10 @@ use crate::path::integrator::Integrator;
 use crate::path::stops::visit_layers;
 use crate::progress::Meter;
 use crate::sampler::{Sampler, Stream, pixel_seed};
+use crate::stage::Stage;
 
 /// Pixels that a thread takes at a time; between two tasks it reports progress.
-pub(crate) const PIXELS_PER_TASK: usize = 32;
+const PIXELS_PER_TASK: usize = 32;
 
 /// Times of the samples of a picture.
 #[derive(Clone, Copy)]
@@ -84,6 +85,31 @@ impl Times<'_> {
     }
 }
 
+/// Computes a result for each of the listed pixels, in their order, on all threads. `work` is the progress that some pixels make.
+pub(crate) fn for_each_pixel<T: Send>(
+    (stage, canvas): (&Stage, Canvas),
+    pixels: &[u32],
+    meter: &Meter,
+    work: impl Fn(&[u32]) -> u64 + Sync,
+    result: impl Fn(&mut Eye, u32) -> T + Sync,
+) -> Result<Vec<T>, TraceError> {
+    let tasks = pixels
+        .par_chunks(PIXELS_PER_TASK)
+        .map(|task| {
+            let mut eye = Eye::new(stage, canvas);
+            let mut results = Vec::with_capacity(task.len());
+            for &pixel in task {
+                meter.check()?;
+                results.push(result(&mut eye, pixel));
+            }
+            meter.advance(work(task));
+            Ok(results)
+        })
+        .collect::<Result<Vec<Vec<T>>, TraceError>>()?;
+    meter.check()?;
+    Ok(tasks.into_iter().flatten().collect())
+}
+
 impl<'a> Film<'a> {
     /// Samples of some pixels over all replicates and pictures, as progress counts them.
     pub fn work(&self, pixels: &[u32]) -> u64 {
@@ -99,26 +125,13 @@ impl<'a> Film<'a> {
         meter: &Meter,
         result: impl Fn(&[Vec<Estimate>]) -> T + Sync,
     ) -> Result<Vec<T>, TraceError> {
-        let tasks = pixels
-            .par_chunks(PIXELS_PER_TASK)
-            .map(|task| {
-                let mut eye = Eye::new(self.integrator.stage, self.canvas);
-                let mut results = Vec::with_capacity(task.len());
-                for &pixel in task {
-                    meter.check()?;
-                    let estimates: Vec<Vec<Estimate>> = self
-                        .replicates
-                        .clone()
-                        .map(|replicate| self.estimate(&mut eye, pixel, replicate))
-                        .collect();
-                    results.push(result(&estimates));
-                }
-                meter.advance(self.work(task));
-                Ok(results)
-            })
-            .collect::<Result<Vec<Vec<T>>, TraceError>>()?;
-        meter.check()?;
-        Ok(tasks.into_iter().flatten().collect())
+        let stage = self.integrator.stage;
+        let work = |task: &[u32]| self.work(task);
+        for_each_pixel((stage, self.canvas), pixels, meter, work, |eye, pixel| {
+            let replicates = self.replicates.clone();
+            let estimates = replicates.map(|replicate| self.estimate(eye, pixel, replicate));
+            result(&estimates.collect::<Vec<Vec<Estimate>>>())
+        })
     }
 
     /// Estimates a pixel of every picture.

@@ -3,11 +3,10 @@
 use std::ops::Range;
 
 use frame::{Raster, Support};
-use rayon::prelude::*;
 
 use crate::error::TraceError;
 use crate::film::eye::Eye;
-use crate::film::render::{Film, PIXELS_PER_TASK, Times};
+use crate::film::render::{Film, Times, for_each_pixel};
 use crate::path::stops::visit_layers;
 use crate::progress::Meter;
 use crate::sampler::{Sampler, Stream, pixel_seed};
@@ -75,33 +74,29 @@ fn probe_pixels(
     is_probed: impl Fn(u32, usize) -> bool + Sync,
     meter: &Meter,
 ) -> Result<Vec<Vec<PixelProbe>>, TraceError> {
-    let tasks = (film.canvas.pixels())
-        .par_chunks(PIXELS_PER_TASK)
-        .map(|task| {
-            let mut eye = Eye::new(film.integrator.stage, film.canvas);
-            // This is no progress of the replicate, but a chance to cancel it.
-            meter.advance(0);
-            meter.check()?;
-            Ok((task.iter())
-                .map(|&pixel| {
-                    let mut probes = before[pixel as usize].clone();
-                    let mut probed: Vec<(&Times, &mut PixelProbe)> =
-                        (film.times.iter().enumerate())
-                            .zip(&mut probes)
-                            .filter(|((number, _), _)| is_probed(pixel, *number))
-                            .map(|((_, times), probe)| (times, probe))
-                            .collect();
-                    if !probed.is_empty() {
-                        for index in samples.clone() {
-                            probe_once(film, &mut eye, pixel, index, &mut probed);
-                        }
-                    }
-                    probes
-                })
-                .collect())
-        })
-        .collect::<Result<Vec<Vec<Vec<PixelProbe>>>, TraceError>>()?;
-    Ok(tasks.into_iter().flatten().collect())
+    let place = (film.integrator.stage, film.canvas);
+    // This is no progress of the replicate, but a chance to cancel it.
+    let no_work = |_: &[u32]| 0;
+    for_each_pixel(
+        place,
+        &film.canvas.pixels(),
+        meter,
+        no_work,
+        |eye, pixel| {
+            let mut probes = before[pixel as usize].clone();
+            let mut probed: Vec<(&Times, &mut PixelProbe)> = (film.times.iter().enumerate())
+                .zip(&mut probes)
+                .filter(|((number, _), _)| is_probed(pixel, *number))
+                .map(|((_, times), probe)| (times, probe))
+                .collect();
+            if !probed.is_empty() {
+                for index in samples.clone() {
+                    probe_once(film, eye, pixel, index, &mut probed);
+                }
+            }
+            probes
+        },
+    )
 }
 
 /// Marks the pixels whose rays all found the same, as those of all their neighbours did, all of it knowable or all of it not.

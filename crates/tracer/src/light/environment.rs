@@ -59,8 +59,8 @@ impl EnvironmentMap {
 
 /// Draws directions of an environment map roughly in proportion to its radiance.
 ///
-/// A texel is drawn by the mean of itself and its neighbours, so that every direction that interpolation makes bright can be
-/// drawn. Within a texel directions are drawn evenly.
+/// A texel is chosen by the mean of itself and its neighbours, so that every direction that interpolation makes bright can be
+/// sampled. Within a texel directions are sampled evenly.
 pub(crate) struct EnvironmentSampler {
     /// Probability per steradian of each texel.
     densities: Vec<f64>,

@@ -8,7 +8,7 @@ use crate::material::surface::{emission, find_material};
 use crate::motion::poses::Poses;
 use crate::scene::{Scene, Sun};
 
-/// A point drawn on a light, as seen from a surface.
+/// A point sampled on a light, as seen from a surface.
 pub(crate) struct LightSample {
     /// Unit vector to the point.
     pub direction: DVec3,
@@ -16,29 +16,29 @@ pub(crate) struct LightSample {
     pub distance: f64,
     /// Radiance that arrives if nothing is in between.
     pub radiance: Vec3,
-    /// Probability per steradian of having drawn this direction.
+    /// Probability per steradian of having sampled this direction.
     pub density: f64,
 }
 
-/// Probability per steradian of a point drawn uniformly on an area, seen at a distance and a cosine.
+/// Probability per steradian of a point sampled uniformly on an area, seen at a distance and a cosine.
 pub(crate) fn density_per_steradian(area: f64, distance: f64, cosine: f64) -> f64 {
     distance * distance / (area * cosine.abs())
 }
 
-/// Weight of a sample drawn with density `own` that `other` might have drawn as well: the power heuristic
+/// Weight of a sample of density `own` that `other` might have sampled as well: the power heuristic
 /// (Veach 1997, section 9.2).
 pub(crate) fn power_heuristic(own: f64, other: f64) -> f64 {
     let ratio = other / own;
     1.0 / (1.0 + ratio * ratio)
 }
 
-/// All emissive triangles, drawn in proportion to their area and emission at one reference time.
+/// All emissive triangles, sampled in proportion to their area and emission at one reference time.
 pub(crate) struct Emitters {
     /// Object and triangle of each.
     pub triangles: Vec<(usize, u32)>,
     /// Sums of the chances up to each triangle, rising to 1.
     cumulative: Vec<f64>,
-    /// Chance of being drawn, per object and triangle; empty for objects that do not emit.
+    /// Chance of being sampled, per object and triangle; empty for objects that do not emit.
     chances: Vec<Vec<f64>>,
 }
 
@@ -85,7 +85,7 @@ impl Emitters {
         }
     }
 
-    /// Draws a point on an emitter from three numbers in [0, 1), as seen from `from`; none where the drawn triangle is seen
+    /// Draws a point on an emitter from three numbers in [0, 1), as seen from `from`; none where the sampled triangle is seen
     /// edge-on, or nothing emits.
     pub fn sample(
         &self,

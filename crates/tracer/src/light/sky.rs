@@ -1,4 +1,4 @@
-//! The background: its radiance, and directions drawn to it.
+//! The background: its radiance, and directions sampled to it.
 
 use std::f64::consts::TAU;
 

@@ -72,7 +72,7 @@ fn read_keys(
                 position,
                 look_at: table.look_at.clone(),
                 up: table.up.clone(),
-                rotation: table.rotation.clone(),
+                rotation: table.rotation,
                 vertical_fov: table.vertical_fov.clone(),
             };
             Ok(Spanned::new(place, vec![key]))
@@ -96,8 +96,8 @@ fn read_field_of_view(document: &Document, degrees: &Spanned<f64>) -> Result<f64
 }
 
 fn read_view_rotation(document: &Document, key: &CameraKeyTable) -> Result<Rotation, SceneError> {
-    match (&key.look_at, &key.rotation) {
-        (None, Some(table)) if key.up.is_none() => Rotation::read(document, table),
+    match (&key.look_at, key.rotation) {
+        (None, Some(rotation)) if key.up.is_none() => Ok(rotation),
         (Some(target), None) => read_look_at(document, key, target),
         _ => {
             let reason = "a camera needs either look_at, with up or without, or rotation";

@@ -33,15 +33,16 @@ impl From<Finish> for FinishValues {
 
 impl FinishValues {
     /// Builds the finish. Without a roughness it is diffuse, whatever the index: exporters write an index for every
-    /// material. `names` are those of roughness, metallic and index in the file; the error holds that of the wrong value, and says why.
-    pub fn build(self, names: [&'static str; 3]) -> Result<Finish, (&'static str, String)> {
-        let refuse = |name, reason: String| Err((name, format!("{name} {reason}")));
-        let [roughness_name, metallic_name, index_name] = names;
+    /// material. `names` are those of roughness, metallic and index in the file; the error holds the number of the wrong value among them, and
+    /// says why.
+    pub fn build(self, names: [&str; 3]) -> Result<Finish, (usize, String)> {
+        let refuse =
+            |wrong: usize, reason: String| Err((wrong, format!("{} {reason}", names[wrong])));
         let Some(roughness) = self.roughness else {
             return match self.metallic {
                 true => {
                     let reason = "makes a metal without a roughness; give it one (0 is a mirror)";
-                    refuse(metallic_name, reason.into())
+                    refuse(1, reason.into())
                 }
                 false => Ok(Finish::Diffuse),
             };
@@ -49,7 +50,7 @@ impl FinishValues {
         if roughness != 0.0 && !(Finish::SMOOTHEST..=1.0).contains(&roughness) {
             let smoothest = Finish::SMOOTHEST;
             let reason = format!("is {roughness}; allowed: 0 (a mirror) and {smoothest} to 1");
-            return refuse(roughness_name, reason);
+            return refuse(0, reason);
         }
         if self.metallic {
             return Ok(Finish::Conductor { roughness });
@@ -57,7 +58,7 @@ impl FinishValues {
         let index = self.index.unwrap_or(DEFAULT_INDEX);
         if !(1.0..=Finish::DENSEST).contains(&index) {
             let reason = format!("is {index}; allowed: 1 to {}", Finish::DENSEST);
-            return refuse(index_name, reason);
+            return refuse(2, reason);
         }
         // A coat of index 1 reflects nothing.
         Ok(match index == 1.0 {

@@ -33,19 +33,14 @@ pub(super) fn read_background(
     }
     match (constant, gradient, image) {
         (Some(constant), None, None) => {
-            let place = constant.span();
-            let constant = read_radiance(document, "constant", *constant.get_ref(), place)?;
+            let constant = read_radiance(document, "constant", constant)?;
             Ok(Background::Constant(constant))
         }
-        (None, Some(gradient), None) => {
-            let part = |what, value| read_radiance(document, what, value, gradient.span());
-            let gradient = gradient.get_ref();
-            Ok(Background::Gradient {
-                ground: part("ground", gradient.ground)?,
-                horizon: part("horizon", gradient.horizon)?,
-                zenith: part("zenith", gradient.zenith)?,
-            })
-        }
+        (None, Some(gradient), None) => Ok(Background::Gradient {
+            ground: read_radiance(document, "ground", &gradient.ground)?,
+            horizon: read_radiance(document, "horizon", &gradient.horizon)?,
+            zenith: read_radiance(document, "zenith", &gradient.zenith)?,
+        }),
         (None, None, Some(image)) => {
             let map = environment::read_map(files, &folder.join(image.get_ref()))
                 .map_err(|reason| document.error(image.span(), reason))?;
@@ -76,12 +71,7 @@ pub(super) fn read_sun(document: &Document, table: &SunTable) -> Result<Sun, Sce
             let reason = "the sun's direction is [0, 0, 0]; give a direction towards the sun";
             document.error(table.direction.span(), reason)
         })?;
-    let irradiance = read_radiance(
-        document,
-        "irradiance",
-        *table.irradiance.get_ref(),
-        table.irradiance.span(),
-    )?;
+    let irradiance = read_radiance(document, "irradiance", &table.irradiance)?;
     let degrees = table.angular_radius.as_ref().map_or(0.0, |r| *r.get_ref());
     if let Some(radius) = &table.angular_radius
         && degrees != 0.0
@@ -150,12 +140,22 @@ pub(super) fn read_display(
 pub(super) fn read_radiance(
     document: &Document,
     what: &str,
-    value: [f32; 3],
-    place: std::ops::Range<usize>,
+    value: &Spanned<[f32; 3]>,
 ) -> Result<Vec3, SceneError> {
-    check_radiance(value)
-        .map(|()| Vec3::from(value))
-        .map_err(|reason| document.error(place, format!("{what} {reason}")))
+    check_radiance(*value.get_ref())
+        .map(|()| Vec3::from(*value.get_ref()))
+        .map_err(|reason| document.error(value.span(), format!("{what} {reason}")))
+}
+
+/// Reads an albedo.
+pub(super) fn read_albedo(
+    document: &Document,
+    what: &str,
+    value: &Spanned<[f32; 3]>,
+) -> Result<Vec3, SceneError> {
+    check_albedo(*value.get_ref())
+        .map(|()| Vec3::from(*value.get_ref()))
+        .map_err(|reason| document.error(value.span(), format!("{what} {reason}")))
 }
 
 /// Checks an amount of light. The error follows its name.

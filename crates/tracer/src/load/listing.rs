@@ -8,9 +8,10 @@ use super::variants::ParsedScene;
 use crate::{Family, Location};
 
 /// Description of a scene, without its meshes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct SceneListing {
     /// Folder to load it from.
+    #[serde(skip)]
     pub folder: Location,
     /// Name of the folder.
     pub name: String,

@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
-use glam::Vec3;
 use toml::Spanned;
 
 use super::document::Document;
 use super::error::SceneError;
 use super::files::Files;
 use super::finish::FinishValues;
-use super::light::{check_albedo, read_radiance};
+use super::light::{read_albedo, read_radiance};
 use super::schema::MaterialTable;
 use super::texture::{Textures, Use};
 use super::translucency::change_translucency;
@@ -22,21 +21,26 @@ fn change_finish(
     before: Finish,
 ) -> Result<Finish, SceneError> {
     let before = FinishValues::from(before);
+    let MaterialTable {
+        roughness,
+        metallic,
+        index_of_refraction: index,
+        ..
+    } = table;
     let given = |value: &Option<Spanned<f32>>| value.as_ref().map(|value| *value.get_ref());
-    let metallic = table.metallic.as_ref().map(|metallic| *metallic.get_ref());
     let values = FinishValues {
-        roughness: given(&table.roughness).or(before.roughness),
-        metallic: metallic.unwrap_or(before.metallic),
-        index: given(&table.index_of_refraction).or(before.index),
+        roughness: given(roughness).or(before.roughness),
+        metallic: (metallic.as_ref()).map_or(before.metallic, |metallic| *metallic.get_ref()),
+        index: given(index).or(before.index),
     };
-    let span = |given: &Option<Spanned<f32>>| given.as_ref().map(Spanned::span);
     let names = ["roughness", "metallic", "index_of_refraction"];
-    values.build(names).map_err(|(name, reason)| {
-        let place = match name {
-            "roughness" => span(&table.roughness),
-            "metallic" => table.metallic.as_ref().map(Spanned::span),
-            _ => span(&table.index_of_refraction),
-        };
+    values.build(names).map_err(|(wrong, reason)| {
+        let places = [
+            roughness.as_ref().map(Spanned::span),
+            metallic.as_ref().map(Spanned::span),
+            index.as_ref().map(Spanned::span),
+        ];
+        let place = places[wrong].clone();
         let place = place.expect("the material's own values were allowed");
         document.error(place, reason)
     })
@@ -53,13 +57,10 @@ pub(super) fn change_material(
     material: &mut Material,
 ) -> Result<(), SceneError> {
     if let Some(diffuse) = &table.diffuse {
-        check_albedo(*diffuse.get_ref())
-            .map_err(|reason| document.error(diffuse.span(), format!("diffuse {reason}")))?;
-        material.diffuse = Vec3::from(*diffuse.get_ref());
+        material.diffuse = read_albedo(document, "diffuse", diffuse)?;
     }
     if let Some(emission) = &table.emission {
-        let place = emission.span();
-        material.emission = read_radiance(document, "emission", *emission.get_ref(), place)?;
+        material.emission = read_radiance(document, "emission", emission)?;
     }
     if let Some(opacity) = &table.opacity {
         material.opacity = *opacity.get_ref();

@@ -25,6 +25,7 @@ mod objects;
 mod parents;
 mod picture;
 mod rotation;
+mod scale;
 mod schema;
 mod shutter;
 mod statements;

@@ -26,6 +26,9 @@ const KEYWORDS: [&str; 13] = [
     "newmtl", "Kd", "Ke", "d", "map_Kd", "map_Ke", "map_d", "Pr", "Pm", "Ni", "Tf", "Tr", "illum",
 ];
 
+/// Statements of roughness, metallic and index of refraction.
+const FINISH: [&str; 3] = ["Pr", "Pm", "Ni"];
+
 /// Illumination model of glass: "Transparency: Glass on, Reflection: Ray trace on".
 const GLASS_MODEL: f32 = 4.0;
 /// Largest difference between a Tr and 1 - d, by rounding of decimals.
@@ -178,8 +181,8 @@ impl Statements {
         let is_glass = self.number("illum") == Some(GLASS_MODEL);
         Ok(Material {
             name: name.to_owned(),
-            finish: (finish.build(["Pr", "Pm", "Ni"]))
-                .map_err(|(keyword, reason)| self.error(keyword, reason))?,
+            finish: (finish.build(FINISH))
+                .map_err(|(wrong, reason)| self.error(FINISH[wrong], reason))?,
             // A texture alone is shown as it is.
             diffuse: color("Kd", diffuse_texture.map_or(DEFAULT_ALBEDO, |_| 1.0)),
             diffuse_texture,

@@ -1,11 +1,12 @@
 //! Rotations as a scene.toml states them, and the turns between them.
 
-use glam::{DQuat, DVec3};
-use toml::Spanned;
+use std::fmt;
 
-use super::document::Document;
-use super::error::SceneError;
-use super::schema::RotationTable;
+use glam::{DQuat, DVec3};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+
 use crate::Turn;
 
 /// Largest turn between orientations that give no axis, in degrees. From half a turn on its direction is ambiguous.
@@ -14,45 +15,65 @@ pub(super) const LARGEST_TURN: f64 = 179.9;
 /// Distance below which two axes, as unit vectors, are the same but for rounding.
 const SAME_AXIS: f64 = 1e-9;
 
-/// Orientation as written; an axis and degrees can state more than one turn.
+/// Orientation as written: `{ axis, degrees }`, which can state more than one turn, or a quaternion `[x, y, z, w]`.
 #[derive(Clone, Copy)]
 pub(super) enum Rotation {
     AxisAngle { axis: DVec3, degrees: f64 },
     Quaternion(DQuat),
 }
 
-impl Rotation {
-    pub(super) const NONE: Self = Rotation::Quaternion(DQuat::IDENTITY);
+impl Default for Rotation {
+    fn default() -> Self {
+        Rotation::Quaternion(DQuat::IDENTITY)
+    }
+}
 
-    /// Reads a rotation; refuses one without a direction.
-    pub(super) fn read(
-        document: &Document,
-        table: &Spanned<RotationTable>,
-    ) -> Result<Self, SceneError> {
-        match *table.get_ref() {
-            RotationTable::AxisAngle { axis, degrees } => {
+// Hand-written because serde's untagged enums lose the places of what they hold, and say only that nothing matched.
+impl<'de> Deserialize<'de> for Rotation {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct AxisAngle {
+            axis: [f64; 3],
+            degrees: f64,
+        }
+
+        struct RotationVisitor;
+
+        impl<'de> Visitor<'de> for RotationVisitor {
+            type Value = Rotation;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("{ axis = [x, y, z], degrees = number } or a quaternion [x, y, z, w]")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, values: A) -> Result<Rotation, A::Error> {
+                let components = <[f64; 4]>::deserialize(SeqAccessDeserializer::new(values))?;
+                let length_squared: f64 = components.iter().map(|c| c * c).sum();
+                if !length_squared.is_normal() {
+                    return Err(A::Error::custom(format!(
+                        "rotation is the quaternion {components:?}, which has no length; write [0, 0, 0, 1] for no rotation"
+                    )));
+                }
+                let orientation = DQuat::from_array(components).normalize();
+                Ok(Rotation::Quaternion(orientation))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, keys: A) -> Result<Rotation, A::Error> {
+                let AxisAngle { axis, degrees } =
+                    AxisAngle::deserialize(MapAccessDeserializer::new(keys))?;
                 let axis = DVec3::from(axis).try_normalize().ok_or_else(|| {
-                    let reason = "rotation has the axis [0, 0, 0]; give it a direction";
-                    document.error(table.span(), reason)
+                    A::Error::custom("rotation has the axis [0, 0, 0]; give it a direction")
                 })?;
                 Ok(Rotation::AxisAngle { axis, degrees })
             }
-            RotationTable::Quaternion(components) => {
-                let length_squared: f64 = components.iter().map(|c| c * c).sum();
-                if !length_squared.is_normal() {
-                    let reason = format!(
-                        "rotation is the quaternion {components:?}, which has no length; \
-                         write [0, 0, 0, 1] for no rotation"
-                    );
-                    return Err(document.error(table.span(), reason));
-                }
-                Ok(Rotation::Quaternion(
-                    DQuat::from_array(components).normalize(),
-                ))
-            }
         }
-    }
 
+        deserializer.deserialize_any(RotationVisitor)
+    }
+}
+
+impl Rotation {
     /// Converts to a quaternion.
     pub(super) fn orientation(self) -> DQuat {
         match self {

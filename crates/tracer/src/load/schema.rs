@@ -1,13 +1,13 @@
 //! The keys of a scene.toml. Their meaning is documented in `scenes/README.md`.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 use toml::Spanned;
 
+use super::rotation::Rotation;
+use super::scale::Scale;
 use crate::{Family, Interpolation};
 
 #[derive(Deserialize)]
@@ -73,7 +73,7 @@ pub(super) struct CameraTable {
     pub(super) position: Option<[f64; 3]>,
     pub(super) look_at: Option<Spanned<[f64; 3]>>,
     pub(super) up: Option<Spanned<[f64; 3]>>,
-    pub(super) rotation: Option<Spanned<RotationTable>>,
+    pub(super) rotation: Option<Rotation>,
     pub(super) vertical_fov: Option<Spanned<f64>>,
     pub(super) aperture: Option<Spanned<f64>>,
     pub(super) focus: Option<Spanned<f64>>,
@@ -88,7 +88,7 @@ pub(super) struct CameraKeyTable {
     pub(super) position: [f64; 3],
     pub(super) look_at: Option<Spanned<[f64; 3]>>,
     pub(super) up: Option<Spanned<[f64; 3]>>,
-    pub(super) rotation: Option<Spanned<RotationTable>>,
+    pub(super) rotation: Option<Rotation>,
     pub(super) vertical_fov: Option<Spanned<f64>>,
 }
 
@@ -96,7 +96,7 @@ pub(super) struct CameraKeyTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct BackgroundTable {
     pub(super) constant: Option<Spanned<[f32; 3]>>,
-    pub(super) gradient: Option<Spanned<GradientTable>>,
+    pub(super) gradient: Option<GradientTable>,
     pub(super) image: Option<Spanned<String>>,
     pub(super) strength: Option<Spanned<f32>>,
     pub(super) rotation: Option<f64>,
@@ -105,9 +105,9 @@ pub(super) struct BackgroundTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GradientTable {
-    pub(super) ground: [f32; 3],
-    pub(super) horizon: [f32; 3],
-    pub(super) zenith: [f32; 3],
+    pub(super) ground: Spanned<[f32; 3]>,
+    pub(super) horizon: Spanned<[f32; 3]>,
+    pub(super) zenith: Spanned<[f32; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -126,8 +126,8 @@ pub(super) struct ObjectTable {
     pub(super) group: Option<Spanned<String>>,
     pub(super) parent: Option<Spanned<String>>,
     pub(super) translation: Option<Spanned<[f64; 3]>>,
-    pub(super) rotation: Option<Spanned<RotationTable>>,
-    pub(super) scale: Option<Spanned<ScaleTable>>,
+    pub(super) rotation: Option<Spanned<Rotation>>,
+    pub(super) scale: Option<Spanned<Scale>>,
     pub(super) keys: Option<Spanned<Vec<KeyTable>>>,
     pub(super) interpolation: Option<Spanned<Interpolation>>,
     pub(super) alpha: Option<AlphaWord>,
@@ -147,9 +147,12 @@ pub(super) struct ShapeTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct KeyTable {
     pub(super) time: Spanned<f64>,
-    pub(super) translation: Option<[f64; 3]>,
-    pub(super) rotation: Option<Spanned<RotationTable>>,
-    pub(super) scale: Option<Spanned<ScaleTable>>,
+    #[serde(default)]
+    pub(super) translation: [f64; 3],
+    #[serde(default)]
+    pub(super) rotation: Rotation,
+    #[serde(default)]
+    pub(super) scale: Scale,
 }
 
 #[derive(Deserialize)]
@@ -182,79 +185,4 @@ pub(super) enum AlphaWord {
 pub(super) enum BuffersWord {
     Behind,
     Own,
-}
-
-/// `{ axis, degrees }` or a quaternion `[x, y, z, w]`.
-#[derive(Clone, Copy)]
-pub(super) enum RotationTable {
-    AxisAngle { axis: [f64; 3], degrees: f64 },
-    Quaternion([f64; 4]),
-}
-
-/// One factor, or one per axis.
-#[derive(Clone, Copy)]
-pub(super) struct ScaleTable(pub(super) [f64; 3]);
-
-// Hand-written because serde's untagged enums lose the places of what they hold, and say only that nothing matched.
-impl<'de> Deserialize<'de> for RotationTable {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(deny_unknown_fields)]
-        struct AxisAngle {
-            axis: [f64; 3],
-            degrees: f64,
-        }
-
-        struct RotationVisitor;
-
-        impl<'de> Visitor<'de> for RotationVisitor {
-            type Value = RotationTable;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("{ axis = [x, y, z], degrees = number } or a quaternion [x, y, z, w]")
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, values: A) -> Result<Self::Value, A::Error> {
-                let quaternion = <[f64; 4]>::deserialize(SeqAccessDeserializer::new(values))?;
-                Ok(RotationTable::Quaternion(quaternion))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, keys: A) -> Result<Self::Value, A::Error> {
-                let AxisAngle { axis, degrees } =
-                    AxisAngle::deserialize(MapAccessDeserializer::new(keys))?;
-                Ok(RotationTable::AxisAngle { axis, degrees })
-            }
-        }
-
-        deserializer.deserialize_any(RotationVisitor)
-    }
-}
-
-impl<'de> Deserialize<'de> for ScaleTable {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct ScaleVisitor;
-
-        impl<'de> Visitor<'de> for ScaleVisitor {
-            type Value = ScaleTable;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a number or [x, y, z]")
-            }
-
-            fn visit_i64<E: Error>(self, factor: i64) -> Result<Self::Value, E> {
-                self.visit_f64(factor as f64)
-            }
-
-            fn visit_f64<E: Error>(self, factor: f64) -> Result<Self::Value, E> {
-                Ok(ScaleTable([factor; 3]))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, values: A) -> Result<Self::Value, A::Error> {
-                let factors = <[f64; 3]>::deserialize(SeqAccessDeserializer::new(values))?;
-                Ok(ScaleTable(factors))
-            }
-        }
-
-        deserializer.deserialize_any(ScaleVisitor)
-    }
 }

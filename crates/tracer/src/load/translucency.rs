@@ -1,11 +1,10 @@
 //! The translucency of materials: what an object's `alpha` makes of opacities, and checks of what its materials ask for.
 
-use glam::Vec3;
 use toml::Spanned;
 
 use super::document::Document;
 use super::error::SceneError;
-use super::light::check_albedo;
+use super::light::read_albedo;
 use super::schema::{AlphaWord, BuffersWord, MaterialTable, ObjectTable};
 use crate::{Finish, Material, Translucency};
 
@@ -87,9 +86,7 @@ pub(super) fn change_translucency(
     }
     let mut asked = material.translucency.unwrap_or(Translucency::CLEAR);
     if let Some(filter) = &table.filter {
-        check_albedo(*filter.get_ref())
-            .map_err(|reason| document.error(filter.span(), format!("filter {reason}")))?;
-        asked.filter = Vec3::from(*filter.get_ref());
+        asked.filter = read_albedo(document, "filter", filter)?;
     }
     if let Some(is_glass) = &table.thin_glass {
         asked.glass = is_glass.get_ref().then(|| asked.glass.unwrap_or(GLASS));

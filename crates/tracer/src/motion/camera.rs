@@ -22,6 +22,15 @@ pub struct View {
     lens: Option<Lens>,
 }
 
+/// What a camera may see.
+#[derive(Clone, Copy)]
+pub(crate) enum Target {
+    /// A point of the world.
+    Point(DVec3),
+    /// A point at infinity, in a direction of the world.
+    Infinity(DVec3),
+}
+
 impl Camera {
     /// Vertical field of view at `time` (frames), in radians.
     pub fn vertical_fov_at(&self, time: f64) -> f64 {
@@ -106,45 +115,33 @@ impl View {
         }
     }
 
-    /// Projects a point of the world to pixels from the top left, through the centre of the lens; none behind the camera.
-    pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
-        self.project_local(self.to_camera.transform_point3(point))
-    }
-
-    /// Projects a point at infinity to pixels from the top left, through the centre of the lens; none behind the camera.
-    pub fn project_direction(&self, direction: DVec3) -> Option<[f64; 2]> {
-        self.project_local(self.to_camera.transform_vector3(direction))
-    }
-
-    /// Projects a point of the world through a point of the lens: the place whose ray through that point meets it.
-    pub(crate) fn project_through(&self, point: DVec3, from: LensPoint) -> Option<DVec2> {
-        let place = self.project(point)?;
-        Some(self.shifted(place, from, || 1.0 / self.depth(point)))
-    }
-
-    /// Projects a point at infinity through a point of the lens.
-    pub(crate) fn project_direction_through(
-        &self,
-        direction: DVec3,
-        from: LensPoint,
-    ) -> Option<DVec2> {
-        let place = self.project_direction(direction)?;
-        Some(self.shifted(place, from, || 0.0))
-    }
-
-    /// Moves a place that was seen through the lens' centre to where another point of the lens sees it, by the inverse of its depth.
-    fn shifted(
-        &self,
-        place: [f64; 2],
-        from: LensPoint,
-        inverse_depth: impl FnOnce() -> f64,
-    ) -> DVec2 {
-        let place = DVec2::from(place);
-        let Some(lens) = self.lens else {
-            return place;
+    /// Projects a target to pixels from the top left, through the centre of the lens; none behind the camera.
+    pub(crate) fn project(&self, target: Target) -> Option<[f64; 2]> {
+        let seen = match target {
+            Target::Point(point) => self.to_camera.transform_point3(point),
+            Target::Infinity(direction) => self.to_camera.transform_vector3(direction),
         };
-        let shift = self.focal * (1.0 / lens.focus - inverse_depth()) * from.0;
-        place + DVec2::new(shift.x, -shift.y)
+        let depth = -seen.z;
+        (depth > 0.0).then(|| {
+            [
+                self.half[0] + self.focal * seen.x / depth,
+                self.half[1] - self.focal * seen.y / depth,
+            ]
+        })
+    }
+
+    /// Projects a target through a point of the lens: the place whose ray through that point meets it.
+    pub(crate) fn project_through(&self, target: Target, from: LensPoint) -> Option<DVec2> {
+        let place = DVec2::from(self.project(target)?);
+        let Some(lens) = self.lens else {
+            return Some(place);
+        };
+        let inverse_depth = match target {
+            Target::Point(point) => 1.0 / self.depth(point),
+            Target::Infinity(_) => 0.0,
+        };
+        let shift = self.focal * (1.0 / lens.focus - inverse_depth) * from.0;
+        Some(place + DVec2::new(shift.x, -shift.y))
     }
 
     /// The homography from this view's picture to `other`'s. Its three rows act on (x, y, 1, 1 / depth), in pixels and
@@ -192,16 +189,5 @@ impl View {
     /// Distance of a point of the world along the view axis, metres.
     pub fn depth(&self, point: DVec3) -> f64 {
         -self.to_camera.transform_point3(point).z
-    }
-
-    /// Projects a point or direction in camera space.
-    fn project_local(&self, seen: DVec3) -> Option<[f64; 2]> {
-        let depth = -seen.z;
-        (depth > 0.0).then(|| {
-            [
-                self.half[0] + self.focal * seen.x / depth,
-                self.half[1] - self.focal * seen.y / depth,
-            ]
-        })
     }
 }

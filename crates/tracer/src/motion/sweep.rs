@@ -127,8 +127,109 @@ fn segment_maxima(inner: PointMaxima, segment: &Segment, from: f64, to: f64) -> 
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
+    use glam::{DQuat, Vec3};
+
     use super::*;
+    use crate::scene::{Interpolation, Key, Object, Parent, Shape, Turn};
+    use crate::seal::chance::Chance;
     use crate::test_scene::load_test_scene;
+
+    fn random_vector(chance: &mut Chance) -> DVec3 {
+        DVec3::from([(); 3].map(|()| chance.between(-1.0..=1.0)))
+    }
+
+    /// Keys at -0.7, 0 and 0.4 with turns of up to `turn` radians, drifts and growth.
+    fn random_motion(chance: &mut Chance, interpolation: Interpolation, turn: f64) -> Motion {
+        let mut orientation = DQuat::from_axis_angle(random_vector(chance).normalize(), 1.0);
+        let keys = [-0.7, 0.0, 0.4].map(|time| {
+            let turn = Turn {
+                axis: random_vector(chance).normalize(),
+                angle: turn * chance.between(-1.0..=1.0),
+            };
+            let key = Key {
+                time,
+                translation: 3.0 * random_vector(chance),
+                orientation,
+                scale: DVec3::ONE + 0.5 * random_vector(chance),
+                turn,
+            };
+            orientation = DQuat::from_axis_angle(turn.axis, turn.angle) * orientation;
+            key
+        });
+        Motion {
+            keys: keys.to_vec(),
+            interpolation,
+        }
+    }
+
+    /// Makes a scene of an object, its child and one that the camera carries, all of one mesh.
+    fn random_scene(
+        chance: &mut Chance,
+        interpolation: Interpolation,
+        turn: f64,
+        shape_times: &[f64],
+    ) -> Scene {
+        let mut corners = || (0..8).map(|_| random_vector(chance).as_vec3()).collect();
+        let positions: Vec<Vec3> = corners();
+        let shapes = shape_times.iter().map(|&time| Shape {
+            time,
+            positions: corners(),
+            normals: Vec::new(),
+        });
+        let shapes = shapes.collect();
+        let mut scene = load_test_scene("two_spheres");
+        scene.meshes = vec![Mesh {
+            positions,
+            shapes,
+            ..Mesh::default()
+        }];
+        scene.camera.motion = random_motion(chance, interpolation, turn);
+        let parents = [Parent::World, Parent::Object(0), Parent::Camera];
+        scene.objects = (parents.into_iter())
+            .map(|parent| Object {
+                name: "thing".into(),
+                mesh: 0,
+                materials: Vec::new(),
+                motion: random_motion(chance, interpolation, turn),
+                parent,
+            })
+            .collect();
+        scene
+    }
+
+    fn assert_box_contains_mesh(scene: &Scene, object: usize, [from, to]: [f64; 2]) {
+        // Rounding only.
+        let aabb = swept_aabb(scene, &Extent::of_meshes(scene), object, from, to).grown(1e-12);
+        for step in 0..=1000 {
+            let time = from + (to - from) * f64::from(step) / 1000.0;
+            let pose = scene.object_to_world(object, time);
+            for position in scene.meshes[0].at(time).positions() {
+                let point = pose.transform_point3(position);
+                let inside = point.cmpge(aabb.min).all() && point.cmple(aabb.max).all();
+                assert!(inside, "object {object} leaves {aabb:?} at {time}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_swept_box_contains_the_mesh_at_every_time() {
+        let mut chance = Chance::new(1, "poses");
+        for interpolation in [Interpolation::Linear, Interpolation::Cubic].repeat(4) {
+            // No turn, a little, nearly half a turn, and several turns.
+            for turn in [0.0, 0.3, 179.0_f64.to_radians(), 6.0 * PI] {
+                for shape_times in [&[][..], &[-0.5, 0.0, 0.2]] {
+                    let scene = random_scene(&mut chance, interpolation, turn, shape_times);
+                    for object in 0..scene.objects.len() {
+                        // The interval contains a key and ends beyond the last.
+                        assert_box_contains_mesh(&scene, object, [-0.1, 0.0]);
+                        assert_box_contains_mesh(&scene, object, [-0.3, 0.6]);
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn the_box_of_a_translation_is_tight() {

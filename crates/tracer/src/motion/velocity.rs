@@ -4,6 +4,7 @@ use frame::{Camera, Reprojection, VelocityKind};
 use glam::DVec3;
 
 use crate::geometry::ray::Hit;
+use crate::motion::camera::Target;
 use crate::scene::Scene;
 
 /// Step of the difference quotient, in frames. The error is the third derivative times the step squared over 3: 1e-3 pixels
@@ -148,14 +149,13 @@ impl TrackedPoint {
                 let mesh = &scene.meshes[scene.objects[hit.object].mesh];
                 let point = mesh.at(object_time).point(hit.triangle, hit.weights);
                 let is_unset = motion.objects_before == ObjectsBefore::Identity && time < now;
-                view.project(match is_unset {
+                let to_world = || scene.object_to_world(hit.object, object_time);
+                view.project(Target::Point(match is_unset {
                     true => point,
-                    false => scene
-                        .object_to_world(hit.object, object_time)
-                        .transform_point3(point),
-                })
+                    false => to_world().transform_point3(point),
+                }))
             }
-            TrackedPoint::Infinity(direction) => view.project_direction(direction),
+            TrackedPoint::Infinity(direction) => view.project(Target::Infinity(direction)),
         }
     }
 }

@@ -24,7 +24,7 @@ pub(crate) struct Integrator<'a> {
     pub emitters: Emitters,
 }
 
-/// Density with which a ray's direction was drawn; none for rays that no light could have drawn: those of the camera and of
+/// Density with which a ray's direction was sampled; none for rays that no light could have sampled: those of the camera and of
 /// mirrors.
 type RayDensity = Option<f64>;
 
@@ -184,7 +184,7 @@ impl<'a> Integrator<'a> {
         light
     }
 
-    /// Light from one light sample, scattered by a surface. `by_surface` says that the BRDF might have drawn the direction
+    /// Light from one light sample, scattered by a surface. `by_surface` says that the BRDF might have sampled the direction
     /// too.
     fn light_from(
         &self,

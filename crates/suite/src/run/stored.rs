@@ -1,19 +1,21 @@
-//! One of two runs that are compared.
+//! A finished run in its folder.
 
 use std::path::{Path, PathBuf};
 
-use suite::{Case, Error, Run};
+use super::Run;
+use super::case::Case;
+use crate::Error;
 
 /// A finished run and its path.
 #[derive(Clone, Debug)]
-pub struct Side {
+pub struct StoredRun {
     /// Its run.json.
     pub path: PathBuf,
     /// The run.
     pub run: Run,
 }
 
-impl Side {
+impl StoredRun {
     /// Reads a run.json, or the one in a folder.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let path = match path.is_dir() {

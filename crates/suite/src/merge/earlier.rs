@@ -1,0 +1,169 @@
+//! Cases of an earlier run in the same folder, which a narrower run keeps.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use filters::AdapterDescription;
+use tracer::SceneId;
+
+use super::fold::fold_runs;
+use crate::Error;
+use crate::identity::FilterId;
+use crate::measure::plan::RunPlan;
+use crate::measure::planned_case::PlannedCase;
+use crate::run::Run;
+use crate::run::case::Case;
+use crate::run::stored::StoredRun;
+
+/// The cases of an earlier run whose identities a plan does not name.
+pub struct EarlierCases {
+    kept: StoredRun,
+    /// Cases of the earlier run that are out of date: their scene has changed since.
+    pub outdated: usize,
+}
+
+impl EarlierCases {
+    /// Finds the cases of `run.json` in the plan's folder that the plan leaves out, and lets the plan compare its own cases with
+    /// the same common shutter. None where there is nothing to keep: no run, or one whose cases are all measured again.
+    ///
+    /// # Errors
+    /// The earlier run cannot be read, or has other settings, so that its cases cannot be kept beside those of the plan.
+    pub fn find(
+        plan: &mut RunPlan,
+        adapter: Option<&AdapterDescription>,
+    ) -> Result<Option<Self>, Error> {
+        if plan.no_cache {
+            return Ok(None);
+        }
+        let path = plan.out.join("run.json");
+        let Some(mut run) = read_earlier_run(&path)? else {
+            return Ok(None);
+        };
+        let planned = Planned::new(plan);
+        let is_left_out = |case: &&Case| !case.is_reference && !planned.names(case);
+        let left_out = run.cases.iter().filter(is_left_out).count();
+        if left_out == 0 {
+            return Ok(None);
+        }
+        plan.common.get_or_insert(run.common_alignment);
+        if let Some((setting, earlier, now)) = run.find_difference(&plan.facts(adapter)) {
+            let (dropped, them) = match left_out {
+                1 => ("1 case".to_owned(), "it"),
+                count => (format!("{count} cases"), "them"),
+            };
+            return Err(Error::Usage(format!(
+                "{}: this run would drop {dropped} of an earlier one, and cannot keep {them}: {setting} was {earlier}, now \
+                 {now}",
+                path.display()
+            )));
+        }
+        // The common shutter has references of its own.
+        let planned = Planned::new(plan);
+        run.cases.retain(|case| !planned.names(case));
+        let is_outdated = |case: &mut Case| is_outdated(plan, case);
+        let outdated: Vec<Case> = run.cases.extract_if(.., is_outdated).collect();
+        run.failures
+            .retain(|failure| !planned.has(&failure.scene, &failure.filter_id()));
+        run.sequences.retain(|own| {
+            let is_current = outdated.iter().all(|case| case.scene != own.scene);
+            is_current && !planned.has(&own.scene, &own.filter)
+        });
+        Ok(Some(Self {
+            kept: StoredRun { path, run },
+            outdated: outdated.iter().filter(|case| !case.is_reference).count(),
+        }))
+    }
+
+    /// Number of filter cases that are kept.
+    pub fn count(&self) -> usize {
+        let cases = self.kept.run.cases.iter();
+        cases.filter(|case| !case.is_reference).count()
+    }
+
+    /// Folds the kept cases into a finished run.
+    ///
+    /// # Errors
+    /// The kept cases are those of other settings than the run's.
+    pub fn add_to(self, run: &Run) -> Result<Run, Error> {
+        let own = StoredRun {
+            path: self.kept.path.clone(),
+            run: run.clone(),
+        };
+        fold_runs(&[own, self.kept])
+    }
+}
+
+/// Identities of a plan's cases: scenes with their filters, with and without overrides.
+struct Planned(HashSet<(SceneId, FilterId)>);
+
+impl Planned {
+    fn new(plan: &RunPlan) -> Self {
+        let of_scene = |scene| PlannedCase::all(plan, scene);
+        let planned = plan.all_scenes().into_iter().flat_map(of_scene);
+        let both = planned.flat_map(|case| [case.id.of_preset(), case.id]);
+        Self(both.map(|id| (id.scene.clone(), id.filter_id())).collect())
+    }
+
+    /// Tells whether the plan measures a filter on a scene, at whichever frame.
+    fn has(&self, scene: &SceneId, filter: &FilterId) -> bool {
+        self.0.contains(&(scene.at_frame(0), filter.clone()))
+    }
+
+    /// Tells whether the plan measures a case, whatever its overrides.
+    fn names(&self, case: &Case) -> bool {
+        self.has(&case.scene, &case.of_preset().filter_id())
+    }
+}
+
+/// Names the folder for a run with pictures of one size: `out` itself, or `160x90` below it where `out` holds a run of another
+/// size, whose pictures have the same names.
+///
+/// # Errors
+/// The run in `out` cannot be read.
+pub fn folder_for_size(out: &Path, (width, height): (u32, u32)) -> Result<PathBuf, Error> {
+    let earlier = read_earlier_run(&out.join("run.json"))?;
+    Ok(match earlier {
+        Some(run) if (run.render.width, run.render.height) != (width, height) => {
+            out.join(format!("{width}x{height}"))
+        }
+        _ => out.to_owned(),
+    })
+}
+
+/// Finds the runs of other picture sizes below `out` that are newer than the run in `out` itself, and returns their folders.
+pub fn find_newer_sizes(out: &Path) -> Vec<PathBuf> {
+    let written = |folder: &Path| fs::metadata(folder.join("run.json"))?.modified();
+    let (Ok(own), Ok(entries)) = (written(out), fs::read_dir(out)) else {
+        return Vec::new();
+    };
+    let is_size = |folder: &Path| {
+        let sides = folder.file_name()?.to_str()?.split_once('x')?;
+        Some(sides.0.parse::<u32>().is_ok() && sides.1.parse::<u32>().is_ok())
+    };
+    let mut newer: Vec<PathBuf> = (entries.flatten().map(|entry| entry.path()))
+        .filter(|folder| is_size(folder) == Some(true))
+        .filter(|folder| written(folder).is_ok_and(|time| time > own))
+        .collect();
+    newer.sort();
+    newer
+}
+
+/// Reads the run that a new one would replace; none where there is no such file.
+fn read_earlier_run(path: &Path) -> Result<Option<Run>, Error> {
+    if !path.exists() {
+        return Ok(None);
+    }
+    Run::read(path).map(Some).map_err(|error| {
+        Error::Usage(format!(
+            "{error}; a new run would replace it and lose what it holds; repair or remove it"
+        ))
+    })
+}
+
+/// Tells whether a scene of the plan has changed since the case was measured.
+fn is_outdated(plan: &RunPlan, case: &Case) -> bool {
+    let mut scenes = plan.all_scenes().into_iter();
+    let scene = scenes.find(|scene| *scene.id() == case.scene);
+    scene.is_some_and(|scene| scene.truth_hash(&plan.render, case.alignment) != case.truth_hash)
+}
