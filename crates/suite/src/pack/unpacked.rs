@@ -50,9 +50,20 @@ pub fn take_pack(
         remove_folder(&unpacked)?;
         (taken.files, taken.verified) = found?;
     }
-    taken.missing = (list_scenes(plan).iter())
-        .flat_map(|scene| name_missing(plan, scene, &alignments))
-        .collect();
+    for scene in list_scenes(plan) {
+        let (frame, truths) = find_missing(
+            &scene,
+            &plan.render,
+            &alignments,
+            plan.ladders,
+            &[&plan.out],
+        );
+        let frame = frame.then(|| format!("frame of {}", scene.id));
+        let truths = truths
+            .iter()
+            .map(|own| format!("{own} truth of {}", scene.id));
+        taken.missing.extend(frame.into_iter().chain(truths));
+    }
     Ok(taken)
 }
 
@@ -125,22 +136,10 @@ fn verify_unpacked(
 
 /// Lists the scenes of a plan, and behind each its later frames.
 fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
-    let frames = |scene: &Scene| -> Vec<Scene> {
-        let count = plan.frames.count;
-        (0..count).map(|frame| scene.at_frame(frame)).collect()
-    };
-    plan.scenes.iter().flat_map(frames).collect()
-}
-
-/// Lists what the plan's folder lacks of a scene's frame and truths.
-fn name_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> Vec<String> {
-    let folders = [&*plan.out];
-    let (lacks_frame, truths) =
-        find_missing(scene, &plan.render, alignments, plan.ladders, &folders);
-    let frame = lacks_frame.then(|| format!("frame of {}", scene.id));
-    let truths = truths.iter();
-    let truths = truths.map(|alignment| format!("{alignment} truth of {}", scene.id));
-    frame.into_iter().chain(truths).collect()
+    let frames = 0..plan.frames.count;
+    (plan.scenes.iter())
+        .flat_map(|scene| frames.clone().map(|frame| scene.at_frame(frame)))
+        .collect()
 }
 
 /// Removes the folder of unpacked files; a link in its place is removed, and not followed.
