@@ -29,6 +29,8 @@ fn print_tables(paths: &[String]) -> Result<(), Error> {
     let results: Vec<Results> = (paths.iter())
         .map(|path| read(Path::new(path)))
         .collect::<Result<_, _>>()?;
+    let mut results: Vec<&Results> = results.iter().collect();
+    results.sort_by_key(|own| u64::from(own.size[0]) * u64::from(own.size[1]));
     for metric in [Metric::FLIP, Metric::LABEL] {
         for comparison in compare_sizes(&results, metric)? {
             println!(

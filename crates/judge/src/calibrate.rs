@@ -11,8 +11,9 @@ use suite::{Case, Frames, Intervals, Run};
 use tracer::SceneId;
 
 use crate::bounds::SceneBounds;
+use crate::find_sequence;
+use crate::numbers::number;
 use crate::outcome::badness_within;
-use crate::{find_sequence, number};
 
 /// Margin, in standard deviations.
 const DEVIATIONS: f64 = 3.0;
@@ -21,8 +22,9 @@ const LEAST_PART: f64 = 0.05;
 /// Factor above the strictest limit that the truth's noise carries, since that scatters too.
 const ABOVE_STRICTEST: f64 = 1.2;
 
-/// Metrics that notice small changes of a kernel. No bound asks them of every filter: what a good one scores differs from scene to scene.
-const NOTICING: [Metric; 4] = [
+/// Metrics that react to small changes of a kernel. No filter has default bounds on them: what a good one scores differs from scene to
+/// scene.
+const SENSITIVE: [Metric; 4] = [
     Metric::StaticContamination,
     Metric::Probe(ProbeMetric::GatherSpread),
     Metric::Object(ObjectMetric::Deficit),
@@ -78,25 +80,21 @@ pub fn calibrate<'a>(
         frames: first.map_or(Frames::default(), |run| run.frames),
         ..Calibration::default()
     };
-    let cases = runs.iter().flat_map(|run| {
-        let of_run = run.cases.iter();
-        of_run.map(move |case| (case, find_sequence(run, case)))
-    });
-    for (case, sequence) in cases {
+    for (run, case) in (runs.iter()).flat_map(|run| run.cases.iter().map(move |case| (run, case))) {
         if case.is_reference || case.input.change().is_some() {
             continue;
         }
         let of_frames = default_metrics(bounds(case), &case.filter, &case.preset);
-        let wanted = |metric: Metric| match (metrics.is_empty(), metric) {
-            (true, Metric::Sequence(_)) => true,
-            (true, _) => of_frames.contains(&metric),
-            (false, _) => metrics.contains(&metric),
+        let is_wanted = |metric: Metric| match metric {
+            _ if !metrics.is_empty() => metrics.contains(&metric),
+            Metric::Sequence(_) => true,
+            _ => of_frames.contains(&metric),
         };
         let filters = calibration.scores.entry(case.scene.clone()).or_default();
         let scores = filters.entry(case.name()).or_default();
         let mut add = |metric: Metric, measured: Measured, intervals: &Intervals| {
             if let Measured::Score(score) = measured
-                && wanted(metric)
+                && is_wanted(metric)
             {
                 let interval = intervals.get(&metric).copied();
                 let sample = Sample { score, interval };
@@ -104,25 +102,23 @@ pub fn calibrate<'a>(
             }
         };
         for metric in Metric::all() {
-            let measured = case.scores.get(metric);
-            add(metric, measured, &case.intervals);
+            add(metric, case.scores.get(metric), &case.intervals);
         }
-        for (metric, own) in SequenceMetric::ALL
-            .into_iter()
-            .flat_map(|metric| sequence.map(|own| (metric, own)))
-        {
-            let measured = own.scores.get(metric).clone();
-            add(Metric::Sequence(metric), measured, &own.intervals);
+        if let Some(own) = find_sequence(run, case) {
+            for metric in SequenceMetric::ALL {
+                let measured = own.scores.get(metric).clone();
+                add(Metric::Sequence(metric), measured, &own.intervals);
+            }
         }
     }
     calibration
 }
 
-/// Lists the metrics that a filter preset gets limits on if none are named: those that have bounds in the scene, and those that notice
+/// Lists the metrics that a filter preset gets limits on if none are named: those that have bounds in the scene, and those that react to
 /// changes of a kernel which these let pass.
 pub fn default_metrics(bounds: &SceneBounds, filter: &str, preset: &str) -> Vec<Metric> {
     let bounded = bounds.of(filter, preset).into_keys();
-    let metrics: BTreeSet<Metric> = bounded.chain(NOTICING).collect();
+    let metrics: BTreeSet<Metric> = bounded.chain(SENSITIVE).collect();
     metrics.into_iter().collect()
 }
 

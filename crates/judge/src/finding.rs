@@ -11,6 +11,7 @@ use crate::bounds::Level;
 use crate::decision::Decision;
 use crate::decoys::Resemblance;
 use crate::judged_score::JudgedScore;
+use crate::numbers::number;
 use crate::outcome::{Outcome, limit_as_badness};
 use crate::worst::Worst;
 
@@ -87,39 +88,12 @@ fn samples_to_settle(run: &Run, metric: Metric, interval: &Interval, limit: f64)
 pub const MAX_SAMPLES: u64 = tracer::MAX_SAMPLES as u64;
 
 impl Finding {
-    /// Makes the finding about a judged score of a case, without evidence.
-    pub(super) fn new(run: &Run, case: &Case, judged: JudgedScore) -> Self {
-        let interval = case.intervals.get(&judged.metric).copied();
-        Self::with_interval(run, case, judged, interval)
-    }
-
-    /// Makes the finding about a judged score of the sequence that a case is the first frame of; none where it has no scores.
-    pub(super) fn of_sequence(
+    /// Makes the finding about a judged score of a case, or of the sequence that it is the first frame of, without evidence.
+    pub(super) fn new(
         run: &Run,
         case: &Case,
         sequence: Option<&Sequence>,
         judged: JudgedScore,
-    ) -> Self {
-        let metric = judged.metric;
-        let is_judged = |_: &&Sequence| judged.outcome != Outcome::NotJudged;
-        let sequence = sequence.filter(is_judged);
-        let interval = sequence.and_then(|own| own.intervals.get(&metric).copied());
-        let worst_frame = sequence.and_then(|own| own.worst_frames.get(&metric).copied());
-        let frames = sequence.into_iter().flat_map(|own| &own.frames);
-        let worst = frames.zip(0..).find(|(_, at)| Some(*at) == worst_frame);
-        let finding = Self::with_interval(run, case, judged, interval);
-        Self {
-            worst_frame,
-            pictures: worst.map_or(finding.pictures, |(frame, _)| frame.folder.clone()),
-            ..finding
-        }
-    }
-
-    fn with_interval(
-        run: &Run,
-        case: &Case,
-        judged: JudgedScore,
-        interval: Option<Interval>,
     ) -> Self {
         let JudgedScore {
             metric,
@@ -131,6 +105,14 @@ impl Finding {
             Measured::Score(score) => (Some(score), None),
             Measured::NotApplicable { reason } => (None, Some(reason)),
         };
+        let sequence = sequence.filter(|_| outcome != Outcome::NotJudged);
+        let intervals = match metric {
+            Metric::Sequence(_) => sequence.map(|own| &own.intervals),
+            _ => Some(&case.intervals),
+        };
+        let interval = intervals.and_then(|own| own.get(&metric).copied());
+        let worst_frame = sequence.and_then(|own| own.worst_frames.get(&metric).copied());
+        let worst = (sequence.zip(worst_frame)).and_then(|(own, at)| own.frames.get(at as usize));
         Self {
             outcome,
             level: bound.level,
@@ -145,7 +127,7 @@ impl Finding {
             strictest: score.map(|score| metric.strictest_bound(score.floor)),
             frames: bound.length.map(|length| length.frames),
             fps: bound.length.and_then(|length| length.per_second),
-            worst_frame: None,
+            worst_frame,
             why: bound.why,
             place: bound.place,
             reason,
@@ -158,7 +140,7 @@ impl Finding {
             subframes: case.drawn.as_ref().map(|drawn| drawn.subframes),
             worst: None,
             resembles: None,
-            pictures: case.folder.clone(),
+            pictures: worst.map_or(&case.folder, |frame| &frame.folder).clone(),
         }
     }
 
@@ -187,38 +169,6 @@ impl Finding {
         match self.unit.as_str() {
             "" => number(value),
             unit => format!("{} {unit}", number(value)),
-        }
-    }
-}
-
-/// Formats a number with four significant digits, as people write it.
-pub fn number(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    let size = value.abs().log10().floor();
-    if (-4.0..6.0).contains(&size) {
-        format!("{value:.*}", (3.0 - size).max(0.0) as usize)
-    } else {
-        format!("{value:.3e}")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_four_digits_that_count() {
-        for (value, text) in [
-            (0.0, "0"),
-            (0.05, "0.05000"),
-            (-12.3456, "-12.35"),
-            (123456.0, "123456"),
-            (0.000_123_456, "0.0001235"),
-            (1.5e-7, "1.500e-7"),
-        ] {
-            assert_eq!(number(value), text);
         }
     }
 }

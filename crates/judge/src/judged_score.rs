@@ -1,6 +1,6 @@
 //! Scores of one picture or one sequence, each compared with its bound.
 
-use metrics::{Measured, Metric, Scores, SequenceMetric};
+use metrics::{Measured, Metric, Scores};
 use suite::{Frames, Intervals, Sequence};
 
 use crate::bounds::{Bound, Bounds};
@@ -22,6 +22,24 @@ pub struct JudgedScore {
     pub outcome: Outcome,
 }
 
+impl JudgedScore {
+    /// Compares a score with its limit: by its interval if `intervals` are given, by its value alone otherwise.
+    fn new(
+        metric: Metric,
+        bound: &Bound,
+        measured: Measured,
+        intervals: Option<&Intervals>,
+    ) -> Self {
+        let interval = intervals.map(|intervals| intervals.get(&metric));
+        Self {
+            metric,
+            bound: bound.clone(),
+            outcome: judge_score(metric, &measured, interval, bound.limit),
+            measured,
+        }
+    }
+}
+
 /// Compares every bounded score of one picture with its limit: by its interval if `intervals` are given, by its value alone
 /// otherwise. Leaves limits on sequences alone.
 pub fn judge_scores(
@@ -30,30 +48,18 @@ pub fn judge_scores(
     bounds: &Bounds,
 ) -> Vec<JudgedScore> {
     let of_frames = (bounds.iter()).filter(|(metric, _)| !matches!(metric, Metric::Sequence(_)));
-    let judged = of_frames.map(|(metric, bound)| {
-        let measured = scores.get(*metric);
-        let interval = intervals.map(|intervals| intervals.get(metric));
-        JudgedScore {
-            metric: *metric,
-            bound: bound.clone(),
-            outcome: judge_score(*metric, &measured, interval, bound.limit),
-            measured,
-        }
-    });
-    judged.collect()
+    of_frames
+        .map(|(metric, bound)| JudgedScore::new(*metric, bound, scores.get(*metric), intervals))
+        .collect()
 }
 
 /// Compares every bounded score of one sequence with its limit, as [`judge_scores`] does those of a picture. `frames` are those of the
 /// run; limits on sequences of another length are not judged. `sequence` is none where a frame failed.
-pub fn judge_sequence(
+pub(crate) fn judge_sequence(
     sequence: Option<&Sequence>,
     frames: Frames,
     bounds: &Bounds,
 ) -> Vec<JudgedScore> {
-    let measure = |metric: SequenceMetric| match sequence {
-        Some(own) => own.scores.get(metric).clone(),
-        None => Measured::not_applicable(NO_SEQUENCE),
-    };
     // A run with intervals has some in every sequence.
     let intervals = sequence.map(|own| &own.intervals);
     let intervals = intervals.filter(|intervals| !intervals.is_empty());
@@ -62,23 +68,14 @@ pub fn judge_sequence(
             return None;
         };
         let length = bound.length.expect("a limit on a sequence has a length");
-        let (measured, outcome) = match length.holds_for(frames) {
-            false => {
-                let reason = not_judged(length.text(), frames);
-                (Measured::not_applicable(reason), Outcome::NotJudged)
-            }
-            true => {
-                let measured = measure(own);
-                let interval = intervals.map(|intervals| intervals.get(metric));
-                let outcome = judge_score(*metric, &measured, interval, bound.limit);
-                (measured, outcome)
-            }
-        };
-        Some(JudgedScore {
-            metric: *metric,
-            bound: bound.clone(),
-            measured,
-            outcome,
+        let judge = |measured| JudgedScore::new(*metric, bound, measured, intervals);
+        Some(match sequence {
+            _ if !length.holds_for(frames) => JudgedScore {
+                outcome: Outcome::NotJudged,
+                ..judge(Measured::not_applicable(not_judged(length.text(), frames)))
+            },
+            Some(sequence) => judge(sequence.scores.get(own).clone()),
+            None => judge(Measured::not_applicable(NO_SEQUENCE)),
         })
     });
     judged.collect()

@@ -10,14 +10,14 @@ use suite::{Error, PROGRAM, Run};
 use crate::Finding;
 
 /// Version of the layout of `judgement.json`.
-pub const JUDGEMENT_FORMAT: u32 = 1;
+const JUDGEMENT_FORMAT: u32 = 1;
 /// Name of the file, beside `run.json`.
 pub const JUDGEMENT_FILE: &str = "judgement.json";
 
 /// All findings about a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
-    /// [`JUDGEMENT_FORMAT`].
+    /// Version of the layout.
     pub format: u32,
     /// Program name and version.
     pub program: String,

@@ -9,8 +9,10 @@ mod decision;
 mod decoys;
 mod evidence;
 mod finding;
+mod groups;
 mod judged_score;
 mod judgement;
+mod numbers;
 mod outcome;
 mod ranking;
 mod results;
@@ -19,8 +21,7 @@ mod worst;
 use std::collections::BTreeMap;
 
 pub use baseline::{
-    Acceptance, BASELINE_FORMAT, Baseline, BaselineComparison, ComparisonKind, accept_scores,
-    compare_with_baseline,
+    Acceptance, Baseline, BaselineComparison, ComparisonKind, accept_scores, compare_with_baseline,
 };
 pub use bounds::{
     BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
@@ -30,23 +31,25 @@ pub use bounds::{
 pub use calibrate::{Calibration, Proposal, Sample, calibrate, default_metrics};
 pub use check::{CHECK_FORMAT, Check, check};
 pub use compare::{
-    Agreement, Basis, COMPARE_FORMAT, Change, ChangeKind, FilterAtSizes, MeanChange, MeanKind,
-    Pair, Reversal, RunComparison, SettingChange, Side, SizeComparison, compare_runs,
-    compare_sizes, compare_with_last, pair_cases, rank_changes, score_change,
+    Agreement, Basis, Change, ChangeKind, FilterAtSizes, MeanChange, Pair, Reversal, RunComparison,
+    SettingChange, Side, SizeComparison, compare_runs, compare_sizes, pair_cases, rank_changes,
+    score_change,
 };
 pub use decision::Decision;
 pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
-pub use finding::{Finding, MAX_SAMPLES, number};
-pub use judged_score::{JudgedScore, judge_scores, judge_sequence};
-pub use judgement::{JUDGEMENT_FILE, JUDGEMENT_FORMAT, Judgement};
+pub use finding::{Finding, MAX_SAMPLES};
+use judged_score::judge_sequence;
+pub use judged_score::{JudgedScore, judge_scores};
+pub use judgement::{JUDGEMENT_FILE, Judgement};
+pub use numbers::{number, round_to_digits};
 pub use outcome::{Outcome, badness_within};
 pub use ranking::filters::{
     MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
 };
 pub use ranking::lag::{lag_text, mean_lag};
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
-pub use results::{RESULTS_FORMAT, ResultCost, ResultScores, Results};
+pub use results::{ResultCost, ResultScores, Results};
 use suite::{Case, Run, Sequence};
 use tracer::SceneId;
 pub use worst::{BLOCK, CROP, Worst, worst_block};
@@ -66,14 +69,10 @@ pub fn judge(run: &Run, bounds: &RunBounds) -> Vec<Finding> {
                 .unwrap_or_default();
             // A run with intervals has some in every case.
             let intervals = (!case.intervals.is_empty()).then_some(&case.intervals);
-            let of_frame = judge_scores(&case.scores, intervals, &bounds)
-                .into_iter()
-                .map(|judged| Finding::new(run, case, judged));
             let sequence = find_sequence(run, case);
-            let of_sequence = judge_sequence(sequence, run.frames, &bounds)
-                .into_iter()
-                .map(|judged| Finding::of_sequence(run, case, sequence, judged));
-            of_frame.chain(of_sequence).collect::<Vec<_>>()
+            let mut judged = judge_scores(&case.scores, intervals, &bounds);
+            judged.extend(judge_sequence(sequence, run.frames, &bounds));
+            (judged.into_iter()).map(move |judged| Finding::new(run, case, sequence, judged))
         })
         .collect()
 }

@@ -34,10 +34,10 @@ pub struct CompareArgs {
 /// Reads two finished runs, prints what changed, and writes the page.
 pub fn execute(args: &CompareArgs) -> Result<(), Error> {
     let (first, second) = (Side::read(&args.first)?, Side::read(&args.second)?);
-    let mut compared = make_monitor().watch("cases that changed", |watch| {
-        compare_runs(&first, &second, watch)
+    let margins = read_margins(&args.root.scenes_dir)?;
+    let compared = make_monitor().watch("cases that changed", |watch| {
+        compare_runs(&first, &second, &margins, watch)
     })?;
-    compared.apply_margins(&read_margins(&args.root.scenes_dir)?);
     let written = match &args.html {
         Some(html) => write_page(&compare_page(&compared, &first, &second)?, html)?.line("written"),
         None => String::new(),

@@ -1,11 +1,8 @@
 //! Tables of a comparison of two runs.
 
-use judge::{
-    Basis, Change, ChangeKind, MeanChange, MeanKind, RunComparison, SettingChange, rank_changes,
-};
+use judge::{Basis, Change, ChangeKind, MeanChange, RunComparison, SettingChange, rank_changes};
 use metrics::Metric;
 use report::ChangeCells;
-use store::printable;
 
 use super::Table;
 use crate::output::{bad, count_text, doubtful, faint, good, push_wrapped};
@@ -25,7 +22,7 @@ pub fn compare_table(compared: &RunComparison) -> String {
     ];
     for (cases, run) in sides {
         if !cases.is_empty() {
-            push_wrapped(&mut text, 0, &format!("only in {}:", printable(run)));
+            push_wrapped(&mut text, 0, &format!("only in {run}:"));
             for case in cases {
                 push_wrapped(&mut text, 2, case);
             }
@@ -53,7 +50,7 @@ fn setting_line(setting: &SettingChange) -> String {
 fn means_table(means: &[MeanChange]) -> String {
     let mut table = change_table("mean over scenes");
     let mut filter = "";
-    for mean in means.iter().filter(|mean| mean.kind != MeanKind::Same) {
+    for mean in means.iter().filter(|mean| mean.kind != ChangeKind::Same) {
         if filter != mean.filter {
             filter = &mean.filter;
             table.push_text(format!(
@@ -61,12 +58,7 @@ fn means_table(means: &[MeanChange]) -> String {
                 count_text(mean.scenes, "scene", "scenes")
             ));
         }
-        let style = match mean.kind {
-            MeanKind::Better => good,
-            MeanKind::Worse => bad,
-            _ => doubtful,
-        };
-        push_change(&mut table, mean.metric, mean.into(), style);
+        push_change(&mut table, mean.metric, mean.kind, mean.into());
     }
     let mut text = match filter {
         "" => String::new(),
@@ -76,7 +68,7 @@ fn means_table(means: &[MeanChange]) -> String {
     for mean in means {
         let all = means.iter().filter(|own| own.filter == mean.filter);
         if !same.contains(&mean.filter.as_str())
-            && all.clone().all(|own| own.kind == MeanKind::Same)
+            && all.clone().all(|own| own.kind == ChangeKind::Same)
         {
             same.push(&mean.filter);
         }
@@ -102,13 +94,9 @@ fn changes_table(changes: &[Change]) -> String {
         table.push_text(format!("{scene} / {filter}"));
         let own = changes
             .iter()
-            .filter(|change| change.scene == **scene && change.filter == *filter);
-        for change in own.filter(|change| change.is_beyond_noise()) {
-            let style = match change.kind {
-                ChangeKind::Better => good,
-                _ => bad,
-            };
-            push_change(&mut table, change.metric, change.into(), style);
+            .filter(|change| change.scene == **scene && change.filter == **filter);
+        for change in own.filter(|change| change.kind.is_decided()) {
+            push_change(&mut table, change.metric, change.kind, change.into());
         }
     }
     let mut text = "\n".to_owned() + &table.text();
@@ -125,8 +113,12 @@ fn change_table(title: &str) -> Table {
     Table::new(title, ["first", "second", "change", "95 % CI"]).with_words_in(3)
 }
 
-fn push_change(table: &mut Table, metric: Metric, cells: ChangeCells, style: fn(&str) -> String) {
-    let change = style(&cells.change);
+fn push_change(table: &mut Table, metric: Metric, kind: ChangeKind, cells: ChangeCells) {
+    let change = match kind {
+        ChangeKind::Better => good(&cells.change),
+        ChangeKind::Worse => bad(&cells.change),
+        _ => doubtful(&cells.change),
+    };
     table.push(
         metric.name(),
         [cells.first, cells.second, change, cells.interval],
@@ -134,7 +126,7 @@ fn push_change(table: &mut Table, metric: Metric, cells: ChangeCells, style: fn(
 }
 
 fn counts(changes: &[Change]) -> String {
-    let words: Vec<String> = (ChangeKind::ALL.iter())
+    let words: Vec<String> = (ChangeKind::OF_SCORES.iter())
         .map(|kind| {
             let count = changes.iter().filter(|change| change.kind == *kind).count();
             format!("{count} {}", kind.label())

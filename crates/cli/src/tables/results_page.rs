@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use frame::Alignment;
-use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_with_last};
+use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
 use suite::{Error, MIN_SCENES};
 use tracer::{Family, Location, SceneId, list_scenes};
@@ -226,7 +226,7 @@ fn push_agreement(
     sealed: &Results,
     alignment: Alignment,
 ) -> Result<(), Error> {
-    let compared = compare_with_last(&[results, sealed], Metric::FLIP)?;
+    let compared = compare_sizes(&[results, sealed], Metric::FLIP)?;
     let Some(SizeComparison { agreement, .. }) =
         (compared.into_iter()).find(|own| own.alignment == alignment)
     else {

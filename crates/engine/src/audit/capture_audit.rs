@@ -88,7 +88,8 @@ pub fn audit_capture(
     if !shows_other_view && missed.iter().all(|finding| finding.object.is_some()) {
         wrong.extend(wrong_velocity);
         if !is_view(Buffer::Depth) {
-            wrong.extend(list_wrong_depth(wrong_depth, &shown, ids.is_some()));
+            let word = |it| word_depth(it, &shown, ids.is_some());
+            wrong.extend(wrong_depth.into_iter().filter_map(word));
         }
         if !is_view(Buffer::Color) {
             wrong.extend(audit_color(&capture.color, scene, regions, &names)?);
@@ -112,29 +113,25 @@ pub fn audit_capture(
 
 /// Refuses a capture of another instant than the scene's.
 fn check_instant(capture: &Capture) -> Result<(), Error> {
-    match capture.description.instant {
-        0.0 => Ok(()),
-        instant => refuse(
-            &capture.folder.join(CAPTURE_FILE),
-            &format!(
-                "instant = {instant}; allowed for an audit: 0, the `instant` of the exported manifest"
-            ),
-        ),
+    let instant = capture.description.instant;
+    if instant == 0.0 {
+        return Ok(());
     }
+    let reason = format!(
+        "instant = {instant}; allowed for an audit: 0, the `instant` of the exported manifest"
+    );
+    refuse(&capture.folder.join(CAPTURE_FILE), &reason)
 }
 
-/// Leaves out the depth of objects that the engine does not show. Without ids nobody knows whether it draws the others there.
-fn list_wrong_depth(
-    wrong: Vec<Defect>,
-    shown: &Shown,
-    has_ids: bool,
-) -> impl Iterator<Item = Defect> {
-    let is_shown = |it: &Defect| (it.object.as_deref()).is_none_or(|name| !shown.is_missed(name));
-    let of_shown = wrong.into_iter().filter(is_shown);
-    of_shown.map(move |it| match has_ids || it.object.is_none() {
-        true => it,
-        false => it.with("or the engine does not draw it there: object.exr would show it"),
-    })
+/// Words wrong depth; none of an object that the engine does not show. Without ids nobody knows whether it draws the others there.
+fn word_depth(wrong: Defect, shown: &Shown, has_ids: bool) -> Option<Defect> {
+    match &wrong.object {
+        Some(name) if shown.is_missed(name) => None,
+        Some(_) if !has_ids => {
+            Some(wrong.with("or the engine does not draw it there: object.exr would show it"))
+        }
+        _ => Some(wrong),
+    }
 }
 
 /// Words what the engine shows too little of: all of the picture, or single objects.
@@ -147,10 +144,8 @@ fn word_missed(shown: &Shown, has_ids: bool) -> Vec<Defect> {
         true => "by its ids",
         false => "by its depth, as the convention has it; object.exr would show more",
     };
-    let mut missed = (shown.objects.iter())
-        .filter(|object| object.is_missed())
-        .peekable();
-    if missed.peek().is_some() && shown.alike < LEAST_ALIKE {
+    let missed = shown.objects.iter().filter(|object| object.is_missed());
+    if missed.clone().next().is_some() && shown.alike < LEAST_ALIKE {
         let text = format!("{:.1} % of the pixels agree, {by}", 100.0 * shown.alike);
         return vec![other(None, shown.alike, &text)];
     }

@@ -6,7 +6,7 @@ use tracer::{Scene, TraceError};
 use crate::audit::cause::Cause;
 use crate::audit::clear_pixels::{ClearPixels, select_judged};
 use crate::audit::defect::{Buffer, Defect, Explanation};
-use crate::audit::rendered_view::render_view;
+use crate::audit::views::render_view;
 use crate::statistics::median;
 
 /// Greatest difference of an object's mean colour, relative to its brightest channel: filters of textures differ.

@@ -9,7 +9,6 @@ mod defect;
 mod depth_audit;
 mod expected_motion;
 mod fitted_motion;
-mod rendered_view;
 mod shown;
 mod velocity_audit;
 mod views;

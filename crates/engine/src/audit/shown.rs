@@ -53,27 +53,23 @@ impl Shown {
         let own = &right.object_id;
         let count = own.pixels.len();
         let alike = (0..count).filter(|at| shows(*at, *at)).count() as f64 / count as f64;
-        let objects = count_shown(own, ids, names, shows);
+        let mut shown = Self {
+            alike,
+            objects: count_shown(own, ids, names, shows),
+            regions: Vec::new(),
+        };
         let is_clear = |at: usize| {
             let name = &names[own.pixels[at] as usize];
-            (alike < LEAST_KNOWN || shows(at, at)) && !is_missed(&objects, name)
+            (alike < LEAST_KNOWN || shows(at, at)) && !shown.is_missed(name)
         };
-        let regions = select_clear_pixels(right, names.len(), &is_clear);
-        Self {
-            alike,
-            regions,
-            objects,
-        }
+        shown.regions = select_clear_pixels(right, names.len(), &is_clear);
+        shown
     }
 
     /// Tells whether the engine shows too little of an object.
-    pub fn is_missed(&self, object: &str) -> bool {
-        is_missed(&self.objects, object)
+    pub fn is_missed(&self, name: &str) -> bool {
+        (self.objects.iter()).any(|object| object.is_missed() && object.object == name)
     }
-}
-
-fn is_missed(objects: &[ObjectShown], name: &str) -> bool {
-    (objects.iter()).any(|object| object.is_missed() && object.object == name)
 }
 
 /// Counts per object the pixels that the engine shows. At edges a neighbouring pixel will do, since two rasterisers may differ there.

@@ -1,13 +1,14 @@
 //! Views of the scene that a capture may show instead of the right one: other frames, and rows upside down.
 
-use frame::{ColorSampling, Image, Plane, Raster};
-use tracer::{Scene, TraceError};
+use std::ops::ControlFlow;
+
+use frame::{ColorSampling, Frame, FrameOptions, Image, Plane, Raster};
+use tracer::{RenderSettings, Scene, TraceError, trace_frame};
 
 use crate::audit::cause::Cause;
 use crate::audit::defect::{Buffer, Defect, Explanation};
 use crate::audit::depth_audit::DepthPair;
 use crate::audit::expected_motion::upside_down;
-use crate::audit::rendered_view::render_view;
 use crate::capture::folder::Capture;
 use crate::statistics::median;
 
@@ -116,25 +117,24 @@ const BUFFERS: [Buffer; 3] = [Buffer::ObjectId, Buffer::Depth, Buffer::Color];
 
 /// Counts what each buffer shows where a view differs from the right one.
 fn tally_buffers(capture: &Capture, depth: &DepthPair, right: &View, view: &View) -> [Tally; 3] {
-    let places = 0..right.depth.pixels.len();
-    let ids = capture.object_id.as_ref().map_or(Tally::default(), |ids| {
-        let pairs = places
-            .clone()
-            .map(|at| [right, view].map(|view| view.object_id.pixels[at]));
-        let pixels = pairs
-            .zip(&ids.pixels)
-            .filter(|([right, other], _)| right != other);
-        Tally::of(pixels.map(|(pair, found)| pair.map(|id| id == *found)))
-    });
-    let pairs = places.map(|at| [right, view].map(|view| view.depth.pixels[at]));
-    let pixels = pairs.zip(&depth.found.pixels);
-    let depths = pixels.filter(|([right, other], _)| !depth.is_close(*right, *other));
-    let depths = depths.map(|(pair, found)| pair.map(|own| depth.is_close(*found, own)));
+    let is_close = |a: &f32, b: &f32| depth.is_close(*a, *b);
     [
-        ids,
-        Tally::of(depths),
+        capture.object_id.as_ref().map_or(Tally::default(), |ids| {
+            tally(ids, [&right.object_id, &view.object_id], u32::eq)
+        }),
+        tally(depth.found, [&right.depth, &view.depth], is_close),
         tally_colors(&capture.color, right, view),
     ]
+}
+
+/// Counts what one buffer shows where two views differ.
+fn tally<T>(found: &Raster<T>, views: [&Raster<T>; 2], is_same: impl Fn(&T, &T) -> bool) -> Tally {
+    let places = 0..found.pixels.len();
+    Tally::of(places.filter_map(|at| {
+        let [right, other] = views.map(|view| &view.pixels[at]);
+        let shows = [right, other].map(|own| is_same(&found.pixels[at], own));
+        (!is_same(right, other)).then_some(shows)
+    }))
 }
 
 /// Counts what colour shows. The light, which an engine may have as it likes, is fitted to the whole picture, and to each object: the
@@ -229,4 +229,25 @@ fn trace_view(scene: &Scene, size: [u32; 2], time: i32, cause: Cause) -> Result<
         depth: frame.depth,
         color: frame.color,
     })
+}
+
+/// Renders the frame of a scene's instant.
+pub fn render_view(
+    scene: &Scene,
+    [width, height]: [u32; 2],
+    samples_per_pixel: u32,
+    color: ColorSampling,
+) -> Result<Frame, TraceError> {
+    let settings = RenderSettings {
+        width,
+        height,
+        samples_per_pixel,
+        replicates: 1,
+        options: FrameOptions {
+            color,
+            ..FrameOptions::default()
+        },
+        ..RenderSettings::default()
+    };
+    trace_frame(scene, &settings, &|_| ControlFlow::Continue(()))
 }

@@ -1,12 +1,14 @@
 //! Acceptance of a run's scores as the baseline.
 
-use std::collections::BTreeMap;
-
 use glob::Pattern;
 use metrics::Metric;
 use suite::{Case, Error, Run};
 
 use crate::baseline::{BASELINE_FORMAT, Baseline};
+use crate::numbers::round_to_digits;
+
+/// Significant digits of a score: readable, and finer than any margin.
+const DIGITS: usize = 6;
 
 /// Options of accepting a run.
 pub struct Acceptance<'a> {
@@ -49,19 +51,12 @@ pub fn accept_scores(
             names.collect::<Vec<_>>().join(", ")
         ));
     }
-    let kept = old.filter(|_| how.only.is_some());
+    let old = old.filter(|_| how.only.is_some());
     let mut baseline = Baseline {
         format: BASELINE_FORMAT,
         program: run.program.clone(),
         adapter: run.adapter.clone(),
-        ..kept.unwrap_or_else(|| Baseline {
-            format: BASELINE_FORMAT,
-            program: String::new(),
-            adapter: None,
-            reasons: Vec::new(),
-            truths: BTreeMap::new(),
-            scores: BTreeMap::new(),
-        })
+        ..old.unwrap_or_default()
     };
     baseline.reasons.push(how.reason.to_owned());
     for case in cases {
@@ -81,19 +76,12 @@ fn add_case(baseline: &mut Baseline, case: &Case) -> Result<(), Error> {
         ));
     }
     let scores = (Metric::all().into_iter()).filter_map(|metric| {
-        Some((
-            metric,
-            round_to_six_digits(case.scores.get(metric).value()?),
-        ))
+        let value = case.scores.get(metric).value()?;
+        Some((metric, round_to_digits(value, DIGITS)))
     });
     let filters = baseline.scores.entry(case.scene.clone()).or_default();
     filters.insert(case.name(), scores.collect());
     Ok(())
-}
-
-/// Rounds to six significant digits: readable, and finer than any margin.
-fn round_to_six_digits(value: f64) -> f64 {
-    (format!("{value:.5e}").parse()).expect("a number as text is a number")
 }
 
 /// Refuses another class of adapter than the baseline's and, where only some scores are replaced, another adapter.
@@ -122,16 +110,4 @@ fn check_adapter(run: &Run, old: &Baseline, some: bool) -> Result<(), Error> {
 
 fn refuse<T>(reason: &str) -> Result<T, Error> {
     Err(Error::Usage(reason.to_owned()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn scores_keep_six_digits() {
-        assert_eq!(round_to_six_digits(0.123_456_789), 0.123_457);
-        assert_eq!(round_to_six_digits(-1_234.567_89), -1_234.57);
-        assert_eq!(round_to_six_digits(0.0), 0.0);
-    }
 }

@@ -91,13 +91,11 @@ pub fn compare_with_baseline(
     for filter in &names {
         for (metric, margin) in margins {
             let own = cases.iter().filter(|case| case.name() == *filter);
-            let differences: Result<Vec<Option<f64>>, String> = own
-                .map(|case| difference(case, *metric, baseline))
-                .collect();
-            let differences: Vec<f64> = (differences.map_err(refuse)?)
-                .into_iter()
-                .flatten()
-                .collect();
+            let differences =
+                own.filter_map(|case| difference(case, *metric, baseline).transpose());
+            let differences = differences
+                .collect::<Result<Vec<f64>, _>>()
+                .map_err(refuse)?;
             if !differences.is_empty() {
                 comparisons.push(compare_scores(filter, *metric, &differences, margin.width));
             }

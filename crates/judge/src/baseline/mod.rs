@@ -20,13 +20,13 @@ pub use accept::{Acceptance, accept_scores};
 pub use comparison::{BaselineComparison, ComparisonKind, compare_with_baseline};
 
 /// Version of the layout of a baseline.
-pub const BASELINE_FORMAT: u32 = 1;
+const BASELINE_FORMAT: u32 = 1;
 
 /// Accepted scores and their origin. The file has one number per line under sorted keys.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Baseline {
-    /// [`BASELINE_FORMAT`].
+    /// Version of the layout.
     pub format: u32,
     /// Program name and version of the last run.
     pub program: String,
@@ -62,9 +62,8 @@ impl Baseline {
 
     /// Returns true if an adapter has the class (software, integrated, discrete ..) of the baseline's.
     pub fn is_of_class(&self, adapter: &Option<AdapterDescription>) -> bool {
-        let class =
-            |adapter: &Option<AdapterDescription>| adapter.as_ref().map(|own| own.kind.clone());
-        class(adapter) == class(&self.adapter)
+        let [own, other] = [&self.adapter, adapter].map(Option::as_ref);
+        own.map(|own| &own.kind) == other.map(|other| &other.kind)
     }
 
     /// Writes the baseline as JSON.

@@ -1,8 +1,7 @@
 //! File of bounds, `bounds.toml`.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
+use std::path::PathBuf;
 
 use metrics::Metric;
 use serde::Deserialize;
@@ -24,6 +23,14 @@ pub struct BoundsFile {
     pub filters: BTreeMap<String, FilterBounds>,
     /// Margins by their scores.
     pub margins: BTreeMap<Metric, Margin>,
+}
+
+impl BoundsFile {
+    /// Lists the bounds for every filter, then those for single ones.
+    pub(super) fn tables_mut(&mut self) -> impl Iterator<Item = &mut Bounds> {
+        let filters = self.filters.values_mut().map(|table| &mut table.bounds);
+        std::iter::once(&mut self.default).chain(filters)
+    }
 }
 
 /// Bounds of a filter, or of one preset of it.
@@ -76,126 +83,95 @@ struct Entry {
 pub fn read_bounds_file(file: impl Into<Location>) -> Result<BoundsFile, Error> {
     let file = file.into();
     let text = read_text(&file)?;
-    let path = file.path.as_path();
-    let source = Source { path, text: &text };
-    let contents: Contents = toml::from_str(&text)
-        .map_err(|error| source.refuse(error.span().map(|span| span.start), error.message()))?;
+    let path = printable_path(&file.path);
+    let place = |offset: usize| format!("{path}:{}", text[..offset].matches('\n').count() + 1);
+    let contents: Contents = toml::from_str(&text).map_err(|error| {
+        let place = error.span().map_or(path.clone(), |span| place(span.start));
+        Error::Usage(format!("{place}: {}", error.message()))
+    })?;
+    let read_bounds = |entries| read_entries(entries, &place, read_bound);
     let filters = (contents.filter.into_iter())
         .map(|(name, entries)| {
             let table = FilterBounds {
-                place: source.place(Some(name.span().start)),
-                bounds: source.bounds(entries)?,
+                place: place(name.span().start),
+                bounds: read_bounds(entries)?,
             };
             Ok((name.into_inner(), table))
         })
         .collect::<Result<_, Error>>()?;
     Ok(BoundsFile {
-        path: path.to_owned(),
-        default: source.bounds(contents.default)?,
+        path: file.path,
+        default: read_bounds(contents.default)?,
         filters,
-        margins: source.margins(contents.margin)?,
+        margins: read_entries(contents.margin, &place, read_margin)?,
     })
 }
 
-/// Text of a file, to find the lines of mistakes.
-struct Source<'a> {
-    path: &'a Path,
-    text: &'a str,
+/// Reads a table of entries by their scores; `read` takes the name of the score, its entry and its place.
+fn read_entries<T, U>(
+    entries: Tables<T>,
+    place: impl Fn(usize) -> String,
+    read: fn(&str, T, String) -> Result<(Metric, U), String>,
+) -> Result<BTreeMap<Metric, U>, Error> {
+    (entries.into_iter())
+        .map(|(name, entry)| {
+            let place = place(name.span().start);
+            read(name.get_ref(), entry, place.clone())
+                .map_err(|reason| Error::Usage(format!("{place}: {reason}")))
+        })
+        .collect()
 }
 
-impl Source<'_> {
-    fn bounds(&self, entries: Tables<Entry>) -> Result<Bounds, Error> {
-        (entries.into_iter())
-            .map(|(name, entry)| {
-                let start = name.span().start;
-                let refuse = |reason: &str| self.refuse(Some(start), reason);
-                let metric =
-                    Metric::parse_bounded(name.get_ref()).map_err(|reason| refuse(&reason))?;
-                let Entry {
-                    limit,
-                    size,
-                    frames,
-                    fps,
-                    why,
-                    level,
-                } = entry;
-                if !limit.is_finite() {
-                    return Err(refuse(&format!(
-                        "{metric}: limit = {limit}; allowed: a finite number"
-                    )));
-                }
-                if let Some((width, height)) = size
-                    && ![width, height].iter().all(|side| SIDES.contains(side))
-                {
-                    return Err(refuse(&format!(
-                        "{metric}: size = [{width}, {height}]; allowed: columns and rows from {} to {}",
-                        SIDES.start(),
-                        SIDES.end()
-                    )));
-                }
-                let length =
-                    Length::check(metric, frames, fps).map_err(|reason| refuse(&reason))?;
-                let why = why.unwrap_or_default();
-                if printable(&why) != why {
-                    return Err(refuse(&format!(
-                        "{metric}: why = \"{}\"; allowed: one line of text without control characters",
-                        printable(&why)
-                    )));
-                }
-                if why.trim().is_empty() {
-                    return Err(refuse(&format!(
-                        "{metric}: has no why; needed: one line on what was measured, why = \"..\""
-                    )));
-                }
-                let bound = Bound {
-                    limit,
-                    size,
-                    length,
-                    why,
-                    level,
-                    place: self.place(Some(start)),
-                };
-                Ok((metric, bound))
-            })
-            .collect()
+fn read_bound(name: &str, entry: Entry, place: String) -> Result<(Metric, Bound), String> {
+    let metric = Metric::parse_bounded(name)?;
+    let limit = entry.limit;
+    if !limit.is_finite() {
+        return Err(format!(
+            "{metric}: limit = {limit}; allowed: a finite number"
+        ));
     }
-
-    fn margins(&self, entries: Tables<f64>) -> Result<BTreeMap<Metric, Margin>, Error> {
-        (entries.into_iter())
-            .map(|(name, width)| {
-                let start = name.span().start;
-                let refuse = |reason: &str| self.refuse(Some(start), reason);
-                let metric =
-                    Metric::from_str(name.get_ref()).map_err(|reason| refuse(&reason))?;
-                if !Metric::all().contains(&metric) {
-                    return Err(refuse(&format!(
-                        "margin of {metric}: baselines hold scores of single frames only; give it a limit instead"
-                    )));
-                }
-                if !(width.is_finite() && width >= 0.0) {
-                    return Err(refuse(&format!(
-                        "margin of {metric} is {width}; allowed: 0 or more"
-                    )));
-                }
-                let place = self.place(Some(start));
-                Ok((metric, Margin { width, place }))
-            })
-            .collect()
+    if let Some((width, height)) = entry.size
+        && ![width, height].iter().all(|side| SIDES.contains(side))
+    {
+        return Err(format!(
+            "{metric}: size = [{width}, {height}]; allowed: columns and rows from {} to {}",
+            SIDES.start(),
+            SIDES.end()
+        ));
     }
-
-    fn refuse(&self, offset: Option<usize>, reason: &str) -> Error {
-        Error::Usage(format!("{}: {reason}", self.place(offset)))
+    let length = Length::check(metric, entry.frames, entry.fps)?;
+    let why = entry.why.unwrap_or_default();
+    if printable(&why) != why {
+        return Err(format!(
+            "{metric}: why = \"{}\"; allowed: one line of text without control characters",
+            printable(&why)
+        ));
     }
+    if why.trim().is_empty() {
+        return Err(format!(
+            "{metric}: has no why; needed: one line on what was measured, why = \"..\""
+        ));
+    }
+    let bound = Bound {
+        limit,
+        size: entry.size,
+        length,
+        why,
+        level: entry.level,
+        place,
+    };
+    Ok((metric, bound))
+}
 
-    /// Formats a place in the file: `scenes/bounds.toml:12`.
-    fn place(&self, offset: Option<usize>) -> String {
-        let path = printable_path(self.path);
-        match offset {
-            Some(offset) => {
-                let line = self.text[..offset].matches('\n').count() + 1;
-                format!("{path}:{line}")
-            }
-            None => path,
-        }
+fn read_margin(name: &str, width: f64, place: String) -> Result<(Metric, Margin), String> {
+    let metric: Metric = name.parse()?;
+    if !Metric::all().contains(&metric) {
+        return Err(format!(
+            "margin of {metric}: baselines hold scores of single frames only; give it a limit instead"
+        ));
+    }
+    match width.is_finite() && width >= 0.0 {
+        true => Ok((metric, Margin { width, place })),
+        false => Err(format!("margin of {metric} is {width}; allowed: 0 or more")),
     }
 }

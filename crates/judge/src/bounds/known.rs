@@ -5,7 +5,7 @@ use suite::{Error, FilterChoice, Frames};
 use tracer::{Location, SceneId};
 
 use crate::bounds::sized::read_all_bounds;
-use crate::bounds::{BOUNDS_FILE, BoundsFile, Length, Level, SceneBounds};
+use crate::bounds::{BOUNDS_FILE, BoundsFile, Level, SceneBounds};
 
 /// Refuses bounds of a scene or a filter that does not exist, in any file below `root` and in those of `scenes`, the bounds of the
 /// scenes that take part.
@@ -14,13 +14,13 @@ pub fn check_names<'a>(
     scenes: impl Iterator<Item = &'a SceneBounds>,
     filters: &[FilterChoice],
 ) -> Result<(), Error> {
-    for file in read_bounds_of_scenes(&root.into())? {
-        check_filters(&file, filters)?;
-    }
-    for file in scenes.flat_map(|bounds| &bounds.files) {
-        check_filters(file, filters)?;
-    }
-    Ok(())
+    let of_scenes = read_bounds_of_scenes(&root.into())?;
+    let files = of_scenes.iter().chain(scenes.flat_map(|own| &own.files));
+    let mut tables = files.flat_map(|file| &file.filters);
+    tables.try_for_each(|(name, table)| {
+        check_filter(name, filters)
+            .map_err(|reason| Error::Usage(format!("{}: {reason}", table.place)))
+    })
 }
 
 /// Refuses a case without a bound, and bounds of which none is required: such a check cannot fail. `scenes` are the scenes and the
@@ -37,22 +37,23 @@ pub fn require_bounds<'a>(
     for (scene, bounds) in scenes {
         for choice in filters {
             let mut bounds = bounds.of(&choice.filter.name, &choice.preset);
-            let lengths: Vec<Length> = bounds.values().filter_map(|bound| bound.length).collect();
+            let length = bounds.values().find_map(|bound| bound.length);
             bounds.retain(|_, bound| bound.length.is_none_or(|own| own.holds_for(frames)));
-            if bounds.is_empty() {
-                if let Some(length) = lengths.first() {
-                    return Err(Error::Usage(format!(
-                        "{scene} / {name}: all its bounds are on sequences of other lengths, such as {}, and no check is no \
-                         success; check as many frames, or bound a score of single frames",
-                        length.text(),
-                        name = choice.name(),
-                    )));
-                }
-                return Err(Error::Usage(format!(
-                    "{scene} / {name}: has no bound, and a check needs one; give it some in {root}/{BOUNDS_FILE} or \
-                     beside the scene, under [default] or [filter.\"{name}\"]",
-                    name = choice.name(),
-                )));
+            let name = choice.name();
+            let reason = match length {
+                _ if !bounds.is_empty() => None,
+                Some(length) => Some(format!(
+                    "all its bounds are on sequences of other lengths, such as {}, and none would be checked; check as many \
+                     frames, or bound a score of single frames",
+                    length.text()
+                )),
+                None => Some(format!(
+                    "has no bound, and a check needs one; give it some in {root}/{BOUNDS_FILE} or beside the scene, under \
+                     [default] or [filter.\"{name}\"]"
+                )),
+            };
+            if let Some(reason) = reason {
+                return Err(Error::Usage(format!("{scene} / {name}: {reason}")));
             }
             required |= (bounds.values()).any(|bound| bound.level == Level::Required);
         }
@@ -87,14 +88,6 @@ fn read_bounds_of_scenes(root: &Location) -> Result<Vec<BoundsFile>, Error> {
         files.extend(found);
     }
     Ok(files)
-}
-
-fn check_filters(file: &BoundsFile, choices: &[FilterChoice]) -> Result<(), Error> {
-    for (name, table) in &file.filters {
-        check_filter(name, choices)
-            .map_err(|reason| Error::Usage(format!("{}: {reason}", table.place)))?;
-    }
-    Ok(())
 }
 
 /// Refuses a key `filter` or `filter:preset` that is neither built in nor takes part.

@@ -1,9 +1,7 @@
 //! Length of the sequence that a limit holds for.
 
 use metrics::Metric;
-use suite::{Error, FilterChoice, Frames, MAX_FRAMES};
-
-use crate::bounds::{Bound, SceneBounds};
+use suite::{Frames, MAX_FRAMES};
 
 /// Frames that a limit on a score of a sequence holds for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,76 +69,20 @@ impl Length {
     }
 }
 
-/// Refuses limits on these filters that hold for another length than that of the sequences that are asked for. Where single frames are
-/// asked for, limits on sequences are left alone, and nothing judges them.
-pub fn check_lengths<'a>(
-    scenes: impl Iterator<Item = &'a SceneBounds>,
-    filters: &[FilterChoice],
-    frames: Frames,
-) -> Result<(), Error> {
-    if frames.is_one() {
-        return Ok(());
-    }
-    for bounds in scenes {
-        let bounds =
-            (filters.iter()).flat_map(|choice| bounds.of(&choice.filter.name, &choice.preset));
-        for (metric, Bound { length, place, .. }) in bounds {
-            if let Some(length) = length.filter(|length| !length.holds_for(frames)) {
-                let asked = Length {
-                    per_second: length.per_second.map(|_| frames.per_second),
-                    frames: frames.count,
-                };
-                return Err(Error::Usage(format!(
-                    "{place}: the limit on {metric} holds for sequences of {}, and they are to have {}; measure as many as it \
-                     holds for, or measure a limit for the others with `shuttertruth limits calibrate`",
-                    length.text(),
-                    asked.text()
-                )));
-            }
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[track_caller]
-    fn assert_refused(metric: &str, frames: Option<u32>, rate: Option<f64>, part: &str) {
-        let refused = Length::check(metric.parse().unwrap(), frames, rate).unwrap_err();
-        assert!(refused.contains(part), "{refused}");
-    }
-
     #[test]
     fn a_limit_names_the_frames_that_its_score_depends_on_and_no_others() {
-        let found = |metric: &str, frames, rate| {
-            let length = Length::check(metric.parse().unwrap(), frames, rate).unwrap();
-            length.map(|own| (own.frames, own.per_second))
-        };
-        assert_eq!(found("flip_moving", None, None), None);
-        assert_eq!(found("flicker", Some(4), None), Some((4, None)));
-        assert_eq!(found("jod", Some(4), Some(60.0)), Some((4, Some(60.0))));
-        assert_refused("flip_moving", Some(4), None, "leave it out");
-        assert_refused("flip_moving", None, Some(60.0), "leave it out");
-        assert_refused("flicker", None, None, "such as frames = 4");
-        assert_refused("flicker", Some(1), None, "allowed: 2 to 1000");
-        assert_refused("flicker", Some(4), Some(60.0), "leave fps out");
-        assert_refused("jod", Some(4), None, "such as fps = 60");
-        assert_refused("jod", Some(4), Some(0.0), "above 0");
-    }
-
-    #[test]
-    fn a_limit_holds_for_its_own_length_alone() {
-        let frames = |count, per_second| Frames { count, per_second };
-        let length = |per_second| Length {
-            frames: 4,
-            per_second,
-        };
-        assert!(length(None).holds_for(frames(4, 60.0)));
-        assert!(length(None).holds_for(frames(4, 24.0)));
-        assert!(!length(None).holds_for(frames(3, 60.0)));
-        assert!(length(Some(60.0)).holds_for(frames(4, 60.0)));
-        assert!(!length(Some(60.0)).holds_for(frames(4, 24.0)));
+        for (metric, frames, rate, part) in [
+            ("flip_moving", None, Some(60.0), "leave it out"),
+            ("flicker", Some(1), None, "allowed: 2 to 1000"),
+            ("flicker", Some(4), Some(60.0), "leave fps out"),
+            ("jod", Some(4), Some(0.0), "above 0"),
+        ] {
+            let refused = Length::check(metric.parse().unwrap(), frames, rate).unwrap_err();
+            assert!(refused.contains(part), "{refused}");
+        }
     }
 }

@@ -1,11 +1,10 @@
 //! Bounds: limits on the scores of a filter on a scene.
 
+mod asked;
 mod file;
 mod known;
 mod length;
-mod size;
 mod sized;
-mod subframes;
 
 use metrics::Metric;
 use serde::{Deserialize, Serialize};
@@ -14,12 +13,11 @@ use tracer::Location;
 
 use suite::{Error, Frames};
 
+pub use asked::{bound_subframes, check_lengths, size_for_bounds};
 pub use file::{BoundsFile, FilterBounds, Margin, read_bounds_file};
 pub use known::{check_names, require_bounds};
-pub use length::{Length, check_lengths};
-pub use size::size_for_bounds;
+pub use length::Length;
 pub use sized::sized_bounds_file;
-pub use subframes::bound_subframes;
 
 /// Name of the file of bounds, beside the scenes and beside one scene. [`sized_bounds_file`] names those for one picture size.
 pub const BOUNDS_FILE: &str = "bounds.toml";
@@ -90,8 +88,7 @@ impl SceneBounds {
 
     fn retain(mut self, is_kept: impl Fn(&Bound) -> bool) -> Self {
         for file in &mut self.files {
-            let filters = file.filters.values_mut().map(|table| &mut table.bounds);
-            for bounds in std::iter::once(&mut file.default).chain(filters) {
+            for bounds in file.tables_mut() {
                 bounds.retain(|_, bound| is_kept(bound));
             }
         }

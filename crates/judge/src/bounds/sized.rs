@@ -19,21 +19,17 @@ pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<Bou
             margin.place
         )));
     }
-    let filters = read.filters.values_mut().map(|table| &mut table.bounds);
-    for bounds in std::iter::once(&mut read.default).chain(filters) {
-        for (metric, bound) in bounds {
-            let own = *bound.size.get_or_insert(size);
-            if own != size {
-                return Err(Error::Usage(format!(
-                    "{}: {metric}: size = [{}, {}] in a file for {}x{}; leave the size out, or move the limit to {}",
-                    bound.place,
-                    own.0,
-                    own.1,
-                    size.0,
-                    size.1,
-                    sized_bounds_file(own)
-                )));
-            }
+    for (metric, bound) in read.tables_mut().flatten() {
+        let (width, height) = size;
+        let own = *bound.size.get_or_insert(size);
+        if own != size {
+            return Err(Error::Usage(format!(
+                "{}: {metric}: size = [{}, {}] in a file for {width}x{height}; leave the size out, or move the limit to {}",
+                bound.place,
+                own.0,
+                own.1,
+                sized_bounds_file(own)
+            )));
         }
     }
     Ok(read)

@@ -1,21 +1,22 @@
 //! Change of one score of one case between two runs.
 
 use metrics::{Ideal, Measured, Metric};
-use serde::Serialize;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+use suite::FilterId;
 use tracer::SceneId;
 
 use crate::compare::pairing::Pair;
+use crate::groups::group_by;
 
 /// A score that both runs have.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
     /// Scene.
     pub scene: SceneId,
-    /// `jump_flood:paper`; a reference picture with its alignment.
-    pub filter: String,
-    /// True for a reference picture, false for a filter.
-    #[serde(rename = "bar")]
-    pub is_reference: bool,
+    /// Filter or reference; in files its text as `filter`, and `bar`, which is true for a reference.
+    #[serde(flatten, serialize_with = "write_filter")]
+    pub filter: FilterId,
     /// Score.
     pub metric: Metric,
     /// Score in the first run, in the metric's unit.
@@ -48,11 +49,11 @@ pub enum Basis {
     Floor,
 }
 
-/// Kind of a change.
+/// Verdict on the change of a score, or of a mean of scores.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChangeKind {
-    /// Equal to the last bit.
+    /// Equal to the last bit; of a mean, in every scene.
     Same,
     /// No more than the truth's noise can explain.
     WithinNoise,
@@ -62,17 +63,26 @@ pub enum ChangeKind {
     Better,
     /// The second is worse.
     Worse,
+    /// The interval of a mean holds 0.
+    Undecided,
+    /// The scenes of a mean are fewer than an interval can be trusted for.
+    TooFewScenes,
 }
 
 impl ChangeKind {
-    /// Every kind, the worst first.
-    pub const ALL: [ChangeKind; 5] = [
-        ChangeKind::Worse,
-        ChangeKind::Better,
-        ChangeKind::BelowMargin,
-        ChangeKind::WithinNoise,
-        ChangeKind::Same,
+    /// Verdicts on a score, the worst first.
+    pub const OF_SCORES: [Self; 5] = [
+        Self::Worse,
+        Self::Better,
+        Self::BelowMargin,
+        Self::WithinNoise,
+        Self::Same,
     ];
+
+    /// Returns true if the second is better or worse.
+    pub fn is_decided(self) -> bool {
+        matches!(self, Self::Better | Self::Worse)
+    }
 
     /// Returns the words for it in a report.
     pub fn label(self) -> &'static str {
@@ -82,6 +92,8 @@ impl ChangeKind {
             Self::BelowMargin => "within margin",
             Self::Better => "better",
             Self::Worse => "worse",
+            Self::Undecided => "undecided",
+            Self::TooFewScenes => "few scenes",
         }
     }
 }
@@ -115,8 +127,7 @@ impl Change {
         let interval = uncertainty.map_or([worse - floor, worse + floor], |own| own.interval);
         Some(Self {
             scene: pair.first.scene.clone(),
-            filter: pair.first.filter_id().to_string(),
-            is_reference: pair.first.is_reference,
+            filter: pair.first.filter_id(),
             metric,
             first: first.value,
             second: second.value,
@@ -144,13 +155,8 @@ impl Change {
         second - first
     }
 
-    /// Returns true if the second is better or worse.
-    pub fn is_beyond_noise(&self) -> bool {
-        matches!(self.kind, ChangeKind::Better | ChangeKind::Worse)
-    }
-
     /// Returns the change as a fraction of the larger score.
-    pub fn size(&self) -> f64 {
+    fn size(&self) -> f64 {
         match self.first.abs().max(self.second.abs()) {
             0.0 => 0.0,
             larger => self.estimate().abs() / larger,
@@ -167,17 +173,20 @@ pub fn score_change(metric: Metric, worse: f64) -> f64 {
 }
 
 /// Ranks the cases that changed by more than noise by their largest relative change; returns scene and filter.
-pub fn rank_changes(changes: &[Change]) -> Vec<(&SceneId, &str)> {
-    let mut ranked: Vec<(f64, (&SceneId, &str))> = Vec::new();
-    for change in changes.iter().filter(|change| change.is_beyond_noise()) {
-        let key = (&change.scene, change.filter.as_str());
-        match ranked.iter_mut().find(|(_, own)| *own == key) {
-            Some((size, _)) => *size = size.max(change.size()),
-            None => ranked.push((change.size(), key)),
-        }
-    }
-    ranked.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    ranked.into_iter().map(|(_, key)| key).collect()
+pub fn rank_changes(changes: &[Change]) -> Vec<(&SceneId, &FilterId)> {
+    let decided = changes.iter().filter(|change| change.kind.is_decided());
+    let mut ranked = group_by(decided, |change| (&change.scene, &change.filter));
+    let size = |case: &[&Change]| case.iter().map(|own| own.size()).fold(0.0, f64::max);
+    ranked.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    let cases = ranked.iter().map(|case| case[0]);
+    cases.map(|own| (&own.scene, &own.filter)).collect()
+}
+
+fn write_filter<S: Serializer>(filter: &FilterId, serializer: S) -> Result<S::Ok, S::Error> {
+    let mut fields = serializer.serialize_map(Some(2))?;
+    fields.serialize_entry("filter", &filter.to_string())?;
+    fields.serialize_entry("bar", &filter.is_reference)?;
+    fields.end()
 }
 
 /// Classifies a difference by its interval.
@@ -195,14 +204,19 @@ fn classify(worse: f64, [low, high]: [f64; 2]) -> ChangeKind {
 
 #[cfg(test)]
 pub(super) mod tests {
+    use frame::Alignment;
+
     use super::*;
 
     /// Makes a change from 0.5 of one filter.
     pub fn change(scene: &str, metric: Metric, worse: f64, kind: ChangeKind) -> Change {
         Change {
             scene: SceneId::new(scene, None),
-            filter: "one:paper".to_owned(),
-            is_reference: false,
+            filter: FilterId {
+                is_reference: false,
+                name: "one:paper".to_owned(),
+                alignment: Alignment::Centred,
+            },
             metric,
             first: 0.5,
             second: 0.5 + worse,

@@ -7,6 +7,7 @@ use serde::Serialize;
 use suite::{MIN_SCENES, TWO_SIDED, Weighted, scene_mean};
 
 use crate::compare::change::{Change, ChangeKind};
+use crate::groups::group_by;
 
 /// Mean of one metric of one filter, over the scenes that it applies to in both runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -28,67 +29,19 @@ pub struct MeanChange {
     /// 95 % confidence interval of `worse`, over scenes.
     pub interval: [f64; 2],
     /// Verdict.
-    pub kind: MeanKind,
-}
-
-/// Verdict on the change of a mean.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum MeanKind {
-    /// No scene changed.
-    Same,
-    /// The second run is better.
-    Better,
-    /// The second run is worse.
-    Worse,
-    /// Beyond noise, and smaller than matters.
-    BelowMargin,
-    /// The interval holds 0.
-    Undecided,
-    /// The scenes are fewer than an interval can be trusted for.
-    TooFewScenes,
-}
-
-impl MeanKind {
-    /// Returns the words for it in a report.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Same => "same",
-            Self::Better => "better",
-            Self::Worse => "worse",
-            Self::BelowMargin => "within margin",
-            Self::Undecided => "undecided",
-            Self::TooFewScenes => "few scenes",
-        }
-    }
+    pub kind: ChangeKind,
 }
 
 /// Averages changes per filter, metric and frame rate, in the order of the changes; leaves out references.
 pub fn average_changes(changes: &[Change]) -> Vec<MeanChange> {
-    let mut groups: Vec<((String, Metric), Vec<&Change>)> = Vec::new();
-    for change in changes.iter().filter(|change| !change.is_reference) {
-        let key = key(change);
-        match groups.iter_mut().find(|(own, _)| *own == key) {
-            Some((_, group)) => group.push(change),
-            None => groups.push((key, vec![change])),
-        }
-    }
-    let average = |((filter, metric), group): ((String, Metric), Vec<&Change>)| {
-        average(filter, metric, &group)
-    };
-    groups.into_iter().map(average).collect()
+    let of_filters = changes.iter().filter(|change| !change.filter.is_reference);
+    let groups = group_by(of_filters, |change| {
+        (&change.filter, change.scene.rate, change.metric)
+    });
+    groups.iter().map(|group| average(group)).collect()
 }
 
-/// Names filter and frame rate of a change, and its metric.
-fn key(change: &Change) -> (String, Metric) {
-    let filter = match change.scene.rate {
-        Some(rate) => format!("{} {}", change.filter, rate.word()),
-        None => change.filter.clone(),
-    };
-    (filter, change.metric)
-}
-
-fn average(filter: String, metric: Metric, changes: &[&Change]) -> MeanChange {
+fn average(changes: &[&Change]) -> MeanChange {
     let count = changes.len();
     let mean = |value: fn(&Change) -> f64| {
         let weighted = changes.iter().map(|change| Weighted {
@@ -99,23 +52,26 @@ fn average(filter: String, metric: Metric, changes: &[&Change]) -> MeanChange {
     };
     let worse = mean(Change::estimate);
     let of_kind = |kind| changes.iter().filter(|change| change.kind == kind).count();
-    let kind = match worse.side_of_zero() {
-        _ if of_kind(ChangeKind::Same) == count => MeanKind::Same,
-        _ if count < MIN_SCENES => MeanKind::TooFewScenes,
-        Some(Ordering::Greater) => MeanKind::Worse,
-        Some(Ordering::Less) => MeanKind::Better,
-        _ => MeanKind::Undecided,
-    };
+    let first = changes[0];
     MeanChange {
-        filter,
-        metric,
+        filter: match first.scene.rate {
+            Some(rate) => format!("{} {}", first.filter, rate.word()),
+            None => first.filter.to_string(),
+        },
+        metric: first.metric,
         scenes: count,
         better_worse: [of_kind(ChangeKind::Better), of_kind(ChangeKind::Worse)],
         first: mean(|change| change.estimates[0]).mean,
         second: mean(|change| change.estimates[1]).mean,
         worse: worse.mean,
         interval: worse.interval,
-        kind,
+        kind: match worse.side_of_zero() {
+            _ if of_kind(ChangeKind::Same) == count => ChangeKind::Same,
+            _ if count < MIN_SCENES => ChangeKind::TooFewScenes,
+            Some(Ordering::Greater) => ChangeKind::Worse,
+            Some(Ordering::Less) => ChangeKind::Better,
+            _ => ChangeKind::Undecided,
+        },
     }
 }
 
@@ -140,11 +96,11 @@ mod tests {
     #[test]
     fn a_mean_is_worse_where_other_scenes_would_say_so_too() {
         for (worse, expected) in [
-            (&[0.1, 0.2, 0.1, 0.2, 0.1][..], MeanKind::Worse),
-            (&[-0.1, -0.2, -0.1, -0.2, -0.1], MeanKind::Better),
-            (&[-0.3, 0.2, 0.1, -0.2, 0.1], MeanKind::Undecided),
-            (&[0.1, 0.2, 0.1, 0.2], MeanKind::TooFewScenes),
-            (&[0.0, 0.0], MeanKind::Same),
+            (&[0.1, 0.2, 0.1, 0.2, 0.1][..], ChangeKind::Worse),
+            (&[-0.1, -0.2, -0.1, -0.2, -0.1], ChangeKind::Better),
+            (&[-0.3, 0.2, 0.1, -0.2, 0.1], ChangeKind::Undecided),
+            (&[0.1, 0.2, 0.1, 0.2], ChangeKind::TooFewScenes),
+            (&[0.0, 0.0], ChangeKind::Same),
         ] {
             let means = average_changes(&changes(worse));
             assert_eq!(means.len(), 1);
@@ -190,7 +146,7 @@ mod tests {
     #[test]
     fn references_have_no_means() {
         let mut all = changes(&[0.1; 5]);
-        all[0].is_reference = true;
+        all[0].filter.is_reference = true;
         assert_eq!(average_changes(&all)[0].scenes, 4);
     }
 }

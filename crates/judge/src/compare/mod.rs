@@ -9,32 +9,35 @@ mod settings;
 mod side;
 mod sizes;
 
+use std::collections::BTreeMap;
+
+use metrics::Metric;
 use serde::Serialize;
+use suite::{Error, PROGRAM};
 use tracer::Watch;
 
-use suite::{Error, PROGRAM};
+use crate::bounds::Margin;
 
 pub use change::{Basis, Change, ChangeKind, rank_changes, score_change};
-pub use mean::{MeanChange, MeanKind};
+pub use mean::MeanChange;
 pub use pairing::{Pair, pair_cases};
 pub use settings::SettingChange;
 pub use side::Side;
-pub use sizes::{
-    Agreement, FilterAtSizes, Reversal, SizeComparison, compare_sizes, compare_with_last,
-};
+pub use sizes::{Agreement, FilterAtSizes, Reversal, SizeComparison, compare_sizes};
 
+use margin::apply_margins;
 use mean::average_changes;
 use noise::measure_changes;
 use pairing::{cases_missing_from, check_comparable};
 use settings::compare_settings;
 
 /// Version of the layout of a comparison as JSON.
-pub const COMPARE_FORMAT: u32 = 1;
+const COMPARE_FORMAT: u32 = 1;
 
 /// Differences between two runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RunComparison {
-    /// [`COMPARE_FORMAT`].
+    /// Version of the layout.
     pub format: u32,
     /// Program name and version.
     pub program: &'static str,
@@ -52,12 +55,19 @@ pub struct RunComparison {
     pub changes: Vec<Change>,
 }
 
-/// Compares two runs. Tells changes from noise by the truths' replicates and the pictures, if their files exist; writes nothing.
-/// `watch` hears of every pair of cases.
-pub fn compare_runs(first: &Side, second: &Side, watch: Watch) -> Result<RunComparison, Error> {
+/// Compares two runs. Separates changes from noise by the truths' replicates and the pictures, if their files exist, and counts none
+/// below its margin; writes nothing. `watch` hears of every pair of cases.
+pub fn compare_runs(
+    first: &Side,
+    second: &Side,
+    margins: &BTreeMap<Metric, Margin>,
+    watch: Watch,
+) -> Result<RunComparison, Error> {
     let pairs = pair_cases(&first.run, &second.run);
     check_comparable(first, second, &pairs)?;
-    let changes = measure_changes([first, second], &pairs, watch)?;
+    let mut changes = measure_changes([first, second], &pairs, watch)?;
+    let mut means = average_changes(&changes);
+    apply_margins(&mut changes, &mut means, margins);
     Ok(RunComparison {
         format: COMPARE_FORMAT,
         program: PROGRAM,
@@ -65,7 +75,7 @@ pub fn compare_runs(first: &Side, second: &Side, watch: Watch) -> Result<RunComp
         settings: compare_settings(&first.run, &second.run, &pairs),
         only_in_first: cases_missing_from(&second.run, &first.run),
         only_in_second: cases_missing_from(&first.run, &second.run),
-        means: average_changes(&changes),
+        means,
         changes,
     })
 }

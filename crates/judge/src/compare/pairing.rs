@@ -1,6 +1,6 @@
 //! Pairs of cases of two runs.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
 use suite::{Case, CaseId, Error, Run};
@@ -25,22 +25,20 @@ impl Pair<'_> {
 
 /// Pairs the cases that both runs have, in the order of the first.
 pub fn pair_cases<'a>(first: &'a Run, second: &'a Run) -> Vec<Pair<'a>> {
-    let partners = Partners::new(first, second);
-    let pair = |first| {
-        Some(Pair {
-            first,
-            second: partners.find(first)?,
-        })
-    };
-    first.cases.iter().filter_map(pair).collect()
+    let partners = find_partners(first, second);
+    let pairs = first.cases.iter().zip(partners);
+    pairs
+        .filter_map(|(first, second)| second.map(|second| Pair { first, second }))
+        .collect()
 }
 
 /// Lists the cases that `run` lacks and `other` has: `fan / jump_flood:paper`.
 pub fn cases_missing_from(run: &Run, other: &Run) -> Vec<String> {
-    let partners = Partners::new(other, run);
-    let missing = (other.cases.iter()).filter(|case| partners.find(case).is_none());
-    let label = |case: &Case| format!("{} / {}", case.scene, case.filter_id());
-    missing.map(label).collect()
+    let cases = other.cases.iter().zip(find_partners(other, run));
+    let missing = cases.filter(|(_, partner)| partner.is_none());
+    missing
+        .map(|(case, _)| format!("{} / {}", case.scene, case.filter_id()))
+        .collect()
 }
 
 /// Refuses runs whose scores do not compare.
@@ -82,52 +80,34 @@ pub fn check_comparable(first: &Side, second: &Side, pairs: &[Pair]) -> Result<(
     }
 }
 
-/// The cases of one run that belong to those of another: the same case, or else the only one of its preset, with parameters of
-/// its own.
-struct Partners<'a> {
-    exact: HashMap<&'a CaseId, &'a Case>,
-    /// By preset, the cases that are in one run alone; none where there are several.
-    own: HashMap<CaseId, Option<&'a Case>>,
-    other: HashMap<CaseId, Option<&'a Case>>,
-}
-
-impl<'a> Partners<'a> {
-    fn new(run: &'a Run, other: &'a Run) -> Self {
-        let [known, exact] = [run, other].map(|run| {
-            let cases = run.cases.iter().rev();
-            cases.map(|case| (&case.id, case)).collect()
-        });
-        Self {
-            own: single_presets(&run.cases, &exact),
-            other: single_presets(&other.cases, &known),
-            exact,
-        }
+/// Finds the partner in `other` of each case of `run`: the same case, or else the only one of its preset that is in one run alone, with
+/// parameters of its own.
+fn find_partners<'a>(run: &Run, other: &'a Run) -> Vec<Option<&'a Case>> {
+    // Of equal cases, the first one counts.
+    let cases = other.cases.iter().rev();
+    let exact: HashMap<&CaseId, &Case> = cases.map(|case| (&case.id, case)).collect();
+    let known: HashSet<&CaseId> = run.cases.iter().map(|case| &case.id).collect();
+    let mut own: HashMap<CaseId, usize> = HashMap::new();
+    for case in run
+        .cases
+        .iter()
+        .filter(|case| !exact.contains_key(&case.id))
+    {
+        *own.entry(case.of_preset()).or_default() += 1;
     }
-
-    /// Finds the partner of a case of the first run.
-    fn find(&self, case: &'a Case) -> Option<&'a Case> {
-        if let Some(exact) = self.exact.get(&case.id) {
-            return Some(exact);
-        }
+    let mut others: HashMap<CaseId, Vec<&Case>> = HashMap::new();
+    for case in other.cases.iter().filter(|case| !known.contains(&case.id)) {
+        others.entry(case.of_preset()).or_default().push(case);
+    }
+    let find = |case: &Case| {
         let preset = case.of_preset();
-        let is_single = self.own.get(&preset).is_some_and(Option::is_some);
-        let other = self.other.get(&preset).copied().flatten();
-        other.filter(|_| is_single)
-    }
-}
-
-/// Finds the only case of each preset among those that are not in an index; none where there are several.
-fn single_presets<'a>(
-    cases: &'a [Case],
-    index: &HashMap<&CaseId, &Case>,
-) -> HashMap<CaseId, Option<&'a Case>> {
-    let mut single = HashMap::new();
-    for case in cases.iter().filter(|case| !index.contains_key(&case.id)) {
-        (single.entry(case.of_preset()))
-            .and_modify(|known| *known = None)
-            .or_insert(Some(case));
-    }
-    single
+        match others.get(&preset).map(Vec::as_slice) {
+            _ if exact.contains_key(&case.id) => Some(exact[&case.id]),
+            Some([single]) if own.get(&preset) == Some(&1) => Some(*single),
+            _ => None,
+        }
+    };
+    run.cases.iter().map(find).collect()
 }
 
 /// Lists names, each once and six at most.

@@ -9,7 +9,7 @@ use suite::{Case, Run, list_settings};
 use crate::compare::pairing::Pair;
 
 /// One setting with two values.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SettingChange {
     /// `adapter`, or `jump_flood:paper.samples`.
     pub name: String,
@@ -22,22 +22,16 @@ pub struct SettingChange {
 /// Compares the settings of the runs, then the parameters of the filters that both have.
 pub fn compare_settings(first: &Run, second: &Run, pairs: &[Pair]) -> Vec<SettingChange> {
     let of_runs = run_settings(first).into_iter().zip(run_settings(second));
-    let mut all: Vec<SettingChange> = of_runs
-        .map(|((name, first), (_, second))| SettingChange {
-            name: name.to_owned(),
+    let of_runs = of_runs.map(|((name, first), (_, second))| (name.to_owned(), [first, second]));
+    let mut known = BTreeSet::new();
+    (of_runs.chain(pairs.iter().flat_map(list_parameters)))
+        .filter(|own| own.1[0] != own.1[1] && known.insert(own.clone()))
+        .map(|(name, [first, second])| SettingChange {
+            name,
             first,
             second,
         })
-        .collect();
-    for pair in pairs {
-        all.extend(compare_parameters(pair));
-    }
-    let mut known = BTreeSet::new();
-    all.retain(|own| {
-        own.first != own.second
-            && known.insert((own.name.clone(), own.first.clone(), own.second.clone()))
-    });
-    all
+        .collect()
 }
 
 fn run_settings(run: &Run) -> Vec<(&'static str, String)> {
@@ -56,28 +50,25 @@ fn adapter_label(adapter: &Option<AdapterDescription>) -> String {
     }
 }
 
-fn compare_parameters(pair: &Pair) -> Vec<SettingChange> {
-    let [first, second] = [pair.first, pair.second];
-    let keys = first.parameters.keys().chain(second.parameters.keys());
-    let names: BTreeSet<&String> = keys.collect();
-    let value = |case: &Case, name| {
-        let value = case.parameters.get(name);
-        value.map_or_else(String::new, ToString::to_string)
-    };
+/// Lists the parameters of either case by name, with both values.
+fn list_parameters(pair: &Pair) -> Vec<(String, [String; 2])> {
+    let cases = [pair.first, pair.second];
+    let name = pair.first.name();
     let width = |case: &Case| match case.reference_width {
         Some(width) => format!("{width} px"),
         None => "as written".to_owned(),
     };
-    let widths = SettingChange {
-        name: format!("{} reference width", first.name()),
-        first: width(first),
-        second: width(second),
+    let value = |case: &Case, parameter| {
+        let value = case.parameters.get(parameter);
+        value.map_or_else(String::new, ToString::to_string)
     };
-    std::iter::once(widths)
-        .chain(names.into_iter().map(|name| SettingChange {
-            name: format!("{}.{name}", first.name()),
-            first: value(first, name),
-            second: value(second, name),
-        }))
-        .collect()
+    let parameters: BTreeSet<&String> = (cases.iter())
+        .flat_map(|case| case.parameters.keys())
+        .collect();
+    let values = parameters.into_iter().map(|parameter| {
+        let both = cases.map(|case| value(case, parameter));
+        (format!("{name}.{parameter}"), both)
+    });
+    let widths = (format!("{name} reference width"), cases.map(width));
+    std::iter::once(widths).chain(values).collect()
 }

@@ -70,36 +70,26 @@ pub struct Reversal {
 /// Scores of every filter at one size: `[filter][scene]`, smaller is better.
 type Badness = Vec<Vec<f64>>;
 
-/// Compares results of the same filters and scenes at rising sizes by a score; one comparison per shutter alignment. A size orders two
-/// filters if the 95 % CI of their mean difference over scenes does not hold 0. That needs five scenes.
+/// Compares results of the same filters and scenes by a score, each with the last, which is the largest; one comparison per shutter
+/// alignment. A size orders two filters if the 95 % CI of their mean difference over scenes does not hold 0. That needs five scenes.
 ///
 /// Scenes and filters that one of them lacks are an error.
-pub fn compare_sizes(results: &[Results], metric: Metric) -> Result<Vec<SizeComparison>, Error> {
-    let mut results: Vec<&Results> = results.iter().collect();
-    results.sort_by_key(|own| u64::from(own.size[0]) * u64::from(own.size[1]));
-    compare_with_last(&results, metric)
-}
-
-/// Compares results of the same filters and scenes as [`compare_sizes`] does, each with the last.
-pub fn compare_with_last(
-    results: &[&Results],
-    metric: Metric,
-) -> Result<Vec<SizeComparison>, Error> {
+pub fn compare_sizes(results: &[&Results], metric: Metric) -> Result<Vec<SizeComparison>, Error> {
     let Some(last) = results.last() else {
         return Err(Error::Usage("no results to compare".to_owned()));
     };
     let alignments: BTreeSet<Alignment> = last.scores.iter().map(|own| own.alignment).collect();
     (alignments.into_iter())
-        .map(|alignment| compare_group(results, alignment, metric))
+        .map(|alignment| compare_group(results, last, alignment, metric))
         .collect()
 }
 
 fn compare_group(
     results: &[&Results],
+    last: &Results,
     alignment: Alignment,
     metric: Metric,
 ) -> Result<SizeComparison, Error> {
-    let last = results.last().expect("there are results");
     let own = || (last.scores.iter()).filter(|own| own.alignment == alignment);
     let names: BTreeSet<&str> = own().map(|own| own.name.as_str()).collect();
     // A still scene orders no filters, and has no score where nothing moves.
@@ -109,23 +99,26 @@ fn compare_group(
         .collect();
     let read = |results: &&Results| -> Result<Badness, Error> {
         let filter = |name: &&str| {
-            let scenes = scenes.iter();
-            scenes
-                .map(|scene| find(results, scene, name, metric))
-                .collect()
+            let scores = (scenes.iter()).map(|scene| find(results, scene, name, metric));
+            scores.collect()
         };
         names.iter().map(filter).collect()
     };
     let badness: Vec<Badness> = results.iter().map(read).collect::<Result<_, Error>>()?;
     let at_largest = badness.last().expect("there are results");
-    let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+    let names: Vec<&str> = names.into_iter().collect();
     let mut filters: Vec<FilterAtSizes> = (names.iter().enumerate())
-        .map(|(index, name)| FilterAtSizes {
-            name: name.clone(),
-            means: (badness.iter())
-                .map(|size| plain_mean(&size[index], TWO_SIDED))
-                .collect(),
-            ranks: badness.iter().map(|size| rank(size, index)).collect(),
+        .map(|(index, name)| {
+            let mean = |values: &Vec<f64>| plain_mean(values, TWO_SIDED);
+            let rank = |size: &Badness| {
+                let own = mean(&size[index]).mean;
+                1 + size.iter().filter(|other| mean(other).mean < own).count()
+            };
+            FilterAtSizes {
+                name: (*name).to_owned(),
+                means: badness.iter().map(|size| mean(&size[index])).collect(),
+                ranks: badness.iter().map(rank).collect(),
+            }
         })
         .collect();
     filters.sort_by_key(|filter| filter.ranks.last().copied());
@@ -153,26 +146,15 @@ fn find(results: &Results, scene: &SceneId, name: &str, metric: Metric) -> Resul
     Ok(metric.ideal().badness(value))
 }
 
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-/// Ranks a filter by its mean, from 1.
-fn rank(size: &Badness, index: usize) -> usize {
-    let own = mean(&size[index]);
-    1 + size.iter().filter(|other| mean(other) < own).count()
-}
-
-fn compare_order(names: &[String], here: &Badness, largest: &Badness) -> Agreement {
+fn compare_order(names: &[&str], here: &Badness, largest: &Badness) -> Agreement {
     let scenes = here.first().map_or(0, Vec::len);
     let tau = |drawn: &[usize]| {
-        let means = |size: &Badness| -> Vec<f64> {
-            let mean_of_drawn = |values: &Vec<f64>| {
-                mean(&drawn.iter().map(|scene| values[*scene]).collect::<Vec<_>>())
-            };
-            size.iter().map(mean_of_drawn).collect()
-        };
-        kendalls_tau(&means(here), &means(largest))
+        let [here, largest] = [here, largest].map(|size| -> Vec<f64> {
+            let sum = |values: &Vec<f64>| drawn.iter().map(|scene| values[*scene]).sum::<f64>();
+            let filters = size.iter();
+            filters.map(|own| sum(own) / drawn.len() as f64).collect()
+        });
+        kendalls_tau(&here, &largest)
     };
     let all: Vec<usize> = (0..scenes).collect();
     let mut agreement = Agreement {
@@ -194,8 +176,8 @@ fn compare_order(names: &[String], here: &Badness, largest: &Badness) -> Agreeme
                         _ => (second, first, -1.0),
                     };
                     agreement.reversed.push(Reversal {
-                        better_here: names[better].clone(),
-                        better_at_largest: names[worse].clone(),
+                        better_here: names[better].to_owned(),
+                        better_at_largest: names[worse].to_owned(),
                         differences: [sign * own.mean, sign * others.mean],
                     });
                 }
@@ -252,9 +234,7 @@ fn kendalls_tau(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    fn names(count: usize) -> Vec<String> {
-        (0..count).map(|index| format!("filter {index}")).collect()
-    }
+    const NAMES: [&str; 3] = ["first", "second", "third"];
 
     #[test]
     fn kendalls_tau_is_that_of_a_hand_count() {
@@ -276,15 +256,15 @@ mod tests {
         let noisy = vec![0.25, 0.02, 0.25, 0.02, 0.25, 0.02];
         let here = vec![better.clone(), worse.clone(), noisy.clone()];
         let largest = vec![worse, better, noisy];
-        let found = compare_order(&names(3), &here, &largest);
+        let found = compare_order(&NAMES, &here, &largest);
         assert_eq!(
             (found.alike, found.only_here, found.only_at_largest),
             (0, 0, 0)
         );
         assert_eq!(found.reversed.len(), 1, "{found:?}");
         let reversal = &found.reversed[0];
-        assert_eq!(reversal.better_here, "filter 0");
-        assert_eq!(reversal.better_at_largest, "filter 1");
+        assert_eq!(reversal.better_here, "first");
+        assert_eq!(reversal.better_at_largest, "second");
         assert!((reversal.differences[0] - 0.02).abs() < 1e-12);
         assert!((reversal.differences[1] + 0.02).abs() < 1e-12);
         assert_eq!(found.tau, -1.0);
@@ -295,7 +275,7 @@ mod tests {
         // Two filters; one scene of four turns them round by as much as the other three do not.
         let here = vec![vec![0.1; 4], vec![0.2; 4]];
         let largest = vec![vec![0.1, 0.1, 0.1, 0.4], vec![0.2, 0.2, 0.2, 0.1]];
-        let found = compare_order(&names(2), &here, &largest);
+        let found = compare_order(&NAMES[..2], &here, &largest);
         // The scene is drawn twice or more in a quarter of the resamples.
         assert_eq!(found.interval, Some([-1.0, 1.0]), "{found:?}");
     }
@@ -303,9 +283,8 @@ mod tests {
     #[test]
     fn a_size_agrees_with_itself() {
         let size = vec![vec![0.1; 5], vec![0.2; 5], vec![0.3; 5]];
-        let found = compare_order(&names(3), &size, &size);
+        let found = compare_order(&NAMES, &size, &size);
         assert_eq!((found.tau, found.alike, found.reversed.len()), (1.0, 3, 0));
         assert_eq!(found.interval, Some([1.0, 1.0]));
-        assert_eq!((rank(&size, 0), rank(&size, 2)), (1, 3));
     }
 }

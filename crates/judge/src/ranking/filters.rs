@@ -5,6 +5,8 @@ use metrics::Metric;
 use suite::{Case, InputFormat, TWO_SIDED, plain_mean};
 use tracer::{FrameRate, SceneId};
 
+use crate::groups::group_by;
+
 /// A filter preset in the ranking of its shutter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankedFilter {
@@ -48,10 +50,8 @@ pub struct RankedScore {
     pub floor: f64,
 }
 
-struct Entry {
-    ranked: RankedFilter,
-    scores: Vec<RankedScore>,
-}
+/// A filter preset with its scores.
+type Entry<'a> = (RankedFilter, Vec<&'a RankedScore>);
 
 /// What ranks say, for readers.
 pub const RANK_RULE: &str = "Rank 2-4: one filter is better, two are too close to tell apart, the others are worse, by the 95 % CI of \
@@ -76,10 +76,15 @@ pub fn rank_for_summary(cases: &[Case]) -> Vec<Vec<RankedFilter>> {
         .filter(|case| !case.is_reference && case.input == InputFormat::default())
         .filter_map(RankedScore::flip_of)
         .collect();
-    let presets = rank_by_score(&full, false);
+    rank_best(&full)
+}
+
+/// Ranks all presets; where they are too many for a summary, the best preset of each filter stands for the filter.
+pub(crate) fn rank_best(scores: &[RankedScore]) -> Vec<Vec<RankedFilter>> {
+    let presets = rank_by_score(scores, false);
     match presets.iter().map(Vec::len).sum() {
         ..=MAX_RANKED => presets,
-        _ => rank_by_score(&full, true),
+        _ => rank_by_score(scores, true),
     }
 }
 
@@ -104,69 +109,30 @@ impl RankedScore {
 /// on a single scene, if the difference exceeds the noise floor. A filter's ranks leave room for all filters that cannot be told from
 /// it. That two filters are too close to tell apart is not transitive, so that ranges overlap.
 pub(crate) fn rank_by_score(scores: &[RankedScore], best_presets: bool) -> Vec<Vec<RankedFilter>> {
-    let mut groups: Vec<Vec<Entry>> = Vec::new();
-    for score in scores {
-        let rate = score.scene.rate;
-        let group = (groups.iter()).position(|group| {
-            let ranked = &group[0].ranked;
-            ranked.alignment == score.alignment && ranked.rate == rate
-        });
-        let group = group.unwrap_or_else(|| {
-            groups.push(Vec::new());
-            groups.len() - 1
-        });
-        let entry = (groups[group].iter_mut()).find(|entry| entry.ranked.name == score.name);
-        match entry {
-            Some(entry) => entry.scores.push(score.clone()),
-            None => groups[group].push(new_entry(score)),
-        }
-    }
-    (groups.into_iter())
-        .map(|group| rank_group(group, best_presets))
+    (group_by(scores, |own| (own.alignment, own.scene.rate)).into_iter())
+        .map(|group| rank_group(group_by(group, |own| &own.name), best_presets))
         .collect()
 }
 
-fn new_entry(score: &RankedScore) -> Entry {
-    Entry {
-        ranked: RankedFilter {
-            name: score.name.clone(),
-            filter: score.filter.clone(),
-            alignment: score.alignment,
-            rate: score.scene.rate,
-            ranks: [1, 1],
-            mean: 0.0,
-            interval: None,
-            scenes: 0,
-            worst: (SceneId::default(), 0.0),
-            presets: 1,
-        },
-        scores: vec![score.clone()],
-    }
-}
-
-fn rank_group(mut group: Vec<Entry>, best_presets: bool) -> Vec<RankedFilter> {
-    for entry in &mut group {
-        summarize(entry);
-    }
-    group.sort_by(|a, b| a.ranked.mean.total_cmp(&b.ranked.mean));
+fn rank_group(filters: Vec<Vec<&RankedScore>>, best_presets: bool) -> Vec<RankedFilter> {
+    let entries = filters.into_iter();
+    let mut group: Vec<Entry> = entries.map(|scores| (summarize(&scores), scores)).collect();
+    group.sort_by(|(a, _), (b, _)| a.mean.total_cmp(&b.mean));
     if best_presets {
         group = keep_best_presets(group);
     }
-    let is_better =
-        |own: &Entry, other: &Entry| own.ranked.mean < other.ranked.mean && !are_tied(own, other);
-    let ranks: Vec<[usize; 2]> = (group.iter())
-        .map(|own| {
-            let better = group.iter().filter(|other| is_better(other, own));
-            let worse = group.iter().filter(|other| is_better(own, other));
-            [1 + better.count(), group.len() - worse.count()]
-        })
-        .collect();
-    (group.into_iter().zip(ranks))
-        .map(|(entry, ranks)| RankedFilter {
-            ranks,
-            ..entry.ranked
-        })
-        .collect()
+    let is_better = |(own, scores): &Entry, (other, others): &Entry| {
+        own.mean < other.mean && !are_tied(scores, others)
+    };
+    let rank = |own: &Entry| {
+        let better = group.iter().filter(|other| is_better(other, own));
+        let worse = group.iter().filter(|other| is_better(own, other));
+        RankedFilter {
+            ranks: [1 + better.count(), group.len() - worse.count()],
+            ..own.0.clone()
+        }
+    };
+    group.iter().map(rank).collect()
 }
 
 impl RankedFilter {
@@ -184,34 +150,41 @@ impl RankedFilter {
     }
 }
 
-fn summarize(entry: &mut Entry) {
-    let values: Vec<f64> = entry.scores.iter().map(|score| score.value).collect();
+/// Averages the scores of a filter preset.
+fn summarize(scores: &[&RankedScore]) -> RankedFilter {
+    let values: Vec<f64> = scores.iter().map(|score| score.value).collect();
     let mean = plain_mean(&values, TWO_SIDED);
-    let worst = (entry.scores.iter())
+    let worst = (scores.iter())
         .max_by(|a, b| a.value.total_cmp(&b.value))
-        .expect("an entry has a score");
-    entry.ranked.mean = mean.mean;
-    entry.ranked.interval = (values.len() > 1).then_some(mean.interval);
-    entry.ranked.scenes = values.len();
-    entry.ranked.worst = (worst.scene.clone(), worst.value);
+        .expect("a filter in a ranking has a score");
+    let first = scores[0];
+    RankedFilter {
+        name: first.name.clone(),
+        filter: first.filter.clone(),
+        alignment: first.alignment,
+        rate: first.scene.rate,
+        ranks: [1, 1],
+        mean: mean.mean,
+        interval: (values.len() > 1).then_some(mean.interval),
+        scenes: values.len(),
+        worst: (worst.scene.clone(), worst.value),
+        presets: 1,
+    }
 }
 
 /// Keeps the first preset of every filter of a sorted group.
 fn keep_best_presets(group: Vec<Entry>) -> Vec<Entry> {
-    let mut best: Vec<Entry> = Vec::new();
-    for entry in group {
-        let known = (best.iter_mut()).find(|other| other.ranked.filter == entry.ranked.filter);
-        match known {
-            Some(other) => other.ranked.presets += 1,
-            None => best.push(entry),
-        }
-    }
-    best
+    let filters = group_by(group, |(own, _)| own.filter.clone()).into_iter();
+    let best = filters.map(|mut presets| {
+        presets[0].0.presets = presets.len();
+        presets.swap_remove(0)
+    });
+    best.collect()
 }
 
-fn are_tied(a: &Entry, b: &Entry) -> bool {
-    let pairs = a.scores.iter().filter_map(|score| {
-        let other = b.scores.iter().find(|other| other.scene == score.scene)?;
+fn are_tied(a: &[&RankedScore], b: &[&RankedScore]) -> bool {
+    let pairs = a.iter().filter_map(|score| {
+        let other = b.iter().find(|other| other.scene == score.scene)?;
         Some((other.value - score.value, score.floor.max(other.floor)))
     });
     let (differences, floors): (Vec<f64>, Vec<f64>) = pairs.unzip();
@@ -222,64 +195,5 @@ fn are_tied(a: &Entry, b: &Entry) -> bool {
             let [low, high] = plain_mean(&differences, TWO_SIDED).interval;
             (low..=high).contains(&0.0)
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ranks_leave_room_for_the_filters_that_cannot_be_told_apart() {
-        let scores: Vec<RankedScore> = [
-            ("a", [0.10, 0.20, 0.30]),
-            // Better than c on every scene by about as much, and not told from a.
-            ("b", [0.15, 0.21, 0.28]),
-            ("c", [0.17, 0.23, 0.302]),
-            // Worse than all on every scene, by about as much.
-            ("d", [0.47, 0.53, 0.602]),
-        ]
-        .into_iter()
-        .flat_map(|(name, values)| {
-            (["fan", "flag", "creep"].into_iter().zip(values)).map(move |(scene, value)| {
-                RankedScore {
-                    scene: SceneId::new(scene, None),
-                    ..score(name, value)
-                }
-            })
-        })
-        .collect();
-        let ranked = &rank_by_score(&scores, false)[0];
-        let ranks: Vec<_> = (ranked.iter())
-            .map(|own| (own.filter.as_str(), own.rank_text()))
-            .collect();
-        // a cannot be told from b and c, so it may be any of the three. b is better than c, and so neither first and last.
-        let due = [("a", "1-3"), ("b", "1-2"), ("c", "2-3"), ("d", "4")];
-        assert_eq!(ranks, due.map(|(name, rank)| (name, rank.to_owned())));
-    }
-
-    fn score(name: &str, value: f64) -> RankedScore {
-        RankedScore {
-            scene: SceneId::new("fan", None),
-            filter: name.to_owned(),
-            name: format!("{name}:default"),
-            alignment: Alignment::Centred,
-            value,
-            floor: 0.01,
-        }
-    }
-
-    #[test]
-    fn on_one_scene_filters_tie_within_the_noise_floor() {
-        let scores = [score("a", 0.1), score("b", 0.109), score("c", 0.111)];
-        let ranks = |scores: &[RankedScore]| -> Vec<[usize; 2]> {
-            let ranked = rank_by_score(scores, false);
-            ranked[0].iter().map(|own| own.ranks).collect()
-        };
-        assert_eq!(ranks(&scores[..2]), [[1, 2], [1, 2]]);
-        assert_eq!(
-            ranks(&[scores[0].clone(), scores[2].clone()]),
-            [[1, 1], [2, 2]]
-        );
     }
 }

@@ -6,7 +6,7 @@ use metrics::{Measured, PERFECT_JOD, SequenceMetric};
 use suite::{Case, FilterId, InputFormat, Run, SceneMean, Sequence, TWO_SIDED, plain_mean};
 use tracer::SceneId;
 
-use crate::ranking::filters::{MAX_RANKED, RankedFilter, RankedScore, rank_by_score};
+use crate::ranking::filters::{RankedFilter, RankedScore, rank_best, rank_by_score};
 
 /// The score that sequences are ranked by: the one that counts errors of single frames and of their changes together. Scores of changes
 /// alone rank a filter high that flickers little around a wrong picture.
@@ -25,23 +25,14 @@ pub struct RankedSequence {
 /// Where the presets are too many for a summary, the best preset of each filter stands for the filter. A filter without the score that
 /// decides has no rank, and is left out.
 pub fn rank_sequences(run: &Run) -> Vec<Vec<RankedSequence>> {
-    let is_full = |case: &Case| case.input == InputFormat::default();
-    let own: Vec<(&Sequence, &Case)> = (list_filters(run).into_iter())
-        .filter(|(_, case)| is_full(case))
-        .collect();
-    let presets = rank(&own, false);
-    match presets.iter().map(Vec::len).sum() {
-        ..=MAX_RANKED => presets,
-        _ => rank(&own, true),
-    }
+    let is_full = |_: &Sequence, case: &Case| case.input == InputFormat::default();
+    rank(run, is_full, rank_best)
 }
 
 /// Ranks the sequences of one scene alone, every preset in every form of the input.
 pub fn rank_sequences_on(run: &Run, scene: &SceneId) -> Vec<Vec<RankedSequence>> {
-    let own: Vec<(&Sequence, &Case)> = (list_filters(run).into_iter())
-        .filter(|(sequence, _)| sequence.scene == *scene)
-        .collect();
-    rank(&own, false)
+    let is_of_scene = |own: &Sequence, _: &Case| own.scene == *scene;
+    rank(run, is_of_scene, |losses| rank_by_score(losses, false))
 }
 
 /// Lists the sequences of filters, each with the case of its first frame.
@@ -56,7 +47,13 @@ fn list_filters(run: &Run) -> Vec<(&Sequence, &Case)> {
     with_case.collect()
 }
 
-fn rank(own: &[(&Sequence, &Case)], best_presets: bool) -> Vec<Vec<RankedSequence>> {
+fn rank(
+    run: &Run,
+    is_ranked: impl Fn(&Sequence, &Case) -> bool,
+    rank: impl Fn(&[RankedScore]) -> Vec<Vec<RankedFilter>>,
+) -> Vec<Vec<RankedSequence>> {
+    let mut own = list_filters(run);
+    own.retain(|(sequence, case)| is_ranked(sequence, case));
     let losses: Vec<RankedScore> = own.iter().filter_map(loss_of).collect();
     let with_means = |lost: RankedFilter| {
         let sequences: Vec<&Sequence> = (own.iter().map(|(sequence, _)| *sequence))
@@ -70,7 +67,7 @@ fn rank(own: &[(&Sequence, &Case)], best_presets: bool) -> Vec<Vec<RankedSequenc
             ranked: as_quality(lost),
         }
     };
-    (rank_by_score(&losses, best_presets).into_iter())
+    (rank(&losses).into_iter())
         .map(|group| group.into_iter().map(with_means).collect())
         .collect()
 }

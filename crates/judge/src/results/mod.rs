@@ -13,10 +13,12 @@ use suite::{Case, Error, InputFormat, Run, refuse_failures};
 use tracer::{Family, SceneId};
 
 pub use self::cost::ResultCost;
+use crate::groups::group_by;
+use crate::numbers::round_to_digits;
 use crate::ranking::filters::{RankedFilter, RankedScore, rank_by_score};
 
 /// Version of the layout of a file of results.
-pub const RESULTS_FORMAT: u32 = 2;
+const RESULTS_FORMAT: u32 = 2;
 
 /// Significant digits of a score.
 const DIGITS: usize = 5;
@@ -25,7 +27,7 @@ const DIGITS: usize = 5;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Results {
-    /// [`RESULTS_FORMAT`].
+    /// Version of the layout.
     pub format: u32,
     /// Program name and version.
     pub program: String,
@@ -74,21 +76,14 @@ impl Results {
         let Some(first) = runs.first() else {
             return Err(Error::Usage("no run to take results from".to_owned()));
         };
-        let mut results = Self {
-            format: RESULTS_FORMAT,
-            program: first.program.clone(),
-            adapter: adapter_of(first),
-            size: [first.render.width, first.render.height],
-            samples_per_pixel: first.render.samples_per_pixel,
-            seal: (first.cases.first()).and_then(|case| case.scene.seal),
-            costs: BTreeMap::new(),
-            scores: Vec::new(),
-        };
+        let seal = (first.cases.first()).and_then(|case| case.scene.seal);
+        let mut results = Self::without_scores(first, seal);
         let mut known = HashSet::new();
         for run in runs {
             refuse_failures(&run.failures)?;
             for case in &run.cases {
-                results.refuse_other(run, case)?;
+                let own = Self::without_scores(run, case.scene.seal);
+                results.refuse_other(&own, &case.scene)?;
                 let is_plain = case.input == InputFormat::default() && case.rate.is_none();
                 if case.is_reference || !is_plain {
                     continue;
@@ -105,32 +100,38 @@ impl Results {
         Ok(results)
     }
 
-    /// Refuses a case of another run than those before it.
-    fn refuse_other(&self, run: &Run, case: &Case) -> Result<(), Error> {
-        let texts = |size: [u32; 2], samples: u32, adapter: &Option<String>, seal: Option<u64>| {
-            let adapter = adapter.as_deref().unwrap_or("none");
-            let seal = seal.map_or("none".to_owned(), |seed| seed.to_string());
+    /// Describes a run whose scenes have a seal.
+    fn without_scores(run: &Run, seal: Option<u64>) -> Self {
+        Self {
+            format: RESULTS_FORMAT,
+            program: run.program.clone(),
+            adapter: run.adapter.as_ref().map(|own| own.name.clone()),
+            size: [run.render.width, run.render.height],
+            samples_per_pixel: run.render.samples_per_pixel,
+            seal,
+            costs: BTreeMap::new(),
+            scores: Vec::new(),
+        }
+    }
+
+    /// Refuses scores on a scene that were measured with other settings.
+    fn refuse_other(&self, other: &Self, scene: &SceneId) -> Result<(), Error> {
+        let settings = |own: &Self| {
+            let none = || "none".to_owned();
             [
-                ("pictures", format!("{}x{}", size[0], size[1])),
-                ("samples per pixel", samples.to_string()),
-                ("adapter", adapter.to_owned()),
-                ("seal", seal),
+                ("pictures", format!("{}x{}", own.size[0], own.size[1])),
+                ("samples per pixel", own.samples_per_pixel.to_string()),
+                ("adapter", own.adapter.clone().unwrap_or_else(none)),
+                ("seal", own.seal.map_or_else(none, |seed| seed.to_string())),
             ]
         };
-        let render = &run.render;
-        let seal = case.scene.seal;
-        let size = [render.width, render.height];
-        let own = texts(size, render.samples_per_pixel, &adapter_of(run), seal);
-        let first = texts(self.size, self.samples_per_pixel, &self.adapter, self.seal);
-        for ((what, own), (_, first)) in own.iter().zip(&first) {
-            if own != first {
-                return Err(Error::Usage(format!(
-                    "{}: {what}: {own}, and the first run has {first}; allowed: runs that differ in their scenes and filters alone",
-                    case.scene
-                )));
-            }
+        let mut both = std::iter::zip(settings(other), settings(self));
+        match both.find(|(own, first)| own != first) {
+            None => Ok(()),
+            Some(((what, own), (_, first))) => Err(Error::Usage(format!(
+                "{scene}: {what}: {own}, and the first run has {first}; allowed: runs that differ in their scenes and filters alone"
+            ))),
         }
-        Ok(())
     }
 
     /// Puts newer scores into these: those of a case that is here already take its place, others join their scene.
@@ -206,13 +207,8 @@ impl Results {
 
     /// Lists the scenes in their order.
     pub fn scenes(&self) -> Vec<&SceneId> {
-        let mut scenes = Vec::new();
-        for own in &self.scores {
-            if !scenes.contains(&&own.scene) {
-                scenes.push(&own.scene);
-            }
-        }
-        scenes
+        let scenes = group_by(&self.scores, |own| &own.scene).into_iter();
+        scenes.map(|scores| &scores[0].scene).collect()
     }
 
     /// Finds the worst score by FLIP of the best preset of a filter, among the scenes where one frame knows enough for a gain: those
@@ -274,12 +270,6 @@ impl ResultScores {
     }
 }
 
-fn adapter_of(run: &Run) -> Option<String> {
-    run.adapter.as_ref().map(|adapter| adapter.name.clone())
-}
-
-/// Rounds to [`DIGITS`] significant digits.
 fn rounded(value: f64) -> f64 {
-    let text = format!("{value:.*e}", DIGITS - 1);
-    text.parse().expect("a number as text is a number")
+    round_to_digits(value, DIGITS)
 }

@@ -1,8 +1,6 @@
 //! Page of a comparison.
 
-use judge::{
-    Change, ChangeKind, MeanChange, MeanKind, Pair, RunComparison, Side, pair_cases, rank_changes,
-};
+use judge::{Change, ChangeKind, MeanChange, Pair, RunComparison, Side, pair_cases, rank_changes};
 use maud::{Markup, html};
 use metrics::Metric;
 use suite::Error;
@@ -28,9 +26,9 @@ pub fn compare_page(
     let both = pair_cases(&first.run, &second.run);
     let mut shown = Vec::new();
     for (scene, filter) in ranked.iter().take(SHOWN) {
-        let pair = both.iter().find(|pair| {
-            pair.first.scene == **scene && pair.first.filter_id().to_string() == *filter
-        });
+        let is_of =
+            |pair: &&Pair| pair.first.scene == **scene && pair.first.filter_id() == **filter;
+        let pair = both.iter().find(is_of);
         let pair = pair.expect("a change is of a pair");
         shown.push(case(compared, pair, Pictures::read([first, second], pair)?));
     }
@@ -113,7 +111,7 @@ fn differences(compared: &RunComparison) -> Markup {
 fn means(means: &[MeanChange]) -> Markup {
     let mut changed: Vec<&MeanChange> = means
         .iter()
-        .filter(|mean| mean.kind != MeanKind::Same)
+        .filter(|mean| mean.kind != ChangeKind::Same)
         .collect();
     // The filters of one metric follow each other.
     let place = |metric: Metric| means.iter().position(|own| own.metric == metric);
@@ -157,7 +155,7 @@ fn metric_means(means: &[&MeanChange]) -> Markup {
                     th scope="row" { (mean.filter) }
                     td { (cells.first) }
                     td { (cells.second) }
-                    td class=(mean_class(mean.kind)) { (cells.change) }
+                    td class=(change_class(mean.kind)) { (cells.change) }
                     td { (cells.interval) }
                     td { (mean.better_worse[0]) " better, " (mean.better_worse[1]) " worse of " (mean.scenes) }
                     td.chart { (change_strip(mean, most)) }
@@ -167,19 +165,9 @@ fn metric_means(means: &[&MeanChange]) -> Markup {
     }
 }
 
-fn mean_class(kind: MeanKind) -> &'static str {
-    match kind {
-        MeanKind::Better => "change better",
-        MeanKind::Worse => "change worse",
-        MeanKind::Same | MeanKind::BelowMargin | MeanKind::Undecided | MeanKind::TooFewScenes => {
-            "change"
-        }
-    }
-}
-
 /// Shows both pictures under a divider, the truth, the change of the error, and the scores.
 fn case(compared: &RunComparison, pair: &Pair, pictures: Option<Pictures>) -> Markup {
-    let filter = pair.first.filter_id().to_string();
+    let filter = pair.first.filter_id();
     let changes = (compared.changes.iter())
         .filter(|change| change.scene == pair.first.scene && change.filter == filter);
     let title = format!("{} / {filter}", pair.first.scene);
@@ -264,7 +252,7 @@ fn change_class(kind: ChangeKind) -> &'static str {
     match kind {
         ChangeKind::Better => "change better",
         ChangeKind::Worse => "change worse",
-        ChangeKind::BelowMargin | ChangeKind::WithinNoise | ChangeKind::Same => "change",
+        _ => "change",
     }
 }
 

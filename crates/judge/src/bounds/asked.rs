@@ -1,0 +1,88 @@
+//! Limits that decide how scenes are measured: at which size, over which frames, and with which ladders.
+
+use metrics::Metric;
+use suite::{Error, FilterChoice, Frames};
+
+use crate::bounds::{Bound, Length, SceneBounds, sized_bounds_file};
+
+/// Lists the limits on filters in some scenes.
+fn list_limits<'a>(
+    scenes: impl Iterator<Item = &'a SceneBounds>,
+    filters: &'a [FilterChoice],
+) -> impl Iterator<Item = (Metric, Bound)> {
+    scenes.flat_map(|bounds| {
+        let filters = filters.iter();
+        filters.flat_map(|choice| bounds.of(&choice.filter.name, &choice.preset))
+    })
+}
+
+/// Tells whether any of the scenes has a limit on equivalent sub-frames of any of the filters: ladders have to be rendered for it.
+pub fn bound_subframes<'a>(
+    scenes: impl Iterator<Item = &'a SceneBounds>,
+    filters: &'a [FilterChoice],
+) -> bool {
+    list_limits(scenes, filters).any(|(metric, _)| matches!(metric, Metric::Equivalent(_)))
+}
+
+/// Returns the size that all limits on these filters hold for; `asked` if they hold for any size. Refuses limits for another size
+/// than `asked`, and limits for two sizes: growth, bleed and misplacement are in pixels.
+pub fn size_for_bounds<'a>(
+    scenes: impl Iterator<Item = &'a SceneBounds>,
+    filters: &'a [FilterChoice],
+    asked: Option<(u32, u32)>,
+) -> Result<Option<(u32, u32)>, Error> {
+    let text = |(width, height): (u32, u32)| format!("{width}x{height}");
+    let mut first: Option<(Bound, (u32, u32))> = None;
+    for (metric, bound) in list_limits(scenes, filters) {
+        let Some(size) = bound.size else { continue };
+        let holds = format!(
+            "{}: the limit on {metric} holds for {}",
+            bound.place,
+            text(size)
+        );
+        if let Some(asked) = asked.filter(|asked| *asked != size) {
+            return Err(Error::Usage(format!(
+                "{holds}, and the pictures are to have {}; leave the size out, or measure limits for it with \
+                 `shuttertruth limits calibrate` and put them into {} beside the scene",
+                text(asked),
+                sized_bounds_file(asked)
+            )));
+        }
+        let (other, common) = first.get_or_insert_with(|| (bound.clone(), size));
+        if *common != size {
+            return Err(Error::Usage(format!(
+                "{holds}, that of {} for {}; check them apart, some of the scenes or filters at a time",
+                other.place,
+                text(*common)
+            )));
+        }
+    }
+    Ok(first.map(|(_, size)| size).or(asked))
+}
+
+/// Refuses limits on these filters that hold for another length than that of the sequences that are asked for. Where single frames are
+/// asked for, limits on sequences are left alone, and nothing judges them.
+pub fn check_lengths<'a>(
+    scenes: impl Iterator<Item = &'a SceneBounds>,
+    filters: &'a [FilterChoice],
+    frames: Frames,
+) -> Result<(), Error> {
+    let mut limits = list_limits(scenes, filters).filter(|_| !frames.is_one());
+    let other = limits.find_map(|(metric, bound)| {
+        let length = bound.length.filter(|length| !length.holds_for(frames))?;
+        Some((metric, bound.place, length))
+    });
+    let Some((metric, place, length)) = other else {
+        return Ok(());
+    };
+    let asked = Length {
+        per_second: length.per_second.map(|_| frames.per_second),
+        frames: frames.count,
+    };
+    Err(Error::Usage(format!(
+        "{place}: the limit on {metric} holds for sequences of {}, and they are to have {}; measure as many as it holds for, or \
+         measure a limit for the others with `shuttertruth limits calibrate`",
+        length.text(),
+        asked.text()
+    )))
+}
