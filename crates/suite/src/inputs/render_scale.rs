@@ -8,7 +8,7 @@ use super::resample::{Extent, mix, read_bilinear, read_nearest};
 use crate::{Error, named};
 
 named! {
-    /// A scale at which a frame is rendered, and whether it is blurred before or after upscaling.
+    /// Scale at which the frame is rendered, and the order of blurring and upscaling.
     pub enum RenderScale {
         /// The picture's own size.
         Full = "full",

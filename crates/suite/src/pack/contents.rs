@@ -17,9 +17,6 @@ type Truths<'a> = BTreeMap<&'a SceneId, BTreeMap<Alignment, Option<&'a str>>>;
 
 /// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. A check has the sharp rungs of ladders
 /// alone. Sizes and hashes of bytes are not known yet.
-///
-/// # Errors
-/// A file is missing, or is another one than the run was measured with.
 pub(super) fn list_contents(
     run: &Run,
     folder: &Path,
