@@ -227,30 +227,21 @@ mod tests {
 
     #[test]
     fn names_that_lead_elsewhere_are_no_engine_scenes() {
-        for (name, allowed) in [
-            ("railing@three.js_0.187.0", true),
-            ("plate@..", false),
-            ("plate@.", false),
-            ("plate@", false),
-            ("@engine", false),
-            ("plate", false),
-            ("../plate@engine", false),
-            ("plate/0001@engine", false),
-            ("plate@a@b", false),
+        let is_allowed = |name: &str| name.parse().is_ok_and(|id| is_engine_scene(&id));
+        assert!(is_allowed("railing@three.js_0.187.0"));
+        for name in [
+            "plate@..",
+            "plate@.",
+            "plate@",
+            "@engine",
+            "plate",
+            "../plate@engine",
+            "plate/0001@engine",
+            "plate@a@b",
         ] {
-            let found = name.parse().is_ok_and(|id| is_engine_scene(&id));
-            assert_eq!(found, allowed, "{name}");
+            assert!(!is_allowed(name), "{name}");
         }
-    }
-
-    #[test]
-    fn an_engine_is_named_in_one_word() {
-        for (engine, word) in [
-            ("three.js 0.187.0", "three.js_0.187.0"),
-            (" Godot 4.5 (Vulkan) ", "Godot_4.5__Vulkan_"),
-            ("../up", ".._up"),
-        ] {
-            assert_eq!(name_in_one_word(engine), word);
-        }
+        let word = name_in_one_word(" Godot 4.5 (Vulkan) ../up ");
+        assert_eq!(word, "Godot_4.5__Vulkan__.._up");
     }
 }

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 
 use filters::Gpu;
 use frame::Alignment;
-use store::LADDER;
+use store::{LADDER, RenderFile};
 use tracer::RenderSettings;
 
 use super::frames::visit_frames;
@@ -98,8 +98,10 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
         if cases == 0 {
             return Ok::<(), Infallible>(());
         }
-        let (frame, truths) = scene.find_missing();
-        let ladders = count_ladders(plan, truths.iter().copied());
+        let missing = scene.find_missing();
+        let frame = missing.contains(&RenderFile::Frame);
+        let truths: Vec<Alignment> = missing.iter().filter_map(|own| own.alignment()).collect();
+        let ladders = count_ladders(plan, &truths);
         let rendering = render_cpu_seconds(&plan.render, frame, truths.len(), ladders);
         estimate.seconds += rendering / threads() + cases as f64 * case_seconds(plan);
         let of_truth = PICTURES_OF_TRUTH + u64::from(plan.render.replicates);
@@ -119,7 +121,7 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
 pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let frames = f64::from(plan.frames.count);
     let alignments = plan.alignments();
-    let ladders = count_ladders(plan, alignments.iter().copied());
+    let ladders = count_ladders(plan, &alignments);
     let truths = alignments.len();
     let cpu_seconds = frames * render_cpu_seconds(&plan.render, true, truths, ladders);
     let all = plan.all_scenes().into_iter();
@@ -167,8 +169,9 @@ fn case_seconds(plan: &RunPlan) -> f64 {
 }
 
 /// Counts the ladders that measuring against some truths needs, in parts of whole ones.
-fn count_ladders(plan: &RunPlan, truths: impl Iterator<Item = Alignment>) -> f64 {
-    let rungs = truths.map(|alignment| needed_rungs(alignment, plan.ladders).len());
+fn count_ladders(plan: &RunPlan, truths: &[Alignment]) -> f64 {
+    let rungs = truths.iter();
+    let rungs = rungs.map(|alignment| needed_rungs(*alignment, plan.ladders).len());
     rungs.sum::<usize>() as f64 / LADDER.len() as f64
 }
 

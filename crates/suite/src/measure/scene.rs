@@ -201,26 +201,19 @@ impl SceneContext<'_> {
         found.any(|case: Case| self.is_whole(&case))
     }
 
-    /// Tells whether the frame is to be rendered, and lists the truths that are, by the headers of files.
-    pub fn find_missing(&self) -> (bool, Vec<Alignment>) {
-        let RunPlan {
-            render,
-            out,
-            truths,
-            ..
-        } = self.plan;
-        let alignments = self.plan.alignments();
-        let folders: Vec<&Path> = (truths.iter().chain([out]))
-            .map(|folder| &**folder)
-            .collect();
-        match self.scene {
-            // What an engine drew is copied in no time.
-            RunScene::Drawn(_) => (false, Vec::new()),
-            RunScene::Traced(_) if self.plan.no_cache => (true, alignments),
-            RunScene::Traced(scene) => {
-                find_missing(scene, render, &alignments, self.plan.ladders, &folders)
-            }
-        }
+    /// Lists the frame and the truths that are to be rendered, by the headers of files. What an engine drew is copied in no time.
+    pub fn find_missing(&self) -> Vec<RenderFile> {
+        let plan = self.plan;
+        let folders = plan
+            .truths
+            .iter()
+            .chain([&plan.out])
+            .filter(|_| !plan.no_cache);
+        let folders: Vec<&Path> = folders.map(|folder| &**folder).collect();
+        let alignments = plan.alignments();
+        (self.scene.traced()).map_or(Vec::new(), |scene| {
+            find_missing(scene, &plan.render, &alignments, plan.ladders, &folders)
+        })
     }
 
     /// Returns the key that a case is recorded by.

@@ -51,18 +51,13 @@ pub fn take_pack(
         (taken.files, taken.verified) = found?;
     }
     for scene in list_scenes(plan) {
-        let (frame, truths) = find_missing(
-            &scene,
-            &plan.render,
-            &alignments,
-            plan.ladders,
-            &[&plan.out],
-        );
-        let frame = frame.then(|| format!("frame of {}", scene.id));
-        let truths = truths
-            .iter()
-            .map(|own| format!("{own} truth of {}", scene.id));
-        taken.missing.extend(frame.into_iter().chain(truths));
+        let (render, folders) = (&plan.render, [&*plan.out]);
+        let missing = find_missing(&scene, render, &alignments, plan.ladders, &folders);
+        let names = missing.into_iter().map(|file| match file.alignment() {
+            None => format!("frame of {}", scene.id),
+            Some(alignment) => format!("{alignment} truth of {}", scene.id),
+        });
+        taken.missing.extend(names);
     }
     Ok(taken)
 }

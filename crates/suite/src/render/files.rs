@@ -53,24 +53,19 @@ pub(crate) fn list_wanted(
     files
 }
 
-/// Tells whether all of some folders lack the frame of a scene, and lists the truths that they lack, by the headers of files: of each truth
-/// its own and the last of its replicates and rungs.
+/// Lists the frame and the truths of a scene that all of some folders lack, by the headers of files: of each truth its own and the last
+/// of its replicates and rungs.
 pub(crate) fn find_missing(
     scene: &Scene,
     settings: &RenderSettings,
     alignments: &[Alignment],
     ladders: bool,
     folders: &[&Path],
-) -> (bool, Vec<Alignment>) {
-    let has = |file: &Wanted| folders.iter().any(|folder| file.is_in(folder));
-    let lacks = |alignment: &Alignment| {
-        let files = list_wanted(scene, settings, &[*alignment], ladders);
-        // The first is the frame.
-        !has(&files[1]) || !files.last().is_some_and(has)
-    };
-    let frame = &list_wanted(scene, settings, &[], ladders)[0];
-    (
-        !has(frame),
-        alignments.iter().copied().filter(lacks).collect(),
-    )
+) -> Vec<RenderFile> {
+    let lacks = |file: &Wanted| !folders.iter().any(|folder| file.is_in(folder));
+    list_wanted(scene, settings, alignments, ladders)
+        .chunk_by(|one, next| one.path.file.alignment() == next.path.file.alignment())
+        .filter(|own| lacks(&own[0]) || own.last().is_some_and(lacks))
+        .map(|own| own[0].path.file)
+        .collect()
 }

@@ -100,18 +100,14 @@ fn render_replicate<'a>(
 ) -> Result<Vec<Replicate>, Error> {
     let alignments: Vec<Alignment> = files.iter().map(|files| files.alignment).collect();
     let names: Vec<&str> = alignments.iter().map(|own| own.name()).collect();
-    let TruthFiles {
-        scene,
-        settings,
-        monitor,
-        ..
-    } = &files[0];
+    let first = &files[0];
     let tracer = match tracer {
         Some(tracer) => tracer,
-        none => none.insert(TruthTracer::new(scene, settings, &alignments)?),
+        none => none.insert(TruthTracer::new(first.scene, &first.settings, &alignments)?),
     };
-    let label = format!("{} {}, replicate {index}", scene.id, names.join(" and "));
-    let replicates = monitor.watch(&label, |watch| tracer.trace(index, watch))?;
+    let names = names.join(" and ");
+    let label = format!("{} {names}, replicate {index}", first.scene.id);
+    let replicates = (first.monitor).watch(&label, |watch| tracer.trace(index, watch))?;
     for (files, replicate) in files.iter().zip(&replicates) {
         replicate.write(&files.path(index))?;
     }

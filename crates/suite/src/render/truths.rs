@@ -103,21 +103,3 @@ pub fn render_part(
     let files = TruthFiles::new(scene, settings, alignment, out, monitor);
     files.replicates(indices).map(drop)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn half_the_noise_takes_four_times_the_replicates() {
-        for (replicates, factor, predicted) in
-            [(2, 2.0, 8), (8, 1.01, 10), (6, 1.5, 14), (2, 1e9, 4096)]
-        {
-            assert_eq!(
-                predict_replicates(replicates, factor),
-                predicted,
-                "{replicates} {factor}"
-            );
-        }
-    }
-}
