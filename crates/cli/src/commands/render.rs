@@ -3,10 +3,7 @@
 use clap::Args;
 use frame::{Alignment, Truth};
 use store::{LADDER, MAX_REPLICATES, Sharing, claim, printable_path, scene_folder};
-use suite::{
-    Error, LadderFiles, deciding_floor, estimate_render_seconds, render_frame, render_part,
-    render_shared, render_truth, render_truths_until,
-};
+use suite::{Error, Rendering, deciding_floor, estimate_render_seconds};
 use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
@@ -85,15 +82,15 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
             }
             Replicates::Part(indices) if args.noise.is_none() => {
                 let settings = scene_settings(args, &scene, RenderSettings::default().replicates)?;
-                let (out, monitor) = (&args.scenes.out, make_monitor());
+                let out = &args.scenes.out;
+                let rendering = make_rendering(args, &scene, settings);
                 let _claim = claim(out, [&scene], Sharing::Together)?;
                 if indices.start == 0 {
-                    render_frame(&scene, &settings, out, monitor)?;
+                    rendering.frame()?;
                 }
-                let shared = indices.clone();
-                render_shared(&scene, &settings, &args.alignments, shared, out, monitor)?;
+                rendering.shared(&args.alignments, indices.clone())?;
                 for alignment in &args.alignments {
-                    render_part(&scene, &settings, *alignment, indices.clone(), out, monitor)?;
+                    rendering.part(*alignment, indices.clone())?;
                 }
                 print(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
             }
@@ -144,48 +141,53 @@ fn print_expected_renders(args: &RenderArgs, choices: &[SceneChoice]) -> Result<
 /// Renders a scene's frame and truths; returns a line for each truth that stayed noisier than asked for.
 fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Error> {
     let settings = scene_settings(args, scene, count)?;
-    let (out, monitor) = (&args.scenes.out, make_monitor());
+    let out = &args.scenes.out;
+    let rendering = make_rendering(args, scene, settings);
     let _claim = claim(out, [scene], Sharing::Together)?;
-    render_frame(scene, &settings, out, monitor)?;
+    rendering.frame()?;
     let mut noisy = Vec::new();
     let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
     let mut ended = |truth: &Truth| {
         if args.ladders {
             let settings = settings.with_replicates(truth.provenance.replicates);
-            LadderFiles::new(scene, &settings, truth, out).ensure(&LADDER, monitor)?;
+            let rendering = make_rendering(args, scene, settings);
+            rendering.ladder(truth).ensure(&LADDER)?;
         }
         report += &floors_line(truth);
         Ok(())
     };
     match args.noise {
         None => {
-            render_shared(scene, &settings, &args.alignments, 0..count, out, monitor)?;
+            rendering.shared(&args.alignments, 0..count)?;
             for &alignment in &args.alignments {
-                ended(&render_truth(scene, &settings, alignment, out, monitor)?)?;
+                ended(&rendering.truth(alignment)?)?;
             }
         }
         Some(target) => {
             let most = args.most_replicates;
-            let until = (target, most);
-            let alignments = &args.alignments;
-            render_truths_until(
-                scene,
-                &settings,
-                alignments,
-                until,
-                out,
-                monitor,
-                |truth, reached| {
-                    if !reached {
-                        noisy.push(too_noisy_line(truth, target, most));
-                    }
-                    ended(truth)
-                },
-            )?;
+            rendering.truths_until(&args.alignments, (target, most), |truth, reached| {
+                if !reached {
+                    noisy.push(too_noisy_line(truth, target, most));
+                }
+                ended(truth)
+            })?;
         }
     }
     print(&report)?;
     Ok(noisy)
+}
+
+fn make_rendering<'a>(
+    args: &'a RenderArgs,
+    scene: &'a Scene,
+    settings: RenderSettings,
+) -> Rendering<'a> {
+    Rendering {
+        scene,
+        settings,
+        out: &args.scenes.out,
+        monitor: make_monitor(),
+    }
 }
 
 fn scene_settings(args: &RenderArgs, scene: &Scene, count: u32) -> Result<RenderSettings, Error> {

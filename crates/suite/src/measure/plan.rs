@@ -11,6 +11,7 @@ use crate::Monitor;
 use crate::engine_scene::EngineScene;
 use crate::filter_choice::FilterChoice;
 use crate::inputs::input_format::InputFormat;
+use crate::render::rendering::Rendering;
 use crate::run::sequence::Frames;
 
 /// Everything that a run is told to do.
@@ -75,6 +76,16 @@ impl Default for RunPlan {
 }
 
 impl RunPlan {
+    /// Returns how a scene of the plan is rendered.
+    pub(crate) fn rendering<'a>(&'a self, scene: &'a Scene) -> Rendering<'a> {
+        Rendering {
+            scene,
+            settings: self.render,
+            out: &self.out,
+            monitor: self.monitor,
+        }
+    }
+
     /// Scales the filters to the plan's pictures.
     pub(super) fn scaled_filters(&self) -> Vec<FilterChoice> {
         let width = self.render.width;

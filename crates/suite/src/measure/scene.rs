@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use filters::Gpu;
-use frame::{Alignment, Frame};
+use frame::Frame;
 use store::{
     CASE_RECORD, RenderFile, clear_scene, look_up, look_up_alone, put, refuse_scene,
     remove_altered_files, take,
@@ -16,9 +16,6 @@ use super::run_scene::RunScene;
 use crate::Error;
 use crate::filter_choice::FilterChoice;
 use crate::measure::scene_keys::SceneKeys;
-use crate::render::files::{find_missing, list_wanted};
-use crate::render::frames::render_frame;
-use crate::render::replicates::render_shared;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 
@@ -118,38 +115,26 @@ impl SceneContext<'_> {
 
     /// Takes what the plan's folder of truths holds.
     fn take_renders(&self) -> Result<(), Error> {
-        let RunPlan {
-            render,
-            out,
-            truths,
-            ..
-        } = self.plan;
-        if let (Some(truths), RunScene::Traced(scene)) = (truths, self.scene) {
-            let alignments = self.plan.alignments();
-            let files = list_wanted(scene, render, &alignments, self.plan.ladders);
+        let plan = self.plan;
+        if let (Some(truths), RunScene::Traced(scene)) = (&plan.truths, self.scene) {
+            let files = plan
+                .rendering(scene)
+                .list_wanted(&plan.alignments(), plan.ladders);
             refuse_scene(&self.folder())?;
-            take(&files, truths, out)?;
+            take(&files, truths, &plan.out)?;
         }
         Ok(())
     }
 
     /// Renders the frame, and what its truths have in common; copies the frame that an engine drew.
     fn render_first(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
-        let RunPlan {
-            render,
-            out,
-            monitor,
-            ..
-        } = self.plan;
-        let scene = match self.scene {
-            RunScene::Traced(scene) => scene,
+        let rendering = match self.scene {
+            RunScene::Traced(scene) => self.plan.rendering(scene),
             RunScene::Drawn(scene) => return scene.copy_frame(&self.folder()),
         };
-        let frame = render_frame(scene, render, out, *monitor)?;
+        let frame = rendering.frame()?;
         advance(1);
-        let alignments = self.plan.alignments();
-        let replicates = 0..render.replicates;
-        render_shared(scene, render, &alignments, replicates, out, *monitor)?;
+        rendering.shared(&self.plan.alignments(), 0..self.plan.render.replicates)?;
         Ok(frame)
     }
 
@@ -212,7 +197,7 @@ impl SceneContext<'_> {
         let folders: Vec<&Path> = folders.map(|folder| &**folder).collect();
         let alignments = plan.alignments();
         (self.scene.traced()).map_or(Vec::new(), |scene| {
-            find_missing(scene, &plan.render, &alignments, plan.ladders, &folders)
+            (plan.rendering(scene)).find_missing(&alignments, plan.ladders, &folders)
         })
     }
 

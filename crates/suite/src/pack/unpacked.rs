@@ -9,7 +9,6 @@ use tracer::Scene;
 
 use crate::Error;
 use crate::measure::plan::RunPlan;
-use crate::render::files::{find_missing, list_wanted};
 use crate::verify::scene::{Verified, verify_scene};
 use crate::verify::scene_renders::list_scene_renders;
 use crate::verify::tiles::Verification;
@@ -51,8 +50,8 @@ pub fn take_pack(
         (taken.files, taken.verified) = found?;
     }
     for scene in list_scenes(plan) {
-        let (render, folders) = (&plan.render, [&*plan.out]);
-        let missing = find_missing(&scene, render, &alignments, plan.ladders, &folders);
+        let rendering = plan.rendering(&scene);
+        let missing = rendering.find_missing(&alignments, plan.ladders, &[&plan.out]);
         let names = missing.into_iter().map(|file| match file.alignment() {
             None => format!("frame of {}", scene.id),
             Some(alignment) => format!("{alignment} truth of {}", scene.id),
@@ -95,7 +94,7 @@ fn find_wanted(
     let mut wanted = Vec::new();
     for scene in list_scenes(plan) {
         refuse_scene(&scene_folder(&plan.out, &scene))?;
-        let mut files = list_wanted(&scene, &plan.render, alignments, plan.ladders);
+        let mut files = (plan.rendering(&scene)).list_wanted(alignments, plan.ladders);
         files.retain(|file| packed.get(&*file.path.to_string()) == Some(&&*file.hash));
         if files.iter().any(|file| !file.is_in(&plan.out)) {
             wanted.push((scene, files));
