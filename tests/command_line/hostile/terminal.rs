@@ -140,7 +140,7 @@ fn names_in_a_run_are_printed_without_control_codes() {
         reason: name.to_owned(),
     });
     let go_on = |_| std::ops::ControlFlow::Continue(());
-    let compared = compare_runs(&whole, &side, &go_on).unwrap();
+    let compared = compare_runs(&whole, &side, &std::collections::BTreeMap::new(), &go_on).unwrap();
     let checked = check(&side.run, Vec::new(), Vec::new());
     for text in [
         run_table(&side.run),
