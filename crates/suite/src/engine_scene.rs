@@ -62,32 +62,24 @@ impl EngineScene {
     /// Reads what `ingest` wrote into a folder.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(INGESTED_FILE);
-        let refuse = |reason: String| {
-            Err(Error::Usage(format!(
-                "{}: {reason}; make the folder anew with `shuttertruth engine ingest`",
-                path.display()
-            )))
-        };
-        let found: Self = match serde_json::from_str(&read_text(&path)?) {
-            Ok(found) => found,
-            Err(error) => return refuse(format!("no ingested capture: {error}")),
-        };
-        if found.format != INGESTED_FORMAT {
-            return refuse(format!(
-                "has format {}; allowed: {INGESTED_FORMAT}",
-                found.format
-            ));
-        }
-        if !is_engine_scene(&found.id) {
-            return refuse(format!(
+        let reason = match serde_json::from_str::<Self>(&read_text(&path)?) {
+            Err(error) => format!("no ingested capture: {error}"),
+            Ok(found) if found.format != INGESTED_FORMAT => {
+                format!("has format {}; allowed: {INGESTED_FORMAT}", found.format)
+            }
+            Ok(found) if !is_engine_scene(&found.id) => format!(
                 "name \"{}\"; allowed: names of a folder and of an engine, such as railing@three.js_0.187.0",
                 found.id
-            ));
-        }
-        Ok(Self {
-            folder: folder.to_owned(),
-            ..found
-        })
+            ),
+            Ok(mut found) => {
+                found.folder = folder.to_owned();
+                return Ok(found);
+            }
+        };
+        Err(Error::Usage(format!(
+            "{}: {reason}; make the folder anew with `shuttertruth engine ingest`",
+            path.display()
+        )))
     }
 
     /// Returns the content hash of the truth.

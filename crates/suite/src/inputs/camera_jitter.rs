@@ -3,7 +3,8 @@
 use frame::{Frame, Vectors};
 use tracer::{PixelGrid, PointMotion, trace_motion_on};
 
-use super::renderer::{Renderer, settings_of};
+use super::renderer::Renderer;
+use crate::render::settings::settings_of;
 use crate::{Error, named};
 
 /// Number of jitters before they repeat.

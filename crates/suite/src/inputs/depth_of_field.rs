@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use frame::Frame;
 use tracer::{Defocus, PixelGrid, Scene, trace_defocus};
 
-use super::renderer::{Renderer, settings_of};
+use super::renderer::Renderer;
+use crate::render::settings::settings_of;
 use crate::{Error, Monitor, named};
 
 named! {

@@ -3,7 +3,8 @@
 use frame::{ColorSampling, Frame, Raster};
 use tracer::{PixelGrid, RenderSettings};
 
-use super::renderer::{Renderer, settings_of};
+use super::renderer::Renderer;
+use crate::render::settings::settings_of;
 use crate::{Error, named};
 
 /// Places of the four samples from the pixel's top left corner, in pixels: the standard pattern of Direct3D and Vulkan.

@@ -3,8 +3,9 @@
 use frame::{Frame, Image};
 use tracer::{PixelGrid, RenderSettings};
 
-use super::renderer::{Renderer, settings_of};
+use super::renderer::Renderer;
 use super::resample::{Extent, mix, read_bilinear, read_nearest};
+use crate::render::settings::settings_of;
 use crate::{Error, named};
 
 named! {

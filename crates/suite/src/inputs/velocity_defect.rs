@@ -4,7 +4,7 @@ use frame::{Frame, Vectors, VelocityKind};
 use tracer::{PointMotion, Scene, trace_motion};
 
 use super::camera_jitter::jitter_motion;
-use super::renderer::settings_of;
+use crate::render::settings::settings_of;
 use crate::{Error, named};
 
 named! {

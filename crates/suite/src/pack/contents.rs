@@ -12,8 +12,17 @@ use crate::render::files::truth_files;
 use crate::run::Run;
 use crate::run::case::{ACCUMULATE, Case};
 
-/// The truths of each scene, by their alignments, with the `truth_hash` of the cases that were measured against them; none if no case was.
-type Truths<'a> = BTreeMap<&'a SceneId, BTreeMap<Alignment, Option<&'a str>>>;
+/// What the cases of a run say of a truth.
+#[derive(Default)]
+struct CasesOfTruth<'a> {
+    /// The `truth_hash` that they were measured against; none if no case was.
+    hash: Option<&'a str>,
+    /// True if the run compares with accumulations of several sub-frames: the whole ladder was rendered.
+    has_ladder: bool,
+}
+
+/// The truths of each scene, by their alignments.
+type Truths<'a> = BTreeMap<&'a SceneId, BTreeMap<Alignment, CasesOfTruth<'a>>>;
 
 /// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. A check has the sharp rungs of ladders
 /// alone. Sizes and hashes of bytes are not known yet.
@@ -30,13 +39,12 @@ pub(super) fn list_contents(
                 file,
             };
             files.push(read_header(folder, &path(RenderFile::Frame))?);
-            for (&alignment, measured) in &truths {
-                let has_ladder = has_accumulation(run, scene, alignment);
-                let own = truth_files(alignment, run.render.replicates, has_ladder)
+            for (&alignment, cases) in &truths {
+                let own = truth_files(alignment, run.render.replicates, cases.has_ladder)
                     .map(|file| Ok((file, read_header(folder, &path(file))?)))
                     .collect::<Result<Vec<_>, Error>>()?;
                 // Cases of later frames are not in run.json.
-                let measured = measured.filter(|_| frame == 0);
+                let measured = cases.hash.filter(|_| frame == 0);
                 check_truth(run, folder, &own, measured)?;
                 files.extend(own.into_iter().map(|(_, file)| file));
             }
@@ -51,9 +59,11 @@ fn list_truths<'a>(run: &'a Run, chosen: &[String]) -> Result<Truths<'a>, Error>
     let mut truths = Truths::new();
     let is_chosen = |case: &&Case| case.drawn.is_none() && chosen.contains(&case.scene.to_string());
     for case in run.cases.iter().filter(is_chosen) {
-        let common = BTreeMap::from([(run.common_alignment, None)]);
-        let own = truths.entry(&case.scene).or_insert(common);
-        let other = own.insert(case.alignment, Some(&case.truth_hash)).flatten();
+        let common = (run.common_alignment, CasesOfTruth::default());
+        let own = (truths.entry(&case.scene)).or_insert_with(|| BTreeMap::from([common]));
+        let own = own.entry(case.alignment).or_default();
+        own.has_ladder |= case.is_reference && case.filter == ACCUMULATE && !case.is_sharp();
+        let other = own.hash.replace(&case.truth_hash);
         if other.is_some_and(|other| other != case.truth_hash) {
             return Err(Error::Usage(format!(
                 "{}: cases were measured against different {} truths, and the folder has only the last; run it again",
@@ -68,17 +78,6 @@ fn list_truths<'a>(run: &'a Run, chosen: &[String]) -> Result<Truths<'a>, Error>
                 .to_owned(),
         )),
     }
-}
-
-/// Tells whether a run compares with accumulations of several sub-frames in a scene, for one alignment: its whole ladder was rendered.
-fn has_accumulation(run: &Run, scene: &SceneId, alignment: Alignment) -> bool {
-    (run.cases.iter()).any(|case| {
-        case.is_reference
-            && case.filter == ACCUMULATE
-            && !case.is_sharp()
-            && case.scene == *scene
-            && case.alignment == alignment
-    })
 }
 
 /// Refuses a truth that the cases were not measured against, replicates of another truth, and rungs of several ladders.

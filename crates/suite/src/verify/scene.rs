@@ -13,6 +13,7 @@ use super::difference::find_difference;
 use super::scene_renders::SceneRenders;
 use super::tiles::{Verification, Work};
 use crate::render::memory::check_memory;
+use crate::render::settings::settings_of;
 use crate::{Error, Monitor};
 
 /// The outcome of a verification.
@@ -87,20 +88,9 @@ impl Verified {
 /// Verifies a frame.
 fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let frame = Frame::read(&work.path(RenderFile::Frame))?;
-    let (width, height) = frame.size();
-    let provenance = &frame.provenance;
-    let settings = RenderSettings {
-        width: width - 2 * frame.guard_band,
-        height: height - 2 * frame.guard_band,
-        samples_per_pixel: provenance.samples_per_pixel,
-        replicates: 1,
-        seed: provenance.seed,
-        options: frame.options,
-        guard_band: frame.guard_band,
-        exposure: Some(frame.exposure),
-    };
+    let settings = settings_of(&frame);
     let own = tracer::frame_hash(work.scene, &settings);
-    work.expect_hash(RenderFile::Frame, &provenance.content_hash, &own)?;
+    work.expect_hash(RenderFile::Frame, &frame.provenance.content_hash, &own)?;
     work.trace_tiles(&[RenderFile::Frame], frame.size(), |_, tile, watch| {
         Ok(trace_frame_tile(work.scene, &settings, tile, watch)?.to_exr())
     })
