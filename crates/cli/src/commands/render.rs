@@ -1,5 +1,7 @@
 //! The command `truths render`.
 
+use std::ops::Range;
+
 use clap::Args;
 use frame::{Alignment, Truth};
 use store::{LADDER, MAX_REPLICATES, Sharing, claim, printable_path, scene_folder};
@@ -9,10 +11,10 @@ use tracer::{RenderSettings, Scene};
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
 use crate::arguments::{
-    Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size,
+    Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size, within,
 };
 use crate::output::{count_text, make_monitor, print, print_scene_notes};
-use crate::selection::{SceneChoice, select_scenes};
+use crate::selection::select_scenes;
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
@@ -50,55 +52,54 @@ pub struct RenderArgs {
         long,
         value_name = "N",
         default_value_t = 64,
-        requires = "noise"
+        requires = "noise",
+        value_parser = within::<u32>(0..=u64::from(MAX_REPLICATES))
     )]
     pub most_replicates: u32,
 }
 
 /// Renders each scene's frame and truths, or a part of them, and prints their folders and noise.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
-    if args.most_replicates > MAX_REPLICATES {
-        refuse!(
-            "--most-replicates {}; allowed: up to {MAX_REPLICATES}",
-            args.most_replicates
-        );
+    let whole = [
+        ("--ladders", args.ladders),
+        ("--noise", args.noise.is_some()),
+    ];
+    let asked = whole.iter().find(|(_, is_asked)| *is_asked);
+    if let (Replicates::Part(_), Some((option, _))) = (&args.replicates, asked) {
+        refuse!("{option} needs whole truths: give --replicates a number, not a part A..B");
     }
-    let mut noisy = Vec::new();
     let choices = select_scenes(&args.scenes.root.scenes_dir, &args.scenes.names()?)?;
-    print_scene_notes(choices.iter().map(|choice| &choice.scene));
-    check_frames(args, &choices)?;
-    print_expected_renders(args, &choices)?;
-    let frames = choices.iter().flat_map(|choice| {
-        let frames = 0..args.frames;
-        frames.map(|frame| choice.scene.at_frame(frame))
-    });
-    for scene in frames {
-        match &args.replicates {
-            Replicates::All(count) => noisy.extend(render_whole(args, &scene, *count)?),
-            Replicates::Part(_) if args.ladders => {
-                refuse!(
-                    "--ladders needs whole truths: give --replicates a number, not a part A..B"
-                );
-            }
-            Replicates::Part(indices) if args.noise.is_none() => {
-                let settings = scene_settings(args, &scene, RenderSettings::default().replicates)?;
-                let out = &args.scenes.out;
-                let rendering = make_rendering(args, &scene, settings);
-                let _claim = claim(out, [&scene], Sharing::Together)?;
-                if indices.start == 0 {
-                    rendering.frame()?;
-                }
-                rendering.shared(&args.alignments, indices.clone())?;
-                for alignment in &args.alignments {
-                    rendering.part(*alignment, indices.clone())?;
-                }
-                print(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
-            }
-            Replicates::Part(_) => {
-                refuse!(
-                    "--noise needs whole truths: give --replicates a number to start from, not a part A..B"
-                );
-            }
+    let scenes: Vec<Scene> = choices.into_iter().map(|choice| choice.scene).collect();
+    print_scene_notes(&scenes);
+    let mut seconds = 0.0;
+    let mut settings = Vec::new();
+    for scene in &scenes {
+        let own = scene_settings(args, scene)?;
+        let timed = match &args.replicates {
+            Replicates::All(_) => own,
+            Replicates::Part(some) => own.with_replicates((some.len() as u32).next_multiple_of(2)),
+        };
+        seconds += f64::from(args.frames) * estimate_render_seconds(&timed, args.alignments.len());
+        settings.push(own);
+    }
+    print_expected_time(seconds, &count_text(scenes.len(), "scene", "scenes"));
+    let mut noisy = Vec::new();
+    for (scene, settings) in scenes.iter().zip(&settings) {
+        for frame in 0..args.frames {
+            let scene = scene.at_frame(frame);
+            let _claim = claim(&args.scenes.out, [&scene], Sharing::Together)?;
+            let rendering = Rendering {
+                scene: &scene,
+                settings: *settings,
+                out: &args.scenes.out,
+                monitor: make_monitor(),
+            };
+            let found = match &args.replicates {
+                Replicates::All(_) => render_whole(args, rendering, &mut noisy)?,
+                Replicates::Part(indices) => render_some(args, rendering, indices)?,
+            };
+            let folder = printable_path(&scene_folder(&args.scenes.out, &scene));
+            print(&format!("{folder}\n{found}"))?;
         }
     }
     match noisy.as_slice() {
@@ -107,92 +108,65 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     }
 }
 
-/// Refuses frames at which a scene is not defined, before anything is rendered.
-fn check_frames(args: &RenderArgs, choices: &[SceneChoice]) -> Result<(), Error> {
-    for SceneChoice { scene, .. } in choices {
-        let settings = scene_settings(args, scene, RenderSettings::default().replicates)?;
-        for frame in 1..args.frames {
-            let later = scene.at_frame(frame);
-            for alignment in &args.alignments {
-                settings.check_truth(&later, *alignment)?;
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Prints the expected time of all scenes, none of which is rendered yet.
-fn print_expected_renders(args: &RenderArgs, choices: &[SceneChoice]) -> Result<(), Error> {
+/// Makes the settings of a scene's renders. Refuses frames at which it is not defined.
+fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Error> {
+    let size = args.size.unwrap_or((scene.width, scene.height));
     let count = match &args.replicates {
         Replicates::All(count) => *count,
-        Replicates::Part(indices) => (indices.len() as u32).next_multiple_of(2),
+        Replicates::Part(_) => RenderSettings::default().replicates,
     };
-    let mut seconds = 0.0;
-    for choice in choices {
-        let settings = scene_settings(args, &choice.scene, count)?;
-        seconds += estimate_render_seconds(&settings, args.alignments.len());
+    let settings = make_render_settings(&args.scenes, size, count)?;
+    for frame in 1..args.frames {
+        let later = scene.at_frame(frame);
+        for alignment in &args.alignments {
+            settings.check_truth(&later, *alignment)?;
+        }
     }
-    seconds *= f64::from(args.frames);
-    let scenes = count_text(choices.len(), "scene", "scenes");
-    print_expected_time(seconds, &scenes);
-    Ok(())
+    Ok(settings)
 }
 
-/// Renders a scene's frame and truths; returns a line for each truth that stayed noisier than asked for.
-fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Error> {
-    let settings = scene_settings(args, scene, count)?;
-    let out = &args.scenes.out;
-    let rendering = make_rendering(args, scene, settings);
-    let _claim = claim(out, [scene], Sharing::Together)?;
+/// Renders some replicates of a scene's truths, and its frame with the first of them. Says nothing about their noise.
+fn render_some(
+    args: &RenderArgs,
+    rendering: Rendering,
+    indices: &Range<u32>,
+) -> Result<String, Error> {
+    if indices.start == 0 {
+        rendering.frame()?;
+    }
+    rendering.shared(&args.alignments, indices.clone())?;
+    for alignment in &args.alignments {
+        rendering.part(*alignment, indices.clone())?;
+    }
+    Ok(String::new())
+}
+
+/// Renders a scene's frame and truths; returns a line for each truth. Adds one to `noisy` for each that is noisier than asked for.
+fn render_whole(
+    args: &RenderArgs,
+    rendering: Rendering,
+    noisy: &mut Vec<String>,
+) -> Result<String, Error> {
     rendering.frame()?;
-    let mut noisy = Vec::new();
-    let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
-    let mut ended = |truth: &Truth| {
+    let (target, most) = (args.noise.unwrap_or(f64::INFINITY), args.most_replicates);
+    let mut report = String::new();
+    let ended = |truth: &Truth, is_reached: bool| {
+        if !is_reached {
+            noisy.push(too_noisy_line(truth, target, most));
+        }
         if args.ladders {
-            let settings = settings.with_replicates(truth.provenance.replicates);
-            let rendering = make_rendering(args, scene, settings);
+            let replicates = truth.provenance.replicates;
+            let rendering = Rendering {
+                settings: rendering.settings.with_replicates(replicates),
+                ..rendering
+            };
             rendering.ladder(truth).ensure(&LADDER)?;
         }
         report += &floors_line(truth);
         Ok(())
     };
-    match args.noise {
-        None => {
-            rendering.shared(&args.alignments, 0..count)?;
-            for &alignment in &args.alignments {
-                ended(&rendering.truth(alignment)?)?;
-            }
-        }
-        Some(target) => {
-            let most = args.most_replicates;
-            rendering.truths_until(&args.alignments, (target, most), |truth, reached| {
-                if !reached {
-                    noisy.push(too_noisy_line(truth, target, most));
-                }
-                ended(truth)
-            })?;
-        }
-    }
-    print(&report)?;
-    Ok(noisy)
-}
-
-fn make_rendering<'a>(
-    args: &'a RenderArgs,
-    scene: &'a Scene,
-    settings: RenderSettings,
-) -> Rendering<'a> {
-    Rendering {
-        scene,
-        settings,
-        out: &args.scenes.out,
-        monitor: make_monitor(),
-    }
-}
-
-fn scene_settings(args: &RenderArgs, scene: &Scene, count: u32) -> Result<RenderSettings, Error> {
-    let size = args.size.unwrap_or((scene.width, scene.height));
-    make_render_settings(&args.scenes, size, count)
+    rendering.truths_until(&args.alignments, (target, most), ended)?;
+    Ok(report)
 }
 
 /// Makes a line: `  trailing: 8 replicates, noise: moving 0.0021, static 0.0009, full 0.0012`
