@@ -29,7 +29,8 @@ named! {
 }
 
 impl RenderScale {
-    /// Returns the part of the picture's width and height, in percent, and true if a filter gets the small frame and its output is upscaled.
+    /// Returns the part of the picture's width and height, in percent, and true if a filter gets the small frame and its output is
+    /// upscaled.
     fn parts(self) -> (u32, bool) {
         match self {
             Self::Full => (100, false),

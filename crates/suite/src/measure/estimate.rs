@@ -21,7 +21,8 @@ const SCENE: f64 = 0.2;
 const SAMPLE: f64 = 0.9e-6;
 /// Samples of a whole ladder, relative to its truth: it is about the pixels near motion alone.
 const WHOLE_LADDER: f64 = 0.4;
-/// Time in seconds to run a filter and measure its picture, whatever its size, and per pixel; and per pixel to write its part of the report.
+/// Time in seconds to run a filter and measure its picture, whatever its size, and per pixel; and per pixel to write its part of the
+/// report.
 const CASE: f64 = 0.035;
 const CASE_PIXEL: f64 = 6e-6;
 const REPORT_PIXEL: f64 = 0.45e-6;
