@@ -144,7 +144,7 @@ fn parameters_of_a_file_are_checked() {
     }
     fs::remove_file(bench.path("p.json")).unwrap();
     let words = split("tune evaluate --filter jump_flood --params p.json --out out");
-    assert_refused(&bench.shuttertruth(&words), 2, &["p.json: cannot be read"]);
+    assert_refused(&bench.shuttertruth(&words), 2, &["p.json: cannot read"]);
     assert!(!bench.path("out").exists());
 }
 

@@ -23,12 +23,14 @@ use std::process::ExitCode;
 use commands::result::Ending;
 use environment::set_environment;
 use filters::FilterError;
+use frame::TruthError;
 use output::{
     INTERRUPTED_TEXT, catch_interrupts, interrupted_code, print_error, print_failure, set_output,
 };
 use program::{Cli, execute, find_new_place};
 use store::printable;
 use suite::Error;
+use tracer::TraceError;
 
 pub use output::terminal_text;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
@@ -51,7 +53,10 @@ pub fn run_program() -> ExitCode {
         Err(error) => {
             match error.is_interruption() {
                 true => print_error(INTERRUPTED_TEXT),
-                false => print_failure(&error),
+                false => match way_out(&error) {
+                    Some(way_out) => print_failure(&Error::Usage(format!("{error}; {way_out}"))),
+                    None => print_failure(&error),
+                },
             }
             ExitCode::from(exit_code(&error))
         }
@@ -67,6 +72,19 @@ fn exit_code(error: &Error) -> u8 {
         Error::Broken(_) => 1,
         Error::TooNoisy(_) | Error::Inconclusive(_) => 4,
         _ => 2,
+    }
+}
+
+/// Names the options that are the way out of an error of a library, which knows none.
+fn way_out(error: &Error) -> Option<&'static str> {
+    match error {
+        Error::Truth(TruthError::Foreign { .. }) => {
+            Some("give all parts the same --size, --samples-per-pixel and --seed")
+        }
+        Error::Trace(TraceError::Undefined { .. }) => {
+            Some("see --frames, --frame-rate, --exposure")
+        }
+        _ => None,
     }
 }
 

@@ -173,7 +173,7 @@ fn samples_and_threads_beyond_the_limits_are_refused() {
     };
     refused(
         &["--samples-per-pixel", "4294967295"],
-        "--samples-per-pixel 4294967295; allowed: 8 times a power of two",
+        "'4294967295' for '--samples-per-pixel <N>': allowed: 8 times a power of two",
     );
     refused(&["--samples-per-pixel", "131072"], "such as 65536");
     refused(

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{InputFormArgs, ProgramArgs, SceneArgs, parse_size, within};
+use super::{InputFormArgs, ProgramArgs, SceneArgs, parse_even, parse_size, within};
 
 /// Choice of scenes, filters and inputs to measure.
 #[derive(Clone, Debug, Args)]
@@ -40,7 +40,8 @@ pub struct MeasureArgs {
         help_heading = "Scenes and files",
         long,
         value_name = "N",
-        default_value_t = 8
+        default_value_t = 8,
+        value_parser = parse_even
     )]
     pub replicates: u32,
     #[command(flatten)]

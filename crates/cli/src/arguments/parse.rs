@@ -1,10 +1,13 @@
 //! Parsers of single values on the command line.
 
+use std::num::{ParseFloatError, ParseIntError};
 use std::ops::{Range, RangeBounds};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
+use frame::Alignment;
 use store::MAX_REPLICATES;
 use suite::{MAX_FRAMES, SIDES};
+use tracer::{MAX_SAMPLES, RenderSettings};
 use tune::Objective;
 
 /// Number of replicates, or a part of them.
@@ -52,6 +55,43 @@ pub fn frame_count() -> RangedU64ValueParser<u32> {
     within(1..=u64::from(MAX_FRAMES))
 }
 
+/// Parses an exposure that a shutter can have.
+pub fn parse_exposure(text: &str) -> Result<f64, String> {
+    let exposure = text
+        .parse()
+        .map_err(|error: ParseFloatError| error.to_string())?;
+    let shutter = Alignment::Trailing.shutter(exposure);
+    shutter.map_err(|error| error.to_string())?;
+    Ok(exposure)
+}
+
+/// Parses the mean number of samples per pixel of a truth with the usual number of replicates.
+pub fn parse_samples(text: &str) -> Result<u32, String> {
+    let replicates = RenderSettings::default().replicates;
+    let samples: u32 = text
+        .parse()
+        .map_err(|error: ParseIntError| error.to_string())?;
+    // A frame has as many samples as all replicates of a truth.
+    let (each, most) = (samples / replicates, MAX_SAMPLES / replicates);
+    if each.is_power_of_two() && each <= most && each * replicates == samples {
+        return Ok(samples);
+    }
+    let nearest = each.clamp(1, most).next_power_of_two() * replicates;
+    Err(format!(
+        "allowed: {replicates} times a power of two, up to {MAX_SAMPLES}, such as {nearest}"
+    ))
+}
+
+/// Parses a number of replicates that make two equal halves.
+pub fn parse_even(text: &str) -> Result<u32, String> {
+    let count = text.parse().ok().filter(|count| is_even(*count));
+    count.ok_or_else(|| format!("allowed: even numbers from 2 to {MAX_REPLICATES}, such as 8"))
+}
+
+fn is_even(replicates: u32) -> bool {
+    (2..=MAX_REPLICATES).contains(&replicates) && replicates.is_multiple_of(2)
+}
+
 /// Parses a number that `is_allowed` allows; anything else is refused with what is allowed.
 pub fn parse_number(
     text: &str,
@@ -93,9 +133,13 @@ pub fn parse_replicates(text: &str) -> Result<Replicates, String> {
             .filter(|(first, end)| first < end)
             .map(|(first, end)| Replicates::Part(first..end)),
     };
-    parsed.ok_or_else(|| {
+    let is_allowed = |replicates: &Replicates| match replicates {
+        Replicates::All(count) => is_even(*count),
+        Replicates::Part(_) => true,
+    };
+    parsed.filter(is_allowed).ok_or_else(|| {
         format!(
-            "allowed: a number up to {MAX_REPLICATES}, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
+            "allowed: an even number up to {MAX_REPLICATES}, such as 8, or A..B with A below B: 3..6 is replicates 3, 4 and 5"
         )
     })
 }

@@ -7,7 +7,7 @@ use frame::{ColorSampling, FrameOptions, VelocityKind};
 use suite::Error;
 use tracer::{RenderSettings, SceneId};
 
-use super::{FrameRateArgs, RootArgs, thread_count};
+use super::{FrameRateArgs, RootArgs, parse_exposure, parse_samples, thread_count};
 use crate::selection::split_scene;
 
 /// On or off.
@@ -41,10 +41,10 @@ pub struct SceneArgs {
     pub root: RootArgs,
     /// Mean samples per pixel of a truth with 8 replicates, 8 times a power of two. Noisy parts of
     /// the picture get more, quiet ones fewer.
-    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel)]
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().samples_per_pixel, value_parser = parse_samples)]
     pub samples_per_pixel: u32,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees [default: each scene's own].
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", value_parser = parse_exposure)]
     pub exposure: Option<f64>,
     /// Content of the velocity buffer: instantaneous, previous_frame, or camera_only (rebuilt from depth and the last frame's
     /// camera).
@@ -101,6 +101,21 @@ impl SceneArgs {
             true => vec![sealed("*", seed)],
             false => (self.scenes.iter().map(|name| sealed(name, seed))).collect(),
         })
+    }
+
+    /// Makes the settings of renders, for pictures of one size.
+    pub fn render_settings(&self, (width, height): (u32, u32), replicates: u32) -> RenderSettings {
+        RenderSettings {
+            width,
+            height,
+            exposure: self.exposure,
+            options: self.frame_options(),
+            guard_band: self.guard_band,
+            samples_per_pixel: self.samples_per_pixel,
+            seed: self.seed,
+            ..RenderSettings::default()
+        }
+        .with_replicates(replicates)
     }
 
     /// Makes the options of a frame.

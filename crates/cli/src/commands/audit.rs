@@ -1,9 +1,9 @@
 //! The command `engine audit`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use engine::{Capture, CaptureAudit, audit_capture, write_audit_picture};
+use engine::{Capture, audit_capture, write_audit_picture};
 use store::{Sharing, claim, printable_path};
 use suite::Error;
 use tracer::SceneId;
@@ -52,16 +52,18 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     let (audit, expected) = audit_capture(&capture, &scene)?;
     let out = name_folder(&args.capture, args.out.as_ref(), "out/audit")?;
     let _claim = claim(&out, [], Sharing::Alone)?;
-    let json = write_json(&out.join("audit.json"), &audit)?;
+    let path = out.join("audit.json");
+    let json = write_json(&path, &audit)?;
+    let mut text = audit_table(&audit);
     for object in audit.velocity.iter().filter(|object| !object.is_right) {
-        let picture = picture_path(&out, &object.object);
+        let picture = out.join(format!("worst_{}.png", object.object));
         let right = &expected.right.velocity;
         write_audit_picture(&picture, &capture.velocity, right, object.worst_at)?;
+        let picture = printable_path(&picture);
+        text += &format!("worst place of {}: {picture}\n", object.object);
     }
-    match args.json {
-        true => print(&format!("{json}\n"))?,
-        false => print(&describe(&audit, &out))?,
-    }
+    text += &format!("written: {}\n", printable_path(&path));
+    print(&if args.json { json + "\n" } else { text })?;
     let count = audit.findings.len();
     let place = printable_path(&args.capture);
     Ok(match (count, audit.shows_scene) {
@@ -72,22 +74,4 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
             audit.scene
         ))),
     })
-}
-
-fn picture_path(out: &Path, object: &str) -> PathBuf {
-    out.join(format!("worst_{object}.png"))
-}
-
-fn describe(audit: &CaptureAudit, out: &Path) -> String {
-    let mut text = audit_table(audit);
-    for object in audit.velocity.iter().filter(|object| !object.is_right) {
-        let path = picture_path(out, &object.object);
-        text += &format!(
-            "worst place of {}: {}\n",
-            object.object,
-            printable_path(&path)
-        );
-    }
-    text += &format!("written: {}\n", printable_path(&out.join("audit.json")));
-    text
 }

@@ -11,8 +11,7 @@ use store::printable_path;
 use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu};
 
 use super::capture::read_convention;
-use super::render_settings::check_exposure;
-use crate::arguments::{AdapterArgs, ProgramArgs, frame_count};
+use crate::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
 use crate::output::{make_silent_monitor, print};
 use crate::selection::select_filters;
 
@@ -40,7 +39,7 @@ pub struct BlurArgs {
     #[arg(long, value_name = "FILE")]
     pub convention: Option<PathBuf>,
     /// Exposure in frames [default: the file's attribute "exposure"].
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", value_parser = parse_exposure)]
     pub exposure: Option<f64>,
     /// Frame number, which seeds the filter's noise; of a sequence that of the first frame.
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -94,7 +93,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
                 size.1
             );
         }
-        let index = args.frame_index + frame;
+        let index = args.frame_index.wrapping_add(frame);
         let colors = [[&now.color], [&before.color]];
         let input = now.input(&colors[0], index);
         let outputs = runner.run_after(&input, &before.input(&colors[1], index));
@@ -133,8 +132,7 @@ fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) 
 
 /// Chooses the picture to write, or the folder for those of a sequence.
 fn choose_out(args: &BlurArgs) -> Result<PathBuf, Error> {
-    let (frames, first) = (args.frames, args.frame_index);
-    let is_one = frames == 1;
+    let (frames, is_one) = (args.frames, args.frames == 1);
     let default = if is_one {
         "out/blurred.exr"
     } else {
@@ -145,12 +143,6 @@ fn choose_out(args: &BlurArgs) -> Result<PathBuf, Error> {
         refuse!(
             "--out: {} is the name of one picture, and {frames} are written; name a folder for them",
             out.display()
-        );
-    }
-    if first.checked_add(frames - 1).is_none() {
-        refuse!(
-            "--frame-index {first}: each of the {frames} frames has the next one; allowed: up to {}",
-            u32::MAX - (frames - 1)
         );
     }
     Ok(out)
@@ -198,7 +190,6 @@ impl Buffers {
                 );
             }
         };
-        check_exposure(exposure)?;
         let reprojection = match has("reprojection") {
             true => Some(Reprojection::from_exr(&file)?.moved(f64::from(guard_band))),
             false => None,

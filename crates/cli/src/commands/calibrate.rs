@@ -10,7 +10,7 @@ use tracer::{Progress, Watch};
 use super::expected::print_expected_time;
 use super::kept_truths::take_packed_truths;
 use super::pages::write_run;
-use super::run_plan::{check_replicates_for_intervals, claim_out, make_plan};
+use super::run_plan::{claim_out, make_plan};
 use crate::arguments::{MeasureArgs, SequenceArgs, within};
 use crate::output::print;
 
@@ -49,9 +49,8 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     }
     refuse_single_frames(args)?;
     plan.frames = args.sequence.frames();
-    plan.check()?;
-    check_replicates_for_intervals(plan.render.replicates)?;
     plan.intervals = true;
+    plan.check()?;
     // No limit is on a filter's noise apart from its error.
     plan.jitter_frames = 0;
     plan.ladders = match args.metrics.as_slice() {
@@ -63,7 +62,6 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         bounds.values(),
         &plan.filters,
     )?;
-    check_seeds(plan.render.seed, args.runs)?;
     let _claim = claim_out(&plan)?;
     let adapters: Vec<Option<&str>> = match args.adapters.as_slice() {
         // The fastest.
@@ -103,17 +101,6 @@ fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
     }
 }
 
-/// Refuses a first seed that leaves none for the last run.
-fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
-    let last = u64::MAX - u64::from(runs);
-    match first <= last {
-        true => Ok(()),
-        false => refuse!(
-            "--seed {first}: each of the {runs} runs has the next one; allowed: up to {last}"
-        ),
-    }
-}
-
 /// Runs once per adapter and seed.
 fn run_all(
     args: &CalibrateArgs,
@@ -127,7 +114,7 @@ fn run_all(
     let mut runs: Vec<Run> = Vec::new();
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, *adapter, plan.monitor)?;
-        for seed in (0..args.runs).map(|run| first + u64::from(run)) {
+        for seed in (0..args.runs).map(|run| first.wrapping_add(u64::from(run))) {
             // A run that is interrupted says so itself.
             let _ = watch(Progress {
                 done: runs.len() as u64,

@@ -8,7 +8,6 @@ use tracer::{RenderSettings, Scene};
 use tune::{Evaluator, Objective, render_scenes};
 
 use super::expected::print_expected_time;
-use super::render_settings::make_render_settings;
 use super::run_plan::load_scenes;
 use crate::arguments::{CandidateArgs, SceneArgs};
 use crate::output::{count_text, make_monitor};
@@ -30,9 +29,9 @@ impl CandidateArgs {
     }
 
     /// Makes the settings that scenes are rendered by.
-    pub fn render_settings(&self) -> Result<RenderSettings, Error> {
+    pub fn render_settings(&self) -> RenderSettings {
         let replicates = RenderSettings::default().replicates;
-        make_render_settings(&self.scenes, self.size, replicates)
+        self.scenes.render_settings(self.size, replicates)
     }
 
     /// Opens the adapter, where the filter needs one.
@@ -58,7 +57,7 @@ impl CandidateArgs {
     ) -> Result<T, Error> {
         let scenes = self.load_scenes()?;
         let gpu = self.open_gpu(choice)?;
-        let render = self.render_settings()?;
+        let render = self.render_settings();
         let sharing = match candidates {
             Some(count) => {
                 print_expected_scoring(&scenes, &render, count, f64::INFINITY);

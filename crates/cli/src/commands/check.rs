@@ -17,9 +17,7 @@ use tracer::Location;
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, refuse_folder, write_judged_run, write_run_page};
 use super::result::Ending;
-use super::run_plan::{
-    Margins, add_bounds, check_replicates_for_intervals, make_plan, read_margins,
-};
+use super::run_plan::{Margins, add_bounds, make_plan, read_margins};
 use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
 use crate::output::{is_verbose, print, print_json, print_note};
 use crate::tables::{adapter_text, annotations, check_text, junit, summary, verdict_text};
@@ -150,11 +148,10 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     }
     check_lengths(bounds.values(), &plan.filters, args.sequence.frames())?;
     plan.frames = args.sequence.frames();
-    plan.check()?;
     plan.intervals = true;
+    plan.check()?;
     plan.ladders = bound_subframes(bounds.values(), &plan.filters)
         || (margins.keys()).any(|metric| matches!(metric, Metric::Equivalent(_)));
-    check_replicates_for_intervals(plan.render.replicates)?;
     let root = &args.measure.scenes.root.scenes_dir;
     check_names(root, bounds.values(), &plan.filters)?;
     // With a baseline, nothing else need be bounded.

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use filters::{Settings, Value};
-use frame::{FileError, read_bounded};
-use store::MAX_JSON_BYTES;
+use store::read_text;
 use suite::{Error, FilterChoice};
 use tune::{Objective, evaluate_candidate};
 
@@ -37,12 +36,7 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
 
 fn read_params(path: &Path, choice: &FilterChoice) -> Result<Settings, Error> {
     let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
-    let bytes = read_bounded(path, MAX_JSON_BYTES).map_err(|error| match error {
-        FileError::Io { source, .. } => refuse(format!("cannot be read: {source}")),
-        other => other.into(),
-    })?;
-    let text = String::from_utf8(bytes).map_err(|error| refuse(error.to_string()))?;
-    let values: BTreeMap<String, Value> = serde_json::from_str(&text).map_err(|error| {
+    let values = serde_json::from_str(&read_text(path)?).map_err(|error| {
         refuse(format!(
             "{error}; allowed: one table of parameters, such as {{\"samples\": 12}}"
         ))

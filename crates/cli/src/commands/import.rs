@@ -7,8 +7,7 @@ use engine::{ImportPlan, Imported, Motions, Up, import};
 use store::printable_path;
 use suite::Error;
 
-use super::render_settings::check_exposure;
-use crate::arguments::{parse_named, parse_speed};
+use crate::arguments::{parse_exposure, parse_named, parse_speed};
 use crate::output::print;
 
 #[derive(Debug, Args)]
@@ -35,13 +34,12 @@ pub struct ImportArgs {
     #[arg(long)]
     pub plain: bool,
     /// Exposure in frames; 0.5 is a shutter of 180 degrees.
-    #[arg(long, value_name = "E", default_value_t = 0.5)]
+    #[arg(long, value_name = "E", default_value_t = 0.5, value_parser = parse_exposure)]
     pub exposure: f64,
 }
 
 /// Makes the scene folder and prints what it holds.
 pub fn execute(args: &ImportArgs) -> Result<(), Error> {
-    check_exposure(args.exposure)?;
     let out = match &args.out {
         Some(out) => out.clone(),
         None => Path::new("out").join(args.model.file_stem().unwrap_or(args.model.as_os_str())),

@@ -26,7 +26,6 @@ mod pages;
 pub mod plan;
 pub mod preferences;
 pub mod render;
-mod render_settings;
 pub mod report;
 pub mod result;
 pub mod run;

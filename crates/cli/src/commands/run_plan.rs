@@ -10,16 +10,15 @@ use judge::{
 };
 use metrics::Metric;
 use store::{Claim, Sharing, claim};
-use suite::{EngineScene, Error, FilterChoice, MIN_REPLICATES, Run, RunPlan, engine_name};
+use suite::{EngineScene, Error, FilterChoice, Run, RunPlan, engine_name};
 use tracer::{Location, RenderSettings, Scene, SceneId};
 
 use super::kept_truths::check_truths;
-use super::render_settings::make_render_settings;
 use crate::arguments::{MeasureArgs, RunOptions, SceneArgs};
 use crate::output::{count_text, make_monitor, print_note, print_scene_notes};
 use crate::selection::{select_engine_scenes, select_filters, select_scenes};
 
-/// Loads scenes with their bounds, and filters; renders nothing. Scores are to have no intervals.
+/// Loads scenes with their bounds, and filters; renders nothing, and does not check the plan yet. Scores are to have no intervals.
 pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds), Error> {
     let scenes_dir = &args.scenes.root.scenes_dir;
     let (engine_scenes, names) = select_engine_scenes(scenes_dir, &args.scenes.names()?)?;
@@ -51,7 +50,7 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
         filters,
         inputs: args.forms.one_by_one(),
         jitter_frames: args.jitter_frames,
-        render: make_render_settings(&args.scenes, size, args.replicates)?,
+        render: args.scenes.render_settings(size, args.replicates),
         out,
         no_cache: args.no_cache,
         truths: args.truths.clone(),
@@ -61,15 +60,11 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
     if let Some(truths) = &plan.truths {
         check_truths(truths)?;
     }
-    plan.check()?;
     Ok((plan, bounds))
 }
 
 /// Applies frames, intervals and the common shutter to a plan.
 pub fn apply_options(plan: &mut RunPlan, options: &RunOptions) -> Result<(), Error> {
-    if options.intervals {
-        check_replicates_for_intervals(plan.render.replicates)?;
-    }
     plan.frames = options.sequence.frames();
     plan.intervals = options.intervals;
     plan.common = options.common;
@@ -221,16 +216,6 @@ fn read_scene_bounds(
     match id.seal.is_some() || id.rate.is_some() {
         true => read_bounds_beside_scenes(root, size),
         false => read_bounds(root, folder, size),
-    }
-}
-
-/// Refuses truths with too few replicates for intervals.
-pub fn check_replicates_for_intervals(replicates: u32) -> Result<(), Error> {
-    match replicates {
-        MIN_REPLICATES.. => Ok(()),
-        few => refuse!(
-            "--replicates {few}: {MIN_REPLICATES} or more are needed to tell how sure a score is"
-        ),
     }
 }
 

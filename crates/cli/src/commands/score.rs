@@ -84,7 +84,8 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     let name = args.image.file_name().unwrap_or(args.image.as_os_str());
     let name = name.to_string_lossy();
     let name = printable(&name);
-    let mut text = score_table(&truth.provenance.scene, &name, scores) + &truth_line(truth);
+    let mut text = score_table(&truth.provenance.scene, &name, scores);
+    text += &truth_text(truth);
     for note in notes {
         text += &format!("{name}: {note}\n");
     }
@@ -101,20 +102,15 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     text
 }
 
-/// Says what the truth is below a table of scores.
-pub fn truth_line(truth: &Truth) -> String {
+/// Says which truth a picture was compared with.
+pub fn truth_text(truth: &Truth) -> String {
     let drawn = (truth.provenance.engine.as_deref()).map_or(String::new(), |engine| {
         let subframes = truth.provenance.samples_per_pixel;
-        format!(
-            "mean of {subframes} sub-frames that {} drew, ",
-            printable(engine_name(engine))
-        )
+        let engine = printable(engine_name(engine));
+        format!("mean of {subframes} sub-frames that {engine} drew, ")
     });
-    format!(
-        "\ntruth: {drawn}{} shutter, open for {} frames\n",
-        truth.alignment,
-        truth.shutter.exposure()
-    )
+    let (alignment, exposure) = (truth.alignment, truth.shutter.exposure());
+    format!("\ntruth: {drawn}{alignment} shutter, open for {exposure} frames\n")
 }
 
 /// Describes what was scored as JSON.

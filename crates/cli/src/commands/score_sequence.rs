@@ -10,7 +10,7 @@ use suite::{
 use tracer::Scene;
 
 use super::capture::read_convention;
-use super::score::{ScoreArgs, check_scene, scored_json, truth_line};
+use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
 use crate::output::{print, print_json};
 use crate::selection::select_scenes;
 use crate::tables::score_sequence_table;
@@ -95,7 +95,7 @@ fn scores_text(
     let name = printable_path(&args.image);
     let mut text =
         score_sequence_table(&truth.provenance.scene, &name, args.frames, &scored.scores);
-    text += &truth_line(truth);
+    text += &truth_text(truth);
     let worst: Vec<String> = (worst_frames(scored).iter())
         .map(|(metric, frame)| format!("{metric} {frame}"))
         .collect();

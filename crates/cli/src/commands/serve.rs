@@ -22,8 +22,6 @@ use crate::output::{print, was_interrupted};
 const LONGEST_LINE: usize = 1 << 20;
 /// Upper limit on requests that wait; more are read later.
 const MAX_WAITING: usize = 1024;
-/// Upper limit on cancelled requests that have not come yet.
-const MAX_CANCELLED: usize = 65_536;
 /// Characters of a line that an error shows.
 const SHOWN: usize = 200;
 /// Time between two looks for Ctrl-C while nothing comes.
@@ -84,7 +82,7 @@ pub fn execute(args: &ServeArgs) -> Result<(), Error> {
         loop {
             match requests.recv_timeout(PAUSE) {
                 Ok(Ok(request)) => answer_request(evaluator, request, cost, &cancelled)?,
-                Ok(Err(reply)) => print_reply(&reply)?,
+                Ok(Err(reason)) => print_reply(&json!({"error": reason}))?,
                 Err(RecvTimeoutError::Timeout) if was_interrupted() => {
                     return Err(FilterError::Interrupted.into());
                 }
@@ -95,11 +93,11 @@ pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     })
 }
 
-/// Reads lines while other work goes on: sends requests, and replies to lines that are none; cancels requests at once.
+/// Reads lines while other work goes on: sends requests, and says what is wrong with lines that are none; cancels requests at once.
 fn read_requests(
     mut input: impl BufRead,
     cancelled: &Cancelled,
-    sender: &SyncSender<Result<ScoreRequest, serde_json::Value>>,
+    sender: &SyncSender<Result<ScoreRequest, String>>,
 ) {
     let mut has_ended = false;
     while !has_ended {
@@ -115,17 +113,10 @@ fn read_requests(
         let item = match request {
             Ok(Request::Score(request)) => Ok(request),
             Ok(Request::Cancel { cancel }) => {
-                let mut cancelled = cancelled.lock();
-                if cancelled.len() < MAX_CANCELLED {
-                    cancelled.insert(cancel);
-                    continue;
-                }
-                let reason = format!(
-                    "{MAX_CANCELLED} requests that have not come are cancelled already, which is the most"
-                );
-                Err(json!({"id": cancel, "error": reason}))
+                cancelled.lock().insert(cancel);
+                continue;
             }
-            Err(reason) => Err(json!({"error": reason})),
+            Err(reason) => Err(reason),
         };
         has_ended |= sender.send(item).is_err();
     }

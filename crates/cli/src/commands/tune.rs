@@ -10,10 +10,9 @@ use tracer::{Progress, RenderSettings};
 use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
 
 use super::candidate::print_expected_scoring;
-use super::render_settings::make_render_settings;
 use super::result::{write_json, write_result};
 use super::run_plan::load_scenes;
-use crate::arguments::{CandidateArgs, above_zero, parse_ratio, parse_size, within};
+use crate::arguments::{CandidateArgs, above_zero, parse_ratio, parse_samples, parse_size, within};
 use crate::output::{is_quiet, make_monitor, print_error};
 use crate::tables::{advice_text, tuning_table};
 
@@ -64,7 +63,8 @@ pub struct TuneArgs {
         help_heading = "Held-out scenes",
         long,
         value_name = "N",
-        default_value_t = 256
+        default_value_t = 256,
+        value_parser = parse_samples
     )]
     pub held_out_samples_per_pixel: u32,
     /// Print tune.json instead of the table.
@@ -113,19 +113,19 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
         // Every scene means every one that is not held out.
         open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.id != scene.id));
     }
-    let mut held_out_args = scene_args.clone();
-    held_out_args.samples_per_pixel = args.held_out_samples_per_pixel;
+    let render = candidate.render_settings();
     Ok(TuneOptions {
         choice,
         space,
         scenes: interleave_families(open),
         held_out,
-        render: candidate.render_settings()?,
-        held_out_render: make_render_settings(
-            &held_out_args,
-            args.held_out_size,
-            RenderSettings::default().replicates,
-        )?,
+        render,
+        held_out_render: RenderSettings {
+            width: args.held_out_size.0,
+            height: args.held_out_size.1,
+            samples_per_pixel: args.held_out_samples_per_pixel,
+            ..render
+        },
         objectives: candidate.objective.clone(),
         cost_at_most: args.cost_at_most,
         bleed_at_most: args.bleed_at_most,

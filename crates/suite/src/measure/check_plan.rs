@@ -8,11 +8,18 @@ use super::planned_case::PlannedCase;
 use crate::Error;
 use crate::render::settings::frame_settings;
 use crate::run::sequence::{Frames, MAX_FRAMES};
+use crate::stats::intervals::MIN_REPLICATES;
 
 impl RunPlan {
     /// Refuses settings with which a scene cannot be rendered, and names that no folder can have, before anything is rendered.
     pub fn check(&self) -> Result<(), Error> {
         self.check_frames()?;
+        let replicates = self.render.replicates;
+        if self.intervals && replicates < MIN_REPLICATES {
+            return Err(Error::Usage(format!(
+                "found {replicates} replicates; {MIN_REPLICATES} or more are needed to tell how sure a score is"
+            )));
+        }
         for scene in self.all_scenes() {
             for case in PlannedCase::all(self, scene) {
                 refuse_long_names(&case.id.folder())?;

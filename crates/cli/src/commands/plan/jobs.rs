@@ -111,7 +111,7 @@ impl Planner<'_> {
         let command = words(["limits", "calibrate"]);
         let (mut jobs, mut inputs) = (Vec::new(), Vec::new());
         let first = self.plan.render.seed;
-        for seed in (0..runs).map(|run| first.saturating_add(u64::from(run))) {
+        for seed in (0..runs).map(|run| first.wrapping_add(u64::from(run))) {
             let mut run = self.clone();
             run.seed = Some(seed);
             run.parts.push(format!("seed_{seed}"));
