@@ -12,7 +12,7 @@ use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu}
 
 use super::capture::read_convention;
 use crate::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
-use crate::output::{make_silent_monitor, print};
+use crate::output::{make_monitor, print};
 use crate::selection::select_filters;
 
 #[derive(Debug, Args)]
@@ -66,7 +66,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let first = Buffers::read(frame_file(args, 0), args.exposure, &convention)?;
     let size = (first.color.width, first.color.height);
     let choice = (choice.as_written(args.as_written)).scaled_to(first.picture_width());
-    let monitor = make_silent_monitor();
+    let monitor = make_monitor().without_progress();
     let adapter = args.adapter.adapter.as_deref();
     let gpu = open_gpu(std::slice::from_ref(&choice), adapter, monitor)?;
     let mut runner = Runner::new(gpu.as_ref(), &choice, size, monitor)?;

@@ -5,7 +5,7 @@ use judge::SceneBounds;
 use store::{Sharing, claim};
 use suite::{Error, FilterChoice, estimate_case_seconds, estimate_render_seconds, open_gpu};
 use tracer::{RenderSettings, Scene};
-use tune::{Evaluator, Objective, render_scenes};
+use tune::{Evaluator, render_scenes};
 
 use super::expected::print_expected_time;
 use super::run_plan::load_scenes;
@@ -39,11 +39,6 @@ impl CandidateArgs {
         let adapter = self.adapter.adapter.as_deref();
         let filters = std::slice::from_ref(choice);
         Ok(open_gpu(filters, adapter, make_monitor())?)
-    }
-
-    /// Returns true if an objective is to be measured.
-    pub fn measures(&self, objective: Objective) -> bool {
-        self.objective.contains(&objective)
     }
 
     /// Renders the scenes, or reads them back, and scores candidates on them. If their number is known, says how long that takes,

@@ -30,7 +30,7 @@ pub fn execute(args: &ComparePresetsArgs) -> Result<(), Error> {
     let presets = [&args.first, &args.second];
     let [first, second] = presets.map(|preset| choice.preset_at(preset, candidate.size.0));
     let (first, second) = (first?, second?);
-    let bleed = candidate.measures(Objective::Bleed);
+    let bleed = candidate.objective.contains(&Objective::Bleed);
     let paired = candidate.score(&choice, bleed, Some(2), |evaluator| {
         compare_candidates(evaluator, &first, &second)
     })?;

@@ -26,7 +26,8 @@ pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = candidate.select()?;
     let settings = read_params(&args.params, &choice)?;
-    let [bleed, cost] = [Objective::Bleed, Objective::Cost].map(|own| candidate.measures(own));
+    let [bleed, cost] =
+        [Objective::Bleed, Objective::Cost].map(|own| candidate.objective.contains(&own));
     let scores = candidate.score(&choice, bleed, None, |evaluator| {
         let all: Vec<usize> = (0..evaluator.targets.len()).collect();
         evaluate_candidate(evaluator, &settings, &all, cost, |_, _| true)

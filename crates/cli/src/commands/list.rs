@@ -6,7 +6,7 @@ use suite::{Error, InputFormat, open_adapter};
 use tracer::{SceneListing, list_scenes};
 
 use crate::arguments::{AdapterArgs, RootArgs};
-use crate::output::{make_silent_monitor, print, print_json, print_note};
+use crate::output::{make_monitor, print, print_json, print_note};
 use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
 use crate::tables::{details_text, filter_json, filters_text, inputs_text, scenes_text};
 
@@ -142,7 +142,7 @@ fn try_filters(filters: &[&Filter], adapter: Option<&str>) -> Result<(), Error> 
     if !have_kernels && adapter.is_none() {
         return Ok(());
     }
-    let gpu = match open_adapter(adapter, make_silent_monitor()) {
+    let gpu = match open_adapter(adapter, make_monitor().without_progress()) {
         Err(FilterError::NoAdapter) => None,
         found => Some(found?),
     };

@@ -71,7 +71,8 @@ impl Cancelled {
 pub fn execute(args: &ServeArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = candidate.select()?;
-    let [bleed, cost] = [Objective::Bleed, Objective::Cost].map(|own| candidate.measures(own));
+    let [bleed, cost] =
+        [Objective::Bleed, Objective::Cost].map(|own| candidate.objective.contains(&own));
     candidate.score(&choice, bleed, None, |evaluator| {
         let cancelled = Cancelled::default();
         let (sender, requests) = sync_channel(MAX_WAITING);

@@ -31,11 +31,6 @@ pub fn make_monitor() -> Monitor {
     }
 }
 
-/// Makes a monitor that shows nothing, for work that takes no time. It ends work after Ctrl-C.
-pub fn make_silent_monitor() -> Monitor {
-    make_monitor().without_progress()
-}
-
 /// Progress as a bar on a terminal, beside others.
 struct Bar(ProgressBar);
 

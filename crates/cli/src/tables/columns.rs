@@ -2,11 +2,7 @@
 
 use metrics::Metric;
 
-use super::Table;
 use crate::output::{faint, push_wrapped};
-
-/// Columns side by side of a table that has many.
-const ABREAST: usize = 3;
 
 /// A column: its title and its score.
 pub type Column = (&'static str, Metric);
@@ -53,26 +49,6 @@ pub fn mean_text(numbers: impl Iterator<Item = f64>, text: impl Fn(f64) -> Strin
     let all: Vec<f64> = numbers.collect();
     let mean = (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64);
     cell(mean, text)
-}
-
-/// Makes tables with a few columns side by side, so that a row fits a terminal, and the note below them.
-pub fn abreast_text<R>(
-    title: &str,
-    columns: &[String],
-    rows: &[R],
-    name: impl Fn(&R) -> String,
-    cell: impl Fn(&R, &String) -> String,
-    legend: &str,
-) -> String {
-    let tables = columns.chunks(ABREAST).map(|columns| {
-        let mut table = Table::new(title, columns);
-        for row in rows {
-            table.push(name(row), columns.iter().map(|column| cell(row, column)));
-        }
-        table.text()
-    });
-    let tables: String = tables.collect();
-    format!("\n{tables}\n{}", legend_text(legend))
 }
 
 /// Makes a table of Markdown.

@@ -1,5 +1,6 @@
 //! Tables of results, in 80 columns.
 
+mod abreast;
 mod annotations;
 mod audit;
 mod bench;
@@ -7,9 +8,6 @@ mod cases;
 mod check;
 mod columns;
 mod comparison;
-mod frame_rates;
-mod input_forms;
-mod jobs;
 mod junit;
 mod layout;
 mod listing;
@@ -20,6 +18,7 @@ mod scene_means;
 mod sequence;
 mod tuning;
 
+pub use self::abreast::*;
 pub use self::annotations::*;
 pub use self::audit::*;
 pub use self::bench::*;
@@ -27,9 +26,6 @@ pub use self::cases::*;
 pub use self::check::*;
 pub use self::columns::*;
 pub use self::comparison::*;
-pub use self::frame_rates::*;
-pub use self::input_forms::*;
-pub use self::jobs::*;
 pub use self::junit::*;
 pub use self::layout::*;
 pub use self::listing::*;

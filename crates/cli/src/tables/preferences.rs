@@ -18,17 +18,12 @@ const SCORES_KEY: &str = "Rank: correlation of the score's means over scenes wit
 
 /// Makes the tables of all questions.
 pub fn preferences_table(found: &Preferences) -> String {
-    let mut questions = Vec::new();
-    for question in &found.questions {
-        let mut text = String::new();
-        push_question(&mut text, question);
-        questions.push(text);
-    }
+    let questions: Vec<String> = found.questions.iter().map(question_text).collect();
     questions.join("\n")
 }
 
-fn push_question(text: &mut String, found: &QuestionResult) {
-    *text += &format!("{}\n", heading(found.question.text()));
+fn question_text(found: &QuestionResult) -> String {
+    let mut text = heading(found.question.text()) + "\n";
     let answers: usize = found.sessions.iter().map(|own| own.answers).sum();
     let mut facts = format!(
         "{}, {answers} answers",
@@ -37,15 +32,16 @@ fn push_question(text: &mut String, found: &QuestionResult) {
     if let Some(left) = found.left {
         facts += &format!("; {:.0} % of the choices of a side were left", 100.0 * left);
     }
-    push_wrapped(text, 0, &facts);
-    push_checks(text, found);
+    push_wrapped(&mut text, 0, &facts);
+    push_checks(&mut text, found);
     for scale in &found.scales {
-        push_scale(text, scale);
+        push_scale(&mut text, scale);
     }
-    *text += &legend_text(SCALE_KEY);
+    text += &legend_text(SCALE_KEY);
     if found.scales.iter().any(|scale| !scale.scores.is_empty()) {
-        *text += &legend_text(SCORES_KEY);
+        text += &legend_text(SCORES_KEY);
     }
+    text
 }
 
 /// Names the sessions that failed checks.

@@ -39,11 +39,6 @@ pub fn ranking_text(cases: &[Case]) -> String {
 }
 
 /// Names the shutter of a group: `centred shutter`, with the frame rate if it is none of the scenes' files.
-pub fn group_text(ranked: &RankedFilter) -> String {
-    shutter_text(ranked.alignment, ranked.rate)
-}
-
-/// Names a shutter and a frame rate.
 pub fn shutter_text(alignment: Alignment, rate: Option<FrameRate>) -> String {
     let rate = rate.map_or(String::new(), |rate| format!(", {}", rate.text()));
     format!("{alignment} shutter{rate}")
@@ -62,7 +57,7 @@ fn ranking_table(cases: &[Case], groups: &[Vec<RankedFilter>]) -> Table {
     let titles = ["FLIP", "95 % CI", "worst scene"];
     let mut table = Table::new(title, titles.into_iter().take(columns)).with_words_in(3);
     for group in groups {
-        table.push_text(group_text(&group[0]));
+        table.push_text(shutter_text(group[0].alignment, group[0].rate));
         for ranked in group {
             let cells = ranking_cells(ranked, scenes.len(), |value| Metric::FLIP.number(value));
             table.push(ranked_name(ranked), cells.into_iter().take(columns));

@@ -6,7 +6,7 @@ use suite::{Run, Sequence};
 use tracer::SceneId;
 
 use super::{
-    Table, bracket_name, cell, group_text, legend_text, list_once, ranked_name, ranking_cells,
+    Table, bracket_name, cell, legend_text, list_once, ranked_name, ranking_cells, shutter_text,
 };
 use crate::output::heading;
 
@@ -47,7 +47,8 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
     let titles = ["JOD", "95 % CI", "error", "along", "worst scene"];
     let mut table = Table::new(title, titles).with_words_in(5);
     for group in &groups {
-        table.push_text(group_text(&group[0].ranked));
+        let first = &group[0].ranked;
+        table.push_text(shutter_text(first.alignment, first.rate));
         for own in group {
             let number = |value| RANKED_BY.shown_text(value);
             let [jod, interval, worst] = ranking_cells(&own.ranked, scenes, number);

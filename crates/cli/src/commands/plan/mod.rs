@@ -9,11 +9,11 @@ use clap::{ArgMatches, Args};
 use metrics::Metric;
 use suite::Error;
 
-use self::jobs::list_jobs;
+use self::jobs::{Job, list_jobs};
 use super::run_plan::{apply_options, make_plan};
 use crate::arguments::{AdapterArgs, MeasureArgs, RunOptions, within};
 use crate::output::print;
-use crate::tables::jobs_table;
+use crate::tables::Table;
 
 #[derive(Debug, Args)]
 pub struct PlanArgs {
@@ -53,10 +53,22 @@ pub fn execute(args: &PlanArgs, given: &ArgMatches) -> Result<(), Error> {
         let line = |job| serde_json::to_string(job).expect("a job is plain data") + "\n";
         return print(&jobs.iter().map(line).collect::<String>());
     }
-    print(&jobs_table(
-        jobs.iter()
-            .map(|job| (job.job.as_str(), job.cpu_seconds, job.memory)),
-    ))
+    print(&jobs_table(&jobs))
+}
+
+/// Lists jobs with their CPU time and their memory, and the sum of the times.
+fn jobs_table(jobs: &[Job]) -> String {
+    let mut table = Table::new("job", ["CPU seconds", "memory in MB"]);
+    for job in jobs {
+        let memory = format!("{:.0}", job.memory as f64 / 1e6);
+        table.push(&job.job, [format!("{:.1}", job.cpu_seconds), memory]);
+    }
+    let sum: f64 = jobs.iter().map(|job| job.cpu_seconds).sum();
+    let count = jobs.len();
+    table.text()
+        + &format!(
+            "\n{count} jobs, about {sum:.0} CPU seconds; --json prints their command lines\n"
+        )
 }
 
 /// Parses the name of a score of single frames, which calibrations are planned for.
