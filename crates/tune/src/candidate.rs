@@ -30,24 +30,35 @@ impl<'a> SharedKernels<'a> {
     }
 }
 
-/// A filter with the settings to try.
+/// A filter with settings to try, ready for the pictures of all scenes.
 pub struct Candidate<'e, 'a> {
-    /// The filter.
-    pub filter: &'e Filter,
-    /// Its settings.
-    pub settings: &'e Settings,
-    /// The filter's kernels; none if it is a program.
-    pub shared: Option<&'e SharedKernels<'a>>,
-    /// Monitor that can end a program.
-    pub monitor: Monitor,
-    /// The filter, ready for pictures of one size; none before the first picture.
-    pub runner: Option<((u32, u32), Runner<'a>)>,
+    runner: Runner<'a>,
+    shared: Option<&'e SharedKernels<'a>>,
 }
 
 /// The blurred colour, and the blurred coverage of each object if it was asked for.
 pub type Blurred = (Image, Option<Vec<Plane>>);
 
-impl<'a> Candidate<'_, 'a> {
+impl<'e, 'a> Candidate<'e, 'a> {
+    /// Makes a candidate for pictures of one size. `shared` are the filter's kernels, none if it is a program, which the monitor can
+    /// end.
+    pub fn new(
+        filter: &Filter,
+        settings: &Settings,
+        shared: Option<&'e SharedKernels<'a>>,
+        size: (u32, u32),
+        monitor: Monitor,
+    ) -> Result<Self, FilterError> {
+        let runner = match shared {
+            Some(SharedKernels { kernels, .. }) => {
+                let blur = Blur::with_kernels(kernels, settings, size.0, size.1)?;
+                Runner::Kernels(Box::new(blur))
+            }
+            None => Runner::command(filter, settings, size, monitor)?,
+        };
+        Ok(Self { runner, shared })
+    }
+
     /// Blurs the frame of a scene, given by its index; its mattes too if `bleed` is to be measured.
     pub fn blur(
         &mut self,
@@ -55,12 +66,7 @@ impl<'a> Candidate<'_, 'a> {
         frame: &Frame,
         bleed: bool,
     ) -> Result<Blurred, FilterError> {
-        let size = frame.size();
-        if self.runner.as_ref().is_none_or(|(made, _)| *made != size) {
-            self.runner = Some((size, self.make_runner(size)?));
-        }
-        let (_, runner) = self.runner.as_mut().expect("it was just made");
-        let outputs = match (runner, self.shared) {
+        let outputs = match (&mut self.runner, self.shared) {
             (Runner::Kernels(blur), Some(shared)) => blur.run_uploaded(&shared.inputs[scene])?,
             (runner, _) => with_input(frame, bleed, |input| runner.run(input))?,
         };
@@ -71,16 +77,6 @@ impl<'a> Candidate<'_, 'a> {
         let mattes: Vec<Image> = outputs.collect();
         let coverage = bleed.then(|| unpack_planes(&mattes, frame.coverage.len()));
         Ok((color, coverage))
-    }
-
-    fn make_runner(&self, size: (u32, u32)) -> Result<Runner<'a>, FilterError> {
-        match self.shared {
-            Some(shared) => {
-                let blur = Blur::with_kernels(&shared.kernels, self.settings, size.0, size.1)?;
-                Ok(Runner::Kernels(Box::new(blur)))
-            }
-            None => Runner::command(self.filter, self.settings, size, self.monitor),
-        }
     }
 }
 

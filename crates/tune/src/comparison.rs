@@ -10,7 +10,7 @@ use tracer::Progress;
 
 use crate::evaluator::Evaluator;
 use crate::loss::log_ratio;
-use crate::target::SceneScore;
+use crate::target::{SceneScore, SceneScores};
 
 /// Scores of two candidates, scene by scene, and their mean differences.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,10 +104,7 @@ pub fn compare_candidates(
 }
 
 /// Pairs the scores of two candidates on the scenes that both have.
-pub fn pair_scores(
-    first: &BTreeMap<String, SceneScore>,
-    second: &BTreeMap<String, SceneScore>,
-) -> BTreeMap<String, [SceneScore; 2]> {
+pub fn pair_scores(first: &SceneScores, second: &SceneScores) -> BTreeMap<String, [SceneScore; 2]> {
     (first.iter())
         .filter_map(|(scene, score)| Some((scene.clone(), [*score, *second.get(scene)?])))
         .collect()

@@ -8,7 +8,7 @@ use suite::Error;
 
 use crate::evaluator::Evaluator;
 use crate::loss::{mean_log_ratio, worst_bleed};
-use crate::target::SceneScore;
+use crate::target::{SceneScore, SceneScores};
 
 /// Scores of one candidate relative to the start, on the same scenes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,7 +22,7 @@ pub struct Evaluation {
     /// GPU time relative to that of the start.
     pub cost: Option<f64>,
     /// Scores per scene.
-    pub scenes: BTreeMap<String, SceneScore>,
+    pub scenes: SceneScores,
 }
 
 /// Evaluates a candidate on scenes by their indices. Calls `on_score` with each score as soon as it is known; an evaluation that it

@@ -1,6 +1,6 @@
 //! Scoring of candidates on scenes.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::sync::mpsc;
 
 use filters::{Blur, FilterError, Gpu, Settings};
@@ -10,7 +10,7 @@ use tracer::TraceError;
 
 use crate::candidate::{Candidate, SharedKernels};
 use crate::rendered_scene::RenderedScene;
-use crate::target::{SceneScore, Target};
+use crate::target::{SceneScore, SceneScores, Target};
 
 /// Rounds of one candidate and the start in turn; odd, so that the median is one of them.
 const ROUNDS: usize = 5;
@@ -30,7 +30,7 @@ pub struct Evaluator<'a> {
     /// The filter's kernels; none if it is a program.
     shared: Option<SharedKernels<'a>>,
     /// Scores by scene, of each candidate.
-    memory: HashMap<String, BTreeMap<String, SceneScore>>,
+    memory: HashMap<String, SceneScores>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -70,7 +70,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Takes over scores that were measured before.
-    pub(crate) fn remember(&mut self, settings: &Settings, scores: &BTreeMap<String, SceneScore>) {
+    pub(crate) fn remember(&mut self, settings: &Settings, scores: &SceneScores) {
         let known = self.memory.entry(memory_key(settings)).or_default();
         known.extend(scores.clone());
     }
@@ -84,7 +84,7 @@ impl<'a> Evaluator<'a> {
         settings: &Settings,
         scenes: &[usize],
         mut on_score: impl FnMut(usize, &SceneScore) -> bool,
-    ) -> Result<BTreeMap<String, SceneScore>, Error> {
+    ) -> Result<SceneScores, Error> {
         let name = |scene: usize| &self.targets[scene].scene.name;
         let key = memory_key(settings);
         let mut scores = self.memory.get(&key).cloned().unwrap_or_default();
@@ -100,7 +100,7 @@ impl<'a> Evaluator<'a> {
             let name = name(*scene);
             Some((name.clone(), *scores.get(name)?))
         });
-        let found: Option<BTreeMap<String, SceneScore>> = found.collect();
+        let found: Option<SceneScores> = found.collect();
         self.memory.insert(key, scores);
         found.ok_or(TraceError::Cancelled.into())
     }
@@ -114,14 +114,12 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Vec<(usize, SceneScore)>, Error> {
         let (sender, receiver) = mpsc::channel();
         let mut found = Vec::new();
+        // Scenes are rendered at one size.
+        let size = self.targets[scenes[0]].scene.frame.size();
+        let shared = self.shared.as_ref();
+        let mut candidate =
+            Candidate::new(&self.choice.filter, settings, shared, size, self.monitor)?;
         rayon::in_place_scope(|scope| {
-            let mut candidate = Candidate {
-                filter: &self.choice.filter,
-                settings,
-                shared: self.shared.as_ref(),
-                monitor: self.monitor,
-                runner: None,
-            };
             for scene in scenes {
                 let target = &self.targets[*scene];
                 let (color, mattes) = candidate.blur(*scene, &target.scene.frame, self.bleed)?;

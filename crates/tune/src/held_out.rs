@@ -10,6 +10,7 @@ use store::read_text;
 use suite::Error;
 
 use crate::comparison::PairedComparison;
+use crate::journal::{journal_error, line_of};
 
 /// One comparison of start and choice on the held-out scenes: a line of `openings.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,13 +32,10 @@ fn read_held_out_results(path: &Path) -> Result<Vec<HeldOutResult>, Error> {
         return Ok(Vec::new());
     }
     let text = read_text(path)?;
-    let line = |(index, line): (usize, &str)| {
+    let line = |(index, line)| {
         serde_json::from_str(line).map_err(|error| {
-            Error::Usage(format!(
-                "{}:{}: is no result on held-out scenes: {error}; choose another output folder",
-                path.display(),
-                index + 1
-            ))
+            let reason = format!("is no result on held-out scenes: {error}");
+            journal_error(path, index, &reason)
         })
     };
     text.lines().enumerate().map(line).collect()
@@ -61,10 +59,8 @@ pub fn record_held_out_result(
             render,
             paired,
         });
-        let lines = all
-            .iter()
-            .map(|it| serde_json::to_string(it).expect("a result is plain data") + "\n");
-        write_atomically(path, lines.collect::<String>().as_bytes())?;
+        let lines: String = all.iter().map(line_of).collect();
+        write_atomically(path, lines.as_bytes())?;
     }
     Ok(all)
 }

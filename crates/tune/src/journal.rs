@@ -91,8 +91,8 @@ impl Journal {
     }
 }
 
-/// Returns a line of the journal with its end.
-fn line_of(content: &impl Serialize) -> String {
+/// Returns a line of a journal, or of the results on held-out scenes, with its end.
+pub fn line_of(content: &impl Serialize) -> String {
     serde_json::to_string(content).expect("a line is plain data") + "\n"
 }
 

@@ -43,7 +43,7 @@ pub use selection::{Choice, ChoiceLimits, Fold, choose_trial, cross_validate};
 pub use sensitivity::{ParameterSensitivity, Sensitivity, analyze_sensitivity, count_candidates};
 pub use sobol::{Estimate, SobolIndices, sobol_indices};
 pub use space::Space;
-pub use target::{SceneScore, Target};
+pub use target::{SceneScore, SceneScores, Target};
 pub use trial::{Trial, TrialOutcome};
 pub use tuning::{TUNE_FORMAT, Tuning, tune};
 pub use wilcoxon::signed_rank_p_value;

@@ -1,8 +1,10 @@
 //! Scene that candidates are scored on.
 
-use frame::{Image, Plane, Region};
+use std::collections::BTreeMap;
+
+use frame::{Image, Plane};
 use judge::Bounds;
-use metrics::{ImageMetric, Metric, ObjectMetric, Reference, flip_ldr};
+use metrics::{Metric, ObjectMetric, Reference, flip_ldr};
 use serde::{Deserialize, Serialize};
 use suite::Error;
 
@@ -17,6 +19,9 @@ pub struct SceneScore {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bleed: Option<f64>,
 }
+
+/// Scores of one candidate by scene.
+pub type SceneScores = BTreeMap<String, SceneScore>;
 
 /// A rendered scene with everything that does not depend on the picture.
 pub struct Target<'a> {
@@ -63,10 +68,9 @@ impl<'a> Target<'a> {
     /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they keep all of them. A bound
     /// that the start breaks is relaxed to the start's score.
     pub fn excess(&self, score: &SceneScore, start: &SceneScore) -> f64 {
-        let flip = Metric::Image(ImageMetric::Flip, Region::Moving);
         let bleed = Metric::Object(ObjectMetric::BleedLateral);
         let measured = [
-            (flip, Some(score.flip), Some(start.flip)),
+            (Metric::FLIP, Some(score.flip), Some(start.flip)),
             (bleed, score.bleed, start.bleed),
         ];
         let excess = measured.into_iter().filter_map(|(metric, value, start)| {

@@ -6,7 +6,7 @@ use filters::Value;
 use serde::{Deserialize, Serialize};
 
 use crate::header::JournalHeader;
-use crate::target::SceneScore;
+use crate::target::SceneScores;
 
 /// One line of the journal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,7 +29,7 @@ pub struct Trial {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cost: Option<f64>,
     /// Scores on each scene that it ran on.
-    pub scenes: BTreeMap<String, SceneScore>,
+    pub scenes: SceneScores,
 }
 
 /// Outcome of a trial.
