@@ -5,7 +5,6 @@ mod bounds;
 mod calibrate;
 mod check;
 mod compare;
-mod decision;
 mod decoys;
 mod evidence;
 mod finding;
@@ -35,7 +34,6 @@ pub use compare::{
     SettingChange, Side, SizeComparison, compare_runs, compare_sizes, pair_cases, rank_changes,
     score_change,
 };
-pub use decision::Decision;
 pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
 pub use finding::{Finding, MAX_SAMPLES};
@@ -43,7 +41,7 @@ use judged_score::judge_sequence;
 pub use judged_score::{JudgedScore, judge_scores};
 pub use judgement::{JUDGEMENT_FILE, Judgement};
 pub use numbers::{number, round_to_digits};
-pub use outcome::{Outcome, badness_within};
+pub use outcome::{Decision, Outcome, badness_within};
 pub use ranking::filters::{
     MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
 };

@@ -1,4 +1,4 @@
-//! Outcome of one bound.
+//! Outcome of one bound, and decision of a check.
 
 use metrics::{Ideal, Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
@@ -29,6 +29,20 @@ impl Outcome {
             Outcome::Kept | Outcome::NotApplicable | Outcome::NotJudged => false,
         }
     }
+}
+
+/// Result of a check; a later one outweighs an earlier one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Decision {
+    /// Every required bound is met.
+    Pass,
+    /// For some the truth is too noisy to decide.
+    Inconclusive,
+    /// A bound is stricter than the truth's noise can carry, or no bound applies to a case.
+    Misconfigured,
+    /// A required bound is broken, or a case failed. The noise of another bound does not undo it.
+    Broken,
 }
 
 /// Compares a score with a limit: by its interval if `interval` is given, by its value otherwise. `Some(None)` is a score whose

@@ -4,7 +4,7 @@ use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Settings, Uploaded
 use frame::{Frame, Image, Plane};
 use suite::{Monitor, Runner, filter_input, pack_planes, unpack_planes};
 
-use crate::rendered_scene::RenderedScene;
+use crate::target::RenderedScene;
 
 /// A filter's kernels and the inputs of all scenes, on the GPU: every candidate uses them, and so costs its blurs alone.
 pub struct SharedKernels<'a> {

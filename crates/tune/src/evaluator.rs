@@ -1,16 +1,17 @@
 //! Scoring of candidates on scenes.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::mpsc;
 
-use filters::{Blur, FilterError, Gpu, Settings};
+use filters::{Blur, FilterError, Gpu, Settings, Value};
 use frame::{Image, Plane};
+use serde::{Deserialize, Serialize};
 use suite::{Error, FilterChoice, Monitor, filter_input};
 use tracer::TraceError;
 
 use crate::candidate::{Candidate, SharedKernels};
-use crate::rendered_scene::RenderedScene;
-use crate::target::{SceneScore, SceneScores, Target};
+use crate::loss::{mean_log_ratio, worst_bleed};
+use crate::target::{RenderedScene, SceneScore, SceneScores, Target};
 
 /// Rounds of one candidate and the start in turn; odd, so that the median is one of them.
 const ROUNDS: usize = 5;
@@ -176,6 +177,46 @@ impl<'a> Evaluator<'a> {
         ratios.sort_by(f64::total_cmp);
         Ok(Some(ratios[ROUNDS / 2]))
     }
+}
+
+/// Scores of one candidate relative to the start, on the same scenes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Evaluation {
+    /// Value of every parameter.
+    pub values: BTreeMap<String, Value>,
+    /// Mean over scenes of log(error / error of the start): below 0 is better.
+    pub error: f64,
+    /// Lateral bleed of the worst scene, in pixels.
+    pub bleed: Option<f64>,
+    /// GPU time relative to that of the start.
+    pub cost: Option<f64>,
+    /// Scores per scene.
+    pub scenes: SceneScores,
+}
+
+/// Evaluates a candidate on scenes by their indices. Calls `on_score` with each score as soon as it is known; an evaluation that it
+/// ends early, by returning false, is an error.
+pub fn evaluate_candidate(
+    evaluator: &mut Evaluator,
+    settings: &Settings,
+    scenes: &[usize],
+    cost: bool,
+    on_score: impl FnMut(usize, &SceneScore) -> bool,
+) -> Result<Evaluation, Error> {
+    let start = evaluator.choice.settings.clone();
+    let start = evaluator.score(&start, scenes, |_, _| true)?;
+    let scores = evaluator.score(settings, scenes, on_score)?;
+    Ok(Evaluation {
+        values: settings.values.clone(),
+        error: mean_log_ratio(&scores, &start, |_| true)
+            .ok_or_else(|| Error::Usage("scenes: none is named; name at least one".to_owned()))?,
+        bleed: worst_bleed(&scores),
+        cost: match scenes.first() {
+            Some(first) if cost => evaluator.measure_cost(settings, *first)?,
+            _ => None,
+        },
+        scenes: scores,
+    })
 }
 
 fn memory_key(settings: &Settings) -> String {

@@ -10,8 +10,7 @@ use serde_json::Value;
 use store::read_text;
 use suite::Error;
 
-use crate::header::JournalHeader;
-use crate::trial::Trial;
+use crate::trial::{JournalHeader, Trial};
 
 /// Characters of a setting that an error shows.
 const MAX_SHOWN: usize = 80;

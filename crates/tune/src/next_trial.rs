@@ -7,8 +7,7 @@ use suite::Error;
 
 use crate::evaluator::Evaluator;
 use crate::loss::{FAILED, bounds_penalty, log_ratios, mean_log_ratio, penalty, worst_bleed};
-use crate::objective::Objective;
-use crate::options::TuneOptions;
+use crate::options::{Objective, TuneOptions};
 use crate::search::Search;
 use crate::selection::ChoiceLimits;
 use crate::target::SceneScore;

@@ -1,14 +1,48 @@
-//! Scene that candidates are scored on.
+//! Scenes that candidates are scored on.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
-use frame::{Image, Plane};
-use judge::Bounds;
-use metrics::{Metric, ObjectMetric, Reference, flip_ldr};
+use frame::{Alignment, Frame, Image, Plane, Truth};
+use judge::{Bounds, SceneBounds};
+use metrics::{Metric, ObjectMetric, Reference, Viewing, flip_ldr};
 use serde::{Deserialize, Serialize};
-use suite::Error;
+use suite::{Error, Monitor, render_frame, render_truth};
+use tracer::{RenderSettings, Scene};
 
-use crate::rendered_scene::RenderedScene;
+/// A scene, rendered once and measured against hundreds of times.
+pub struct RenderedScene {
+    /// The scene's name, with its variant.
+    pub name: String,
+    /// Input of the filter.
+    pub frame: Frame,
+    /// Reference that pictures are compared with.
+    pub truth: Truth,
+    /// The scene's bounds for pictures of this size, for every filter.
+    pub bounds: SceneBounds,
+    /// Display that errors are seen on.
+    pub viewing: Viewing,
+}
+
+/// Reads frames and truths of scenes from `out`, or renders and keeps them there.
+pub fn render_scenes(
+    scenes: &[(Scene, SceneBounds)],
+    alignment: Alignment,
+    render: &RenderSettings,
+    out: &Path,
+    monitor: Monitor,
+) -> Result<Vec<RenderedScene>, Error> {
+    let render_scene = |(scene, bounds): &(Scene, SceneBounds)| {
+        Ok(RenderedScene {
+            name: scene.id.to_string(),
+            frame: render_frame(scene, render, out, monitor)?,
+            truth: render_truth(scene, render, alignment, out, monitor)?,
+            viewing: scene.display.into(),
+            bounds: bounds.clone().at((render.width, render.height)),
+        })
+    };
+    scenes.iter().map(render_scene).collect()
+}
 
 /// Scores of one candidate on one scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

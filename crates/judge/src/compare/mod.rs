@@ -6,7 +6,6 @@ mod mean;
 mod noise;
 mod pairing;
 mod settings;
-mod side;
 mod sizes;
 
 use std::collections::BTreeMap;
@@ -20,9 +19,8 @@ use crate::bounds::Margin;
 
 pub use change::{Basis, Change, ChangeKind, rank_changes, score_change};
 pub use mean::MeanChange;
-pub use pairing::{Pair, pair_cases};
+pub use pairing::{Pair, Side, pair_cases};
 pub use settings::SettingChange;
-pub use side::Side;
 pub use sizes::{Agreement, FilterAtSizes, Reversal, SizeComparison, compare_sizes};
 
 use margin::apply_margins;

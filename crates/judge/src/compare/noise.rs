@@ -12,8 +12,7 @@ use suite::{Error, MIN_REPLICATES, SHARP, make_oracle, sharp_picture, truths_wit
 use tracer::{Progress, TraceError, Watch};
 
 use crate::compare::change::{Change, Uncertainty};
-use crate::compare::pairing::Pair;
-use crate::compare::side::Side;
+use crate::compare::pairing::{Pair, Side};
 
 /// Metrics that are compared.
 const METRICS: [Metric; 9] = [

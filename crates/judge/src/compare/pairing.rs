@@ -1,11 +1,42 @@
-//! Pairs of cases of two runs.
+//! Two runs, and the pairs of their cases.
 
 use std::collections::{HashMap, HashSet};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use suite::{Case, CaseId, Error, Run};
 
-use crate::compare::side::Side;
+/// A finished run and its path.
+#[derive(Clone, Debug)]
+pub struct Side {
+    /// Its run.json.
+    pub path: PathBuf,
+    /// The run.
+    pub run: Run,
+}
+
+impl Side {
+    /// Reads a run.json, or the one in a folder.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let path = match path.is_dir() {
+            true => path.join("run.json"),
+            false => path.to_owned(),
+        };
+        Ok(Self {
+            run: Run::read(&path)?,
+            path,
+        })
+    }
+
+    /// Returns the folder above the run's pictures.
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// Returns the path of a file of a case.
+    pub fn file(&self, case: &Case, name: &str) -> PathBuf {
+        self.folder().join(&case.folder).join(name)
+    }
+}
 
 /// A case that two runs have.
 #[derive(Clone, Copy, Debug)]
