@@ -68,7 +68,7 @@ impl<'a> Channels<'a> {
     }
 
     fn add_track<const N: usize>(&mut self, node: usize, path: &str, track: &Track<N>) {
-        if !track.times.is_empty() {
+        if !track.is_still {
             let output = self.document.push_floats(&track.values, None);
             self.add(node, path, track.interpolation, &track.times, output);
         }

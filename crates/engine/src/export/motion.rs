@@ -19,32 +19,14 @@ const OVER_CHORD: f64 = 6.0;
 pub struct Track<const N: usize> {
     /// Value at the start.
     pub first: [f32; N],
-    /// Times of keys, in frames relative to the instant; empty if the quantity never changes.
+    /// True if it never changes.
+    pub is_still: bool,
+    /// Times of keys, in frames relative to the instant.
     pub times: Vec<f64>,
     /// Values at the keys; of cubic curves slope before the key, per second, value, and slope after it.
     pub values: Vec<[f32; N]>,
     /// Word for the curves between keys.
     pub interpolation: &'static str,
-}
-
-impl<const N: usize> Track<N> {
-    fn still(first: [f32; N]) -> Self {
-        Self {
-            first,
-            times: Vec::new(),
-            values: Vec::new(),
-            interpolation: "LINEAR",
-        }
-    }
-
-    fn linear(times: Vec<f64>, values: Vec<[f32; N]>) -> Self {
-        Self {
-            first: values[0],
-            times,
-            values,
-            interpolation: "LINEAR",
-        }
-    }
 }
 
 /// Place, turn and scale of a node.
@@ -77,15 +59,17 @@ impl Tracks {
 
 fn follow_linear(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
     let values: Vec<DVec3> = times.iter().map(|time| value(*time)).collect();
-    match values.iter().all(|own| is_close(*own, values[0])) {
-        true => Track::still(floats(values[0])),
-        false => Track::linear(times.to_vec(), values.into_iter().map(floats).collect()),
+    Track {
+        first: floats(values[0]),
+        is_still: values.iter().all(|own| is_close(*own, values[0])),
+        times: times.to_vec(),
+        values: values.into_iter().map(floats).collect(),
+        interpolation: "LINEAR",
     }
 }
 
 /// Follows a curve that is a cubic polynomial between each two times: its value at four times gives the slopes at both ends.
 fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
-    let first = floats(value(times[0]));
     let mut values: Vec<[f32; 3]> = (times.iter())
         .flat_map(|time| [[0.0; 3], floats(value(*time)), [0.0; 3]])
         .collect();
@@ -104,14 +88,12 @@ fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
         ];
         [values[3 * next - 1], values[3 * next]] = slopes.map(per_second);
     }
-    match is_still {
-        true => Track::still(first),
-        false => Track {
-            first,
-            times: times.to_vec(),
-            values,
-            interpolation: "CUBICSPLINE",
-        },
+    Track {
+        first: values[1],
+        is_still,
+        times: times.to_vec(),
+        values,
+        interpolation: "CUBICSPLINE",
     }
 }
 
@@ -141,14 +123,13 @@ fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) ->
     let turn = |turn: DQuat| turn.as_quat().normalize().to_array();
     let first = keys[0].1;
     let is_first = |(_, own): &(f64, DQuat)| own.angle_between(first) < TOLERANCE;
-    if keys.iter().all(is_first) {
-        return Track::still(turn(first));
+    Track {
+        first: turn(first),
+        is_still: keys.iter().all(is_first),
+        times: keys.iter().map(|(time, _)| *time).collect(),
+        values: keys.iter().map(|(_, own)| turn(*own)).collect(),
+        interpolation: "LINEAR",
     }
-    let (times, values) = keys
-        .into_iter()
-        .map(|(time, own)| (time, turn(own)))
-        .unzip();
-    Track::linear(times, values)
 }
 
 /// Adds the keys after `from` up to `to`, more of them where the turn is not steady.

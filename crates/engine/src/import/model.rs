@@ -60,7 +60,7 @@ impl Model {
             copy_all(&files, &path, &folder)?;
         }
         let Some(name) = name.to_str() else {
-            return refuse(&path, "the name is not Unicode; rename the file");
+            return refuse!(path, "the name is not Unicode; rename the file");
         };
         let upright = |p: DVec3| match up {
             Up::Y => p,
@@ -87,11 +87,9 @@ impl Model {
             return Ok(());
         }
         let [least, greatest] = [RADII.start(), RADII.end()];
-        refuse(
+        refuse!(
             path,
-            &format!(
-                "the model's radius is {radius:e} m; allowed: {least:e} to {greatest:e}; scale it"
-            ),
+            "the model's radius is {radius:e} m; allowed: {least:e} to {greatest:e}; scale it"
         )
     }
 
@@ -175,13 +173,11 @@ fn copy_all(files: &[PathBuf], model: &Path, folder: &Path) -> Result<(), Error>
             parts.all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
         });
         let Some(below) = below else {
-            return refuse(
+            return refuse!(
                 model,
-                &format!(
-                    "{} lies outside of the model's folder; move it there and mend the file that names it, or import the model \
+                "{} lies outside of the model's folder; move it there and mend the file that names it, or import the model \
                      plain: the shape alone, in grey",
-                    file.display()
-                ),
+                file.display()
             );
         };
         let bytes = fs::read(file).map_err(|source| FileError::io(file, "read", source))?;

@@ -104,13 +104,11 @@ fn check_count(capture: &Capture) -> Result<(), Error> {
     let count = capture.subframes.len();
     match count.is_multiple_of(2) && (MIN_SUBFRAMES..=MAX_SUBFRAMES).contains(&count) {
         true => Ok(()),
-        false => refuse(
-            &capture.folder.join(SUBFRAMES),
-            &format!(
-                "holds {count} sub-frames; allowed: even numbers from {MIN_SUBFRAMES} to {MAX_SUBFRAMES}, at the midpoints of \
+        false => refuse!(
+            capture.folder.join(SUBFRAMES),
+            "holds {count} sub-frames; allowed: even numbers from {MIN_SUBFRAMES} to {MAX_SUBFRAMES}, at the midpoints of \
                  equal parts of the shutter that {CAPTURE_FILE} names: half of them show the noise of the others; capture 32, for \
                  instance"
-            ),
         ),
     }
 }
