@@ -27,7 +27,7 @@ pub use bounds::{
     bound_subframes, check_lengths, check_names, read_bounds, read_bounds_beside_scenes,
     read_bounds_file, require_bounds, size_for_bounds, sized_bounds_file,
 };
-pub use calibrate::{Calibration, Proposal, Sample, calibrate, default_metrics};
+pub use calibrate::{Calibration, calibrate, default_metrics};
 pub use check::{CHECK_FORMAT, Check, check};
 pub use compare::{
     Agreement, Basis, Change, ChangeKind, FilterAtSizes, MeanChange, Pair, Reversal, RunComparison,

@@ -69,7 +69,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     print_expected_runs(args, &plan);
     let runs = monitor.watch("runs in all", |watch| run_all(args, &mut plan, watch))?;
     let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
-    for scene in calibration.scores.keys() {
+    for scene in calibration.scenes() {
         let path = out.join(format!("{scene}.bounds.toml"));
         let text = calibration.toml(scene);
         frame::write_atomically(&path, text.as_bytes())?;
