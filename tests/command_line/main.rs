@@ -49,6 +49,7 @@ mod shared_runs;
 mod shipped_files;
 #[cfg(target_os = "linux")]
 mod snakemake;
+mod snapshots;
 mod summary;
 mod terminal;
 #[cfg(unix)]
@@ -67,35 +68,7 @@ use tests::text::assert_contains;
 #[test]
 fn a_run_writes_scores_and_pictures_of_every_case() {
     let bench = Bench::new();
-    let output = bench.run(&["--filters", "identity,jump_flood:paper", "--table"]);
-    assert_done(&output);
-    let table = stdout(&output);
-    for words in [
-        "plate",
-        "identity:",
-        "jump_flood:paper",
-        "plate, trailing shutter",
-        "[identity]",
-        "FLIP",
-        "skill",
-        "grow",
-        "loss",
-        "bleed",
-        "TV",
-        "N_eq",
-    ] {
-        assert!(
-            table.contains(words),
-            "\"{words}\" is missing from:\n{table}"
-        );
-    }
-    assert!(
-        table
-            .lines()
-            .all(|line| line.chars().count() <= 80 || line.contains(": out")),
-        "{table}"
-    );
-
+    assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
     let run = bench.read_run();
     let render = &run.render;
     assert_eq!(run.format, suite::FORMAT);

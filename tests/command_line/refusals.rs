@@ -62,7 +62,10 @@ fn bad_arguments_are_refused_with_the_allowed_values() {
         ),
         (&["--exposure=-0.5"], &["exposure is -0.5 frames"]),
         (&["--samples-per-pixel", "100"], &["100", "allowed"]),
-        (&["--threads", "0"], &["--threads 0"]),
+        (
+            &["--threads", "0"],
+            &["'0' for '--threads <N>'", "1..=1024"],
+        ),
         (
             &["--velocity", "backwards"],
             &["backwards", "instantaneous, previous_frame, camera_only"],

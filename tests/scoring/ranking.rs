@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use cli::run_table;
+use cli::{run_table, terminal_text};
 use frame::Alignment;
 use metrics::{ImageMetric, Measured, Metric, Reference, Region, Scores};
 use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, overall};
@@ -132,7 +132,7 @@ fn rows(text: &str, from: &str, to: &str) -> Vec<String> {
 /// Prints the run's table without colour codes.
 fn print_table(run: &Run) -> String {
     let mut text = String::new();
-    for (index, part) in run_table(run).split('\u{1b}').enumerate() {
+    for (index, part) in terminal_text(&run_table(run)).split('\u{1b}').enumerate() {
         text += match index {
             0 => part,
             _ => part.split_once('m').expect("a code of a colour").1,

@@ -22,7 +22,7 @@ mod tables;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use commands::ending::Ending;
+use commands::result::Ending;
 use environment::set_environment;
 use filters::FilterError;
 use output::{
@@ -32,6 +32,7 @@ use program::{Cli, execute, find_new_place};
 use store::printable;
 use suite::Error;
 
+pub use output::terminal_text;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::{
     annotations, check_text, compare_table, junit, main_results, paired_table, picture_name,
@@ -47,7 +48,7 @@ pub fn run_program() -> ExitCode {
     let arguments =
         Cli::parse_words(std::env::args_os()).unwrap_or_else(|error| refuse_arguments(&error));
     set_output(arguments.output);
-    match execute(&arguments.command) {
+    match execute(&arguments) {
         Ok(Ending::Done) => ExitCode::SUCCESS,
         Ok(Ending::Failed(error)) => ExitCode::from(exit_code(&error)),
         Err(error) => {

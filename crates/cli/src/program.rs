@@ -3,11 +3,10 @@
 use std::ffi::OsString;
 
 use clap::error::{ContextKind, ContextValue};
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use suite::Error;
 
-use crate::commands::ending::Ending;
-use crate::commands::threads::work_on_threads;
+use crate::commands::result::Ending;
 use crate::commands::*;
 use crate::output::OutputArgs;
 
@@ -23,6 +22,9 @@ pub struct Cli {
     pub command: Command,
     #[command(flatten)]
     pub output: OutputArgs,
+    /// Arguments of the command as the command line gives them.
+    #[arg(skip)]
+    pub given: ArgMatches,
 }
 
 /// The commands.
@@ -165,8 +167,12 @@ impl Cli {
         words: impl IntoIterator<Item = W>,
     ) -> Result<Self, clap::Error> {
         let mut program = Self::command_line();
-        let matches = program.try_get_matches_from_mut(words)?;
-        Self::from_arg_matches(&matches).map_err(|error| error.format(&mut program))
+        let mut given = program.try_get_matches_from_mut(words)?;
+        let parsed = Self::from_arg_matches(&given).map_err(|error| error.format(&mut program))?;
+        while let Some((_, command)) = given.remove_subcommand() {
+            given = command;
+        }
+        Ok(Self { given, ..parsed })
     }
 }
 
@@ -191,78 +197,43 @@ pub fn find_new_place(error: &clap::Error) -> Option<String> {
     }
 }
 
-/// Does the work of a command.
-pub fn execute(command: &Command) -> Result<Ending, Error> {
-    let done = match command {
-        Command::Run(args) => work_on_threads(args.measure.scenes.threads, || run::execute(args)),
-        Command::Check(args) => {
-            return work_on_threads(args.measure.scenes.threads, || check::execute(args));
-        }
+/// Does the work of a command, on as many threads as it asks for.
+pub fn execute(program: &Cli) -> Result<Ending, Error> {
+    if let Ok(Some(threads)) = program.given.try_get_one::<usize>("threads") {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(*threads)
+            .build_global()
+            .map_err(|error| Error::Usage(format!("cannot start the threads: {error}")))?;
+    }
+    let done = match &program.command {
+        Command::Run(args) => run::execute(args),
+        Command::Check(args) => return check::execute(args),
         Command::Score(args) => score::execute(args),
         Command::Report(args) => report::execute(args),
         Command::Compare(args) => compare::execute(args),
         Command::List(args) => list::execute(args),
         Command::Bench(args) => bench::execute(args),
-        Command::Tune(command) => work_on_threads(command.threads(), || execute_tune(command)),
-        Command::Engine(command) => return execute_engine(command),
-        Command::Truths(command) => return execute_truths(command),
+        Command::Tune(TuneCommand::Search(args)) => tune::execute(args),
+        Command::Tune(TuneCommand::Sensitivity(args)) => sensitivity::execute(args),
+        Command::Tune(TuneCommand::Compare(args)) => compare_presets::execute(args),
+        Command::Tune(TuneCommand::Evaluate(args)) => evaluate::execute(args),
+        Command::Tune(TuneCommand::Serve(args)) => serve::execute(args),
+        Command::Engine(EngineCommand::Import(args)) => import::execute(args),
+        Command::Engine(EngineCommand::Export(args)) => export::execute(args),
+        Command::Engine(EngineCommand::Ingest(args)) => ingest::execute(args),
+        Command::Engine(EngineCommand::Audit(args)) => return audit::execute(args),
+        Command::Engine(EngineCommand::Blur(args)) => blur::execute(args),
+        Command::Truths(TruthsCommand::Render(args)) => render::execute(args),
+        Command::Truths(TruthsCommand::Plan(args)) => plan::execute(args, &program.given),
+        Command::Truths(TruthsCommand::Merge(args)) => merge::execute(args),
+        Command::Truths(TruthsCommand::Pack(args)) => pack::execute(args),
+        Command::Truths(TruthsCommand::Verify(args)) => return verify::execute(args),
         Command::Limits(LimitsCommand::Accept(args)) => accept::execute(args),
-        Command::Limits(LimitsCommand::Calibrate(args)) => {
-            work_on_threads(args.measure.scenes.threads, || calibrate::execute(args))
-        }
+        Command::Limits(LimitsCommand::Calibrate(args)) => calibrate::execute(args),
         Command::People(PeopleCommand::Ask(args)) => ask::execute(args),
         Command::People(PeopleCommand::Preferences(args)) => preferences::execute(args),
         Command::Completions(args) => completions::execute(args, Cli::all_visible()),
         Command::Man(args) => man::execute(args, Cli::all_visible()),
-    };
-    done.map(|()| Ending::Done)
-}
-
-impl TuneCommand {
-    fn threads(&self) -> Option<usize> {
-        let candidate = match self {
-            Self::Search(args) => &args.candidate,
-            Self::Sensitivity(args) => &args.candidate,
-            Self::Compare(args) => &args.candidate,
-            Self::Evaluate(args) => &args.candidate,
-            Self::Serve(args) => &args.candidate,
-        };
-        candidate.scenes.threads
-    }
-}
-
-fn execute_tune(command: &TuneCommand) -> Result<(), Error> {
-    match command {
-        TuneCommand::Search(args) => tune::execute(args),
-        TuneCommand::Sensitivity(args) => sensitivity::execute(args),
-        TuneCommand::Compare(args) => compare_presets::execute(args),
-        TuneCommand::Evaluate(args) => evaluate::execute(args),
-        TuneCommand::Serve(args) => serve::execute(args),
-    }
-}
-
-fn execute_engine(command: &EngineCommand) -> Result<Ending, Error> {
-    let done = match command {
-        EngineCommand::Import(args) => import::execute(args),
-        EngineCommand::Export(args) => export::execute(args),
-        EngineCommand::Ingest(args) => ingest::execute(args),
-        EngineCommand::Audit(args) => return audit::execute(args),
-        EngineCommand::Blur(args) => blur::execute(args),
-    };
-    done.map(|()| Ending::Done)
-}
-
-fn execute_truths(command: &TruthsCommand) -> Result<Ending, Error> {
-    let done = match command {
-        TruthsCommand::Render(args) => {
-            work_on_threads(args.scenes.threads, || render::execute(args))
-        }
-        TruthsCommand::Plan(args) => plan::execute(args),
-        TruthsCommand::Merge(args) => merge::execute(args),
-        TruthsCommand::Pack(args) => pack::execute(args),
-        TruthsCommand::Verify(args) => {
-            return work_on_threads(args.threads, || verify::execute(args));
-        }
     };
     done.map(|()| Ending::Done)
 }

@@ -24,7 +24,7 @@ pub use gather::{Files, gather, place_files};
 pub use json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within};
 pub use json_lines::to_lines;
 pub use json_strings::check_strings;
-pub use printable::{printable, printable_lines, printable_path, printable_table};
+pub use printable::{printable, printable_lines, printable_path};
 pub use record::{
     CASE_RECORD, hash_inputs, hash_program, look_up, look_up_alone, put, remove_altered_files,
 };

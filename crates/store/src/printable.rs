@@ -47,36 +47,6 @@ fn is_quoted(line: &str) -> bool {
         .starts_with(['┌', '│'])
 }
 
-/// Escapes the control characters of a table, but for line breaks and colours.
-pub fn printable_table(text: &str) -> String {
-    let mut table = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(letter) = rest.chars().next() {
-        let length = match color(rest) {
-            Some(length) => {
-                table.push_str(&rest[..length]);
-                length
-            }
-            None => {
-                match letter {
-                    '\n' => table.push('\n'),
-                    letter => push(&mut table, letter),
-                }
-                letter.len_utf8()
-            }
-        };
-        rest = &rest[length..];
-    }
-    table
-}
-
-/// Counts the bytes of the colour that the text begins with: `ESC [ numbers m`.
-fn color(text: &str) -> Option<usize> {
-    let numbers = text.strip_prefix("\u{1b}[")?;
-    let end = numbers.find(|letter: char| !letter.is_ascii_digit() && letter != ';')?;
-    numbers[end..].starts_with('m').then_some(end + 3)
-}
-
 fn push(line: &mut String, letter: char) {
     match letter {
         '\n' => line.push_str("\\n"),
@@ -112,14 +82,5 @@ mod tests {
         assert_eq!(text, "a\n  | ::error::b\n  |  \\u001b]0;c");
         let compiler = "a\n   ┌─ b.wgsl:11:2\n   │\n11 │ ::error::c";
         assert_eq!(printable_lines(compiler), compiler);
-    }
-
-    #[test]
-    fn tables_keep_their_lines_and_colours_alone() {
-        let table = "\u{1b}[1m\u{1b}[31mBROKEN\u{1b}[0m a\n\u{1b}[2J b\u{1b}]8;;c\u{1b}[";
-        assert_eq!(
-            printable_table(table),
-            "\u{1b}[1m\u{1b}[31mBROKEN\u{1b}[0m a\n\\u001b[2J b\\u001b]8;;c\\u001b["
-        );
     }
 }

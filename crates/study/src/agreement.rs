@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use serde::Serialize;
 
-use crate::session::Session;
+use crate::paired_counts::Comparison;
 
 /// How often two people chose alike.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -17,18 +17,12 @@ pub struct PeopleAgreement {
     pub pairs: usize,
 }
 
-/// Compares the answers of all people about one shutter; none where no two people compared the same clips.
-pub fn measure_agreement(sessions: &[&Session], shutter: usize) -> Option<PeopleAgreement> {
+/// Compares the choices of people; none if no two people compared the same clips.
+pub fn measure_agreement(people: &[Vec<Comparison>]) -> Option<PeopleAgreement> {
     let mut shares: HashMap<[usize; 3], Vec<f64>> = HashMap::new();
-    for session in sessions {
-        for (scene, own) in session.comparisons_by_scene(shutter) {
-            // The smaller number comes first.
-            let (clips, share) = match own.one < own.other {
-                true => ([scene, own.one, own.other], own.share),
-                false => ([scene, own.other, own.one], 1.0 - own.share),
-            };
-            shares.entry(clips).or_default().push(share);
-        }
+    for own in people.iter().flatten() {
+        let clips = [own.scene, own.one, own.other];
+        shares.entry(clips).or_default().push(own.share);
     }
     let (mut alike, mut pairs) = (0.0, 0);
     for shares in shares.values() {
@@ -46,40 +40,21 @@ pub fn measure_agreement(sessions: &[&Session], shutter: usize) -> Option<People
     })
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::answers::Chosen;
-    use crate::design::{Clip, ShownPair};
-    use crate::question::Question;
-
-    #[test]
-    fn three_people_agree_as_kendall_counts() {
-        let trial = |left, right| ShownPair {
-            shutter: 0,
+#[test]
+fn three_people_agree_as_kendall_counts() {
+    let person = |share| {
+        vec![Comparison {
             scene: 0,
-            left: Clip::Filter(left),
-            right: Clip::Filter(right),
-        };
-        let session = |answers: Vec<(ShownPair, Chosen)>| Session {
-            path: "a.json".into(),
-            question: Question::Truth,
-            seed: 0,
-            answers,
-        };
-        // Two choose filter 0 whatever its side, one chooses filter 1: one of three pairs of people is alike.
-        let mut people = [
-            session(vec![(trial(0, 1), Chosen::Left)]),
-            session(vec![(trial(1, 0), Chosen::Right)]),
-            session(vec![(trial(0, 1), Chosen::Right)]),
-        ];
-        let all: Vec<&Session> = people.iter().collect();
-        let found = measure_agreement(&all, 0).unwrap();
-        assert_eq!((found.share, found.pairs), (1.0 / 3.0, 3));
-        assert_eq!(measure_agreement(&all, 1), None);
-        assert_eq!(measure_agreement(&all[..1], 0), None);
-        people[2].answers[0].1 = Chosen::Neither;
-        let all: Vec<&Session> = people.iter().collect();
-        assert_eq!(measure_agreement(&all, 0).unwrap().share, 2.0 / 3.0);
-    }
+            one: 0,
+            other: 1,
+            share,
+        }]
+    };
+    let found = |shares: &[f64]| {
+        let people: Vec<_> = shares.iter().copied().map(person).collect();
+        measure_agreement(&people).map(|own| (own.share, own.pairs))
+    };
+    assert_eq!(found(&[1.0, 1.0, 0.0]), Some((1.0 / 3.0, 3)));
+    assert_eq!(found(&[1.0, 1.0, 0.5]), Some((2.0 / 3.0, 3)));
+    assert_eq!(found(&[1.0]), None);
 }

@@ -2,6 +2,7 @@
 
 use frame::Alignment;
 use serde::{Deserialize, Serialize};
+use tracer::SceneId;
 
 use crate::question::Question;
 use crate::study::Study;
@@ -51,7 +52,7 @@ pub struct DisplayFacts {
 #[serde(deny_unknown_fields)]
 pub struct Answer {
     /// Scene.
-    pub scene: String,
+    pub scene: SceneId,
     /// Alignment of the shutter.
     pub alignment: Alignment,
     /// Filter on the left, [`TRUTH_CLIP`] or [`SHARP_CLIP`].

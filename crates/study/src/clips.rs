@@ -6,6 +6,7 @@ use frame::{Alignment, Image, read_bounded, read_png};
 use glob::Pattern;
 use store::RenderFile;
 use suite::{Error, Run, Sequence, SequenceFrame};
+use tracer::SceneId;
 
 use crate::study::{Study, StudyShutter};
 
@@ -25,7 +26,7 @@ pub type ClipFiles = Vec<PathBuf>;
 
 /// A filter's pictures on one scene.
 struct Item {
-    scene: String,
+    scene: SceneId,
     filter: String,
     alignment: Alignment,
     frames: Vec<SequenceFrame>,
@@ -95,7 +96,7 @@ pub fn make_study(
     Ok((study, clips.into_iter().flatten().collect()))
 }
 
-fn sharp_frames(items: &[Item], scene: &str, folder: &Path) -> ClipFiles {
+fn sharp_frames(items: &[Item], scene: &SceneId, folder: &Path) -> ClipFiles {
     let own = items.iter().find(|item| item.scene == *scene);
     let frames = &own.expect("it is that of an item").frames;
     list_files(frames, |own| folder.join(&own.scene).join("frame.png"))
@@ -131,23 +132,24 @@ impl Study {
 /// Lists the filters' pictures that were chosen, in the order of the run.
 fn choose_items(run: &Run, choice: &StudyChoice) -> Result<Vec<Item>, Error> {
     let all = list_items(run);
-    let choose = |option: &str, patterns: &[Pattern], name: fn(&Item) -> &String| {
-        let fits = |pattern: &Pattern| all.iter().any(|item| matches(pattern, name(item)));
+    let choose = |option: &str, patterns: &[Pattern], name: fn(&Item) -> String| {
+        let fits = |pattern: &Pattern| all.iter().any(|item| matches(pattern, &name(item)));
         match patterns.iter().find(|pattern| !fits(pattern)) {
             None => Ok(()),
             Some(pattern) => Err(Error::Usage(format!(
                 "{option}: \"{pattern}\" fits nothing in the run; it has {}",
-                list_once(all.iter().map(|item| name(item).as_str())).join(", ")
+                list_once(all.iter().map(name)).join(", ")
             ))),
         }
     };
-    choose("scenes", &choice.scenes, |item| &item.scene)?;
-    choose("filters", &choice.filters, |item| &item.filter)?;
+    choose("scenes", &choice.scenes, |item| item.scene.to_string())?;
+    choose("filters", &choice.filters, |item| item.filter.clone())?;
     let fits = |patterns: &[Pattern], name: &str| {
         patterns.is_empty() || patterns.iter().any(|pattern| matches(pattern, name))
     };
-    let is_chosen =
-        |item: &Item| fits(&choice.scenes, &item.scene) && fits(&choice.filters, &item.filter);
+    let is_chosen = |item: &Item| {
+        fits(&choice.scenes, &item.scene.to_string()) && fits(&choice.filters, &item.filter)
+    };
     Ok(all.into_iter().filter(is_chosen).collect())
 }
 
@@ -162,7 +164,7 @@ fn list_items(run: &Run) -> Vec<Item> {
     if !run.frames.is_one() {
         let own = run.sequences.iter().filter(|own| !own.is_reference);
         let item = |own: &Sequence| Item {
-            scene: own.scene.to_string(),
+            scene: own.scene.clone(),
             filter: own.filter.clone(),
             alignment: own.alignment,
             frames: own.frames.clone(),
@@ -171,7 +173,7 @@ fn list_items(run: &Run) -> Vec<Item> {
     }
     let own = run.cases.iter().filter(|case| !case.is_reference);
     own.map(|case| Item {
-        scene: case.scene.to_string(),
+        scene: case.scene.clone(),
         filter: case.name(),
         alignment: case.alignment,
         frames: vec![SequenceFrame {
@@ -186,8 +188,8 @@ fn list_items(run: &Run) -> Vec<Item> {
 }
 
 /// Finds the pictures of a filter on a scene: every filter has a clip of every scene, or the scale would be of other scenes for some.
-fn find_item<'a>(items: &[&'a Item], scene: &str, filter: &str) -> Result<&'a Item, Error> {
-    let found = (items.iter()).find(|item| item.scene == scene && item.filter == filter);
+fn find_item<'a>(items: &[&'a Item], scene: &SceneId, filter: &str) -> Result<&'a Item, Error> {
+    let found = (items.iter()).find(|item| item.scene == *scene && item.filter == filter);
     found.copied().ok_or_else(|| {
         Error::Usage(format!(
             "{filter} has no picture on {scene}: every filter needs one on every scene; run it there, or leave one of both out"

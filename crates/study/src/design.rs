@@ -2,6 +2,8 @@
 
 use suite::Random;
 
+use crate::answers::Chosen;
+use crate::paired_counts::Comparison;
 use crate::question::Question;
 use crate::study::{Study, round_size};
 
@@ -79,6 +81,23 @@ impl ShownPair {
     pub fn is_check(&self) -> bool {
         self.left == self.right || [self.left, self.right].contains(&Clip::Truth)
     }
+
+    /// Makes the comparison that a choice is; none of a check.
+    pub(crate) fn comparison(&self, choice: Chosen) -> Option<Comparison> {
+        let (Clip::Filter(left), Clip::Filter(right)) = (self.left, self.right) else {
+            return None;
+        };
+        (left != right).then(|| Comparison {
+            scene: self.scene,
+            one: left.min(right),
+            other: left.max(right),
+            share: match choice {
+                Chosen::Neither => 0.5,
+                _ if (choice == Chosen::Left) == (left < right) => 1.0,
+                _ => 0.0,
+            },
+        })
+    }
 }
 
 /// Draws the rounds of a session: distance, scene and shutter. Every shutter has one at least.
@@ -139,9 +158,10 @@ fn shuffle<T>(list: &mut [T], random: &mut Random) {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
+    use std::collections::HashSet;
 
     use frame::Alignment;
+    use tracer::SceneId;
 
     use super::*;
     use crate::paired_counts::PairedCounts;
@@ -150,124 +170,87 @@ mod tests {
     fn study(filters: &[usize], scenes: usize, most_pairs: usize) -> Study {
         let shutter = |(index, count): (usize, &usize)| StudyShutter {
             alignment: [Alignment::Centred, Alignment::Trailing][index],
-            filters: (0..*count)
-                .map(|filter| format!("filter:{filter}"))
-                .collect(),
+            filters: (0..*count).map(|own| format!("filter:{own}")).collect(),
             truth_hashes: vec![vec![String::new()]; scenes],
             blurred_scenes: vec![scenes - 1],
         };
-        let study = Study {
+        let scene = |index| SceneId::new(format!("scene_{index}"), None);
+        Study {
             width: 64,
             height: 32,
             frames: Default::default(),
-            scenes: (0..scenes).map(|scene| format!("scene_{scene}")).collect(),
+            scenes: (0..scenes).map(scene).collect(),
             shutters: filters.iter().enumerate().map(shutter).collect(),
             most_pairs,
             pictures: String::new(),
-        };
-        study.check().unwrap();
-        study
-    }
-
-    /// Counts how often each pair of a shutter is shown, whatever the side.
-    fn pairs(trials: &[ShownPair], shutter: usize) -> BTreeMap<(usize, usize, usize), usize> {
-        let mut found = BTreeMap::new();
-        for trial in no_checks(trials).filter(|own| own.shutter == shutter) {
-            let [left, right] = filters(trial);
-            let pair = (trial.scene, left.min(right), left.max(right));
-            *found.entry(pair).or_default() += 1;
         }
-        found
     }
 
-    fn no_checks(trials: &[ShownPair]) -> impl Iterator<Item = &ShownPair> {
-        trials.iter().filter(|own| !own.is_check())
-    }
-
-    fn filters(trial: &ShownPair) -> [usize; 2] {
-        [trial.left, trial.right].map(|clip| match clip {
-            Clip::Filter(filter) => filter,
-            _ => panic!("{trial:?} is a check"),
-        })
+    /// Lists what a shutter's pairs compare, whatever the side.
+    fn comparisons(trials: &[ShownPair], shutter: usize) -> Vec<Comparison> {
+        let own = trials.iter().filter(|own| own.shutter == shutter);
+        own.filter_map(|own| own.comparison(Chosen::Left)).collect()
     }
 
     #[test]
-    fn every_pair_is_shown_once_on_every_scene_where_the_limit_allows_it() {
+    fn every_pair_is_shown_once_on_every_scene_if_the_limit_allows_it() {
         for filters in [[2, 3], [4, 5], [6, 7]] {
             let study = study(&filters, 3, 1000);
             for seed in 0..20 {
                 let trials = draw_session(&study, Question::Truth, seed);
                 for (shutter, count) in filters.iter().enumerate() {
-                    let found = pairs(&trials, shutter);
+                    let found = comparisons(&trials, shutter);
+                    let pairs = found.iter().map(|own| (own.scene, own.one, own.other));
                     assert_eq!(found.len(), 3 * count * (count - 1) / 2);
-                    assert!(found.values().all(|times| *times == 1), "{found:?}");
+                    assert_eq!(pairs.collect::<HashSet<_>>().len(), found.len());
                 }
-                assert_eq!(no_checks(&trials).count(), study.all_pairs());
             }
         }
     }
 
     #[test]
     fn a_short_session_shows_every_filter_equally_often_and_connects_all() {
-        let study = study(&[9, 4], 3, 60);
-        let mut sides = [0, 0];
+        let mut firsts_on_the_left = Vec::new();
         for seed in 0..50 {
-            let trials = draw_session(&study, Question::Better, seed);
-            // 3 rounds of both, one more of both, and one more of the first: the next one would be beyond the limit.
-            assert_eq!(no_checks(&trials).count(), 3 * (9 + 4) + (9 + 2) + 9);
-            // It has 2 pairs, and a limit that is 1 higher lets it in.
-            let longer = Study {
-                most_pairs: 61,
-                ..study.clone()
-            };
-            let longer = draw_session(&longer, Question::Better, seed);
-            assert_eq!(no_checks(&longer).count(), 61);
-            for (shutter, count) in [9, 4].into_iter().enumerate() {
-                let mut counts = PairedCounts::new(count);
-                for (_, one, other) in pairs(&trials, shutter).keys() {
-                    counts.add(*one, *other, 1.0);
+            // 3 rounds of both, one more of both, and one more of the first. The next one has 2 pairs: a limit that is 1 higher lets
+            // it in.
+            for (limit, pairs) in [(60, 3 * (9 + 4) + (9 + 2) + 9), (61, 61)] {
+                let trials = draw_session(&study(&[9, 4], 3, limit), Question::Better, seed);
+                let [one, other] = [0, 1].map(|shutter| comparisons(&trials, shutter));
+                assert_eq!(one.len() + other.len(), pairs);
+                for (count, own) in [(9, &one), (4, &other)] {
+                    let counts = PairedCounts::new(count, own);
+                    assert_eq!(counts.connected().len(), 1);
+                    let compared = |item| counts.totals(item)[1];
+                    assert!((0..count).all(|item| compared(item) == compared(0)));
                 }
-                assert_eq!(counts.connected().len(), 1);
-                let totals: Vec<f64> = (0..count).map(|item| counts.totals(item)[1]).collect();
-                assert!(totals.iter().all(|total| *total == totals[0]), "{totals:?}");
+                firsts_on_the_left.extend([one, other].concat().iter().map(|own| own.share));
             }
-            for trial in no_checks(&trials) {
-                let [left, right] = filters(trial);
-                sides[usize::from(left < right)] += 1;
-            }
-            assert_ne!(trials, draw_session(&study, Question::Better, seed + 1));
         }
-        let [one, other] = sides.map(f64::from);
-        // 4 sigma of some 2,500 pairs.
-        assert!((one / (one + other) - 0.5).abs() < 0.04, "{one} {other}");
+        let share = firsts_on_the_left.iter().sum::<f64>() / firsts_on_the_left.len() as f64;
+        // 4 sigma of some 2,500 pairs, each drawn under two limits.
+        assert!((share - 0.5).abs() < 0.04, "{share}");
     }
 
     #[test]
-    fn checks_show_the_truth_beside_the_sharp_frame_only_where_the_truth_is_asked_for() {
-        let study = study(&[4], 2, 1000);
+    fn checks_show_the_truth_and_the_sharp_frame_only_if_the_truth_is_asked_for() {
         let mut truths_on_the_left = 0;
         for seed in 0..100 {
-            let count = |question, is_right: fn(&ShownPair) -> bool| {
-                let trials = draw_session(&study, question, seed);
-                trials.iter().filter(|own| is_right(own)).count()
-            };
-            let is_same: fn(&ShownPair) -> bool = |own| own.left == own.right;
-            let is_truth: fn(&ShownPair) -> bool = |own| {
-                let clips = [own.left, own.right];
-                // The blurred scene.
-                clips.contains(&Clip::Truth) && clips.contains(&Clip::Sharp) && own.scene == 1
-            };
             for (question, expected) in [(Question::Truth, [1, 1]), (Question::Better, [2, 0])] {
-                let found = [is_same, is_truth].map(|is_right| count(question, is_right));
-                assert_eq!(found, expected);
+                let trials = draw_session(&study(&[4], 2, 1000), question, seed);
+                let count =
+                    |is_counted: fn(&&ShownPair) -> bool| trials.iter().filter(is_counted).count();
+                let same = count(|own| own.left == own.right);
+                // The blurred scene.
+                let [left, right] = [
+                    count(|own| (own.scene, own.left, own.right) == (1, Clip::Truth, Clip::Sharp)),
+                    count(|own| (own.scene, own.left, own.right) == (1, Clip::Sharp, Clip::Truth)),
+                ];
+                assert_eq!([same, left + right], expected);
+                truths_on_the_left += left;
             }
-            let is_left: fn(&ShownPair) -> bool = |own| own.left == Clip::Truth;
-            truths_on_the_left += count(Question::Truth, is_left);
         }
         // 4 sigma of 100 checks.
-        assert!(
-            (30..=70).contains(&truths_on_the_left),
-            "{truths_on_the_left}"
-        );
+        assert!((30..=70).contains(&truths_on_the_left));
     }
 }

@@ -14,19 +14,12 @@ mod score_agreement;
 mod session;
 mod study;
 
-pub use agreement::PeopleAgreement;
-pub use answers::{
-    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, DisplayFacts, MAX_ANSWER_BYTES, SHARP_CLIP,
-    TRUTH_CLIP,
-};
+pub use answers::{Answer, AnswerFile, Chosen, DisplayFacts, SHARP_CLIP, TRUTH_CLIP};
 pub use clips::{ClipFiles, StudyChoice, make_study};
 pub use design::{Clip, ShownPair, draw_session};
 pub use preference_scale::{MIN_PEOPLE, RESAMPLES, Resampled};
-pub use preferences::{
-    FilterStrength, PREFERENCES_FORMAT, Preferences, QuestionResult, SessionFacts, ShutterScale,
-    find_preferences,
-};
+pub use preferences::{Preferences, QuestionResult, SessionFacts, ShutterScale, find_preferences};
 pub use question::Question;
 pub use score_agreement::ScoreAgreement;
-pub use session::{MAX_SESSIONS, Session, read_sessions, refuse_other_run};
-pub use study::{MAX_ASKED_FILTERS, MAX_ASKED_SCENES, SECONDS_PER_QUESTION, Study, StudyShutter};
+pub use session::{read_sessions, refuse_other_run};
+pub use study::{SECONDS_PER_QUESTION, Study};

@@ -1,57 +1,52 @@
 //! Counts of choices between two of several things.
 
-/// Counts how often each of several things was chosen over each other one.
+use nalgebra::DMatrix;
+
+/// One comparison by one person.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    /// Number of the scene that shows both things.
+    pub scene: usize,
+    /// Number of the first thing, the smaller one.
+    pub one: usize,
+    /// Number of the second thing.
+    pub other: usize,
+    /// 1 if the first was chosen, 0 if the second was, 1/2 if neither was.
+    pub share: f64,
+}
+
+/// How often each of several things was chosen over each other one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairedCounts {
-    /// Number of things.
-    pub items: usize,
-    /// How often the thing of a row was chosen over that of a column, row by row. Halves are choices of neither.
-    wins: Vec<f64>,
+    /// How often the thing of a row was chosen over that of a column. Halves are choices of neither.
+    pub wins: DMatrix<f64>,
 }
 
 impl PairedCounts {
-    /// Makes counts of no choice at all.
-    pub fn new(items: usize) -> Self {
-        Self {
-            items,
-            wins: vec![0.0; items * items],
+    /// Counts the comparisons of so many things.
+    pub fn new<'a>(items: usize, comparisons: impl IntoIterator<Item = &'a Comparison>) -> Self {
+        let mut wins = DMatrix::zeros(items, items);
+        for own in comparisons {
+            wins[(own.one, own.other)] += own.share;
+            wins[(own.other, own.one)] += 1.0 - own.share;
         }
+        Self { wins }
     }
 
-    /// Adds one comparison: `share` is 1 if `one` was chosen, 0 if `other` was, and 1/2 if neither was.
-    ///
-    /// # Panics
-    /// Both are the same thing.
-    pub fn add(&mut self, one: usize, other: usize, share: f64) {
-        assert_ne!(one, other, "a comparison is of two things");
-        self.wins[one * self.items + other] += share;
-        self.wins[other * self.items + one] += 1.0 - share;
-    }
-
-    /// Adds all comparisons of other counts of the same things.
-    pub fn add_all(&mut self, others: &Self) {
-        for (own, other) in self.wins.iter_mut().zip(&others.wins) {
-            *own += other;
-        }
-    }
-
-    /// Returns how often `one` was chosen over `other`.
-    pub fn wins(&self, one: usize, other: usize) -> f64 {
-        self.wins[one * self.items + other]
+    /// Returns the number of things.
+    pub fn items(&self) -> usize {
+        self.wins.nrows()
     }
 
     /// Returns how often both were compared.
     pub fn comparisons(&self, one: usize, other: usize) -> f64 {
-        self.wins(one, other) + self.wins(other, one)
+        self.wins[(one, other)] + self.wins[(other, one)]
     }
 
     /// Returns how often a thing was chosen, and how often it was compared.
     pub fn totals(&self, one: usize) -> [f64; 2] {
-        let others = || (0..self.items).filter(|other| *other != one);
-        [
-            others().map(|other| self.wins(one, other)).sum(),
-            others().map(|other| self.comparisons(one, other)).sum(),
-        ]
+        let chosen = self.wins.row(one).sum();
+        [chosen, chosen + self.wins.column(one).sum()]
     }
 
     /// Groups things that comparisons connect, directly or through others; one group means that all can have one scale.
@@ -62,58 +57,47 @@ impl PairedCounts {
     /// Groups things that beat one another, directly or through others. With more than one group the most likely scale is
     /// infinite: no thing of one of them was ever chosen over a thing of another (Ford 1957).
     pub fn tied(&self) -> Vec<Vec<usize>> {
-        let reach: Vec<Vec<bool>> = (0..self.items)
-            .map(|start| self.reach(start, |one, other| self.wins(one, other) > 0.0))
-            .collect();
-        self.groups(|one, other| reach[one][other] && reach[other][one])
+        self.groups(|one, other| self.wins[(one, other)] > 0.0)
     }
 
-    /// Groups things by a relation and all that follows from it.
-    fn groups(&self, are_related: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        for item in 0..self.items {
-            if groups.iter().any(|group| group.contains(&item)) {
-                continue;
-            }
-            let reached = self.reach(item, &are_related);
-            groups.push((0..self.items).filter(|other| reached[*other]).collect());
-        }
-        groups
-    }
-
-    /// Marks all that a relation leads to.
-    fn reach(&self, start: usize, leads: impl Fn(usize, usize) -> bool) -> Vec<bool> {
-        let mut reached = vec![false; self.items];
-        let mut open = vec![start];
-        reached[start] = true;
-        while let Some(item) = open.pop() {
-            for (other, is_reached) in reached.iter_mut().enumerate() {
-                if !*is_reached && leads(item, other) {
-                    *is_reached = true;
-                    open.push(other);
+    /// Groups things that a relation leads from one to the other and back, directly or through others.
+    fn groups(&self, leads: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+        let all = 0..self.items();
+        let mut reaches = DMatrix::from_fn(all.len(), all.len(), leads);
+        for by in all.clone() {
+            for from in all.clone() {
+                for to in all.clone() {
+                    reaches[(from, to)] |= reaches[(from, by)] && reaches[(by, to)];
                 }
             }
         }
-        reached
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for item in all {
+            let is_own =
+                |group: &&mut Vec<usize>| reaches[(group[0], item)] && reaches[(item, group[0])];
+            match groups.iter_mut().find(is_own) {
+                Some(group) => group.push(item),
+                None => groups.push(vec![item]),
+            }
+        }
+        groups
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn comparisons_connect_things_and_wins_both_ways_tie_them() {
-        let mut counts = PairedCounts::new(4);
-        counts.add(0, 1, 1.0);
-        counts.add(2, 3, 0.5);
-        assert_eq!(counts.connected(), [vec![0, 1], vec![2, 3]]);
-        counts.add(1, 2, 1.0);
-        assert_eq!(counts.connected(), [vec![0, 1, 2, 3]]);
-        // Half a choice counts for both.
-        assert_eq!(counts.tied(), [vec![0], vec![1], vec![2, 3]]);
-        counts.add(3, 0, 1.0);
-        assert_eq!(counts.tied(), [vec![0, 1, 2, 3]]);
-        assert_eq!(counts.totals(3), [1.5, 2.0]);
-    }
+#[test]
+fn comparisons_connect_things_and_wins_both_ways_tie_them() {
+    let choices = [(0, 1, 1.0), (2, 3, 0.5), (1, 2, 1.0), (0, 3, 0.0)];
+    let comparisons = choices.map(|(one, other, share)| Comparison {
+        scene: 0,
+        one,
+        other,
+        share,
+    });
+    let counts = |count| PairedCounts::new(4, &comparisons[..count]);
+    assert_eq!(counts(2).connected(), [vec![0, 1], vec![2, 3]]);
+    assert_eq!(counts(3).connected(), [vec![0, 1, 2, 3]]);
+    // Half a choice counts for both.
+    assert_eq!(counts(3).tied(), [vec![0], vec![1], vec![2, 3]]);
+    assert_eq!(counts(4).tied(), [vec![0, 1, 2, 3]]);
+    assert_eq!(counts(4).totals(3), [1.5, 2.0]);
 }

@@ -10,9 +10,7 @@ use crate::agreement::{PeopleAgreement, measure_agreement};
 use crate::answers::Chosen;
 use crate::bradley_terry::chance;
 use crate::paired_counts::PairedCounts;
-use crate::preference_scale::{
-    PreferenceScale, RESAMPLES, Resampled, count_choices, scale_preferences,
-};
+use crate::preference_scale::{PreferenceScale, RESAMPLES, Resampled, scale_preferences};
 use crate::question::Question;
 use crate::score_agreement::{ScoreAgreement, compare_scores};
 use crate::session::Session;
@@ -141,12 +139,12 @@ fn scale_shutter(
     run: Option<&Run>,
 ) -> Result<ShutterScale, String> {
     let own = &study.shutters[shutter];
-    let people: Vec<_> = (sessions.iter())
+    let people: Vec<Vec<_>> = (sessions.iter())
         .map(|session| session.comparisons(shutter))
         .filter(|own| !own.is_empty())
         .collect();
     let all = people.concat();
-    let counts = count_choices(&all, own.filters.len());
+    let counts = PairedCounts::new(own.filters.len(), &all);
     let scale = scale_preferences(&people, own.filters.len(), RESAMPLES).ok_or_else(|| {
         let groups = names(own, &counts.connected());
         let groups: Vec<String> = groups.iter().map(|group| group.join(", ")).collect();
@@ -160,7 +158,7 @@ fn scale_shutter(
     if separated.len() == 1 {
         separated.clear();
     }
-    let scores = run.map(|run| compare_scores(run, study, shutter, sessions, &scale));
+    let scores = run.map(|run| compare_scores(run, study, shutter, &people, &scale));
     Ok(ShutterScale {
         alignment: own.alignment,
         people: people.len(),
@@ -169,7 +167,7 @@ fn scale_shutter(
         resampled: scale.resampled,
         filters: list_filters(own, &scale, &counts),
         separated,
-        agreement: measure_agreement(sessions, shutter),
+        agreement: measure_agreement(&people),
         scores: scores.unwrap_or_default(),
     })
 }

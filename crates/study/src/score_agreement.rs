@@ -1,12 +1,14 @@
 //! Agreement of scores with people.
 
+use frame::Alignment;
 use metrics::{Metric, SequenceMetric};
 use serde::Serialize;
-use suite::{Case, Run, Sequence, TWO_SIDED, Weighted, scene_mean};
+use suite::{Run, TWO_SIDED, Weighted, scene_mean};
+use tracer::SceneId;
 
+use crate::paired_counts::Comparison;
 use crate::preference_scale::{MIN_PEOPLE, PreferenceScale};
 use crate::rank_correlation::rank_correlation;
-use crate::session::Session;
 use crate::study::Study;
 
 /// Scores of single pictures that are compared with people. Of a sequence they are those of the first frame.
@@ -51,18 +53,17 @@ pub fn compare_scores(
     run: &Run,
     study: &Study,
     shutter: usize,
-    sessions: &[&Session],
+    people: &[Vec<Comparison>],
     scale: &PreferenceScale,
 ) -> Vec<ScoreAgreement> {
-    let tables = list_tables(run, study, shutter);
-    let compare = |table| compare_score(table, shutter, sessions, scale);
-    tables.iter().map(compare).collect()
+    let tables = list_tables(run, study, shutter).into_iter();
+    let compare = |table| compare_score(&table, people, scale);
+    tables.map(compare).collect()
 }
 
 fn compare_score(
     table: &ScoreTable,
-    shutter: usize,
-    sessions: &[&Session],
+    people: &[Vec<Comparison>],
     scale: &PreferenceScale,
 ) -> ScoreAgreement {
     let goodness = mean_goodness(table).filter(|means| means.len() >= MIN_RANKED);
@@ -70,8 +71,8 @@ fn compare_score(
     let correlation = correlate(&scale.strengths);
     let resampled: Vec<f64> = scale.resamples.iter().filter_map(correlate).collect();
     let can_have_interval = correlation.is_some() && scale.intervals.is_some();
-    let people: Vec<Weighted> = (sessions.iter())
-        .filter_map(|session| predicted(table, shutter, session))
+    let people: Vec<Weighted> = (people.iter())
+        .filter_map(|own| predicted(table, own))
         .collect();
     let mean = (!people.is_empty()).then(|| scene_mean(&people, TWO_SIDED));
     ScoreAgreement {
@@ -97,10 +98,10 @@ fn mean_goodness(table: &ScoreTable) -> Option<Vec<f64>> {
 }
 
 /// The share of a person's choices that a score predicts, weighted by their number.
-fn predicted(table: &ScoreTable, shutter: usize, session: &Session) -> Option<Weighted> {
+fn predicted(table: &ScoreTable, choices: &[Comparison]) -> Option<Weighted> {
     let (mut agreed, mut count) = (0.0, 0.0);
-    for (scene, own) in session.comparisons_by_scene(shutter) {
-        let [one, other] = [own.one, own.other].map(|filter| table.badness[scene][filter]);
+    for own in choices {
+        let [one, other] = [own.one, own.other].map(|filter| table.badness[own.scene][filter]);
         let (Some(one), Some(other)) = (one, other) else {
             continue;
         };
@@ -128,113 +129,82 @@ fn percentiles(mut values: Vec<f64>) -> Option<[f64; 2]> {
 
 fn list_tables(run: &Run, study: &Study, shutter: usize) -> Vec<ScoreTable> {
     let own = &study.shutters[shutter];
-    let table = |score: Metric, badness: &dyn Fn(&str, &str) -> Option<f64>| {
-        let of_scene = |scene: &String| {
+    let table = |score: Metric| {
+        let of_scene = |scene: &SceneId| {
             let filters = own.filters.iter();
-            filters.map(|filter| badness(scene, filter)).collect()
+            let badness = |filter| find_badness(run, score, scene, own.alignment, filter);
+            filters.map(badness).collect()
         };
         ScoreTable {
             score,
             badness: study.scenes.iter().map(of_scene).collect(),
         }
     };
-    let sequences = SequenceMetric::ALL.iter().map(|metric| {
-        table(Metric::Sequence(*metric), &|scene, filter| {
-            let is_wanted = |it: &&Sequence| {
-                !it.is_reference
-                    && (it.scene == scene && it.alignment == own.alignment)
-                    && it.filter == filter
-            };
-            let found = run.sequences.iter().find(is_wanted)?;
-            let value = found.scores.get(*metric).value()?;
-            Some(metric.row().ideal.badness(value))
-        })
-    });
-    let pictures = OF_PICTURES.iter().map(|metric| {
-        table(*metric, &|scene, filter| {
-            let is_wanted = |it: &&Case| {
-                !it.is_reference
-                    && (it.scene == scene && it.alignment == own.alignment)
-                    && it.name() == filter
-            };
-            let case = run.cases.iter().find(is_wanted)?;
-            Some(metric.ideal().badness(case.estimate(*metric)?))
-        })
-    });
+    let sequences = SequenceMetric::ALL.iter().copied().map(Metric::Sequence);
     match run.frames.is_one() {
-        true => pictures.collect(),
-        false => sequences.chain(pictures).collect(),
+        true => OF_PICTURES.map(table).into(),
+        false => sequences.chain(OF_PICTURES).map(table).collect(),
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::answers::Chosen;
-    use crate::design::{Clip, ShownPair};
-    use crate::preference_scale::scale_preferences;
-    use crate::question::Question;
-
-    /// A person who compares all pairs of four filters on two scenes, and always chooses the smaller number.
-    fn person(seed: u64) -> Session {
-        let pairs = (0..4).flat_map(|left| (0..4).map(move |right| (left, right)));
-        let pairs: Vec<_> = pairs.filter(|(left, right)| left != right).collect();
-        let answers = (0..2).flat_map(|scene| {
-            pairs.iter().map(move |(left, right)| {
-                let trial = ShownPair {
-                    shutter: 0,
-                    scene,
-                    left: Clip::Filter(*left),
-                    right: Clip::Filter(*right),
-                };
-                let chooses_left = left < right;
-                (
-                    trial,
-                    if chooses_left {
-                        Chosen::Left
-                    } else {
-                        Chosen::Right
-                    },
-                )
-            })
-        });
-        Session {
-            path: "a.json".into(),
-            question: Question::Truth,
-            seed,
-            answers: answers.collect(),
+/// Returns how bad a filter is by a score; none if the score does not apply, or the run has none.
+fn find_badness(
+    run: &Run,
+    score: Metric,
+    scene: &SceneId,
+    alignment: Alignment,
+    filter: &String,
+) -> Option<f64> {
+    let wanted = (false, scene, alignment);
+    let value = match score {
+        Metric::Sequence(metric) => {
+            let mut all = run.sequences.iter();
+            let found = all.find(|own| {
+                (own.is_reference, &own.scene, own.alignment) == wanted && own.filter == *filter
+            });
+            found?.scores.get(metric).value()
         }
-    }
+        _ => {
+            let mut all = run.cases.iter();
+            let found = all.find(|own| {
+                (own.is_reference, &own.scene, own.alignment) == wanted && own.name() == *filter
+            });
+            found?.estimate(score)
+        }
+    };
+    Some(score.ideal().badness(value?))
+}
 
-    #[test]
-    fn a_score_that_ranks_as_people_do_correlates_fully_and_predicts_all() {
-        let people: Vec<Session> = (0..6).map(person).collect();
-        let all: Vec<&Session> = people.iter().collect();
-        let comparisons: Vec<_> = all.iter().map(|own| own.comparisons(0)).collect();
-        let scale = scale_preferences(&comparisons, 4, 100).unwrap();
-        let compare = |badness: [f64; 4]| {
-            let scene: Vec<Option<f64>> = badness.map(Some).into();
-            let table = ScoreTable {
-                score: Metric::FLIP,
-                badness: vec![scene.clone(), scene],
-            };
-            compare_score(&table, 0, &all, &scale)
+#[test]
+fn a_score_that_ranks_as_people_do_correlates_fully_and_predicts_all() {
+    // Six people compare all pairs of four filters on two scenes, and always choose the smaller number.
+    let pairs = (0..4).flat_map(|other| (0..other).map(move |one| (one, other)));
+    let choices = pairs.flat_map(|(one, other)| {
+        [0, 1].map(|scene| Comparison {
+            scene,
+            one,
+            other,
+            share: 1.0,
+        })
+    });
+    let people = vec![choices.collect::<Vec<_>>(); 6];
+    let scale = crate::preference_scale::scale_preferences(&people, 4, 100).unwrap();
+    let compare = |badness: [f64; 4]| {
+        let table = ScoreTable {
+            score: Metric::FLIP,
+            badness: vec![badness.map(Some).into(); 2],
         };
-        let same = compare([0.1, 0.2, 0.3, 0.4]);
-        assert_eq!([same.correlation, same.predicted], [Some(1.0), Some(1.0)]);
-        assert_eq!(same.correlation_interval, Some([1.0, 1.0]));
-        assert_eq!(same.choices, 6 * 24);
-        let opposite = compare([0.4, 0.3, 0.2, 0.1]);
-        assert_eq!(opposite.correlation, Some(-1.0));
-        assert_eq!(opposite.predicted, Some(0.0));
-        // One of six pairs the other way round; 0.8 is the textbook's for one swap of neighbours among four.
-        let near = compare([0.2, 0.1, 0.3, 0.4]);
-        let far = |found: Option<f64>, expected: f64| (found.unwrap() - expected).abs();
-        assert!(far(near.correlation, 0.8) < 1e-12, "{near:?}");
-        assert!(far(near.predicted, 5.0 / 6.0) < 1e-12, "{near:?}");
-        // A score that is the same for all filters predicts nothing.
-        let equal = compare([0.1; 4]);
-        let found = (equal.correlation, equal.predicted, equal.choices);
-        assert_eq!(found, (None, None, 0));
-    }
+        compare_score(&table, &people, &scale)
+    };
+    let same = compare([0.1, 0.2, 0.3, 0.4]);
+    assert_eq!([same.correlation, same.predicted], [Some(1.0), Some(1.0)]);
+    assert_eq!(same.correlation_interval, Some([1.0, 1.0]));
+    assert_eq!(same.choices, 6 * 12);
+    // One of six pairs in the opposite order.
+    let near = compare([0.2, 0.1, 0.3, 0.4]).predicted.unwrap();
+    assert!((near - 5.0 / 6.0).abs() < 1e-12, "{near}");
+    // A score that is the same for all filters predicts nothing.
+    let equal = compare([0.1; 4]);
+    let found = (equal.correlation, equal.predicted, equal.choices);
+    assert_eq!(found, (None, None, 0));
 }

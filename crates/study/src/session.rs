@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use serde_json::json;
 use store::{check_strings, read_text_within};
 use suite::Error;
 
 use crate::answers::{
-    ANSWERS_FORMAT, Answer, AnswerFile, Chosen, MAX_ANSWER_BYTES, SHARP_CLIP, TRUTH_CLIP,
+    ANSWERS_FORMAT, AnswerFile, Chosen, MAX_ANSWER_BYTES, SHARP_CLIP, TRUTH_CLIP,
 };
 use crate::design::{Clip, ShownPair, draw_session};
-use crate::preference_scale::Comparison;
+use crate::paired_counts::Comparison;
 use crate::question::Question;
 use crate::study::Study;
 
@@ -77,14 +78,8 @@ pub fn read_sessions(paths: &[PathBuf]) -> Result<(Study, Vec<Session>), Error> 
 impl Session {
     /// Lists the comparisons between filters of one shutter.
     pub fn comparisons(&self, shutter: usize) -> Vec<Comparison> {
-        let own = self.comparisons_by_scene(shutter).into_iter();
-        own.map(|(_, comparison)| comparison).collect()
-    }
-
-    /// Lists the same with the numbers of their scenes.
-    pub fn comparisons_by_scene(&self, shutter: usize) -> Vec<(usize, Comparison)> {
         let own = (self.answers.iter()).filter(|(trial, _)| trial.shutter == shutter);
-        own.filter_map(|(trial, choice)| Some((trial.scene, comparison(trial, *choice)?)))
+        own.filter_map(|(trial, choice)| trial.comparison(*choice))
             .collect()
     }
 
@@ -96,21 +91,6 @@ impl Session {
             .collect();
         let wrong = right.iter().filter(|is_right| !**is_right).count();
         [right.len(), wrong]
-    }
-}
-
-/// Makes the comparison that a choice is; none of a check.
-fn comparison(trial: &ShownPair, choice: Chosen) -> Option<Comparison> {
-    let share = match choice {
-        Chosen::Left => 1.0,
-        Chosen::Right => 0.0,
-        Chosen::Neither => 0.5,
-    };
-    match (trial.left, trial.right) {
-        (Clip::Filter(one), Clip::Filter(other)) if one != other => {
-            Some(Comparison { one, other, share })
-        }
-        _ => None,
     }
 }
 
@@ -163,15 +143,13 @@ fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
     for (index, (answer, trial)) in file.answers.iter().zip(&trials).enumerate() {
         let place = || format!("answer {} of {}", index + 1, file.answers.len());
         let expected = shown(&file.study, trial);
-        let Answer {
-            scene,
-            alignment,
-            left,
-            right,
-            ..
-        } = answer;
-        let found = [scene, alignment.name(), left, right];
-        if found != expected {
+        let found = [
+            &answer.scene.to_string(),
+            answer.alignment.name(),
+            &answer.left,
+            &answer.right,
+        ];
+        if found != expected.each_ref().map(String::as_str) {
             return Err(format!(
                 "{} is about {}; the seed {} shows {} there; give the file as the page wrote it",
                 place(),
@@ -180,10 +158,8 @@ fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
                 expected.join(" / ")
             ));
         }
-        let Answer {
-            milliseconds, zoom, ..
-        } = answer;
-        if !milliseconds.is_finite() || *milliseconds < 0.0 || *zoom < 1 {
+        let (milliseconds, zoom) = (answer.milliseconds, answer.zoom);
+        if !milliseconds.is_finite() || milliseconds < 0.0 || zoom < 1 {
             return Err(format!(
                 "{} took {milliseconds} milliseconds at zoom {zoom}; allowed: 0 or more, and 1 or more",
                 place()
@@ -195,38 +171,38 @@ fn match_design(file: &AnswerFile) -> Result<Vec<(ShownPair, Chosen)>, String> {
 }
 
 /// Names what a trial shows: scene, alignment, left and right.
-fn shown<'a>(study: &'a Study, trial: &ShownPair) -> [&'a str; 4] {
+fn shown(study: &Study, trial: &ShownPair) -> [String; 4] {
     let shutter = &study.shutters[trial.shutter];
     let name = |clip: Clip| match clip {
-        Clip::Filter(filter) => shutter.filters[filter].as_str(),
-        Clip::Truth => TRUTH_CLIP,
-        Clip::Sharp => SHARP_CLIP,
+        Clip::Filter(filter) => shutter.filters[filter].clone(),
+        Clip::Truth => TRUTH_CLIP.to_owned(),
+        Clip::Sharp => SHARP_CLIP.to_owned(),
     };
-    let scene = study.scenes[trial.scene].as_str();
-    let [left, right] = [trial.left, trial.right].map(name);
-    [scene, shutter.alignment.name(), left, right]
+    let scene = study.scenes[trial.scene].to_string();
+    let alignment = shutter.alignment.to_string();
+    [scene, alignment, name(trial.left), name(trial.right)]
 }
 
 /// Names what differs between two studies.
 fn describe_difference(one: &Study, other: &Study) -> String {
-    let shutters = || one.shutters.iter().zip(&other.shutters);
-    let size = |study: &Study| (study.width, study.height);
-    let has_same_filters = one.shutters.len() == other.shutters.len()
-        && shutters().all(|(one, other)| one.filters == other.filters);
-    let has_same_truths = shutters().all(|(one, other)| one.truth_hashes == other.truth_hashes);
-    let equalities = [
-        ("scenes", one.scenes == other.scenes),
-        ("filters", has_same_filters),
-        ("size", size(one) == size(other)),
-        ("frames", one.frames == other.frames),
-        ("truths", has_same_truths),
-        ("pictures", one.pictures == other.pictures),
-        ("number of pairs", one.most_pairs == other.most_pairs),
-    ];
-    let found = equalities.iter().find(|(_, is_equal)| !*is_equal);
-    found.map_or("they differ".to_owned(), |(what, _)| {
-        format!("the {what} differ")
-    })
+    let [one, other] = [one, other].map(|own| {
+        let shutters = || own.shutters.iter();
+        let filters: Vec<_> = shutters().map(|own| &own.filters).collect();
+        let truths: Vec<_> = shutters().map(|own| &own.truth_hashes).collect();
+        [
+            ("scenes", json!(own.scenes)),
+            ("filters", json!(filters)),
+            ("size", json!([own.width, own.height])),
+            ("frames", json!(own.frames)),
+            ("truths", json!(truths)),
+            ("pictures", json!(own.pictures)),
+            ("number of pairs", json!(own.most_pairs)),
+        ]
+    });
+    let mut pairs = one.iter().zip(&other);
+    let found = pairs.find(|(one, other)| one != other);
+    let what = found.map_or("shutters", |((what, _), _)| what);
+    format!("the {what} differ")
 }
 
 /// Refuses a run that is not the one that the study shows: its truths or its pictures differ.

@@ -1,10 +1,13 @@
 //! A study: which pictures of a run people compare.
 
 use std::collections::HashSet;
+use std::fmt::Display;
+use std::hash::Hash;
 
 use frame::Alignment;
 use serde::{Deserialize, Serialize};
 use suite::{Frames, MAX_FRAMES};
+use tracer::SceneId;
 
 /// Upper limit on the filters of one shutter that people compare.
 pub const MAX_ASKED_FILTERS: usize = 64;
@@ -24,7 +27,7 @@ pub struct Study {
     /// Frames of each clip, and how fast they play; of one frame the clip is a picture.
     pub frames: Frames,
     /// Scenes, each with clips of every filter.
-    pub scenes: Vec<String>,
+    pub scenes: Vec<SceneId>,
     /// Shutters, whose filters are compared with one another.
     pub shutters: Vec<StudyShutter>,
     /// Largest number of pairs in a session; checks come on top.
@@ -76,7 +79,7 @@ impl Study {
                 self.scenes.len()
             ));
         }
-        refuse_twice("scene", self.scenes.iter().map(String::as_str))?;
+        refuse_twice("scene", &self.scenes)?;
         let rate = self.frames.per_second;
         if !(1..=MAX_FRAMES).contains(&self.frames.count) || !rate.is_finite() || rate <= 0.0 {
             return Err(format!(
@@ -84,10 +87,8 @@ impl Study {
                 self.frames.count, rate
             ));
         }
-        refuse_twice(
-            "shutter",
-            self.shutters.iter().map(|own| own.alignment.name()),
-        )?;
+        let alignments = self.shutters.iter().map(|own| own.alignment);
+        refuse_twice("shutter", alignments)?;
         if self.shutters.is_empty() {
             return Err("asks about no filter; allowed: two or more of one shutter".to_owned());
         }
@@ -110,7 +111,7 @@ impl Study {
                 own.filters.len()
             ));
         }
-        refuse_twice("filter", own.filters.iter().map(String::as_str))?;
+        refuse_twice("filter", &own.filters)?;
         if let Some(name) = own.filters.iter().find(|name| name.starts_with('[')) {
             return Err(format!(
                 "asks about a filter \"{name}\"; brackets stand for the truth and the sharp frame"
@@ -139,9 +140,12 @@ pub(super) fn round_size(filters: usize, distance: usize) -> usize {
     }
 }
 
-fn refuse_twice<'a>(what: &str, mut names: impl Iterator<Item = &'a str>) -> Result<(), String> {
+fn refuse_twice<T: Eq + Hash + Display>(
+    what: &str,
+    names: impl IntoIterator<Item = T>,
+) -> Result<(), String> {
     let mut seen = HashSet::new();
-    match names.find(|name| !seen.insert(*name)) {
+    match names.into_iter().find_map(|name| seen.replace(name)) {
         None => Ok(()),
         Some(name) => Err(format!("asks about the {what} \"{name}\" twice")),
     }

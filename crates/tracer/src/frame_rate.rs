@@ -137,26 +137,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn numbers_beyond_the_limits_are_refused() {
-        let check = |per_second, shutters_per_second| {
-            FrameRate {
-                per_second,
-                shutters_per_second,
-            }
-            .check()
-        };
-        assert_eq!(check(24.0, Some(48.0)), Ok(()));
-        assert_eq!(check(SLOWEST_RATE, Some(SLOWEST_SHUTTER)), Ok(()));
-        assert_eq!(check(FASTEST_RATE, Some(FASTEST_SHUTTER)), Ok(()));
-        for rate in [0.0, -24.0, 0.99, 1000.1, f64::NAN, f64::INFINITY] {
-            let reason = check(rate, None).unwrap_err();
-            assert!(reason.contains("allowed: 1 to 1000"), "{reason}");
-        }
-        for count in [0.0, -48.0, 0.5, 100_001.0, f64::NAN, f64::INFINITY] {
-            let reason = check(24.0, Some(count)).unwrap_err();
-            assert!(reason.contains("allowed: 1/1 to 1/100000"), "{reason}");
-        }
-    }
 }

@@ -50,24 +50,3 @@ pub(crate) fn scale_camera(mut camera: Camera, step: [f64; 2]) -> Camera {
     camera.before.focal /= step[1];
     camera
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_coarser_grid_reprojects_the_same_points() {
-        let turn = Reprojection {
-            rows: [
-                [1.1, 0.2, -3.0, 4.0],
-                [-0.1, 0.9, 2.0, -1.0],
-                [0.001, -0.002, 1.0, 0.3],
-            ],
-        };
-        let step = [2.0, 1.5];
-        let [x, y] = turn.place([30.0, 20.0], 5.0).unwrap();
-        let coarse = scale_reprojection(turn, step);
-        let [x_coarse, y_coarse] = coarse.place([15.0, 20.0 / 1.5], 5.0).unwrap();
-        assert!((2.0 * x_coarse - x).abs() < 1e-12 && (1.5 * y_coarse - y).abs() < 1e-12);
-    }
-}

@@ -4,10 +4,11 @@ use std::fs;
 use std::path::Path;
 use std::process::{Output, Stdio};
 
-use cli::{annotations, check_text, summary};
+use cli::{
+    annotations, check_text, compare_table, ranking_text, run_table, summary, terminal_text,
+};
 use frame::{Alignment, Frame, Truth};
-use judge::{CHECK_FORMAT, Check, Decision};
-use store::printable_table;
+use judge::{CHECK_FORMAT, Check, Decision, Side, check, compare_runs};
 use suite::Failure;
 use tracer::SceneId;
 
@@ -120,6 +121,47 @@ fn names_in_files_are_printed_without_control_codes() {
 }
 
 #[test]
+fn names_in_a_run_are_printed_without_control_codes() {
+    let bench = Bench::two_scenes();
+    assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
+    let name = "a\n::error::b\u{1b}[35m\u{9b}2J";
+    let whole = Side::read(&bench.path("out")).unwrap();
+    let mut side = Side::read(&bench.path("out")).unwrap();
+    let first = side.run.cases[0].scene.clone();
+    // Cases of the first scene stay, to be compared.
+    for case in (side.run.cases.iter_mut()).filter(|case| case.scene != first) {
+        case.id.scene = SceneId::new(name, None);
+        case.id.filter = name.to_owned();
+    }
+    side.run.failures.push(Failure {
+        scene: SceneId::new(name, None),
+        filter: name.to_owned(),
+        alignment: Alignment::Trailing,
+        reason: name.to_owned(),
+    });
+    let go_on = |_| std::ops::ControlFlow::Continue(());
+    let compared = compare_runs(&whole, &side, &std::collections::BTreeMap::new(), &go_on).unwrap();
+    let checked = check(&side.run, Vec::new(), Vec::new());
+    for text in [
+        run_table(&side.run),
+        ranking_text(&side.run.cases),
+        compare_table(&compared),
+        check_text(&checked, Path::new("out"), true),
+    ] {
+        let shown = terminal_text(&text);
+        assert!(shown.contains("::error::b\\u001b[35m\\u009b2J"), "{shown}");
+        assert!(
+            !shown.contains("\u{1b}[35m") && !shown.contains('\u{9b}'),
+            "{shown:?}"
+        );
+        let is_command = |line: &str| line.trim_start().starts_with("::error::");
+        assert!(!shown.lines().any(is_command), "{shown}");
+    }
+    let styled = terminal_text(&run_table(&side.run));
+    assert!(styled.contains("\u{1b}[1m"), "{styled:?}");
+}
+
+#[test]
 fn annotations_and_summaries_quote_failures_on_one_line() {
     let hostile = "a\n::error::b\u{1b}[2J\r![x](http://example.org/x)<img src=x>";
     let check = Check {
@@ -141,7 +183,7 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
         lines.starts_with("::error title=a%0A%3A%3Aerror%3A%3Ab"),
         "{lines}"
     );
-    let failures = printable_table(&check_text(&check, Path::new("out"), true));
+    let failures = terminal_text(&check_text(&check, Path::new("out"), true));
     for text in [&lines, &failures] {
         assert!(
             !text.contains("\u{1b}[2J") && !text.contains('\r'),

@@ -42,7 +42,7 @@ fn answers_that_no_page_of_this_run_asked_for_are_refused() {
             let own = &mut file.answers[4];
             std::mem::swap(&mut own.left, &mut own.right);
             // A check of one clip looks the same from both sides.
-            own.scene = "plate".to_owned() + if own.left == own.right { "s" } else { "" };
+            own.scene.name = "plate".to_owned() + if own.left == own.right { "s" } else { "" };
         })],
         &["answer 5 of 8 is about"],
     );

@@ -16,7 +16,7 @@ fn bad_tunings_are_refused_and_leave_no_files() {
     )
     .unwrap();
     let rows: [(&[&str], &[&str]); 9] = [
-        (&["--budget", "0"], &["--budget 0", "allowed: 1 or more"]),
+        (&["--budget", "0"], &["--budget <N>", "0 is not in 1.."]),
         (
             &["--vary", "sample"],
             &["parameter sample:", "no parameter", "samples"],

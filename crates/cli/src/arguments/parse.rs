@@ -39,6 +39,14 @@ pub fn within<T: TryFrom<u64> + Clone + Send + Sync + 'static>(
     RangedU64ValueParser::new().range(range)
 }
 
+/// Threads that one command may have.
+const MAX_THREADS: u64 = 1024;
+
+/// Parses a number of threads.
+pub fn thread_count() -> RangedU64ValueParser<usize> {
+    within(1..=MAX_THREADS)
+}
+
 /// Parses a number of frames of a sequence.
 pub fn frame_count() -> RangedU64ValueParser<u32> {
     within(1..=u64::from(MAX_FRAMES))

@@ -7,7 +7,7 @@ use frame::{ColorSampling, FrameOptions, VelocityKind};
 use suite::Error;
 use tracer::{RenderSettings, SceneId};
 
-use super::{FrameRateArgs, RootArgs};
+use super::{FrameRateArgs, RootArgs, thread_count};
 use crate::selection::split_scene;
 
 /// On or off.
@@ -60,7 +60,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub guard_band: u32,
     /// Threads that render [default: one per core].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = thread_count())]
     pub threads: Option<usize>,
     /// Seed of all random numbers.
     #[arg(long, value_name = "S", default_value_t = RenderSettings::default().seed)]

@@ -9,7 +9,7 @@ use suite::Error;
 use tracer::SceneId;
 
 use super::capture::{load_drawn_scene, name_folder};
-use super::ending::Ending;
+use super::result::{Ending, write_json};
 use crate::arguments::RootArgs;
 use crate::output::{print, print_note};
 use crate::tables::audit_table;
@@ -52,9 +52,7 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     let (audit, expected) = audit_capture(&capture, &scene)?;
     let out = name_folder(&args.capture, args.out.as_ref(), "out/audit")?;
     let _claim = claim(&out, [], Sharing::Alone)?;
-    let json = serde_json::to_string_pretty(&audit).expect("an audit is plain data");
-    let path = out.join("audit.json");
-    frame::write_atomically(&path, json.as_bytes())?;
+    let json = write_json(&out.join("audit.json"), &audit)?;
     for object in audit.velocity.iter().filter(|object| !object.is_right) {
         let picture = picture_path(&out, &object.object);
         let right = &expected.right.velocity;

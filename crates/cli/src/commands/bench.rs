@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use filters::Gpu;
-use store::printable_path;
-use suite::{Bench, BenchPlan, Error, bench, open_adapter};
+use suite::{BenchPlan, Error, bench, open_adapter};
 
 use super::expected::print_expected_time;
+use super::result::write_result;
 use crate::arguments::{AdapterArgs, parse_size, within};
-use crate::output::{make_monitor, print};
+use crate::output::make_monitor;
 use crate::selection::{Programs, select_filters};
 use crate::tables::bench_table;
 
@@ -77,15 +77,8 @@ pub fn execute(args: &BenchArgs) -> Result<(), Error> {
     };
     print_expected_bench(&plan, &gpu);
     let done = make_monitor().watch("bench", |watch| bench(plan, &gpu, watch))?;
-    let json = write_bench(&done, args)?;
-    if args.json {
-        return print(&format!("{json}\n"));
-    }
-    print(&bench_table(&done))?;
-    print(&format!(
-        "\nwritten: {}\n",
-        printable_path(&bench_path(args))
-    ))
+    let path = args.out.join("bench.json");
+    write_result(&path, &done, &bench_table(&done), args.json)
 }
 
 /// Prints the expected time of a bench. On a graphics card it is short.
@@ -99,15 +92,4 @@ fn print_expected_bench(plan: &BenchPlan, gpu: &Gpu) {
         );
         print_expected_time(pixels as f64 * SECONDS_PER_PIXEL, &runs);
     }
-}
-
-/// Writes `bench.json` and returns its text.
-fn write_bench(done: &Bench, args: &BenchArgs) -> Result<String, Error> {
-    let json = serde_json::to_string_pretty(done).expect("a bench is plain data");
-    frame::write_atomically(&bench_path(args), json.as_bytes())?;
-    Ok(json)
-}
-
-fn bench_path(args: &BenchArgs) -> PathBuf {
-    args.out.join("bench.json")
 }

@@ -1,11 +1,11 @@
-//! A candidate of `tune search`, `tune evaluate` and `tune serve`: its filter, and the rendered scenes that it is scored on.
+//! Candidates of tunings: a filter, and the rendered scenes that it is scored on.
 
 use filters::Gpu;
 use judge::SceneBounds;
-use store::{Claim, Sharing, claim};
+use store::{Sharing, claim};
 use suite::{Error, FilterChoice, estimate_case_seconds, estimate_render_seconds, open_gpu};
 use tracer::{RenderSettings, Scene};
-use tune::{RenderedScene, render_scenes};
+use tune::{Evaluator, Objective, render_scenes};
 
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
@@ -14,43 +14,67 @@ use crate::arguments::{CandidateArgs, SceneArgs};
 use crate::output::{count_text, make_monitor};
 use crate::selection::select_filters;
 
-/// Selects the filter with the preset to start from, for pictures of the size that is asked for.
-pub fn select_candidate(args: &CandidateArgs) -> Result<FilterChoice, Error> {
-    let names = [args.filter.clone()];
-    let choice =
-        select_filters(&names, args.from.as_deref(), &[], args.programs.programs())?.remove(0);
-    Ok(choice.as_written(args.as_written).scaled_to(args.size.0))
-}
+impl CandidateArgs {
+    /// Selects the filter with the preset to start from, for pictures of the size that is asked for.
+    pub fn select(&self) -> Result<FilterChoice, Error> {
+        let names = [self.filter.clone()];
+        let preset = self.from.as_deref();
+        let choice = select_filters(&names, preset, &[], self.programs.programs())?.remove(0);
+        Ok(choice.as_written(self.as_written).scaled_to(self.size.0))
+    }
 
-/// Loads the scenes that candidates are scored on, with their bounds for pictures of the size that is asked for.
-pub fn load_candidate_scenes(args: &CandidateArgs) -> Result<Vec<(Scene, SceneBounds)>, Error> {
-    load_scenes(
-        &args.scenes.root.scenes_dir,
-        &args.scenes.names()?,
-        Some(args.size),
-    )
-}
+    /// Loads the scenes, with their bounds for pictures of the size that is asked for.
+    pub fn load_scenes(&self) -> Result<Vec<(Scene, SceneBounds)>, Error> {
+        let SceneArgs { root, .. } = &self.scenes;
+        load_scenes(&root.scenes_dir, &self.scenes.names()?, Some(self.size))
+    }
 
-/// Makes the settings that scenes are rendered by.
-pub fn candidate_render_settings(args: &CandidateArgs) -> Result<RenderSettings, Error> {
-    make_render_settings(
-        &args.scenes,
-        args.size,
-        RenderSettings::default().replicates,
-    )
-}
+    /// Makes the settings that scenes are rendered by.
+    pub fn render_settings(&self) -> Result<RenderSettings, Error> {
+        let replicates = RenderSettings::default().replicates;
+        make_render_settings(&self.scenes, self.size, replicates)
+    }
 
-/// Opens the adapter, where the filter needs one.
-pub fn open_candidate_gpu(
-    choice: &FilterChoice,
-    args: &CandidateArgs,
-) -> Result<Option<Gpu>, Error> {
-    let adapter = args.adapter.adapter.as_deref();
-    Ok(open_gpu(
-        std::slice::from_ref(choice),
-        adapter,
-        make_monitor(),
-    )?)
+    /// Opens the adapter, where the filter needs one.
+    pub fn open_gpu(&self, choice: &FilterChoice) -> Result<Option<Gpu>, Error> {
+        let adapter = self.adapter.adapter.as_deref();
+        let filters = std::slice::from_ref(choice);
+        Ok(open_gpu(filters, adapter, make_monitor())?)
+    }
+
+    /// Returns true if an objective is to be measured.
+    pub fn measures(&self, objective: Objective) -> bool {
+        self.objective.contains(&objective)
+    }
+
+    /// Renders the scenes, or reads them back, and scores candidates on them. If their number is known, says how long that takes,
+    /// and keeps other processes from the folder meanwhile; otherwise others may share it.
+    pub fn score<T>(
+        &self,
+        choice: &FilterChoice,
+        bleed: bool,
+        candidates: Option<usize>,
+        work: impl FnOnce(&mut Evaluator) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let scenes = self.load_scenes()?;
+        let gpu = self.open_gpu(choice)?;
+        let render = self.render_settings()?;
+        let sharing = match candidates {
+            Some(count) => {
+                print_expected_scoring(&scenes, &render, count, f64::INFINITY);
+                Sharing::Alone
+            }
+            None => Sharing::Together,
+        };
+        let SceneArgs { out, .. } = &self.scenes;
+        let claimed = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
+        let alignment = choice.filter.alignment;
+        let rendered = render_scenes(&scenes, alignment, &render, out, make_monitor())?;
+        // Who shares the folder has read all of it.
+        let _claim = candidates.is_some().then_some(claimed);
+        let mut evaluator = Evaluator::new(gpu.as_ref(), choice, &rendered, bleed, make_monitor())?;
+        work(&mut evaluator)
+    }
 }
 
 /// Prints the expected time of scoring a number of candidates on scenes that are not rendered yet. Scoring ends after `limit`
@@ -70,19 +94,4 @@ pub fn print_expected_scoring(
         rendering + scoring.min(limit),
         &format!("{candidates} on {scenes}"),
     );
-}
-
-/// Claims the folder for files, and renders the frames and truths of the scenes into it, or reads them back.
-pub fn claim_and_render(
-    scenes: &[(Scene, SceneBounds)],
-    choice: &FilterChoice,
-    args: &CandidateArgs,
-    sharing: Sharing,
-) -> Result<(Claim, Vec<RenderedScene>), Error> {
-    let SceneArgs { out, .. } = &args.scenes;
-    let settings = candidate_render_settings(args)?;
-    let claimed = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
-    let alignment = choice.filter.alignment;
-    let rendered = render_scenes(scenes, alignment, &settings, out, make_monitor())?;
-    Ok((claimed, rendered))
 }

@@ -14,10 +14,10 @@ use store::{printable_path, refuse_tracked};
 use suite::{Error, Run, open_gpu};
 use tracer::Location;
 
-use super::ending::Ending;
 use super::margins::{Margins, read_margins};
 use super::measured_run::{MeasuredRun, measure};
 use super::pages::{WrittenFile, page_lines, page_path, refuse_folder, write_run_page};
+use super::result::Ending;
 use super::run_files::write_judged_run;
 use super::run_plan::{check_replicates_for_intervals, make_plan, read_case_bounds};
 use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};

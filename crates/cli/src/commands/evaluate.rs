@@ -6,15 +6,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use filters::{Settings, Value};
 use frame::{FileError, read_bounded};
-use store::{MAX_JSON_BYTES, Sharing};
+use store::MAX_JSON_BYTES;
 use suite::{Error, FilterChoice};
-use tune::{Evaluator, Objective, evaluate_candidate};
+use tune::{Objective, evaluate_candidate};
 
-use super::candidate::{
-    claim_and_render, load_candidate_scenes, open_candidate_gpu, select_candidate,
-};
 use crate::arguments::CandidateArgs;
-use crate::output::{make_monitor, print_json};
+use crate::output::print_json;
 
 #[derive(Debug, Args)]
 pub struct EvaluateArgs {
@@ -28,16 +25,13 @@ pub struct EvaluateArgs {
 /// Scores one set of parameters on every scene and prints JSON.
 pub fn execute(args: &EvaluateArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
-    let choice = select_candidate(candidate)?;
+    let choice = candidate.select()?;
     let settings = read_params(&args.params, &choice)?;
-    let scenes = load_candidate_scenes(candidate)?;
-    let gpu = open_candidate_gpu(&choice, candidate)?;
-    let (_, rendered) = claim_and_render(&scenes, &choice, candidate, Sharing::Together)?;
-    let bleed = candidate.objective.contains(&Objective::Bleed);
-    let mut scorer = Evaluator::new(gpu.as_ref(), &choice, &rendered, bleed, make_monitor())?;
-    let cost = candidate.objective.contains(&Objective::Cost);
-    let all: Vec<usize> = (0..rendered.len()).collect();
-    let scores = evaluate_candidate(&mut scorer, &settings, &all, cost, |_, _| true)?;
+    let [bleed, cost] = [Objective::Bleed, Objective::Cost].map(|own| candidate.measures(own));
+    let scores = candidate.score(&choice, bleed, None, |evaluator| {
+        let all: Vec<usize> = (0..evaluator.targets.len()).collect();
+        evaluate_candidate(evaluator, &settings, &all, cost, |_, _| true)
+    })?;
     print_json(&scores)
 }
 

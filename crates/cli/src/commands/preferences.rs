@@ -44,7 +44,9 @@ fn read_run(side: &Side, study: &Study) -> Result<Run, Error> {
     let exact = |name: &String| Pattern::new(&Pattern::escape(name)).expect("it is escaped");
     let filters = study.shutters.iter().flat_map(|own| &own.filters);
     let choice = StudyChoice {
-        scenes: study.scenes.iter().map(exact).collect(),
+        scenes: (study.scenes.iter())
+            .map(|scene| exact(&scene.to_string()))
+            .collect(),
         filters: filters.map(exact).collect(),
         most_pairs: study.most_pairs,
     };

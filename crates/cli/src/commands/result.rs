@@ -1,29 +1,38 @@
-//! A result in a JSON file, printed as a table or as JSON.
+//! Results of commands: as files, as tables or JSON, and as exit codes.
 
-use std::path::PathBuf;
+use std::path::Path;
 
+use serde::Serialize;
 use store::printable_path;
 use suite::Error;
 
 use crate::output::print;
 
-/// A result, for people and for machines.
-pub struct CommandResult {
-    /// The result as a table.
-    pub table: String,
-    /// The result as JSON.
-    pub json: String,
-    /// File that holds the JSON.
-    pub path: PathBuf,
+/// The end of a command that did its work.
+pub enum Ending {
+    /// Nothing more is to say.
+    Done,
+    /// A check failed or is undecided, and has printed that.
+    Failed(Error),
 }
 
-impl CommandResult {
-    /// Prints the table and names the file; or prints the JSON.
-    pub fn print(&self, as_json: bool) -> Result<(), Error> {
-        let Self { table, json, path } = self;
-        match as_json {
-            true => print(&format!("{json}\n")),
-            false => print(&format!("{table}\nwritten: {}\n", printable_path(path))),
-        }
+/// Writes a result to a file as JSON and returns that.
+pub fn write_json(path: &Path, result: &impl Serialize) -> Result<String, Error> {
+    let json = serde_json::to_string_pretty(result).expect("a result is plain data");
+    frame::write_atomically(path, json.as_bytes())?;
+    Ok(json)
+}
+
+/// Writes a result to a file as JSON, then prints its table and names the file, or prints the JSON.
+pub fn write_result(
+    path: &Path,
+    result: &impl Serialize,
+    table: &str,
+    as_json: bool,
+) -> Result<(), Error> {
+    let json = write_json(path, result)?;
+    match as_json {
+        true => print(&format!("{json}\n")),
+        false => print(&format!("{table}\nwritten: {}\n", printable_path(path))),
     }
 }

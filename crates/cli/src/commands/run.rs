@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use judge::{Level, judge};
-use store::{printable, printable_path};
+use store::printable_path;
 use suite::{Error, Part, Run, open_gpu, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
@@ -92,7 +92,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
             false => ranking_text(&run.cases),
         };
         let scaling = run.scaling_note();
-        let scaling = scaling.map_or(String::new(), |note| legend_text(&printable(&note)));
+        let scaling = scaling.map_or(String::new(), |note| legend_text(&note));
         let text =
             scores + &scaling + &sequences_text(&run, args.table) + &failures_text(&run.failures);
         print(&(text + &closing_text(&run, &pages, &plan.out, began.elapsed())))?;

@@ -1,7 +1,5 @@
 //! The command `tune search`.
 
-use std::io::ErrorKind;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -11,12 +9,9 @@ use suite::{Error, FilterChoice};
 use tracer::{Progress, RenderSettings};
 use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
 
-use super::candidate::{
-    candidate_render_settings, load_candidate_scenes, open_candidate_gpu, print_expected_scoring,
-    select_candidate,
-};
+use super::candidate::print_expected_scoring;
 use super::render_settings::make_render_settings;
-use super::result::CommandResult;
+use super::result::{write_json, write_result};
 use super::run_plan::load_scenes;
 use crate::arguments::{CandidateArgs, above_zero, parse_ratio, parse_size, within};
 use crate::output::{is_quiet, make_monitor, print_error};
@@ -36,7 +31,7 @@ pub struct TuneArgs {
     )]
     pub vary: Vec<String>,
     /// Candidates to try, including those of an interrupted run.
-    #[arg(help_heading = "Search", long, value_name = "N", default_value_t = 400, value_parser = within::<usize>(0..=1_000_000))]
+    #[arg(help_heading = "Search", long, value_name = "N", default_value_t = 400, value_parser = within::<usize>(1..=1_000_000))]
     pub budget: usize,
     /// Minutes after which no candidate begins.
     #[arg(help_heading = "Search", long, value_name = "M", value_parser = above_zero(1e6))]
@@ -79,13 +74,9 @@ pub struct TuneArgs {
 
 /// Tunes, writes `journal.jsonl`, `tune.json` and the choice's values, prints the table.
 pub fn execute(args: &TuneArgs) -> Result<(), Error> {
-    let choice = select_candidate(&args.candidate)?;
-    if args.budget == 0 {
-        refuse!("--budget 0; allowed: 1 or more; the first trial is the start itself");
-    }
-    let options = make_options(args, choice)?;
+    let options = make_options(args, args.candidate.select()?)?;
     options.check()?;
-    let gpu = open_candidate_gpu(&options.choice, &args.candidate)?;
+    let gpu = args.candidate.open_gpu(&options.choice)?;
     let scenes = options.scenes.iter().chain(&options.held_out);
     let _claim = claim(&options.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
     // A race drops many candidates early.
@@ -106,7 +97,7 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
         let seconds = began.elapsed().as_secs_f64();
         print_error(&format!("{} trials in {seconds:.1} s", tuning.trials));
     }
-    write_tuning(&tuning, &options)?.print(args.json)
+    write_tuning(&tuning, &options, args.json)
 }
 
 fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Error> {
@@ -117,7 +108,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
         [] => Vec::new(),
         words => load_scenes(&scene_args.root.scenes_dir, words, Some(args.held_out_size))?,
     };
-    let mut open = load_candidate_scenes(candidate)?;
+    let mut open = candidate.load_scenes()?;
     if scene_args.scenes.is_empty() {
         // Every scene means every one that is not held out.
         open.retain(|(scene, _)| held_out.iter().all(|(other, _)| other.id != scene.id));
@@ -129,7 +120,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
         space,
         scenes: interleave_families(open),
         held_out,
-        render: candidate_render_settings(candidate)?,
+        render: candidate.render_settings()?,
         held_out_render: make_render_settings(
             &held_out_args,
             args.held_out_size,
@@ -147,35 +138,21 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     })
 }
 
-/// Writes tune.json, params.json and, where the choice is worth taking, preset.toml; else removes that of an earlier tuning.
-fn write_tuning(tuning: &Tuning, options: &TuneOptions) -> Result<CommandResult, Error> {
-    let pretty = |json: Result<String, serde_json::Error>| json.expect("a tuning is plain data");
-    let write = |name: &str, text: &str| {
-        frame::write_atomically(&options.out.join(name), text.as_bytes()).map_err(Error::from)
-    };
-    let json = pretty(serde_json::to_string_pretty(tuning));
-    write("tune.json", &json)?;
-    write(
-        "params.json",
-        &pretty(serde_json::to_string_pretty(&tuning.values)),
-    )?;
+/// Writes params.json and, where the choice is worth taking, preset.toml, or else removes that of an earlier tuning; writes tune.json
+/// and prints its table.
+fn write_tuning(tuning: &Tuning, options: &TuneOptions, as_json: bool) -> Result<(), Error> {
+    let path = |name: &str| options.out.join(name);
+    write_json(&path("params.json"), &tuning.values)?;
+    let preset = path("preset.toml");
     match tuning.advice() {
-        Advice::Take => write("preset.toml", &tuned_preset_toml(tuning, options))?,
-        _ => remove_file(&options.out.join("preset.toml"))?,
-    }
-    Ok(CommandResult {
-        table: tuning_table(tuning) + "\n" + advice_text(tuning).trim_end(),
-        json,
-        path: options.out.join("tune.json"),
-    })
-}
-
-/// Removes a file, if there is one.
-fn remove_file(path: &Path) -> Result<(), Error> {
-    match std::fs::remove_file(path) {
-        Err(error) if error.kind() != ErrorKind::NotFound => {
-            Err(FileError::io(path, "remove", error).into())
+        Advice::Take => {
+            let text = tuned_preset_toml(tuning, options);
+            frame::write_atomically(&preset, text.as_bytes())?;
         }
-        _ => Ok(()),
+        _ if preset.exists() => std::fs::remove_file(&preset)
+            .map_err(|source| FileError::io(&preset, "remove", source))?,
+        _ => {}
     }
+    let table = tuning_table(tuning) + "\n" + advice_text(tuning).trim_end();
+    write_result(&path("tune.json"), tuning, &table, as_json)
 }

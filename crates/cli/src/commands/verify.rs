@@ -11,9 +11,9 @@ use suite::{
     Error, SceneRenders, TILE_SIDE, Verification, Verified, list_scene_renders, verify_scene,
 };
 
-use super::ending::Ending;
 use super::kept_truths::choose_seed;
-use crate::arguments::{RootArgs, within};
+use super::result::Ending;
+use crate::arguments::{RootArgs, thread_count, within};
 use crate::output::{count_text, make_monitor, print, print_json};
 use crate::selection::{choose_names, select_scenes};
 
@@ -39,7 +39,7 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = within::<u32>(1..=10_000))]
     pub tiles: u32,
     /// Threads that render [default: one per core].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = thread_count())]
     pub threads: Option<usize>,
     /// Print what was verified as JSON.
     #[arg(help_heading = "Output", long)]

@@ -1,45 +1,74 @@
-//! Colours of printed text, as escape codes. Printing leaves them out where no terminal shows them; a word says the same each
-//! time.
+//! Styles of printed text. Inside of the program each is a mark: a character that is none, and that no file need hold. Printing makes
+//! the codes of a terminal of the marks, and of no other text: codes in a name or a file become escapes.
 
-use anstyle::{AnsiColor, Style};
+use anstyle::{AnsiColor, Reset, Style};
+use store::printable;
 
-/// Marks a title.
+/// Marks a title, which has one line.
 pub fn heading(text: &str) -> String {
-    paint(Style::new().bold(), text)
+    paint('\u{fdd1}', &printable(text))
 }
 
 /// Marks text of less weight.
 pub fn faint(text: &str) -> String {
-    paint(Style::new().dimmed(), text)
+    paint('\u{fdd2}', text)
 }
 
 /// Marks a success.
 pub fn good(text: &str) -> String {
-    paint(AnsiColor::Green.on_default(), text)
+    paint('\u{fdd3}', text)
 }
 
 /// Marks a failure.
 pub fn bad(text: &str) -> String {
-    paint(AnsiColor::Red.on_default().bold(), text)
+    paint('\u{fdd4}', text)
 }
 
 /// Marks what is undecided.
 pub fn doubtful(text: &str) -> String {
-    paint(AnsiColor::Yellow.on_default(), text)
+    paint('\u{fdd5}', text)
+}
+
+/// Mark of the end of a style.
+const END: char = '\u{fdd0}';
+
+fn paint(mark: char, text: &str) -> String {
+    match text.is_empty() {
+        true => String::new(),
+        false => format!("{mark}{text}{END}"),
+    }
+}
+
+/// Finds the style that a mark begins.
+fn style(mark: char) -> Option<Style> {
+    match mark {
+        '\u{fdd1}' => Some(Style::new().bold()),
+        '\u{fdd2}' => Some(Style::new().dimmed()),
+        '\u{fdd3}' => Some(AnsiColor::Green.on_default()),
+        '\u{fdd4}' => Some(AnsiColor::Red.on_default().bold()),
+        '\u{fdd5}' => Some(AnsiColor::Yellow.on_default()),
+        _ => None,
+    }
 }
 
 /// Counts the columns that a text takes on the screen.
 pub fn width(text: &str) -> usize {
-    anstream::adapter::strip_str(text)
-        .map(|part| part.chars().count())
-        .sum()
+    let is_shown = |letter: &char| *letter != END && style(*letter).is_none();
+    text.chars().filter(is_shown).count()
 }
 
-fn paint(style: Style, text: &str) -> String {
-    match text.is_empty() {
-        true => String::new(),
-        false => format!("{style}{text}{style:#}"),
+/// Makes the text that a terminal gets: colours instead of marks, and escapes instead of all control characters but line breaks.
+pub fn terminal_text(text: &str) -> String {
+    let lines: Vec<_> = text.split('\n').map(printable).collect();
+    let mut shown = String::new();
+    for letter in lines.join("\n").chars() {
+        match style(letter) {
+            Some(style) => shown += &style.to_string(),
+            None if letter == END => shown += &Reset.to_string(),
+            None => shown.push(letter),
+        }
     }
+    shown
 }
 
 #[cfg(test)]
@@ -47,8 +76,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_take_no_columns() {
-        assert_eq!(width(&format!("a {} c", bad("§5"))), 6);
+    fn marks_take_no_columns_and_alone_become_codes() {
+        let text = format!("a {} c\u{1b}[2J\n", bad("§5"));
+        assert_eq!(width("a §5 c"), width(&format!("a {} c", bad("§5"))));
+        assert_eq!(
+            terminal_text(&text),
+            "a \u{1b}[1m\u{1b}[31m§5\u{1b}[0m c\\u001b[2J\n"
+        );
         assert_eq!(heading(""), "");
     }
 }

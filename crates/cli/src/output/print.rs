@@ -3,17 +3,17 @@
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, IsTerminal, Write};
 
-use store::{printable, printable_lines, printable_table};
+use store::{printable, printable_lines};
 use suite::Error;
 use tracer::Scene;
 
-use super::push_wrapped;
+use super::{terminal_text, wrap_lines};
 
-/// Prints to standard output, in colours where that is a terminal that shows them; other control characters become escapes. A
-/// reader that has read enough, such as `head`, is no error.
+/// Prints to standard output, in colours where that is a terminal that shows them. A reader that has read enough, such as `head`, is
+/// no error.
 pub fn print(text: &str) -> Result<(), Error> {
     let mut out = anstream::stdout();
-    let text = printable_table(text);
+    let text = terminal_text(text);
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             refuse!("standard output: cannot write: {error}")
@@ -28,9 +28,9 @@ pub fn print_json(value: &impl serde::Serialize) -> Result<(), Error> {
     print(&format!("{json}\n"))
 }
 
-/// Writes a line to standard error. Nobody need read it: errors are ignored.
-pub fn print_error(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+/// Writes lines to standard error, with escapes instead of control characters. Nobody need read them: errors are ignored.
+pub fn print_error(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{}", terminal_text(text));
 }
 
 /// Writes the error that ends a command to standard error.
@@ -40,19 +40,9 @@ pub fn print_failure(error: &Error) {
 
 /// Writes lines to standard error, wrapped where that is a terminal.
 fn print_wrapped(text: &str) {
-    if !std::io::stderr().is_terminal() {
-        return print_error(text);
-    }
-    for line in text.lines() {
-        // Lines of a compiler stand below one another.
-        match line.contains(['┌', '│']) {
-            true => print_error(line),
-            false => {
-                let mut wrapped = String::new();
-                push_wrapped(&mut wrapped, 0, line);
-                print_error(wrapped.trim_end());
-            }
-        }
+    match std::io::stderr().is_terminal() {
+        true => print_error(wrap_lines(text).trim_end()),
+        false => print_error(text),
     }
 }
 

@@ -108,7 +108,7 @@ impl Step for Lines {
 impl Lines {
     fn new(label: &str, now: Instant) -> Self {
         Self {
-            label: printable(label).into_owned(),
+            label: label.to_owned(),
             times: Mutex::new(LineTimes {
                 began: now,
                 last: now,

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 
+use store::printable;
 use terminal_size::{Width, terminal_size_of};
 
 use super::width;
@@ -27,11 +28,12 @@ pub fn terminal_columns() -> usize {
     })
 }
 
-/// Adds a line and breaks it between words where it is too long; later lines are indented further.
+/// Adds one line of text, and breaks it between words where it is too long; later lines are indented further. Line breaks in it become
+/// escapes, since names and files may hold them.
 pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
     let mut column = indent;
     *text += &" ".repeat(indent);
-    for (index, word) in line.split(' ').enumerate() {
+    for (index, word) in printable(line).split(' ').enumerate() {
         let length = width(word);
         if index > 0 && column + 1 + length > terminal_columns() {
             *text += &format!("\n{}", " ".repeat(indent + 4));
@@ -44,6 +46,19 @@ pub fn push_wrapped(text: &mut String, indent: usize, line: &str) {
         column += length;
     }
     *text += "\n";
+}
+
+/// Wraps lines, and keeps their indentation. Lines of a compiler stand below one another.
+pub fn wrap_lines(text: &str) -> String {
+    let mut wrapped = String::new();
+    for line in text.lines() {
+        let words = line.trim_start_matches(' ');
+        match words.is_empty() || line.contains(['┌', '│']) {
+            true => wrapped += &format!("{line}\n"),
+            false => push_wrapped(&mut wrapped, line.len() - words.len(), words),
+        }
+    }
+    wrapped
 }
 
 /// Counts things: `1 case`, `2 cases`.

@@ -1,6 +1,7 @@
 //! Table of an audit.
 
 use engine::{CaptureAudit, ObjectAudit, ObjectShown};
+use store::printable;
 use suite::engine_name;
 
 use super::Table;
@@ -31,7 +32,7 @@ pub fn audit_table(audit: &CaptureAudit) -> String {
     let mut text = format!(
         "{} drawn by {}, {width}x{height}: {:.1} % of the pixels show what the scene shows, by {}\nvelocity in pixels per frame, compared at {:.1} % of them\n\n",
         audit.scene,
-        engine_name(&audit.engine),
+        printable(engine_name(&audit.engine)),
         100.0 * audit.alike,
         if audit.has_ids {
             "their ids"

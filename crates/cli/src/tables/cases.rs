@@ -2,7 +2,6 @@
 
 use judge::lag_text;
 use metrics::{Metric, Scores};
-use store::printable;
 use suite::{Case, Run};
 
 use super::{Column, Missing, Table, bracket_name, legend_text, list_once, means_table};
@@ -63,8 +62,8 @@ const KEY: &str = "Skill by FLIP: 0 is a sharp picture of the shutter's middle, 
 /// Makes the table of one picture's scores, in the manner of [`run_table`].
 pub fn score_table(scene: &str, picture: &str, scores: &Scores) -> String {
     let mut table = case_table("scene / picture", &[]);
-    table.push_text(printable(scene));
-    table.push(printable(picture), case_cells(scores));
+    table.push_text(scene);
+    table.push(picture, case_cells(scores));
     table.text() + &legend_text(KEY)
 }
 

@@ -3,7 +3,6 @@
 use judge::{Basis, Change, ChangeKind, MeanChange, RunComparison, SettingChange, rank_changes};
 use metrics::Metric;
 use report::ChangeCells;
-use store::printable;
 
 use super::Table;
 use crate::output::{bad, count_text, doubtful, faint, good, push_wrapped};
@@ -23,7 +22,7 @@ pub fn compare_table(compared: &RunComparison) -> String {
     ];
     for (cases, run) in sides {
         if !cases.is_empty() {
-            push_wrapped(&mut text, 0, &format!("only in {}:", printable(run)));
+            push_wrapped(&mut text, 0, &format!("only in {run}:"));
             for case in cases {
                 push_wrapped(&mut text, 2, case);
             }

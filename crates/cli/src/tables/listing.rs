@@ -5,7 +5,7 @@ use store::printable;
 use suite::InputKind;
 use tracer::SceneListing;
 
-use crate::output::{heading, push_wrapped};
+use crate::output::{heading, push_wrapped, wrap_lines};
 
 /// Lists scenes, one short paragraph each.
 pub fn scenes_text(scenes: &[SceneListing]) -> String {
@@ -70,19 +70,6 @@ pub fn details_text(scenes: &[SceneListing], filters: &[Filter]) -> String {
     let scenes: String = scenes.iter().map(scene_text).collect();
     let filters: String = filters.iter().map(filter_text).collect();
     wrap_lines(&(scenes + &filters))
-}
-
-/// Wraps lines and keeps their indentation.
-fn wrap_lines(text: &str) -> String {
-    let mut wrapped = String::new();
-    for line in text.lines() {
-        let words = line.trim_start_matches(' ');
-        match words.is_empty() {
-            true => wrapped += "\n",
-            false => push_wrapped(&mut wrapped, line.len() - words.len(), words),
-        }
-    }
-    wrapped
 }
 
 /// Describes a scene as JSON.

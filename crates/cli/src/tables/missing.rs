@@ -1,7 +1,6 @@
 //! Notes below a table that say why scores are `n/a`.
 
 use metrics::Measured;
-use store::printable;
 
 use super::legend_text;
 
@@ -60,7 +59,7 @@ impl Missing {
                 reason.titles.join(", "),
                 reason.text
             );
-            legend_text(&printable(&text))
+            legend_text(&text)
         };
         self.0.iter().map(note).collect()
     }

@@ -1,6 +1,6 @@
 //! Tables of what people prefer.
 
-use store::{printable, printable_path};
+use store::printable_path;
 use study::{
     MIN_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
 };
@@ -86,7 +86,7 @@ fn push_scale(text: &mut String, scale: &ShutterScale) {
             own.chosen.to_string(),
             own.compared.to_string(),
         ];
-        table.push(printable(&own.filter), cells);
+        table.push(&own.filter, cells);
     }
     *text += &format!("\n{}", table.text());
     for line in describe(scale) {
@@ -131,7 +131,7 @@ fn describe(scale: &ShutterScale) -> Vec<String> {
         lines.push(format!(
             "no filter of one of these groups was ever chosen against one of a group above it: the prior alone holds their distance, and more \
              answers may widen it: {}",
-            printable(&groups.join(" | "))
+            groups.join(" | ")
         ));
     }
     lines

@@ -2,7 +2,6 @@
 
 use judge::{RANK_RULE, RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use metrics::{SequenceMetric, SequenceScores};
-use store::printable;
 use suite::{Run, Sequence};
 use tracer::SceneId;
 
@@ -110,7 +109,7 @@ pub fn score_sequence_table(
     scores: &SequenceScores,
 ) -> String {
     let mut table = score_columns(frames as usize);
-    table.push_text(printable(scene));
+    table.push_text(scene);
     table.push(name, score_cells(scores));
     table.text() + &legend_text(&format!("Sequences: {KEY}"))
 }

@@ -24,7 +24,8 @@ pub fn tuning_table(tuning: &Tuning) -> String {
         tuning.failed.len(),
     ));
     text += "\n\n";
-    text += &heading("trial    error    bleed     cost  values that differ from the start\n");
+    text += &heading("trial    error    bleed     cost  values that differ from the start");
+    text += "\n";
     let mut rows = vec![&tuning.start];
     rows.extend(tuning.front.iter().take(ROWS));
     if !rows.iter().any(|row| row.trial == tuning.chosen.trial) {
@@ -58,7 +59,8 @@ pub fn tuning_table(tuning: &Tuning) -> String {
     push_wrapped(&mut text, 0, &chosen);
     if !tuning.folds.is_empty() {
         text += "\n";
-        text += &heading("family left out  scenes  trial  on the others  on the family    gap\n");
+        text += &heading("family left out  scenes  trial  on the others  on the family    gap");
+        text += "\n";
         for fold in &tuning.folds {
             text += &format!(
                 "{:15} {:7} {:6} {:14.3} {:14.3} {:6.3}\n",

@@ -27,6 +27,8 @@ pub(crate) const DEFAULT_TIME_LIMIT: f64 = 60.0;
 pub struct Filter {
     /// Name of its WGSL file, and its word on the command line.
     pub name: String,
+    /// Folder that it was loaded from; none for one that the program brings along.
+    pub folder: Option<PathBuf>,
     /// Description in one sentence.
     pub summary: String,
     /// Publication that it comes from.

@@ -34,7 +34,9 @@ impl Filter {
         };
         let path = folder.join("filter.toml");
         let manifest = as_text(&path, read(&path, MAX_MANIFEST_BYTES)?)?;
-        parse_filter(folder, &manifest, read)
+        let mut filter = parse_filter(folder, &manifest, read)?;
+        filter.folder = Some(folder.to_owned());
+        Ok(filter)
     }
 
     /// Loads a filter that the program brings along.

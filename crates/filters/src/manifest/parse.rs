@@ -83,6 +83,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     }
     Ok(Filter {
         name: manifest.name.get_ref().clone(),
+        folder: None,
         presets: read_presets(
             &file,
             &manifest.preset,

@@ -62,7 +62,7 @@ impl AlongMotion {
         } else {
             Err(format!(
                 "rows do not keep their mass: occlusion or a change of shape alters the silhouette by {changed:.2} px \
-                 between instant and shutter, {LARGEST_ROW_CHANGE} px at most allow to tell growth"
+                 between instant and shutter; growth and loss are measured up to {LARGEST_ROW_CHANGE} px"
             ))
         };
         Ok(Self {

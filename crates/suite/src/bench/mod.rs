@@ -4,7 +4,6 @@ mod costs;
 mod panels;
 mod spread;
 mod timing;
-mod turns;
 
 use std::collections::BTreeMap;
 

@@ -1,16 +1,16 @@
 //! Bench of filters: the work behind its tables.
 
 use std::cell::Cell;
+use std::collections::BTreeMap;
 
 use filters::{Blur, BufferCopy, Filter, FilterError, Gpu, Input, LoadedBlur, Settings};
-use tracer::Watch;
+use tracer::{Progress, TraceError, Watch};
 
-use super::costs::{case_cost, growth, pass_costs, total_seconds};
+use super::costs::{Times, case_cost, pass_costs, ratio, spread};
 use super::panels::Panels;
-use super::turns::{Times, Turns};
 use super::{
-    BASELINE, BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, REACHES, ReachCost, ReachPoint,
-    SPEED, Spread,
+    BASELINE, BENCH_FORMAT, Bench, CaseCost, CopyCost, EXPOSURE, GROWTH_FROM, REACHES, ReachCost,
+    ReachPoint, SPEED, Spread,
 };
 use crate::filter_choice::FilterChoice;
 use crate::{Error, PROGRAM};
@@ -48,18 +48,16 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
     plan.filters = (plan.filters.into_iter())
         .map(|choice| choice.as_written(as_written).scaled_to(width))
         .collect();
-    let turns = Turns {
-        rounds: plan.rounds,
+    let timer = Timer {
+        plan: &plan,
+        gpu,
         watch,
         done: Cell::new(0),
-        total: plan.count_runs(),
     };
-    let (copy, cases) = time_presets(&plan, gpu, &turns)?;
-    let reaches = plan
-        .filters
-        .iter()
-        .map(|choice| time_reaches(&plan, gpu, choice, &turns))
-        .collect::<Result<_, _>>()?;
+    let (copy, cases) = timer.time_presets()?;
+    let filters = plan.filters.iter();
+    let reaches = filters.map(|choice| timer.time_reaches(choice));
+    let reaches = reaches.collect::<Result<_, _>>()?;
     Ok(Bench {
         format: BENCH_FORMAT,
         program: PROGRAM.to_owned(),
@@ -76,102 +74,119 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
     })
 }
 
-/// Times every filter preset on the frame of [`SPEED`], and the memory copy beside them.
-fn time_presets(
-    plan: &BenchPlan,
-    gpu: &Gpu,
-    turns: &Turns,
-) -> Result<(CopyCost, Vec<CaseCost>), Error> {
-    let panels = Panels::new(plan.width, plan.height, SPEED as f32);
-    let mut blurs = Vec::new();
-    for choice in &plan.filters {
-        blurs.push(compile(plan, gpu, choice, &choice.settings)?);
-    }
-    let mut loaded = Vec::new();
-    for blur in &mut blurs {
-        loaded.push(load(blur, &panels)?);
-    }
-    let buffers = BufferCopy::new(gpu)?;
-    let (runs, copies) = turns.take(&loaded, || buffers.time())?;
-    let seconds = Spread::of(copies);
-    let copy = CopyCost {
-        bytes: buffers.bytes,
-        seconds,
-        bytes_per_second: buffers.bytes as f64 / seconds.median,
-    };
-    let index = plan
-        .filters
-        .iter()
-        .position(|choice| choice.name() == BASELINE);
-    let baseline: Vec<f64> = runs[index.expect("the baseline takes part")]
-        .iter()
-        .map(|run| total_seconds(run))
-        .collect();
-    let costs = plan.filters.iter().zip(&runs);
-    let costs =
-        costs.map(|(choice, runs)| case_cost(choice, runs, &baseline, pixel_count(plan), &copy));
-    let costs = costs.collect();
-    Ok((copy, costs))
+/// A filter with settings, and the speed of the frame that it is timed on.
+type Timed<'a> = (&'a FilterChoice, &'a Settings, u32);
+
+/// The rounds of a bench, and the progress over the runs of filters.
+struct Timer<'a> {
+    plan: &'a BenchPlan,
+    gpu: &'a Gpu,
+    watch: Watch<'a>,
+    /// Runs that are done, of all tables.
+    done: Cell<u64>,
 }
 
-/// Times one filter at every reach, in turns.
-fn time_reaches(
-    plan: &BenchPlan,
-    gpu: &Gpu,
-    choice: &FilterChoice,
-    turns: &Turns,
-) -> Result<ReachCost, Error> {
-    // A range that ends before a reach leaves a gap in the table.
-    let settings = REACHES.map(|pixels| choice.settings.with_reach(&choice.filter, pixels).ok());
-    let (mut blurs, mut speeds) = (Vec::new(), Vec::new());
-    for (settings, pixels) in settings.iter().zip(REACHES) {
-        if let Some(settings) = settings {
-            blurs.push(compile(plan, gpu, choice, settings)?);
-            speeds.push(pixels as f32);
+impl Timer<'_> {
+    /// Times every filter preset on the frame of [`SPEED`], and the memory copy beside them.
+    fn time_presets(&self) -> Result<(CopyCost, Vec<CaseCost>), Error> {
+        let filters = &self.plan.filters;
+        let timed = filters.iter().map(|own| (own, &own.settings, SPEED));
+        let buffers = BufferCopy::new(self.gpu)?;
+        let (runs, copies) = self.time(&timed.collect::<Vec<_>>(), || buffers.time())?;
+        let seconds = Spread::of(copies);
+        let copy = CopyCost {
+            bytes: buffers.bytes,
+            seconds,
+            bytes_per_second: buffers.bytes as f64 / seconds.median,
+        };
+        let baseline = filters.iter().position(|choice| choice.name() == BASELINE);
+        let baseline = &runs[baseline.expect("the baseline takes part")];
+        let costs = filters.iter().zip(&runs);
+        let costs = costs
+            .map(|(choice, runs)| case_cost(choice, runs, baseline, self.count_pixels(), &copy));
+        let costs = costs.collect();
+        Ok((copy, costs))
+    }
+
+    /// Times one filter at every reach, in turns.
+    fn time_reaches(&self, choice: &FilterChoice) -> Result<ReachCost, Error> {
+        // A range that ends before a reach leaves a gap in the table.
+        let settings = |pixels| choice.settings.with_reach(&choice.filter, pixels).ok();
+        let settings: BTreeMap<u32, Settings> = (REACHES.into_iter())
+            .filter_map(|pixels| Some((pixels, settings(pixels)?)))
+            .collect();
+        let timed = settings.iter().map(|(pixels, own)| (choice, own, *pixels));
+        let (runs, _) = self.time(&timed.collect::<Vec<_>>(), || Ok(()))?;
+        let gaps = (REACHES.len() - settings.len()) as u64;
+        self.advance(gaps * u64::from(self.plan.rounds + 1))?;
+        let runs: BTreeMap<u32, Vec<Times>> = settings.keys().copied().zip(runs).collect();
+        let parameter = choice.filter.reach_by.as_ref().map(|by| &by.parameter);
+        let point = |pixels: u32| {
+            let runs = runs.get(&pixels);
+            ReachPoint {
+                pixels,
+                seconds: runs.map(|runs| spread(runs)),
+                value: (settings.get(&pixels).zip(parameter))
+                    .map(|(settings, name)| settings.values[name].clone()),
+                passes: runs.map_or(Vec::new(), |runs| pass_costs(runs, self.count_pixels())),
+            }
+        };
+        let ends = (runs.get(&REACHES[REACHES.len() - 1])).zip(runs.get(&GROWTH_FROM));
+        Ok(ReachCost {
+            filter: choice.filter.name.clone(),
+            preset: choice.preset.clone(),
+            parameter: parameter.cloned(),
+            points: REACHES.map(point).to_vec(),
+            growth: ends.map(|(to, from)| ratio(to, from)),
+        })
+    }
+
+    /// Runs each filter once, then `beside`, in every round; returns the runs of each filter. A round before the first is not counted.
+    fn time<T>(
+        &self,
+        filters: &[Timed],
+        beside: impl Fn() -> Result<T, FilterError>,
+    ) -> Result<(Vec<Vec<Times>>, Vec<T>), Error> {
+        let (width, height) = (self.plan.width, self.plan.height);
+        let mut blurs = Vec::new();
+        for (choice, settings, _) in filters {
+            let blur = Blur::new(self.gpu, &choice.filter, settings, width, height)?;
+            blurs.push(blur);
+        }
+        let mut loaded = Vec::new();
+        for (blur, (_, _, speed)) in blurs.iter_mut().zip(filters) {
+            loaded.push(load(blur, &Panels::new(width, height, *speed as f32))?);
+        }
+        let mut runs = vec![Vec::new(); loaded.len()];
+        let mut besides = Vec::new();
+        for round in 0..=self.plan.rounds {
+            let counts = round > 0;
+            for (blur, runs) in loaded.iter().zip(&mut runs) {
+                let times = blur.time()?;
+                runs.extend(counts.then_some(times));
+                self.advance(1)?;
+            }
+            besides.extend(Some(beside()?).filter(|_| counts));
+        }
+        Ok((runs, besides))
+    }
+
+    /// Shows that some runs are done, or left out.
+    fn advance(&self, runs: u64) -> Result<(), Error> {
+        self.done.set(self.done.get() + runs);
+        let progress = Progress {
+            done: self.done.get(),
+            total: self.plan.count_runs(),
+        };
+        match (self.watch)(progress).is_break() {
+            true => Err(TraceError::Cancelled.into()),
+            false => Ok(()),
         }
     }
-    let mut loaded = Vec::new();
-    for (blur, speed) in blurs.iter_mut().zip(speeds) {
-        loaded.push(load(blur, &Panels::new(plan.width, plan.height, speed))?);
+
+    fn count_pixels(&self) -> f64 {
+        f64::from(self.plan.width) * f64::from(self.plan.height)
     }
-    let (runs, _) = turns.take(&loaded, || Ok(()))?;
-    let gaps = (REACHES.len() - loaded.len()) as u64;
-    turns.advance(gaps * u64::from(turns.rounds + 1))?;
-    let mut runs = runs.into_iter();
-    let runs = settings
-        .each_ref()
-        .map(|settings| settings.as_ref().and_then(|_| runs.next()));
-    let parameter = choice.filter.reach_by.as_ref().map(|by| &by.parameter);
-    let point = |index: usize| {
-        let runs: Option<&Vec<Times>> = runs[index].as_ref();
-        ReachPoint {
-            pixels: REACHES[index],
-            seconds: runs.map(|runs| Spread::of(runs.iter().map(|run| total_seconds(run)))),
-            value: (settings[index].as_ref().zip(parameter))
-                .map(|(settings, name)| settings.values[name].clone()),
-            passes: runs.map_or(Vec::new(), |runs| pass_costs(runs, pixel_count(plan))),
-        }
-    };
-    Ok(ReachCost {
-        filter: choice.filter.name.clone(),
-        preset: choice.preset.clone(),
-        parameter: parameter.cloned(),
-        points: (0..REACHES.len()).map(point).collect(),
-        growth: growth(&runs),
-    })
-}
-
-fn pixel_count(plan: &BenchPlan) -> f64 {
-    f64::from(plan.width) * f64::from(plan.height)
-}
-
-fn compile<'g>(
-    plan: &BenchPlan,
-    gpu: &'g Gpu,
-    choice: &FilterChoice,
-    settings: &Settings,
-) -> Result<Blur<'g>, FilterError> {
-    Blur::new(gpu, &choice.filter, settings, plan.width, plan.height)
 }
 
 fn load<'b, 'g>(

@@ -1,10 +1,10 @@
 //! Jitter of the camera, as temporal anti-aliasing has it.
 
 use frame::{Frame, Vectors};
-use tracer::{PixelGrid, PointMotion, Scene, trace_frame_on, trace_motion_on};
+use tracer::{PixelGrid, PointMotion, trace_motion_on};
 
-use crate::inputs::traced_again::settings_of;
-use crate::{Error, Monitor, named};
+use super::renderer::{Renderer, settings_of};
+use crate::{Error, named};
 
 /// Number of jitters before they repeat.
 const PHASES: u32 = 8;
@@ -25,66 +25,62 @@ named! {
 
 impl CameraJitter {
     /// Returns the frame of a jittered camera.
-    ///
-    /// # Errors
-    /// The scene cannot be rendered so, or the monitor interrupts.
-    pub(crate) fn apply(
-        self,
-        frame: &Frame,
-        scene: &Scene,
-        monitor: Monitor,
-    ) -> Result<Frame, Error> {
-        if self == Self::None {
-            return Ok(frame.clone());
-        }
-        let [before, now] = jitters(scene.id.frame);
-        let settings = settings_of(frame);
+    pub(crate) fn apply(self, frame: Frame, renderer: &Renderer) -> Result<Frame, Error> {
+        let index = renderer.scene.id.frame;
+        let settings = settings_of(&frame);
         let grid = PixelGrid {
             size: [settings.width, settings.height],
             // What moves to the right in the picture lies further to the left for the pixels.
-            offset: now.map(|part| -part),
+            offset: jitter(index).map(|part| -part),
         };
-        if self == Self::Resolved {
-            let points = trace_motion_on(scene, &settings, &PointMotion::RIGHT, &grid)?;
-            return Ok(Frame {
-                velocity: points.velocity,
-                depth: points.depth,
-                object_id: points.object_id,
-                ..frame.clone()
-            });
+        let render = || renderer.frame("jittered frame", &settings, &grid);
+        match self {
+            Self::None => Ok(frame),
+            Self::Removed => render(),
+            Self::LeftIn => {
+                let jittered = render()?;
+                let velocity = add_motion(&jittered, jitter_motion(index));
+                Ok(Frame {
+                    velocity,
+                    ..jittered
+                })
+            }
+            Self::Resolved => {
+                let motion = &PointMotion::RIGHT;
+                let points = trace_motion_on(renderer.scene, &settings, motion, &grid)?;
+                Ok(Frame {
+                    velocity: points.velocity,
+                    depth: points.depth,
+                    object_id: points.object_id,
+                    ..frame
+                })
+            }
         }
-        let label = format!("{} jittered frame", scene.id);
-        let jittered = monitor.watch(&label, |watch| {
-            trace_frame_on(scene, &settings, &grid, watch)
-        })?;
-        let velocity = match self {
-            Self::LeftIn => add_jitter(&jittered, [0, 1].map(|axis| now[axis] - before[axis])),
-            _ => jittered.velocity,
-        };
-        Ok(Frame {
-            velocity,
-            ..jittered
-        })
     }
 }
 
 /// Adds a motion of the whole picture to all vectors, but to none of a background that has no velocity.
-fn add_jitter(frame: &Frame, motion: [f64; 2]) -> Vectors {
+fn add_motion(frame: &Frame, motion: [f32; 2]) -> Vectors {
     frame.velocity.zip(&frame.object_id, |velocity, object| {
         match *object == 0 && !frame.options.sky_velocity {
             true => *velocity,
-            false => [0, 1].map(|axis| velocity[axis] + motion[axis] as f32),
+            false => [0, 1].map(|axis| velocity[axis] + motion[axis]),
         }
     })
 }
 
-/// Returns by how much the jitter moves the picture in the frame before and in this one, in pixels; +x right, +y down. The frame
-/// 0 is the second of the sequence, as in the velocity defect `jittered`.
-pub(crate) fn jitters(frame: u32) -> [[f64; 2]; 2] {
-    [frame, frame + 1].map(|index| {
-        let point = index % PHASES + 1;
-        [halton(point, 2) - 0.5, halton(point, 3) - 0.5]
-    })
+/// Returns by how much the jitter moves the picture of a frame from the frame before it, in pixels.
+pub(super) fn jitter_motion(frame: u32) -> [f32; 2] {
+    let before = (frame + PHASES - 1) % PHASES;
+    let [before, now] = [before, frame].map(jitter);
+    [0, 1].map(|axis| (now[axis] - before[axis]) as f32)
+}
+
+/// Returns by how much the jitter moves the picture of a frame, in pixels; +x right, +y down. The frame 0 has the second of the
+/// jitters.
+fn jitter(frame: u32) -> [f64; 2] {
+    let point = (frame + 1) % PHASES + 1;
+    [2, 3].map(|base| halton(point, base) - 0.5)
 }
 
 /// Returns a number of the Halton sequence, counted from 1: the digits of its index in a base, mirrored at the point.
@@ -105,22 +101,21 @@ mod tests {
 
     #[test]
     fn jitters_are_the_halton_sequence_and_repeat() {
-        let sequence = [1, 2, 3, 4].map(|index| [halton(index, 2), halton(index, 3)]);
         let expected = [
             [1.0 / 2.0, 1.0 / 3.0],
             [1.0 / 4.0, 2.0 / 3.0],
             [3.0 / 4.0, 1.0 / 9.0],
             [1.0 / 8.0, 4.0 / 9.0],
         ];
-        for (found, expected) in sequence.as_flattened().iter().zip(expected.as_flattened()) {
-            assert!((found - expected).abs() < 1e-12, "{sequence:?}");
+        for (frame, expected) in (PHASES - 1..).zip(expected) {
+            let found = jitter(frame);
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found + 0.5 - expected).abs() < 1e-12, "{frame}: {found}");
+            }
         }
-        assert_eq!(jitters(0)[1], jitters(1)[0]);
-        assert_eq!(jitters(3), jitters(3 + PHASES));
-        assert_ne!(jitters(3), jitters(2 + PHASES));
-        let [before, now] = jitters(0);
-        // The velocity defect `jittered` has the same motion.
-        assert!((now[0] - before[0] + 0.25).abs() < 1e-12);
-        assert!((now[1] - before[1] - 1.0 / 3.0).abs() < 1e-12);
+        assert_eq!(jitter(3), jitter(3 + PHASES));
+        assert_eq!(jitter_motion(0), jitter_motion(PHASES));
+        // The velocity defect `jittered`.
+        assert_eq!(jitter_motion(0), [-0.25, 1.0 / 3.0]);
     }
 }

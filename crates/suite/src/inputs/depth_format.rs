@@ -3,7 +3,6 @@
 use frame::{FAR_DEPTH, Plane};
 use half::f16;
 
-use crate::inputs::unorm::unorm;
 use crate::named;
 
 /// Near plane that reversed depth is computed with, in metres.
@@ -31,20 +30,22 @@ impl DepthFormat {
             // The background is told apart by being far, and stays so.
             _ if depth == FAR_DEPTH => depth,
             Self::Float16 => f16::from_f32(depth).to_f32().min(f16::MAX.to_f32()),
-            Self::Reversed24 => {
-                let stored = unorm(NEAR / f64::from(depth), 24);
-                if stored > 0.0 {
-                    (NEAR / stored) as f32
-                } else {
-                    FAR_DEPTH
-                }
-            }
+            Self::Reversed24 => match unorm(NEAR / f64::from(depth), 24) {
+                0.0 => FAR_DEPTH,
+                stored => (NEAR / stored) as f32,
+            },
             Self::Reversed32 => {
                 let stored = (NEAR / f64::from(depth)) as f32;
                 (NEAR / f64::from(stored)) as f32
             }
         })
     }
+}
+
+/// Rounds a number in [0, 1] to a number of bits.
+pub(super) fn unorm(value: f64, bits: u32) -> f64 {
+    let steps = f64::from((1_u32 << bits) - 1);
+    (value.clamp(0.0, 1.0) * steps).round() / steps
 }
 
 #[cfg(test)]

@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use frame::Frame;
-use tracer::{Defocus, Scene, trace_defocus, trace_frame};
+use tracer::{Defocus, PixelGrid, Scene, trace_defocus};
 
-use crate::inputs::traced_again::settings_of;
+use super::renderer::{Renderer, settings_of};
 use crate::{Error, Monitor, named};
 
 named! {
@@ -31,30 +31,30 @@ impl DepthOfField {
         }
     }
 
-    /// Returns the scene as the filter's frame shows it.
-    pub(crate) fn seen_scene(self, scene: &Scene) -> Cow<'_, Scene> {
-        match self {
-            Self::Before => Cow::Borrowed(scene),
-            Self::After => Cow::Owned(scene.clone().pinhole()),
-        }
-    }
-
-    /// Returns the frame that a filter gets, of the scene of [`DepthOfField::seen_scene`].
+    /// Returns the frame that a filter gets, and the scene as it shows it.
     ///
     /// # Errors
     /// The scene cannot be rendered, or the monitor interrupts.
-    pub(crate) fn apply(
+    pub(crate) fn apply<'s>(
         self,
-        frame: &Frame,
-        seen: &Scene,
+        frame: Frame,
+        scene: &'s Scene,
         monitor: Monitor,
-    ) -> Result<Frame, Error> {
-        if self == Self::Before {
-            return Ok(frame.clone());
+    ) -> Result<(Frame, Cow<'s, Scene>), Error> {
+        match self {
+            Self::Before => Ok((frame, Cow::Borrowed(scene))),
+            Self::After => {
+                let scene = scene.clone().pinhole();
+                let settings = settings_of(&frame);
+                let grid = PixelGrid::of_picture(settings.width, settings.height);
+                let renderer = Renderer {
+                    scene: &scene,
+                    monitor,
+                };
+                let frame = renderer.frame("frame of a pinhole", &settings, &grid)?;
+                Ok((frame, Cow::Owned(scene)))
+            }
         }
-        let settings = settings_of(frame);
-        let label = format!("{} frame of a pinhole", seen.id);
-        Ok(monitor.watch(&label, |watch| trace_frame(seen, &settings, watch))?)
     }
 
     /// Prepares the pass behind a filter; none where the filter comes last. [`DepthOfField::check`] has passed the scene.
@@ -71,8 +71,9 @@ impl DepthOfField {
             return Ok(None);
         }
         let settings = settings_of(frame);
-        let label = format!("{} depth of field", scene.id);
-        let pass = monitor.watch(&label, |watch| trace_defocus(scene, &settings, watch))?;
+        let pass = Renderer { scene, monitor }.watch("depth of field", |watch| {
+            trace_defocus(scene, &settings, watch)
+        })?;
         Ok(Some(pass))
     }
 }

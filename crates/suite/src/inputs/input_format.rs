@@ -4,16 +4,17 @@ use frame::{Frame, VelocityKind};
 use serde::{Deserialize, Serialize};
 use tracer::Scene;
 
-use crate::inputs::border::{Border, repeat_border, smear_margin};
-use crate::inputs::buffer_size::BufferSize;
-use crate::inputs::camera_jitter::CameraJitter;
-use crate::inputs::depth_format::DepthFormat;
-use crate::inputs::depth_of_field::DepthOfField;
-use crate::inputs::multisampling::Multisampling;
-use crate::inputs::render_scale::RenderScale;
-use crate::inputs::shutter_rule::ShutterRule;
-use crate::inputs::velocity_defect::VelocityDefect;
-use crate::inputs::velocity_format::VelocityFormat;
+use super::border::{Border, repeat_border, smear_margin};
+use super::buffer_size::BufferSize;
+use super::camera_jitter::CameraJitter;
+use super::depth_format::DepthFormat;
+use super::depth_of_field::DepthOfField;
+use super::multisampling::Multisampling;
+use super::render_scale::RenderScale;
+use super::renderer::Renderer;
+use super::shutter_rule::ShutterRule;
+use super::velocity_defect::VelocityDefect;
+use super::velocity_format::VelocityFormat;
 use crate::{Error, Monitor};
 
 /// A kind of input, and the forms that it can have.
@@ -138,25 +139,23 @@ impl InputFormat {
         monitor: Monitor,
     ) -> Result<Frame, Error> {
         self.check(frame.options.velocity, scene.is_some())?;
-        let rendered = match scene {
-            None => frame.clone(),
-            Some(scene) => {
-                self.depth_of_field.check(scene)?;
-                let scene = &*self.depth_of_field.seen_scene(scene);
-                let frame = self.depth_of_field.apply(frame, scene, monitor)?;
-                let frame = self.msaa.apply(&frame, scene, monitor)?;
-                let frame = self.jitter.apply(&frame, scene, monitor)?;
-                let frame = self.scale.apply(&frame, scene, monitor)?;
-                self.rule.apply(frame, scene)
-            }
-        };
-        let mut stored = Frame {
-            velocity: self.defect.apply(&rendered, scene)?,
-            depth: self.depth.apply(&rendered.depth),
-            ..rendered
-        };
+        let mut stored = frame.clone();
+        if let Some(scene) = scene {
+            self.depth_of_field.check(scene)?;
+            let (seen, scene) = self.depth_of_field.apply(stored, scene, monitor)?;
+            let renderer = Renderer {
+                scene: &scene,
+                monitor,
+            };
+            stored = self.msaa.apply(seen, &renderer)?;
+            stored = self.jitter.apply(stored, &renderer)?;
+            stored = self.scale.apply(stored, &renderer)?;
+            stored = self.rule.apply(stored, &scene);
+        }
+        stored.velocity = self.defect.apply(&stored, scene)?;
         stored.velocity = self.velocity.apply(&stored);
-        let stored = self.buffers.apply(stored);
+        stored.depth = self.depth.apply(&stored.depth);
+        stored = self.buffers.apply(stored);
         Ok(match self.border {
             Border::Leave => stored,
             Border::Clamp => repeat_border(&stored, smear_margin(frame)),

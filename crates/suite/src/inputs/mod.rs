@@ -8,11 +8,10 @@ pub mod depth_of_field;
 pub mod input_format;
 pub mod multisampling;
 pub mod render_scale;
+mod renderer;
 mod resample;
 pub mod shutter_rule;
 #[cfg(test)]
 mod test_frame;
-mod traced_again;
-pub mod unorm;
 pub mod velocity_defect;
 pub mod velocity_format;

@@ -12,6 +12,11 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
+    /// Returns that of a raster without a guard band.
+    pub fn bare(picture: [u32; 2]) -> Self {
+        Self { picture, band: 0 }
+    }
+
     /// Returns columns and rows of the raster.
     fn size(&self) -> [u32; 2] {
         self.picture.map(|side| side + 2 * self.band)
@@ -37,12 +42,14 @@ pub(crate) fn read_nearest<T: Clone>(raster: &Raster<T>, from: Extent, to: Exten
     })
 }
 
-/// Interpolates between the four pixels around each centre of another size; the outermost pixels go on beyond the border.
-pub(crate) fn read_bilinear<const N: usize>(
-    raster: &Raster<[f32; N]>,
+/// Interpolates between the four pixels around each centre of another size; the outermost pixels go on beyond the border. `mix`
+/// interpolates between two values.
+pub(crate) fn read_bilinear<T: Copy>(
+    raster: &Raster<T>,
     from: Extent,
     to: Extent,
-) -> Raster<[f32; N]> {
+    mix: impl Fn(T, T, f32) -> T,
+) -> Raster<T> {
     let [width, height] = to.size();
     let size = from.size();
     let between = |axis: usize, at: u32| {
@@ -50,21 +57,20 @@ pub(crate) fn read_bilinear<const N: usize>(
         let place = from.place(axis, &to, at) - 0.5;
         let place = place.clamp(0.0, f64::from(last));
         let first = place.floor() as u32;
-        (
-            first,
-            (first + 1).min(last),
-            (place - f64::from(first)) as f32,
-        )
+        let next = (first + 1).min(last);
+        (first, next, (place - f64::from(first)) as f32)
     };
     Raster::from_fn(width, height, |x, y| {
         let (left, right, across) = between(0, x);
         let (top, bottom, down) = between(1, y);
-        let [upper, lower] = [top, bottom].map(|row| {
-            let [a, b] = [left, right].map(|column| raster.at(column, row));
-            std::array::from_fn::<f32, N, _>(|c| a[c] + across * (b[c] - a[c]))
-        });
-        std::array::from_fn(|c| upper[c] + down * (lower[c] - upper[c]))
+        let row = |row| mix(*raster.at(left, row), *raster.at(right, row), across);
+        mix(row(top), row(bottom), down)
     })
+}
+
+/// Interpolates between two numbers.
+pub(crate) fn mix(from: f32, to: f32, part: f32) -> f32 {
+    from + part * (to - from)
 }
 
 #[cfg(test)]
@@ -80,25 +86,19 @@ mod tests {
         band: 2,
     };
 
-    /// Makes a ramp over the small raster, in pixels of the large picture.
-    fn ramp() -> Raster<[f32; 2]> {
-        Raster::from_fn(6, 4, |x, y| {
-            [2.0 * (x as f32 + 0.5 - 1.0), 3.0 * (y as f32 + 0.5 - 1.0)]
-        })
-    }
-
     #[test]
     fn a_ramp_stays_a_ramp_between_pixel_centres() {
-        let read = read_bilinear(&ramp(), SMALL, LARGE);
-        assert_eq!((read.width, read.height), (12, 10));
-        for (y, x) in (0..10).flat_map(|y| (0..12).map(move |x| (y, x))) {
-            // The ramp ends at the centres of the outermost pixels.
-            let place = [x as f32 + 0.5 - 2.0, y as f32 + 0.5 - 2.0];
-            let expected = [place[0].clamp(-1.0, 9.0), place[1].clamp(-1.5, 7.5)];
-            assert_eq!(*read.at(x, y), expected, "at {x}, {y}");
-        }
-        let same = read_bilinear(&ramp(), SMALL, SMALL);
-        assert_eq!(same, ramp());
+        // In pixels of the large picture; it ends at the centres of the outermost pixels.
+        let ramp = Raster::from_fn(6, 4, |x, y| {
+            2.0 * (x as f32 - 0.5) + 300.0 * (y as f32 - 0.5)
+        });
+        let read = read_bilinear(&ramp, SMALL, LARGE, mix);
+        let expected = Raster::from_fn(12, 10, |x, y| {
+            let place = [x, y].map(|at| at as f32 - 1.5);
+            place[0].clamp(-1.0, 9.0) + 100.0 * place[1].clamp(-1.5, 7.5)
+        });
+        assert_eq!(read, expected);
+        assert_eq!(read_bilinear(&ramp, SMALL, SMALL, mix), ramp);
     }
 
     #[test]
@@ -110,14 +110,8 @@ mod tests {
         let column: Vec<u32> = (0..10).map(|y| read.at(0, y).1).collect();
         assert_eq!(column, [0, 0, 1, 1, 1, 2, 2, 2, 3, 3]);
         // The centres of 7 pixels lie at 0.2, 0.6, 1.1, 1.5, 1.9, 2.4 and 2.8 of 3.
-        let bare = |width| Extent {
-            picture: [width, 1],
-            band: 0,
-        };
         let three = Raster::from_fn(3, 1, |x, _| x);
-        assert_eq!(
-            read_nearest(&three, bare(3), bare(7)).pixels,
-            [0, 0, 1, 1, 1, 2, 2]
-        );
+        let seven = read_nearest(&three, Extent::bare([3, 1]), Extent::bare([7, 1]));
+        assert_eq!(seven.pixels, [0, 0, 1, 1, 1, 2, 2]);
     }
 }

@@ -1,5 +1,5 @@
-//! Estimates of the time, disk and memory that a run, and each of the jobs that it can be split into, takes. Off by a factor of two or
-//! three: scenes differ by a factor of six.
+//! Rough estimates of the time, disk and memory that a run, and each of the jobs that it can be split into, takes. Times are off by a
+//! factor of two or three: scenes differ by a factor of six.
 
 use std::convert::Infallible;
 
@@ -16,28 +16,23 @@ use crate::render::settings::frame_settings;
 
 /// Threads that the times below were measured with, on two cores of a server with llvmpipe: means over the shipped scenes.
 const CORES: f64 = 2.0;
-/// CPU time to prepare a scene for rays, in seconds; of a pixel of a truth's support and pilot; of a sample of a frame, and of a truth.
+/// CPU time in seconds to prepare a scene for rays, and of a sample.
 const SCENE: f64 = 0.2;
-const SUPPORT: f64 = 20e-6;
-const FRAME_SAMPLE: f64 = 0.5e-6;
-const TRUTH_SAMPLE: f64 = 0.9e-6;
-/// Time of a ladder, relative to its truth's samples: the mean of five scenes. It is about the pixels near motion alone.
+const SAMPLE: f64 = 0.9e-6;
+/// Samples of a whole ladder, relative to its truth: it is about the pixels near motion alone.
 const WHOLE_LADDER: f64 = 0.4;
-/// Time to run a filter and measure its picture, whatever its size, in seconds, and per pixel.
+/// Time in seconds to run a filter and measure its picture, whatever its size, and per pixel; and per pixel to write its part of the report.
 const CASE: f64 = 0.035;
 const CASE_PIXEL: f64 = 6e-6;
-/// Time per pixel and case to write the report, in seconds.
 const REPORT_PIXEL: f64 = 0.45e-6;
 /// Time of a case with intervals, relative to one without.
 const INTERVALS: f64 = 2.0;
-/// CPU time to open an adapter and to compile kernels, in seconds, and to prepare a truth, in cases.
-const START: f64 = 0.3;
+/// Cases that take as long as the start of a process and its truth.
 const START_CASES: f64 = 2.0;
-/// Bytes on disk per pixel: of a frame, of a truth with its ladder, of each replicate, and of a case with its part of the report.
-const FRAME_BYTES: u64 = 25;
-const TRUTH_BYTES: u64 = 170;
-const REPLICATE_BYTES: u64 = 35;
-const CASE_BYTES: u64 = 36;
+/// Bytes on disk per pixel of a picture: of a frame, a replicate, or a case with its part of the report.
+const PICTURE_BYTES: u64 = 36;
+/// Pictures that are as large on disk as a truth with its ladder, without its replicates.
+const PICTURES_OF_TRUTH: u64 = 5;
 
 /// Work that a run has to do.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -74,8 +69,6 @@ pub struct SceneJobs {
     pub inputs: usize,
     /// CPU time of each case, in seconds.
     case_seconds: f64,
-    /// CPU time before the first case, in seconds.
-    start_seconds: f64,
     /// Bytes of memory at the most.
     memory: u64,
 }
@@ -84,7 +77,7 @@ impl SceneJobs {
     /// Returns the cost of a process that measures some cases of the scene.
     pub fn cases(&self, count: usize) -> JobCost {
         JobCost {
-            cpu_seconds: self.start_seconds + count as f64 * self.case_seconds,
+            cpu_seconds: (START_CASES + count as f64) * self.case_seconds,
             memory: self.memory,
         }
     }
@@ -106,12 +99,12 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
             return Ok::<(), Infallible>(());
         }
         let (frame, truths) = scene.find_missing();
-        estimate.seconds += render_cpu_seconds(plan, frame, &truths) / threads();
-        estimate.seconds += cases as f64 * case_seconds(plan);
-        let truth = TRUTH_BYTES + u64::from(plan.render.replicates) * REPLICATE_BYTES;
-        let frame = u64::from(frame) * FRAME_BYTES;
-        let bytes = frame + truths.len() as u64 * truth + cases as u64 * CASE_BYTES;
-        estimate.disk += pixels as u64 * bytes;
+        let ladders = count_ladders(plan, truths.iter().copied());
+        let rendering = render_cpu_seconds(&plan.render, frame, truths.len(), ladders);
+        estimate.seconds += rendering / threads() + cases as f64 * case_seconds(plan);
+        let of_truth = PICTURES_OF_TRUTH + u64::from(plan.render.replicates);
+        let pictures = u64::from(frame) + truths.len() as u64 * of_truth + cases as u64;
+        estimate.disk += pixels as u64 * pictures * PICTURE_BYTES;
         let truths = plan.alignments().len();
         let memory = (scene.scene).memory(&plan.render, truths, plan.inputs.len());
         estimate.memory = estimate.memory.max(memory);
@@ -126,22 +119,21 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
 pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let frames = f64::from(plan.frames.count);
     let alignments = plan.alignments();
-    let cpu_seconds = frames * render_cpu_seconds(plan, true, &alignments);
+    let ladders = count_ladders(plan, alignments.iter().copied());
+    let truths = alignments.len();
+    let cpu_seconds = frames * render_cpu_seconds(&plan.render, true, truths, ladders);
     let all = plan.all_scenes().into_iter();
     let jobs = all.map(|scene| {
-        let memory = scene.memory(&plan.render, alignments.len(), plan.inputs.len());
+        let memory = scene.memory(&plan.render, truths, plan.inputs.len());
         let planned = PlannedCase::all(plan, &plan.filters, scene);
-        let references = planned.iter().filter(|case| case.id.is_reference);
-        let start = START_CASES * CORES * estimate_case_seconds(&plan.render);
         SceneJobs {
             render: (scene.traced()).map(|_| JobCost {
                 cpu_seconds,
                 memory,
             }),
-            references: references.count(),
+            references: (planned.iter().filter(|case| case.id.is_reference)).count(),
             inputs: plan.inputs.len(),
             case_seconds: frames * CORES * case_seconds(plan),
-            start_seconds: START + frames * start,
             memory,
         }
     });
@@ -160,7 +152,7 @@ pub fn estimate_report(plan: &RunPlan, cases: usize) -> JobCost {
 
 /// Estimates the seconds that it takes to render a scene's frame and some truths.
 pub fn estimate_render_seconds(render: &RenderSettings, truths: usize) -> f64 {
-    (frame_cpu_seconds(render) + truths_cpu_seconds(render, truths)) / threads()
+    render_cpu_seconds(render, true, truths, 0.0) / threads()
 }
 
 /// Estimates the seconds that it takes to run a filter once and to measure its picture.
@@ -174,42 +166,22 @@ fn case_seconds(plan: &RunPlan) -> f64 {
     intervals * estimate_case_seconds(&plan.render)
 }
 
-/// Estimates the CPU time to render a scene's frame, if it is to be rendered, and some truths with their ladders.
-fn render_cpu_seconds(plan: &RunPlan, frame: bool, truths: &[Alignment]) -> f64 {
-    let render = &plan.render;
-    let ladders = truths.iter().map(|alignment| {
-        let rungs = needed_rungs(*alignment, plan.ladders).len() as f64;
-        let samples = WHOLE_LADDER * rungs / LADDER.len() as f64 * count_samples(render);
-        if rungs > 0.0 {
-            SCENE + samples * TRUTH_SAMPLE
-        } else {
-            0.0
-        }
-    });
-    let frame = if frame {
-        frame_cpu_seconds(render)
-    } else {
-        0.0
-    };
-    frame + truths_cpu_seconds(render, truths.len()) + ladders.sum::<f64>()
+/// Counts the ladders that measuring against some truths needs, in parts of whole ones.
+fn count_ladders(plan: &RunPlan, truths: impl Iterator<Item = Alignment>) -> f64 {
+    let rungs = truths.map(|alignment| needed_rungs(alignment, plan.ladders).len());
+    rungs.sum::<usize>() as f64 / LADDER.len() as f64
 }
 
-fn frame_cpu_seconds(render: &RenderSettings) -> f64 {
-    SCENE + count_samples(&frame_settings(render)) * FRAME_SAMPLE
-}
-
-/// Estimates the CPU time of some truths: two that overlap share the samples of half their time.
-fn truths_cpu_seconds(render: &RenderSettings, truths: usize) -> f64 {
-    let count = truths as f64 - if truths > 1 { 0.5 } else { 0.0 };
-    count * (SCENE + count_pixels(render) * SUPPORT + count_samples(render) * TRUTH_SAMPLE)
+/// Estimates the CPU time to render a scene's frame, if it is to be rendered, and some truths and ladders.
+fn render_cpu_seconds(render: &RenderSettings, frame: bool, truths: usize, ladders: f64) -> f64 {
+    let of_frame = u32::from(frame) * frame_settings(render).samples_per_pixel;
+    let of_truths = (truths as f64 + WHOLE_LADDER * ladders) * f64::from(render.samples_per_pixel);
+    let samples = count_pixels(render) * (f64::from(of_frame) + of_truths);
+    (1 + truths) as f64 * SCENE + samples * SAMPLE
 }
 
 fn count_pixels(render: &RenderSettings) -> f64 {
     f64::from(render.width) * f64::from(render.height)
-}
-
-fn count_samples(render: &RenderSettings) -> f64 {
-    count_pixels(render) * f64::from(render.samples_per_pixel)
 }
 
 fn threads() -> f64 {

@@ -19,7 +19,8 @@ use crate::Error;
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
 use crate::render::ladders::{LadderFiles, SHARP, needed_rungs};
-use crate::render::truths::{render_replicates, render_truth};
+use crate::render::replicates::TruthFiles;
+use crate::render::truths::render_truth;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::stats::intervals::truths_without_pairs;
@@ -207,8 +208,8 @@ impl SceneContext<'_> {
             return Ok(Vec::new());
         };
         let RunPlan { render, out, .. } = self.plan;
-        let all = 0..render.replicates;
-        let replicates = render_replicates(scene, render, alignment, all, out, self.plan.monitor)?;
+        let files = TruthFiles::new(scene, render, alignment, out, self.plan.monitor);
+        let replicates = files.replicates(0..render.replicates)?;
         Ok(truths_without_pairs(&replicates)?)
     }
 }

@@ -9,7 +9,7 @@ use tracer::{Family, RenderSettings, Scene, SceneId};
 use crate::Error;
 use crate::engine_scene::EngineScene;
 use crate::render::ladders::{SHARP, needed_rungs};
-use crate::render::memory::{measuring_memory, refuse_beyond_free};
+use crate::render::memory::{bound_memory, count_measured, refuse_beyond_free};
 use crate::render::settings::frame_settings;
 use crate::run::case::Drawn;
 
@@ -129,17 +129,19 @@ impl<'a> RunScene<'a> {
         match self {
             Self::Traced(scene) => {
                 frame_settings(settings).check_frame(scene)?;
-                refuse_beyond_free(scene, settings, self.memory(settings, truths, forms))
+                refuse_beyond_free(scene, settings, count_measured(settings, truths, forms))
             }
             Self::Drawn(scene) => scene.check_truth(),
         }
     }
 
-    /// Estimates the bytes of memory that measuring takes against this many truths, with this many forms of the frame; nothing for a
+    /// Bounds the bytes of memory that measuring takes against this many truths, with this many forms of the frame; nothing for a
     /// scene that is not rendered.
     pub fn memory(self, settings: &RenderSettings, truths: usize, forms: usize) -> u64 {
         match self {
-            Self::Traced(scene) => measuring_memory(scene, settings, truths, forms),
+            Self::Traced(scene) => {
+                bound_memory(scene, settings, count_measured(settings, truths, forms))
+            }
             Self::Drawn(_) => 0,
         }
     }

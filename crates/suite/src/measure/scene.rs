@@ -18,7 +18,7 @@ use crate::filter_choice::FilterChoice;
 use crate::measure::scene_keys::SceneKeys;
 use crate::render::files::{find_missing, list_wanted};
 use crate::render::frames::render_frame;
-use crate::render::shared::render_shared;
+use crate::render::replicates::render_shared;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 

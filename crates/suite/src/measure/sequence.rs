@@ -11,7 +11,7 @@ use super::plan::RunPlan;
 use super::points_of_frame::{make_instant, trace_points};
 use crate::Error;
 use crate::colors::magma;
-use crate::render::truths::render_replicates;
+use crate::render::replicates::TruthFiles;
 use crate::run::case::{Case, Intervals};
 use crate::run::sequence::{Sequence, SequenceFrame, worst_frames};
 use crate::stats::intervals::{count_pairs, sequence_intervals, truth_without_pair};
@@ -128,8 +128,8 @@ impl SequenceTruths<'_> {
             ..
         } = self.plan;
         self.reference(|scene| {
-            let all = 0..render.replicates;
-            let replicates = render_replicates(scene, render, self.alignment, all, out, *monitor)?;
+            let files = TruthFiles::new(scene, render, self.alignment, out, *monitor);
+            let replicates = files.replicates(0..render.replicates)?;
             Ok(truth_without_pair(&replicates, pair)?)
         })
     }

@@ -1,4 +1,4 @@
-//! Estimate of the memory that a render takes, before it begins.
+//! Upper bound on the memory that a render takes, before it begins.
 
 use std::fs;
 
@@ -8,58 +8,63 @@ use crate::Error;
 
 /// Memory of the program without any picture, in bytes.
 const PROGRAM: u64 = 136 << 20;
-/// Bytes per pixel of a picture beside its coverages: fourteen floats for its colour, its samples, and what is known of the instant.
+/// Bytes per pixel of a picture without its coverages: fourteen floats for its colour, its samples, and what is known of the instant.
 const PER_PIXEL: u64 = 56 + 2;
 /// Bytes per pixel of a coverage: a float, and the mask of its support.
 const PER_COVERAGE: u64 = 4 + 1;
 /// Bytes per triangle of a scene while its trees are built.
 const PER_TRIANGLE: u64 = 600;
-/// Bytes per object and thread: its pose now and at the instant.
-const PER_POSE: u64 = 500;
 
 /// Pictures that a truth takes beside its replicates. This number and the next ones bound the largest resident sizes of `render` and
-/// `run` that were measured, from 512x512 to 1024x1024 pixels and from 6 to 11 coverages: its mean, its halves, and what is written of it to a file.
+/// `run` that were measured, from 512x512 to 1024x1024 pixels and from 6 to 11 coverages: its mean, its halves, and what is written of
+/// it to a file.
 const PICTURES_OF_TRUTH: u64 = 7;
-/// Pictures that the guard band of a frame takes.
-const PICTURES_OF_BAND: u64 = 6;
 /// Pictures of a frame, of the truth that filters are measured by, and of the case that is measured, for any number of replicates.
 const PICTURES_MEASURED: u64 = 14;
-/// Pictures without coverages that the colours of a further truth take.
-const COLORS_OF_FURTHER_TRUTH: u64 = 6;
+/// Pictures that a further truth takes.
+const PICTURES_OF_FURTHER_TRUTH: u64 = 6;
 
-/// Refuses to render a frame, and a truth of a number of replicates, where memory does not suffice. Refuses nothing where the
-/// system does not tell what is free.
+/// Refuses to render a frame, and a truth of a number of replicates, if that needs more bytes than are free. Refuses nothing if the system
+/// does not say what is free.
 pub(crate) fn check_memory(
     scene: &Scene,
     settings: &RenderSettings,
     replicates: u32,
 ) -> Result<(), Error> {
-    let needed = rendering_memory(scene, settings, replicates);
-    refuse_beyond_free(scene, settings, needed)
+    refuse_beyond_free(scene, settings, count_rendered(replicates))
 }
 
-/// Estimates the bytes that it takes to render a scene and to measure filters against a number of its truths, each on a number of forms
-/// of the frame.
-pub(crate) fn measuring_memory(
-    scene: &Scene,
-    settings: &RenderSettings,
-    truths: usize,
-    forms: usize,
-) -> u64 {
-    let pixels = u64::from(settings.width) * u64::from(settings.height);
+/// Counts the pictures of a truth of this many replicates.
+fn count_rendered(replicates: u32) -> u64 {
+    PICTURES_OF_TRUTH + u64::from(replicates)
+}
+
+/// Counts the pictures that are in memory together while a scene is rendered and filters are measured against a number of its truths, each
+/// on a number of forms of the frame.
+pub(crate) fn count_measured(settings: &RenderSettings, truths: usize, forms: usize) -> u64 {
+    let further_truths = truths.saturating_sub(1) as u64;
     let further_forms = forms.saturating_sub(1) as u64;
-    let further_colors = COLORS_OF_FURTHER_TRUTH * truths.saturating_sub(1) as u64;
-    let pixel = (PICTURES_MEASURED + further_forms) * per_pixel(scene) + further_colors * PER_PIXEL;
-    let measuring = PROGRAM.saturating_add(pixels.saturating_mul(pixel));
-    measuring.max(rendering_memory(scene, settings, settings.replicates))
+    (PICTURES_MEASURED + PICTURES_OF_FURTHER_TRUTH * further_truths + further_forms)
+        .max(count_rendered(settings.replicates))
 }
 
-/// Refuses to render or to measure a scene if that needs more bytes than are free.
+/// Bounds the bytes that a number of pictures of a scene take, with all else.
+pub(crate) fn bound_memory(scene: &Scene, settings: &RenderSettings, pictures: u64) -> u64 {
+    let side = |side: u32| u64::from(side) + 2 * u64::from(settings.guard_band);
+    let picture = side(settings.width)
+        .saturating_mul(side(settings.height))
+        .saturating_mul(PER_PIXEL + PER_COVERAGE * count_coverages(scene));
+    let triangles: usize = scene.meshes.iter().map(|mesh| mesh.triangles.len()).sum();
+    (PROGRAM + triangles as u64 * PER_TRIANGLE).saturating_add(picture.saturating_mul(pictures))
+}
+
+/// Refuses to render or to measure a scene if its pictures need more bytes than are free.
 pub(crate) fn refuse_beyond_free(
     scene: &Scene,
     settings: &RenderSettings,
-    needed: u64,
+    pictures: u64,
 ) -> Result<(), Error> {
+    let needed = bound_memory(scene, settings, pictures);
     match free() {
         Some(free) if free < needed => Err(Error::Usage(format!(
             "scene {}: needs about {} for {}x{} pixels of color and {} coverages, {} are free; choose a smaller size, \
@@ -78,32 +83,6 @@ pub(crate) fn refuse_beyond_free(
 /// Counts channels of coverage: one for the background and one per object.
 fn count_coverages(scene: &Scene) -> u64 {
     scene.objects.len() as u64 + 1
-}
-
-/// Bounds the bytes per pixel of one picture with its coverages.
-fn per_pixel(scene: &Scene) -> u64 {
-    PER_PIXEL + PER_COVERAGE * count_coverages(scene)
-}
-
-/// Estimates the largest resident size of a render, in bytes.
-fn rendering_memory(scene: &Scene, settings: &RenderSettings, replicates: u32) -> u64 {
-    let area = |band: u32| {
-        let side = |side: u32| u64::from(side) + 2 * u64::from(band);
-        side(settings.width).saturating_mul(side(settings.height))
-    };
-    let pixels = area(0);
-    let band = area(settings.guard_band) - pixels;
-    let pictures = PICTURES_OF_TRUTH.saturating_add(u64::from(replicates));
-    let triangles: usize = scene.meshes.iter().map(|mesh| mesh.triangles.len()).sum();
-    let threads = rayon::current_num_threads() as u64;
-    [
-        pixels.saturating_mul(pictures.saturating_mul(per_pixel(scene))),
-        band.saturating_mul(PICTURES_OF_BAND * per_pixel(scene)),
-        triangles as u64 * PER_TRIANGLE,
-        threads * count_coverages(scene) * PER_POSE,
-    ]
-    .into_iter()
-    .fold(PROGRAM, u64::saturating_add)
 }
 
 /// `1.2 GiB`
@@ -160,27 +139,4 @@ fn free_in_process() -> Option<u64> {
 fn entry(text: &str, name: &str) -> Option<u64> {
     let rest = text.lines().find_map(|line| line.strip_prefix(name))?;
     rest.split_whitespace().next()?.parse().ok()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_found_behind_their_names_and_no_limit_is_none() {
-        let limits =
-            "Limit   Soft Limit  Hard Limit  Units\nMax address space    1200  unlimited   bytes\n";
-        assert_eq!(entry(limits, "Max address space"), Some(1200));
-        assert_eq!(
-            entry(
-                "Max address space  unlimited unlimited",
-                "Max address space"
-            ),
-            None
-        );
-        assert_eq!(
-            entry("MemTotal: 5 kB\nMemAvailable:    77 kB\n", "MemAvailable:"),
-            Some(77)
-        );
-    }
 }

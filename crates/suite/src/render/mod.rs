@@ -8,5 +8,4 @@ pub mod merge;
 pub mod replicates;
 pub mod scatter_oracle;
 pub mod settings;
-pub mod shared;
 pub mod truths;

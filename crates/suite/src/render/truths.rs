@@ -3,13 +3,12 @@
 use std::ops::Range;
 use std::path::Path;
 
-use frame::{Alignment, Region, Replicate, Truth};
+use frame::{Alignment, Region, Truth};
 use store::{MAX_REPLICATES, refuse_scene, scene_folder};
 use tracer::{RenderSettings, Scene};
 
 use super::memory::check_memory;
-use super::replicates::ReplicateFiles;
-use super::shared::render_shared;
+use super::replicates::{TruthFiles, render_shared};
 use crate::{Error, Monitor};
 
 /// Renders the truth of `scene` over the shutter of `alignment` and writes it to `out`. Reads the truth from there if its inputs
@@ -21,27 +20,13 @@ pub fn render_truth(
     out: &Path,
     monitor: Monitor,
 ) -> Result<Truth, Error> {
-    let files = ReplicateFiles::new(scene_folder(out, scene), scene, settings, alignment);
-    if let Some(found) = files.read_truth(settings.replicates) {
+    let files = TruthFiles::new(scene, settings, alignment, out, monitor);
+    if let Some(found) = files.read_truth() {
         return Ok(found);
     }
-    let truth = average_replicates(scene, settings, &files, monitor)?;
+    let truth = files.average()?;
     truth.write(&files.truth_path())?;
     Ok(truth)
-}
-
-/// Averages the replicates of a truth, and renders those that are missing.
-fn average_replicates(
-    scene: &Scene,
-    settings: &RenderSettings,
-    files: &ReplicateFiles,
-    monitor: Monitor,
-) -> Result<Truth, Error> {
-    settings.check_truth(scene, files.alignment)?;
-    check_memory(scene, settings, settings.replicates)?;
-    let all = 0..settings.replicates;
-    let replicates = files.read_or_render(scene, settings, all, monitor)?;
-    Ok(Truth::of(&replicates)?)
 }
 
 /// Renders replicates of each truth until its noise floor reaches `target` where anything moves (everywhere if nothing does), or
@@ -65,13 +50,10 @@ pub fn render_truths_until(
         let (count, mut next) = (settings.replicates, settings.replicates + 2);
         render_shared(scene, &settings, &open, 0..count, out, monitor)?;
         for alignment in std::mem::take(&mut open) {
-            let files = ReplicateFiles::new(scene_folder(out, scene), scene, &settings, alignment);
-            let found = files.read_truth(count);
+            let files = TruthFiles::new(scene, &settings, alignment, out, monitor);
+            let found = files.read_truth();
             let is_new = found.is_none();
-            let truth = match found {
-                Some(truth) => truth,
-                None => average_replicates(scene, &settings, &files, monitor)?,
-            };
+            let truth = found.map_or_else(|| files.average(), Ok)?;
             let (_, floor) = deciding_floor(&truth);
             if floor > target && count + 2 <= most {
                 next = next.max(predict_replicates(count, floor / target));
@@ -107,20 +89,6 @@ pub fn deciding_floor(truth: &Truth) -> (Region, f64) {
         .expect("a picture has pixels")
 }
 
-/// Renders some replicates of a truth, or reads those that `out` holds.
-pub(crate) fn render_replicates(
-    scene: &Scene,
-    settings: &RenderSettings,
-    alignment: Alignment,
-    indices: Range<u32>,
-    out: &Path,
-    monitor: Monitor,
-) -> Result<Vec<Replicate>, Error> {
-    let files = ReplicateFiles::new(scene_folder(out, scene), scene, settings, alignment);
-    settings.check_truth(scene, alignment)?;
-    files.read_or_render(scene, settings, indices, monitor)
-}
-
 /// Renders some replicates of a truth and writes them to `out`.
 pub fn render_part(
     scene: &Scene,
@@ -132,7 +100,8 @@ pub fn render_part(
 ) -> Result<(), Error> {
     refuse_scene(&scene_folder(out, scene))?;
     check_memory(scene, settings, indices.len() as u32)?;
-    render_replicates(scene, settings, alignment, indices, out, monitor).map(drop)
+    let files = TruthFiles::new(scene, settings, alignment, out, monitor);
+    files.replicates(indices).map(drop)
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Verification of a scene's rendered files.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use frame::{Alignment, Frame, Replicate, Shutter, Tile, Truth, read_exr};
+use frame::{Alignment, Frame, Replicate, Shutter, Tile, Truth, read_attribute, read_exr};
 use store::{LADDER, RenderFile};
 use tracer::{LadderTracer, RenderSettings, Scene, TruthTracer, trace_frame_tile};
 
@@ -10,7 +11,6 @@ use super::difference::find_difference;
 use super::scene_renders::SceneRenders;
 use super::tiles::{Verification, Work};
 use crate::render::memory::check_memory;
-use crate::render::replicates::ReplicateFiles;
 use crate::{Error, Monitor};
 
 /// The outcome of a verification.
@@ -120,7 +120,7 @@ fn verify_truth(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)
     check_memory(work.scene, &settings, settings.replicates)?;
     expect_mean(work, &truth)?;
     let mut tiles = trace_replicates(work, &settings, alignment, settings.replicates)?;
-    let rungs = work.renders.rungs(alignment);
+    let (_, rungs) = work.renders.of_truth(alignment);
     if !rungs.is_empty() {
         let tracer = LadderTracer::new(work.scene, &settings, &truth, &LADDER)?;
         tiles.extend(work.trace_tiles(&rungs, truth.size(), |file, tile, watch| {
@@ -138,11 +138,16 @@ fn trace_replicates(
     alignment: Alignment,
     of_truth: u32,
 ) -> Result<Vec<(PathBuf, Tile)>, Error> {
-    let files = ReplicateFiles::new(work.renders.folder.clone(), work.scene, settings, alignment);
-    let mut own = work.renders.replicates(alignment);
-    own.retain(|file| files.has(file.number()));
-    own.extend((0..of_truth).map(|index| RenderFile::Replicate(alignment, index)));
-    let own: Vec<RenderFile> = own.into_iter().collect();
+    let hash = Some(tracer::replicate_hash(work.scene, settings, alignment));
+    let (found, _) = work.renders.of_truth(alignment);
+    let is_own = |file: &RenderFile| read_attribute(&work.path(*file), "content_hash") == hash;
+    let found = found.into_iter().filter(is_own);
+    let of_truth = (0..of_truth).map(|index| RenderFile::Replicate(alignment, index));
+    let own: Vec<RenderFile> = found
+        .chain(of_truth)
+        .collect::<BTreeSet<_>>()
+        .into_iter()
+        .collect();
     let tracer = TruthTracer::new(work.scene, settings, &[alignment])?;
     let size = (settings.width, settings.height);
     work.trace_tiles(&own, size, |file, tile, watch| {
@@ -152,7 +157,8 @@ fn trace_replicates(
 
 /// Verifies replicates that have no truth beside them, as a part of a render has. A ladder goes with a truth.
 fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>, Error> {
-    if let Some(rung) = work.renders.rungs(alignment).first() {
+    let (replicates, rungs) = work.renders.of_truth(alignment);
+    if let Some(rung) = rungs.first() {
         return Err(Error::Broken(format!(
             "{}: there is no {} beside it, without which a ladder cannot be traced again; render {} again",
             work.shown(*rung).display(),
@@ -160,7 +166,7 @@ fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>
             work.scene.id
         )));
     }
-    let Some(first) = work.renders.replicates(alignment).pop_first() else {
+    let Some(&first) = replicates.first() else {
         return Ok(Vec::new());
     };
     let replicate = Replicate::read(&work.path(first))?;
@@ -198,16 +204,9 @@ fn expect_mean(work: &Work, truth: &Truth) -> Result<(), Error> {
         .map(|index| Replicate::read(&work.path(RenderFile::Replicate(truth.alignment, index))))
         .collect::<Result<Vec<_>, _>>()?;
     let mean = Truth::of(&replicates)?.to_exr();
-    let (width, height) = truth.size();
-    match find_difference(
-        &read_exr(&work.path(file))?,
-        Tile::whole(width, height),
-        &mean,
-    ) {
-        None => Ok(()),
-        Some(difference) => {
-            let text = format!("is not the mean of its replicates: {difference}");
-            Err(work.altered(file, &text))
-        }
-    }
+    let whole = Tile::whole(mean.width, mean.height);
+    find_difference(&read_exr(&work.path(file))?, whole, &mean).map_or(Ok(()), |difference| {
+        let text = format!("is not the mean of its replicates: {difference}");
+        Err(work.altered(file, &text))
+    })
 }

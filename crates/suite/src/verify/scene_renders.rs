@@ -27,25 +27,23 @@ pub struct SceneRenders {
 /// # Errors
 /// The folder cannot be read, or holds no frame and no truth.
 pub fn list_scene_renders(root: &Path, shown: &Path) -> Result<Vec<SceneRenders>, Error> {
-    let mut scenes: BTreeMap<SceneId, SceneRenders> = BTreeMap::new();
+    let mut scenes: BTreeMap<SceneId, BTreeSet<RenderFile>> = BTreeMap::new();
     for RenderPath { scene, file } in list_renders(root)? {
-        let own = scenes
-            .entry(scene)
-            .or_insert_with_key(|scene| SceneRenders {
-                scene: scene.clone(),
-                folder: root.join(scene.folder()),
-                shown: shown.join(scene.folder()),
-                files: BTreeSet::new(),
-            });
-        own.files.insert(file);
+        scenes.entry(scene).or_default().insert(file);
     }
-    match scenes.is_empty() {
-        false => Ok(scenes.into_values().collect()),
-        true => Err(Error::Usage(format!(
+    if scenes.is_empty() {
+        return Err(Error::Usage(format!(
             "{}: holds no truth; allowed: a pack, or a folder into which `shuttertruth run`, `check` or `render` wrote",
             shown.display()
-        ))),
+        )));
     }
+    let renders = scenes.into_iter().map(|(scene, files)| SceneRenders {
+        folder: root.join(scene.folder()),
+        shown: shown.join(scene.folder()),
+        scene,
+        files,
+    });
+    Ok(renders.collect())
 }
 
 impl SceneRenders {
@@ -55,17 +53,11 @@ impl SceneRenders {
         files.filter_map(|file| file.alignment()).collect()
     }
 
-    /// Lists the replicates of a truth.
-    pub(crate) fn replicates(&self, alignment: Alignment) -> BTreeSet<RenderFile> {
-        let is_own =
-            |file: &&RenderFile| matches!(file, RenderFile::Replicate(own, _) if *own == alignment);
-        self.files.iter().filter(is_own).copied().collect()
-    }
-
-    /// Lists the rungs of a truth's ladder.
-    pub(crate) fn rungs(&self, alignment: Alignment) -> Vec<RenderFile> {
-        let is_own =
-            |file: &&RenderFile| matches!(file, RenderFile::Rung(own, _) if *own == alignment);
-        self.files.iter().filter(is_own).copied().collect()
+    /// Lists the replicates of a truth, and the rungs of its ladder.
+    pub(crate) fn of_truth(&self, alignment: Alignment) -> (Vec<RenderFile>, Vec<RenderFile>) {
+        let files = (self.files.iter().copied())
+            .filter(|file| file.alignment() == Some(alignment))
+            .filter(|file| *file != RenderFile::Truth(alignment));
+        files.partition(|file| matches!(file, RenderFile::Replicate(..)))
     }
 }

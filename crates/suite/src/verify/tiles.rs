@@ -42,17 +42,21 @@ impl Work<'_> {
         let Some(first) = files.first() else {
             return Ok(Vec::new());
         };
-        let mut random = seeded(
-            self.verification.seed,
-            &format!("{}/{first}", self.scene.id),
-        );
+        let name = format!("{}/{first}", self.scene.id);
+        let mut random = seeded(self.verification.seed, &name);
         let mut tiles = Vec::new();
         for _ in 0..self.verification.tiles {
             let file = files[random.below(files.len())];
             let tile = choose_tile(&mut random, width, height);
             let label = format!("verifying {}/{file}", self.scene.id);
             let mut made = (self.monitor).watch(&label, |watch| trace(file, tile, watch))?;
-            self.compare(file, tile, &made)?;
+            if let Some(difference) = find_difference(&self.read_like(file, &made)?, tile, &made) {
+                let text = format!(
+                    "{difference}, tracing the tile of {}x{} pixels at ({}, {}) again",
+                    tile.width, tile.height, tile.x, tile.y
+                );
+                return Err(self.altered(file, &text));
+            }
             tiles.push((self.shown(file), tile));
             // Tiles are traced in a few files; attributes are compared in all.
             for &file in files.iter().filter(|_| tiles.len() == 1) {
@@ -67,24 +71,6 @@ impl Work<'_> {
             }
         }
         Ok(tiles)
-    }
-
-    /// Refuses a file that does not hold in a tile what was made for it.
-    fn compare(&self, file: RenderFile, tile: Tile, made: &ExrFile) -> Result<(), Error> {
-        match find_difference(&self.read_like(file, made)?, tile, made) {
-            None => Ok(()),
-            Some(difference) => {
-                let Tile {
-                    x,
-                    y,
-                    width,
-                    height,
-                } = tile;
-                let place =
-                    format!("tracing the tile of {width}x{height} pixels at ({x}, {y}) again");
-                Err(self.altered(file, &format!("{difference}, {place}")))
-            }
-        }
     }
 
     /// Reads a file of the kind that was made, whose checksum is right.

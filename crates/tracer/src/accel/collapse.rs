@@ -147,66 +147,9 @@ impl<'a> Collapse<'a> {
 
 #[cfg(test)]
 mod tests {
-    use obvhs::aabb::Aabb as Aabb32;
-
     use super::*;
     use crate::accel::binary_tree::build_binary_tree;
     use crate::accel::binary_tree::tests::scatter_boxes;
-
-    /// A binary tree over boxes along a line.
-    fn boxes(count: u32) -> Bvh2 {
-        let boxes = (0..count).map(|index| {
-            let x = index as f32;
-            Aabb32::new([x, 0.0, 0.0].into(), [x + 0.9, 1.0, 1.0].into())
-        });
-        build_binary_tree(&boxes.collect::<Vec<_>>())
-    }
-
-    /// The items of every leaf at or below the wide node for `top`.
-    fn collect_leaves(collapse: &Collapse, top: usize) -> Vec<Vec<u32>> {
-        let children = collapse.children(top);
-        assert!((1..=WIDTH).contains(&children.len()));
-        let below = children.into_iter().map(|child| {
-            if !collapse.is_leaf(child) {
-                return collect_leaves(collapse, child);
-            }
-            vec![collapse.items(child)]
-        });
-        below.flatten().collect()
-    }
-
-    #[test]
-    fn every_item_is_in_one_leaf_and_no_leaf_is_too_full() {
-        for count in [1, 2, 7, 8, 9, 64, 1000] {
-            for max_items in [1, 4, 8] {
-                let binary = boxes(count);
-                let rules = LeafRules {
-                    max_items,
-                    item_cost: 0.5,
-                };
-                let leaves = collect_leaves(&Collapse::new(&binary, rules), 0);
-                assert!(leaves.iter().all(|items| items.len() <= max_items as usize));
-                let mut items = leaves.concat();
-                items.sort_unstable();
-                assert_eq!(items, (0..count).collect::<Vec<_>>());
-            }
-        }
-    }
-
-    #[test]
-    fn items_that_cost_nothing_share_leaves_and_dear_ones_do_not() {
-        let binary = boxes(64);
-        let count = |item_cost| {
-            let rules = LeafRules {
-                max_items: 8,
-                item_cost,
-            };
-            collect_leaves(&Collapse::new(&binary, rules), 0).len()
-        };
-        // 64 boxes in leaves of eight, in one node; apart, they take five nodes.
-        assert_eq!(count(0.0), 8);
-        assert_eq!(count(100.0), 64);
-    }
 
     /// Every way to cover a node of the binary tree by nodes at or below it.
     fn covers(binary: &Bvh2, node: usize) -> Vec<Vec<usize>> {

@@ -205,21 +205,6 @@ mod tests {
     }
 
     #[test]
-    fn every_part_has_a_number_of_its_own() {
-        for objects in [1, 2, 7, 8, 1000] {
-            let numbers = Numbers::new(objects);
-            let last = numbers.max_leaves() as u32 - 1;
-            for object in [0, objects / 2, objects - 1] {
-                for leaf in [None, Some(0), Some(last)] {
-                    let part = Part { object, leaf };
-                    let number = numbers.child(part).leaf_number();
-                    assert_eq!(number.map(|number| numbers.part(number)), Some(part));
-                }
-            }
-        }
-    }
-
-    #[test]
     fn what_moves_is_met_among_what_stands_still() {
         // A hundred leaves in a row; the second object passes from before them over their middle to behind them.
         let leaves = (0..100).map(|x| cube(f64::from(x))).collect();

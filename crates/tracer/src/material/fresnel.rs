@@ -27,17 +27,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn glass_reflects_four_per_cent_straight_on_and_everything_at_grazing() {
-        assert!((dielectric(1.5, 1.0) - 0.04).abs() < 1e-15);
-        assert!((dielectric(1.5, 0.0) - 1.0).abs() < 1e-15);
-        assert!(dielectric(1.0, 0.3) < 1e-30);
-        // Brewster's angle, tan = index: only the half that is polarised across is reflected.
-        let brewster = 1.5_f64.atan().cos();
-        let across = (1.5_f64 * 1.5 - 1.0) / (1.5 * 1.5 + 1.0);
-        assert!((dielectric(1.5, brewster) - 0.5 * across * across).abs() < 1e-15);
-    }
-
-    #[test]
     fn a_metal_s_mean_is_the_integral_of_its_angles() {
         let gold = Vec3::new(1.0, 0.71, 0.29);
         let steps = 2000;

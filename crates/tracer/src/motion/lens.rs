@@ -40,37 +40,6 @@ fn map_to_disc(numbers: [f64; 2]) -> DVec2 {
 mod tests {
     use super::*;
 
-    const SIDE: u32 = 256;
-
-    fn for_each_point(mut visit: impl FnMut(DVec2)) {
-        for index in 0..SIDE * SIDE {
-            let numbers = [index % SIDE, index / SIDE]
-                .map(|place| (f64::from(place) + 0.5) / f64::from(SIDE));
-            visit(map_to_disc(numbers));
-        }
-    }
-
-    #[test]
-    fn a_grid_of_numbers_fills_every_part_of_the_disc_in_proportion_to_its_area() {
-        // Rings and sectors of equal area.
-        let mut rings = [0u32; 8];
-        let mut sectors = [0u32; 8];
-        for_each_point(|point| {
-            assert!(point.length() < 1.0, "{point}");
-            rings[(8.0 * point.length_squared()) as usize] += 1;
-            let turn = point.to_angle() / std::f64::consts::TAU;
-            sectors[(8.0 * turn.rem_euclid(1.0)) as usize % 8] += 1;
-        });
-        let each = f64::from(SIDE * SIDE) / 8.0;
-        for count in rings.into_iter().chain(sectors) {
-            // A border is crossed by a row of the grid at most, of 256 on each of four sides.
-            assert!(
-                (f64::from(count) - each).abs() < 1100.0,
-                "{rings:?} {sectors:?}"
-            );
-        }
-    }
-
     #[test]
     fn neighbours_stay_neighbours() {
         let step = 1e-4;

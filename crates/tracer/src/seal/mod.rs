@@ -1,6 +1,6 @@
 //! Sealed variants: scenes changed by a seed, which no tuning has met.
 
-pub(crate) mod chance;
+mod chance;
 mod mirror;
 mod times;
 

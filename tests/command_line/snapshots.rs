@@ -1,0 +1,127 @@
+//! What commands print, compared with files of `snapshots/`. `SNAPSHOTS=overwrite` writes these anew, for a reviewer to read.
+
+use std::process::Output;
+
+use snapbox::{Assert, Data, Redactions};
+use tests::filter_folder::one_kernel;
+
+use crate::bench::{Bench, IDENTITY, assert_done, quick_command, split, stderr, stdout};
+
+/// Compares what a command prints on standard output with a file of `snapshots/`.
+#[track_caller]
+fn assert_printed(output: &Output, file: &str) {
+    let text = stdout(output);
+    let mut redactions = Redactions::new();
+    let parts = [
+        ("[TIME]", "took ", '\n'),
+        ("[SIZE]", "report.html (", ')'),
+        ("[ADAPTER]", "adapter: ", '\n'),
+    ];
+    for (name, before, after) in parts {
+        let rest = text.split_once(before).map(|(_, rest)| rest);
+        if let Some(found) = rest.and_then(|rest| rest.split(after).next()) {
+            redactions.insert(name, found.to_owned()).unwrap();
+        }
+    }
+    let folder = tests::root().join("tests/command_line/snapshots");
+    Assert::new()
+        .action_env("SNAPSHOTS")
+        .redact_with(redactions)
+        .eq(text, Data::read_from(&folder.join(file), None));
+}
+
+/// Makes a bench of two scenes with a limit that the identity breaks, one that it keeps, and a target that it misses.
+fn make_bounded() -> Bench {
+    let bench = Bench::two_scenes();
+    bench.write(
+        "bounds.toml",
+        "[default]
+flip_moving = { limit = 0.2, why = \"a smear of half the plate's motion is lost\" }
+label_tv = { limit = 0.9, why = \"silhouettes stay where they are\" }
+misplacement = { limit = 0.5, why = \"what the paper promises\", level = \"report\" }
+occluder_contamination = { limit = 0.5, why = \"nothing passes in front of the plate\" }
+",
+    );
+    bench.copy_bound("slow");
+    bench
+}
+
+#[test]
+fn lists() {
+    let bench = make_bounded();
+    for (words, file) in [
+        ("list", "list.txt"),
+        ("list inputs", "list_inputs.txt"),
+        ("list plate", "list_scene.txt"),
+    ] {
+        let output = bench.shuttertruth(&split(words));
+        assert_done(&output);
+        assert_printed(&output, file);
+    }
+}
+
+#[test]
+fn runs() {
+    let bench = Bench::two_scenes();
+    let output = bench.run(&IDENTITY);
+    assert_done(&output);
+    assert_printed(&output, "run.txt");
+    let output = bench.run(&[&IDENTITY[..], &["--table"]].concat());
+    assert_done(&output);
+    assert_printed(&output, "run_table.txt");
+    let output = bench.run(&split(
+        "--filter identity --frame-rate 24,48 --input velocity=linear8 --input depth=float16",
+    ));
+    assert_done(&output);
+    assert_printed(&output, "run_inputs.txt");
+    let output = Bench::two_scenes().run(&split("--filter identity --frames 3"));
+    assert_done(&output);
+    assert_printed(&output, "run_sequence.txt");
+}
+
+#[test]
+fn checks() {
+    let bench = make_bounded();
+    let output = bench.check(&IDENTITY);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert_printed(&output, "check.txt");
+    let output = bench.check(&[&IDENTITY[..], &["-v"]].concat());
+    assert_printed(&output, "check_verbose.txt");
+}
+
+/// A kernel that halves colours is exact on every adapter.
+#[test]
+fn comparisons() {
+    let bench = Bench::two_scenes();
+    bench.write_filter(
+        "dim",
+        "name = \"dim\"
+summary = \"Scales colours.\"
+alignment = \"trailing\"
+[[parameter]]
+name = \"gain\"
+kind = \"real\"
+default = 1.0
+range = [0.0, 1.0]
+doc = \"Factor of all colours.\"
+[[pass]]
+entry = \"work\"
+",
+        &one_kernel(
+            "gain: f32",
+            "textureStore(output, pixel, parameters.gain * textureLoad(color, pixel, 0));",
+        ),
+    );
+    let filters = ["--filters", "identity,./dim"];
+    assert_done(&bench.run(&filters));
+    let mut other = quick_command("run", "16");
+    other[3] = "other";
+    let gain = ["--set", "dim.gain=0.5"];
+    assert_done(&bench.shuttertruth(&[&other[..], &filters, &gain].concat()));
+    let output = bench.shuttertruth(&["compare", "out", "other"]);
+    assert_done(&output);
+    assert_printed(&output, "compare.txt");
+    let output = bench.shuttertruth(&["list", "--filter", "./dim"]);
+    assert_done(&output);
+    assert_printed(&output, "list_filter.txt");
+}
