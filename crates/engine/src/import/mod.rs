@@ -58,8 +58,8 @@ fn check_new(out: &Path) -> Result<(), Error> {
         return refuse!(out, "exists already; name a folder that is new");
     }
     let name = out.file_name().unwrap_or_default().to_string_lossy();
-    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    match !name.is_empty() && name.chars().all(allowed) {
+    let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
+    match !name.is_empty() && name.chars().all(is_allowed) {
         true => Ok(()),
         false => refuse!(
             out,

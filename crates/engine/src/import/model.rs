@@ -154,14 +154,13 @@ fn suggest_plain(error: SceneError, path: &Path, scene: &Path) -> SceneError {
 /// Copies an OBJ file line by line, without its materials.
 fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
     let bytes = read_bounded(path, LARGEST_MESH_FILE)?;
-    let text = String::from_utf8_lossy(&bytes);
-    let plain = text
-        .lines()
-        .map(|line| match line.split_whitespace().next() {
-            Some("mtllib" | "usemtl") => "\n".to_owned(),
-            _ => format!("{line}\n"),
-        });
-    write_atomically(copy, plain.collect::<String>().as_bytes())
+    let mut plain = String::new();
+    for line in String::from_utf8_lossy(&bytes).lines() {
+        let is_left_out = matches!(line.split_whitespace().next(), Some("mtllib" | "usemtl"));
+        plain += if is_left_out { "" } else { line };
+        plain += "\n";
+    }
+    write_atomically(copy, plain.as_bytes())
 }
 
 /// Copies files to the same places below `folder` that they have below the model's folder.

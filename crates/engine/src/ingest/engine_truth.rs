@@ -6,7 +6,7 @@ use frame::{
 };
 use store::LADDER;
 use suite::Error;
-use tracer::{Progress, TraceError, Watch};
+use tracer::{Progress, Watch};
 
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
@@ -167,13 +167,7 @@ fn read_subframes(
     means.extend(ladder.map(|own| mean(own, &|half| pick_subframes(own, count, half))));
     let mut range = ColorRange::new(size, capture.description.stops.unwrap_or(0.0));
     for index in 0..count {
-        let progress = Progress {
-            done: index as u64,
-            total: count as u64,
-        };
-        if watch(progress).is_break() {
-            return Err(TraceError::Cancelled.into());
-        }
+        Progress::report(watch, index, count)?;
         let color = capture.read_subframe(index)?;
         let ids = match objects {
             1 => None,

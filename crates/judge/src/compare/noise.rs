@@ -9,7 +9,7 @@ use metrics::{
 };
 use store::RenderFile;
 use suite::{Error, MIN_REPLICATES, SHARP, make_oracle, sharp_picture, truths_without_pairs};
-use tracer::{Progress, TraceError, Watch};
+use tracer::{Progress, Watch};
 
 use crate::compare::change::{Change, Uncertainty};
 use crate::compare::pairing::{Pair, Side};
@@ -36,13 +36,7 @@ pub fn measure_changes(
     let mut changes = Vec::new();
     let mut shared: Option<(String, Option<TruthParts>)> = None;
     for (done, pair) in pairs.iter().enumerate() {
-        let progress = Progress {
-            done: done as u64,
-            total: pairs.len() as u64,
-        };
-        if watch(progress).is_break() {
-            return Err(TraceError::Cancelled.into());
-        }
+        Progress::report(watch, done, pairs.len())?;
         let differs = (METRICS.iter())
             .any(|metric| pair.first.scores.get(*metric) != pair.second.scores.get(*metric));
         let mut scores = Vec::new();
