@@ -25,7 +25,7 @@ pub use baseline::{
 pub use bounds::{
     BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
     bound_subframes, check_lengths, check_names, read_bounds, read_bounds_beside_scenes,
-    read_bounds_file, require_bounds, size_for_bounds, sized_bounds_file,
+    read_bounds_file, require_bounds, size_for_bounds,
 };
 pub use calibrate::{Calibration, calibrate, default_metrics};
 pub use check::{CHECK_FORMAT, Check, check};
@@ -34,7 +34,7 @@ pub use compare::{
     SettingChange, Side, SizeComparison, compare_runs, compare_sizes, pair_cases, rank_changes,
     score_change,
 };
-pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
+pub use decoys::{Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
 pub use finding::{Finding, MAX_SAMPLES};
 use judged_score::judge_sequence;

@@ -88,14 +88,13 @@ pub fn compare_candidates(
     second: &Settings,
 ) -> Result<PairedComparison, Error> {
     let all = evaluator.all_scenes();
-    let total = 2 * all.len() as u64;
     let monitor = evaluator.monitor;
     let [first, second] = monitor.watch("both sets of parameters", |watch| {
         let mut done = 0;
         let mut score = |settings: &Settings| {
             evaluator.score(settings, &all, |_, _| {
                 done += 1;
-                watch(Progress { done, total }).is_continue()
+                Progress::report(watch, done, 2 * all.len()).is_ok()
             })
         };
         Ok::<_, Error>([score(first)?, score(second)?])

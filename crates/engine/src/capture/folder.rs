@@ -128,13 +128,8 @@ impl Capture {
     /// # Errors
     /// `capture.toml` does not say them.
     pub fn shutter(&self) -> Result<(f64, Alignment), Error> {
-        let CaptureDescription {
-            exposure,
-            alignment,
-            ..
-        } = &self.description;
-        match (exposure, alignment) {
-            (Some(exposure), Some(alignment)) => Ok((*exposure, *alignment)),
+        match (self.description.exposure, self.description.alignment) {
+            (Some(exposure), Some(alignment)) => Ok((exposure, alignment)),
             (None, _) => refuse_key(&self.folder, "exposure = 0.5", "in frames"),
             (_, None) => refuse_key(
                 &self.folder,
