@@ -27,7 +27,7 @@ pub use evaluator::{Evaluation, Evaluator, evaluate_candidate};
 pub use held_out::HeldOutResult;
 pub use journal::Journal;
 pub use loss::{LEAST_BLEED, log_ratio};
-pub use options::{Objective, TuneOptions, interleave_families};
+pub use options::{TuneOptions, interleave_families};
 pub use pareto::{pareto_front, round_bleed};
 pub use preset::tuned_preset_toml;
 pub use search::Search;
@@ -36,6 +36,6 @@ pub use sensitivity::{ParameterSensitivity, Sensitivity, analyze_sensitivity, co
 pub use sobol::{Estimate, SobolIndices, sobol_indices};
 pub use space::Space;
 pub use target::{RenderedScene, SceneScore, SceneScores, Target, render_scenes};
-pub use trial::{JOURNAL_FORMAT, JournalHeader, Trial, TrialOutcome};
+pub use trial::{JOURNAL_FORMAT, JournalHeader, Objective, Trial, TrialOutcome};
 pub use tuning::{TUNE_FORMAT, Tuning, tune};
 pub use wilcoxon::signed_rank_p_value;

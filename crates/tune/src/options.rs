@@ -1,29 +1,17 @@
-//! Options and objectives of a tuning.
+//! Options of a tuning.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use judge::SceneBounds;
-use suite::{Error, FilterChoice, Monitor, named};
+use suite::{Error, FilterChoice, Monitor};
 use tracer::{RenderSettings, Scene};
 
 use crate::loss::LEAST_BLEED;
 use crate::selection::ChoiceLimits;
 use crate::space::Space;
-use crate::trial::Trial;
-
-named! {
-    /// A score that trials are judged by, apart from the others.
-    pub enum Objective {
-        /// `flip_moving`; always measured.
-        Flip = "flip",
-        /// `bleed_lateral` of the worst scene.
-        Bleed = "bleed",
-        /// GPU time.
-        Cost = "cost",
-    }
-}
+use crate::trial::{Objective, Trial};
 
 /// Filter, scenes, limits and effort of a tuning.
 pub struct TuneOptions {

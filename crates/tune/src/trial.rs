@@ -4,9 +4,21 @@ use std::collections::BTreeMap;
 
 use filters::Value;
 use serde::{Deserialize, Serialize};
+use suite::named;
 
-use crate::options::Objective;
 use crate::target::SceneScores;
+
+named! {
+    /// A score that trials are judged by, apart from the others.
+    pub enum Objective {
+        /// `flip_moving`; always measured.
+        Flip = "flip",
+        /// `bleed_lateral` of the worst scene.
+        Bleed = "bleed",
+        /// GPU time.
+        Cost = "cost",
+    }
+}
 
 /// Version of the layout of a journal.
 pub const JOURNAL_FORMAT: u32 = 1;

@@ -13,12 +13,12 @@ use crate::evaluator::Evaluator;
 use crate::held_out::{HeldOutResult, record_held_out_result};
 use crate::journal::{Journal, journal_error};
 use crate::next_trial::run_next_trial;
-use crate::options::{Objective, TuneOptions};
+use crate::options::TuneOptions;
 use crate::pareto::{pareto_front, round_bleed};
 use crate::search::Search;
 use crate::selection::{Choice, Fold, choose_trial, cross_validate, trial_settings};
 use crate::target::{Target, render_scenes};
-use crate::trial::{JOURNAL_FORMAT, JournalHeader, Trial, TrialOutcome};
+use crate::trial::{JOURNAL_FORMAT, JournalHeader, Objective, Trial, TrialOutcome};
 
 /// Version of the layout of `tune.json`.
 pub const TUNE_FORMAT: u32 = 1;

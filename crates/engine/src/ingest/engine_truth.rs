@@ -46,12 +46,8 @@ pub fn average_subframes(
         return Ok(None);
     }
     check_count(capture)?;
-    let (means, range) = read_subframes(capture, objects.len(), watch)?;
-    let mut means = means.iter().map(|mean| Accumulation {
-        subframes: mean.subframes,
-        halves: mean.halves.each_ref().map(Sum::mean),
-    });
-    let halves = means.next().expect("the truth comes first").halves;
+    let (mut means, range) = read_subframes(capture, objects.len(), watch)?;
+    let halves = means.remove(0).halves;
     let changed = range.mark_changed();
     let reached = mark_reached(&capture.velocity, shutter);
     let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
@@ -94,7 +90,7 @@ pub fn average_subframes(
             shutter_profile: ShutterProfile::default(),
             alignment,
             objects: objects.to_owned(),
-            rungs: means.collect(),
+            rungs: means,
         },
     }))
 }
@@ -153,7 +149,7 @@ fn read_subframes(
     capture: &Capture,
     objects: usize,
     watch: Watch,
-) -> Result<(Vec<Mean>, ColorRange), Error> {
+) -> Result<(Vec<Accumulation>, ColorRange), Error> {
     let count = capture.subframes.len();
     let size = (capture.color.width, capture.color.height);
     let mean = |subframes: u32, pick: &dyn Fn(usize) -> Vec<usize>| Mean {
@@ -184,7 +180,11 @@ fn read_subframes(
             }
         }
     }
-    Ok((means, range))
+    let means = means.iter().map(|mean| Accumulation {
+        subframes: mean.subframes,
+        halves: mean.halves.each_ref().map(Sum::mean),
+    });
+    Ok((means.collect(), range))
 }
 
 /// A sum of pictures.
