@@ -37,7 +37,7 @@ pub enum Command {
     /// Run, and hold every score to its bound: pass or fail
     Check(check::CheckArgs),
     /// Measure a finished picture from any source
-    Score(scored::ScoreArgs),
+    Score(score::ScoreArgs),
     /// Write a finished run or tuning as one HTML page
     Report(report::ReportArgs),
     /// Compare two finished runs: which scores changed by more than noise
@@ -65,10 +65,10 @@ pub enum Command {
     People(PeopleCommand),
     /// Print completions for a shell
     #[command(hide = true)]
-    Completions(completions::CompletionsArgs),
+    Completions(description::CompletionsArgs),
     /// Write the pages of the manual
     #[command(hide = true)]
-    Man(man::ManArgs),
+    Man(description::ManArgs),
 }
 
 /// The commands of `tune`.
@@ -208,6 +208,7 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
     let done = match &program.command {
         Command::Run(args) => run::execute(args),
         Command::Check(args) => return check::execute(args),
+        Command::Score(args) if args.frames > 1 => score_sequence::execute(args),
         Command::Score(args) => score::execute(args),
         Command::Report(args) => report::execute(args),
         Command::Compare(args) => compare::execute(args),
@@ -232,8 +233,8 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Limits(LimitsCommand::Calibrate(args)) => calibrate::execute(args),
         Command::People(PeopleCommand::Ask(args)) => ask::execute(args),
         Command::People(PeopleCommand::Preferences(args)) => preferences::execute(args),
-        Command::Completions(args) => completions::execute(args, Cli::all_visible()),
-        Command::Man(args) => man::execute(args, Cli::all_visible()),
+        Command::Completions(args) => description::print_completions(args, Cli::all_visible()),
+        Command::Man(args) => description::write_manual(args, Cli::all_visible()),
     };
     done.map(|()| Ending::Done)
 }

@@ -15,33 +15,26 @@ const STYLES: [&str; 9] = [
     include_str!("assets/media.css"),
 ];
 
-/// Permissions of a page: a browser may show what stands in it, and fetch nothing.
-const POLICY: &str = "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+/// Permissions of a page: a browser may show what it holds, and fetch nothing but the files next to it that it may load. Browsers
+/// differ in what they call files next to a page on a disk.
+fn policy(siblings: Siblings) -> String {
+    let [pictures, scripts] = [Siblings::Pictures, Siblings::Numbers].map(|kind| match kind {
+        _ if kind == siblings => " 'self' file:",
+        _ => "",
+    });
+    format!(
+        "default-src 'none'; img-src data:{pictures}; style-src 'unsafe-inline'; base-uri 'none'; \
+         form-action 'none'; script-src 'unsafe-inline'{scripts}"
+    )
+}
 
-/// Files beside a page that it loads. Browsers differ in what they call files beside a page on a disk.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Files next to a page that it loads.
+#[derive(Clone, Copy, PartialEq)]
 pub enum Siblings {
-    /// None: the page holds everything.
     None,
     /// Scripts with numbers.
     Numbers,
-    /// Pictures.
     Pictures,
-}
-
-impl Siblings {
-    /// Permissions of scripts and pictures.
-    fn policy(self) -> String {
-        let beside = |own: Self| match self == own {
-            true => " 'self' file:",
-            false => "",
-        };
-        format!(
-            "default-src 'none'; img-src data:{}; {POLICY}; script-src 'unsafe-inline'{}",
-            beside(Self::Pictures),
-            beside(Self::Numbers)
-        )
-    }
 }
 
 /// Writes JSON that scripts read from the element `id`.
@@ -59,11 +52,9 @@ pub struct Document<'a> {
     pub heading: Markup,
     /// Words next to the heading.
     pub subtitle: &'a str,
-    /// Content of the page, with the data that scripts read.
     pub body: Markup,
     /// Scripts in the order in which they run, after that of the theme.
     pub scripts: &'a [&'a str],
-    /// Files next to it that the page loads.
     pub siblings: Siblings,
 }
 
@@ -75,7 +66,7 @@ impl Document<'_> {
             html lang="en" {
                 head {
                     meta charset="utf-8";
-                    meta http-equiv="Content-Security-Policy" content=(self.siblings.policy());
+                    meta http-equiv="Content-Security-Policy" content=(policy(self.siblings));
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     title { (self.title) }
                     link rel="icon" href="data:,";

@@ -5,8 +5,8 @@ use maud::{Markup, html};
 use metrics::Metric;
 use suite::{Case, FilterId};
 
+use crate::address::{case_anchor, section_anchor};
 use crate::case_table::CaseTable;
-use crate::filter_id::{case_anchor, section_anchor};
 use crate::numbers::value_text;
 use crate::overview::bench_file::cost_of;
 use crate::overview::costs::cost_text;

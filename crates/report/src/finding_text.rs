@@ -41,6 +41,7 @@ impl Render for Status {
 }
 
 /// Numbers of findings of one level, by outcome.
+#[derive(Default)]
 pub struct Tally {
     /// All of the level.
     pub all: usize,
@@ -54,13 +55,8 @@ pub struct Tally {
 
 impl Tally {
     /// Counts the findings of a level.
-    pub fn of<'a>(findings: impl IntoIterator<Item = &'a Finding>, level: Level) -> Self {
-        let mut tally = Self {
-            all: 0,
-            met: 0,
-            broken: 0,
-            undecided: 0,
-        };
+    pub fn of<'a>(findings: impl IntoIterator<Item = &'a &'a Finding>, level: Level) -> Self {
+        let mut tally = Self::default();
         for finding in findings.into_iter().filter(|own| own.level == level) {
             tally.all += 1;
             match finding.outcome {

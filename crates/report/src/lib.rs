@@ -1,12 +1,12 @@
 //! Pages of a run, a comparison and a tuning, and one that asks people. Each opens from disk and fetches nothing.
 
+mod address;
 mod ask;
 mod case;
 mod case_table;
 mod charts;
 mod comparison;
 mod document;
-mod filter_id;
 mod filter_page;
 mod finding_text;
 mod gallery;
@@ -19,7 +19,7 @@ mod sequence;
 mod table;
 mod tuning;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 pub use ask::{ASK_PAGE, write_ask_folder};
@@ -43,8 +43,10 @@ use pixels::scene_files::SceneFiles;
 use run_page::{PageContent, run_page};
 pub use sequence::{SEQUENCES_PAGE, sequences_page};
 use suite::{Case, Error, Run};
-use tracer::SceneId;
 pub use tuning::{TuneFolder, tuning_page};
+
+/// Bytes of the tables of a case, about.
+const CASE_BYTES: usize = 25_000;
 
 /// Writes the page of the run in `folder` to `html`; returns its path, then those of the files next to it.
 ///
@@ -68,14 +70,9 @@ pub fn write_report(
         ));
     }
     let table = CaseTable::new(run, read_bench(folder)?);
-    let mut groups: HashMap<_, Vec<Finding>> = HashMap::new();
-    for finding in findings {
-        let own = groups.entry((finding.scene.clone(), finding.filter.clone()));
-        own.or_default().push(finding.clone());
-    }
     let mut parts = Parts::new(run, html, largest);
     for scene in 0..table.scenes.len() {
-        parts.add_scene(scene, &table, &groups, folder)?;
+        parts.add_scene(scene, &table, findings, folder)?;
     }
     parts.views.sort_by_key(|view| view.index);
     let filters = table.filters.iter().filter(|filter| !filter.is_reference);
@@ -92,15 +89,14 @@ pub fn write_report(
         links_sequences: html.parent() == Some(folder),
     };
     write_atomically(html, run_page(run, &content, html).as_bytes())?;
-    let beside = [numbers, parts.tables.place(0)?]
-        .into_iter()
-        .flat_map(Place::paths);
-    Ok(std::iter::once(html.to_owned()).chain(beside).collect())
+    let files = [numbers, parts.tables.place(0)?].into_iter();
+    let files = files.flat_map(Place::paths);
+    Ok(std::iter::once(html.to_owned()).chain(files).collect())
 }
 
 /// Parts of a page, which grow scene by scene.
 struct Parts<'a> {
-    /// True where the sections of cases hold their tables, and the page need not load them.
+    /// True if the sections of cases hold their tables, and the page need not load them.
     has_tables: bool,
     /// Numbers of the pictures.
     numbers: SceneTexts,
@@ -131,22 +127,20 @@ impl<'a> Parts<'a> {
         &mut self,
         scene: usize,
         table: &CaseTable<'a>,
-        findings: &HashMap<(SceneId, String), Vec<Finding>>,
+        findings: &'a [Finding],
         folder: &Path,
     ) -> Result<(), Error> {
-        let own = || table.cases_on(table.scenes[scene]);
-        let cases: Vec<&Case> = own().map(|(_, case)| case).collect();
+        let id = table.scenes[scene];
+        let cases: Vec<&Case> = table.cases_on(id).map(|(_, case)| case).collect();
         let mut files = SceneFiles::read(table.run, &cases, folder)?;
+        let findings: Vec<&Finding> = findings.iter().filter(|own| own.scene == *id).collect();
         let mut texts: BTreeMap<String, [String; 2]> = BTreeMap::new();
-        for (index, case) in own() {
-            let judged = (!case.is_reference).then(|| (case.scene.clone(), case.name()));
-            let own = judged.and_then(|key| findings.get(&key).cloned());
-            let view =
-                CaseView::read(table.run, index, scene, own.unwrap_or_default(), &mut files)?;
+        for (index, _) in table.cases_on(id) {
+            let view = CaseView::read(table.run, index, scene, &findings, &mut files)?;
             let tables = CaseTables::new(&view, table);
             self.sections[index] = case_section(&view, self.has_tables.then_some(&tables));
             if !self.has_tables {
-                texts.extend([tables.texts(case)]);
+                texts.extend([tables.texts(view.case)]);
             }
             self.views.push(view);
         }
@@ -159,6 +153,3 @@ impl<'a> Parts<'a> {
         Ok(())
     }
 }
-
-/// Bytes of the tables of a case, about.
-const CASE_BYTES: usize = 25_000;

@@ -41,11 +41,17 @@ pub fn counted(count: usize, noun: &str) -> String {
 
 /// Writes a number with three digits that count.
 pub fn three_digits(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
     let digits = (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
-    format!("{value:.digits$}")
+    match value {
+        0.0 => "0".to_owned(),
+        value => format!("{value:.digits$}"),
+    }
+}
+
+/// Averages numbers; none of none.
+pub fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (count, sum) = values.fold((0, 0.0), |(count, sum), value| (count + 1, sum + value));
+    (count > 0).then(|| sum / f64::from(count))
 }
 
 #[cfg(test)]
@@ -68,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn values_have_six_digits() {
+    fn values_have_six_digits_and_times_three() {
         let words = [
             0.049_999_999_999_999_996,
             1_666.666_666_666_666_5,
@@ -77,10 +83,6 @@ mod tests {
         ];
         let words = words.map(|value| value_text(&Value::Real(value)));
         assert_eq!(words, ["0.05", "1666.67", "1", "0.000001"]);
-    }
-
-    #[test]
-    fn numbers_have_three_digits() {
         let words = [12.345, 0.012_345, 1234.5, 0.0].map(three_digits);
         assert_eq!(words, ["12.3", "0.0123", "1234", "0"]);
     }

@@ -10,7 +10,7 @@ use serde_json::Value;
 use store::read_text;
 use suite::Error;
 
-use crate::trial::{JournalHeader, Trial};
+use crate::trial::{JOURNAL_FORMAT, JournalHeader, Trial};
 
 /// Characters of a setting that an error shows.
 const MAX_SHOWN: usize = 80;
@@ -55,17 +55,11 @@ impl Journal {
             file,
             trials: Vec::new(),
         };
-        let mut lines = text[..whole].lines().enumerate();
+        let mut lines = text[..whole].lines();
         if lines.next().is_none() {
             journal.write(header)?;
         }
-        for (index, line) in lines {
-            let trial: Trial = serde_json::from_str(line)
-                .map_err(|error| journal_error(path, index, &format!("is no trial: {error}")))?;
-            (trial.check(header, journal.trials.len()))
-                .map_err(|reason| journal_error(path, index, &reason))?;
-            journal.trials.push(trial);
-        }
+        journal.trials = parse_trials(path, lines, header)?;
         Ok(journal)
     }
 
@@ -88,6 +82,42 @@ impl Journal {
             ))
         })
     }
+}
+
+/// Reads the whole lines of the journal at `path`: the last one may be half written while a tuning goes on. None if it has none.
+pub fn read_journal(path: &Path) -> Result<Option<(JournalHeader, Vec<Trial>)>, Error> {
+    if !path.exists() {
+        return Ok(None);
+    }
+    let text = read_text(path)?;
+    let whole = text.rfind('\n').map_or(0, |end| end + 1);
+    let mut lines = text[..whole].lines();
+    let Some(first) = lines.next() else {
+        return Ok(None);
+    };
+    let header: JournalHeader = serde_json::from_str(first)
+        .map_err(|error| journal_error(path, 0, &format!("is no journal of a tuning: {error}")))?;
+    if header.format != JOURNAL_FORMAT {
+        let reason = format!("has format {}; allowed: {JOURNAL_FORMAT}", header.format);
+        return Err(journal_error(path, 0, &reason));
+    }
+    let trials = parse_trials(path, lines, &header)?;
+    Ok(Some((header, trials)))
+}
+
+/// Parses the lines behind the first one, a trial each.
+fn parse_trials<'a>(
+    path: &Path,
+    lines: impl Iterator<Item = &'a str>,
+    header: &JournalHeader,
+) -> Result<Vec<Trial>, Error> {
+    let parse = |(number, line): (usize, &str)| {
+        let trial: Result<Trial, String> =
+            serde_json::from_str(line).map_err(|error| format!("is no trial: {error}"));
+        let checked = trial.and_then(|trial| trial.check(header, number).map(|()| trial));
+        checked.map_err(|reason| journal_error(path, number + 1, &reason))
+    };
+    lines.enumerate().map(parse).collect()
 }
 
 /// Returns a line of a journal, or of the results on held-out scenes, with its end.

@@ -25,7 +25,7 @@ pub use advice::Advice;
 pub use comparison::{Difference, PairedComparison, Preference, compare_candidates, pair_scores};
 pub use evaluator::{Evaluation, Evaluator, evaluate_candidate};
 pub use held_out::HeldOutResult;
-pub use journal::Journal;
+pub use journal::{Journal, read_journal};
 pub use loss::{LEAST_BLEED, log_ratio};
 pub use options::{TuneOptions, interleave_families};
 pub use pareto::{pareto_front, round_bleed};
@@ -36,6 +36,6 @@ pub use sensitivity::{ParameterSensitivity, Sensitivity, analyze_sensitivity, co
 pub use sobol::{Estimate, SobolIndices, sobol_indices};
 pub use space::Space;
 pub use target::{RenderedScene, SceneScore, SceneScores, Target, render_scenes};
-pub use trial::{JOURNAL_FORMAT, JournalHeader, Objective, Trial, TrialOutcome};
+pub use trial::{JournalHeader, Objective, Trial, TrialOutcome};
 pub use tuning::{TUNE_FORMAT, Tuning, tune};
 pub use wilcoxon::signed_rank_p_value;

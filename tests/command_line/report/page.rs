@@ -330,8 +330,8 @@ fn a_report_refuses_a_file_without_a_run_or_its_pictures() {
     small.push_color("", &frame::Raster::filled(16, 16, [0.0; 3]));
     frame::write_exr(&picture, &small).unwrap();
     refused(&[
-        "out/plate/identity_default: output.exr has 16x16 pixels, errors.exr 64x32, the scene's frame 64x32",
-        "run the case again",
+        "out/plate/identity_default/output.exr: has 16x16 pixels, the run's pictures have 64x32",
+        "run it again",
     ]);
     fs::rename(&other, &picture).unwrap();
 

@@ -158,7 +158,7 @@ fn an_unfinished_tuning_has_a_page_and_an_empty_folder_is_refused() {
     assert_refused(
         &bench.shuttertruth(&words),
         2,
-        &["tuned/journal.jsonl:5", "not of this program"],
+        &["tuned/journal.jsonl:5", "is no trial"],
     );
     fs::remove_file(&journal).unwrap();
     assert_refused(

@@ -5,7 +5,8 @@ use suite::Error;
 use tracer::FrameRate;
 use tracer::limits::{FASTEST_RATE, FASTEST_SHUTTER, SLOWEST_RATE, SLOWEST_SHUTTER};
 
-use crate::selection::split_scene;
+use super::parse_number;
+use crate::selection::{find_twin, split_scene};
 
 /// Frame rates and shutter times to try on every scene.
 #[derive(Clone, Debug, Args)]
@@ -23,9 +24,12 @@ pub struct FrameRateArgs {
 impl FrameRateArgs {
     /// Lists the frame rates, without that of the scenes' files: those of a shutter in frames, then those of each shutter time.
     fn list(&self) -> Result<Vec<FrameRate>, Error> {
-        refuse_twins("--frame-rate", &self.frame_rate, |rate| rate.to_string())?;
-        let time = |count: &f64| format!("1/{count}");
-        refuse_twins("--shutter-time", &self.shutter_time, time)?;
+        if let Some(rate) = find_twin(&self.frame_rate) {
+            refuse!("--frame-rate: {rate} is named twice; allowed: each once");
+        }
+        if let Some(count) = find_twin(&self.shutter_time) {
+            refuse!("--shutter-time: 1/{count} is named twice; allowed: each once");
+        }
         let written = [FrameRate::WRITTEN.per_second];
         let rates = match self.frame_rate.as_slice() {
             [] => &written[..],
@@ -59,43 +63,30 @@ impl FrameRateArgs {
                     "--frame-rate: {name} has a frame rate of its own; allowed: scenes and variants without one"
                 );
             }
-            let at_rates = rates.iter().map(|rate| format!("{own}@{}", rate.word()));
-            let at_rates: Vec<String> = at_rates.collect();
-            all.push(name);
-            all.extend(at_rates);
+            all.push(name.clone());
+            all.extend((rates.iter()).map(|rate| format!("{own}@{}", rate.word())));
         }
         Ok(all)
     }
 }
 
-fn refuse_twins(option: &str, all: &[f64], text: impl Fn(&f64) -> String) -> Result<(), Error> {
-    for (index, value) in all.iter().enumerate() {
-        if all[..index].contains(value) {
-            refuse!(
-                "{option}: {} is named twice; allowed: each once",
-                text(value)
-            );
-        }
-    }
-    Ok(())
-}
-
 fn parse_frame_rate(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(rate) if (SLOWEST_RATE..=FASTEST_RATE).contains(&rate) => Ok(rate),
-        _ => Err(format!(
-            "allowed: frames per second from {SLOWEST_RATE} to {FASTEST_RATE}, such as 144"
-        )),
-    }
+    let is_allowed = |rate| (SLOWEST_RATE..=FASTEST_RATE).contains(&rate);
+    parse_number(text, is_allowed, || {
+        format!("frames per second from {SLOWEST_RATE} to {FASTEST_RATE}, such as 144")
+    })
 }
 
 /// Parses `1/48` as 48, the number of such times in a second.
 fn parse_shutter_time(text: &str) -> Result<f64, String> {
-    let count = text.strip_prefix("1/").and_then(|count| count.parse().ok());
-    match count {
-        Some(count) if (SLOWEST_SHUTTER..=FASTEST_SHUTTER).contains(&count) => Ok(count),
-        _ => Err(format!(
-            "allowed: parts of a second from 1/{SLOWEST_SHUTTER} to 1/{FASTEST_SHUTTER}, such as 1/48"
-        )),
-    }
+    let is_allowed = |count| (SLOWEST_SHUTTER..=FASTEST_SHUTTER).contains(&count);
+    parse_number(
+        text.strip_prefix("1/").unwrap_or_default(),
+        is_allowed,
+        || {
+            format!(
+                "parts of a second from 1/{SLOWEST_SHUTTER} to 1/{FASTEST_SHUTTER}, such as 1/48"
+            )
+        },
+    )
 }

@@ -74,7 +74,11 @@ impl SceneArgs {
     /// Names the scenes, each in its sealed variant where --seal asks for one, and at the frame rates that are asked for.
     pub fn names(&self) -> Result<Vec<String>, Error> {
         let names = self.rates.add_to(self.variant_names()?)?;
-        match names.iter().find(|name| has_shutter_time(name)) {
+        let has_shutter_time = |name: &&String| {
+            let rate = split_scene(name).1.rate;
+            rate.is_some_and(|rate| rate.shutters_per_second.is_some())
+        };
+        match names.iter().find(has_shutter_time) {
             Some(name) if self.exposure.is_some() => refuse!(
                 "--exposure: {name} has its shutter time in its name; allowed: one of the two; leave --exposure or the shutter time out"
             ),
@@ -86,17 +90,17 @@ impl SceneArgs {
         let Some(seed) = self.seal else {
             return Ok(self.scenes.clone());
         };
-        if self.scenes.is_empty() {
-            return Ok(vec![sealed("*", seed)]);
+        if let Some(name) =
+            (self.scenes.iter()).find(|name| !split_scene(name).1.choice().is_empty())
+        {
+            refuse!(
+                "--seal: {name} is a variant; allowed: scenes in their default variant, which sealed ones are made of"
+            );
         }
-        (self.scenes.iter())
-            .map(|name| match split_scene(name).1.choice().as_str() {
-                "" => Ok(sealed(name, seed)),
-                _ => refuse!(
-                    "--seal: {name} is a variant; allowed: scenes in their default variant, which sealed ones are made of"
-                ),
-            })
-            .collect()
+        Ok(match self.scenes.is_empty() {
+            true => vec![sealed("*", seed)],
+            false => (self.scenes.iter().map(|name| sealed(name, seed))).collect(),
+        })
     }
 
     /// Makes the options of a frame.
@@ -116,10 +120,4 @@ fn sealed(scene: &str, seed: u64) -> String {
         ..SceneId::default()
     };
     scene.trim_end_matches(['/', '\\']).to_owned() + &id.choice()
-}
-
-/// Tells whether a scene's name gives the time that its shutter is open.
-fn has_shutter_time(name: &str) -> bool {
-    let rate = split_scene(name).1.rate;
-    rate.is_some_and(|rate| rate.shutters_per_second.is_some())
 }

@@ -1,9 +1,9 @@
 //! The command `engine blur`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use filters::{Convention, FilterError, Input};
+use filters::{Convention, FilterError, Gpu, Input};
 use frame::{
     Camera, ExrFile, Image, Plane, Reprojection, Vectors, read_exr, read_frame_rate, write_exr,
 };
@@ -59,119 +59,115 @@ pub struct BlurArgs {
 
 /// Runs one filter on one frame file, or on those of a sequence, and writes its colours.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
-    let frames = list_frames(args)?;
-    let choice = select_filter(args)?;
+    let out = choose_out(args)?;
+    let names = [args.filter.clone()];
+    let (preset, programs) = (args.preset.as_deref(), args.programs.programs());
+    let choice = select_filters(&names, preset, &args.set, programs)?.remove(0);
     let convention = read_convention(args.convention.as_deref())?;
-    let buffers = Buffers::read(&frames[0].file, args.exposure, &convention)?;
-    let choice = choice.scaled_to(buffers.picture_width());
-    let gpu = open_gpu(
-        std::slice::from_ref(&choice),
-        args.adapter.adapter.as_deref(),
-        make_silent_monitor(),
-    )?;
-    let size = buffers.size();
-    let mut runner = Runner::new(gpu.as_ref(), &choice, size, make_silent_monitor())?;
+    let first = Buffers::read(frame_file(args, 0), args.exposure, &convention)?;
+    let size = (first.color.width, first.color.height);
+    let choice = (choice.as_written(args.as_written)).scaled_to(first.picture_width());
+    let monitor = make_silent_monitor();
+    let adapter = args.adapter.adapter.as_deref();
+    let gpu = open_gpu(std::slice::from_ref(&choice), adapter, monitor)?;
+    let mut runner = Runner::new(gpu.as_ref(), &choice, size, monitor)?;
+    let first_path = first.path.clone();
     // The first frame stands in for the one before it.
-    let mut before = buffers;
-    for (at, frame) in frames.iter().enumerate() {
-        let own = match at {
+    let mut before = first;
+    for frame in 0..args.frames {
+        let own = match frame {
             0 => None,
-            _ => Some(Buffers::read(&frame.file, args.exposure, &convention)?),
+            _ => Some(Buffers::read(
+                frame_file(args, frame),
+                args.exposure,
+                &convention,
+            )?),
         };
         let now = own.as_ref().unwrap_or(&before);
-        now.check_size(size, frame, &frames[0])?;
+        let (width, height) = (now.color.width, now.color.height);
+        if (width, height) != size {
+            refuse!(
+                "{}: has {width}x{height} pixels, {} has {}x{}; the frames of a sequence have one size",
+                now.path.display(),
+                first_path.display(),
+                size.0,
+                size.1
+            );
+        }
+        let index = args.frame_index + frame;
         let colors = [[&now.color], [&before.color]];
-        let input = now.input(&colors[0], frame.index);
-        let outputs = runner.run_after(&input, &before.input(&colors[1], frame.index));
+        let input = now.input(&colors[0], index);
+        let outputs = runner.run_after(&input, &before.input(&colors[1], index));
         let outputs = outputs.map_err(|error| match error {
             FilterError::Input { reason, .. } => {
-                Error::Usage(format!("{}: {reason}", frame.file.display()))
+                Error::Usage(format!("{}: {reason}", now.path.display()))
             }
             other => other.into(),
         })?;
-        let mut file = ExrFile::new(size.0, size.1);
+        let mut file = describe_picture(&choice, gpu.as_ref(), size);
         file.push_color("", &convention.convert_color(&outputs[0]));
-        file.set("kind", "output");
-        file.set("filter", choice.name());
-        file.set("program", suite::PROGRAM);
-        if let Some(gpu) = &gpu {
-            file.set("adapter", &gpu.adapter.name);
-        }
         file.set("exposure", now.exposure);
-        file.set("alignment", choice.filter.alignment);
-        write_exr(&frame.out, &file)?;
-        if let Some(own) = own {
-            before = own;
-        }
-        print(&format!("{}\n", printable_path(&frame.out)))?;
+        let path = match args.frames {
+            1 => out.clone(),
+            _ => numbered_file(&out, frame),
+        };
+        write_exr(&path, &file)?;
+        print(&format!("{}\n", printable_path(&path)))?;
+        before = own.unwrap_or(before);
     }
     Ok(())
 }
 
-/// One frame to blur.
-struct FrameFiles {
-    /// The frame.
-    file: PathBuf,
-    /// Picture to write.
-    out: PathBuf,
-    /// Frame number, which seeds the filter's noise.
-    index: u32,
+/// Makes a file without a picture that says what blurred it.
+fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) -> ExrFile {
+    let mut file = ExrFile::new(size.0, size.1);
+    file.set("kind", "output");
+    file.set("filter", choice.name());
+    file.set("program", suite::PROGRAM);
+    if let Some(gpu) = gpu {
+        file.set("adapter", &gpu.adapter.name);
+    }
+    file.set("alignment", choice.filter.alignment);
+    file
 }
 
-/// Lists the frames to blur, and the pictures to write.
-fn list_frames(args: &BlurArgs) -> Result<Vec<FrameFiles>, Error> {
-    let is_one = args.frames == 1;
-    let out = args.out.clone().unwrap_or_else(|| match is_one {
-        true => PathBuf::from("out/blurred.exr"),
-        false => PathBuf::from("out/blurred"),
-    });
-    if is_one {
-        return Ok(vec![FrameFiles {
-            file: args.frame.clone(),
-            index: args.frame_index,
-            out,
-        }]);
-    }
-    if out.extension().is_some_and(|ending| ending == "exr") {
+/// Chooses the picture to write, or the folder for those of a sequence.
+fn choose_out(args: &BlurArgs) -> Result<PathBuf, Error> {
+    let (frames, first) = (args.frames, args.frame_index);
+    let is_one = frames == 1;
+    let default = if is_one {
+        "out/blurred.exr"
+    } else {
+        "out/blurred"
+    };
+    let out = args.out.clone().unwrap_or_else(|| default.into());
+    if !is_one && out.extension().is_some_and(|ending| ending == "exr") {
         refuse!(
-            "--out: {} is the name of one picture, and {} are written; name a folder for them",
-            out.display(),
-            args.frames
+            "--out: {} is the name of one picture, and {frames} are written; name a folder for them",
+            out.display()
         );
     }
-    if args.frame_index.checked_add(args.frames - 1).is_none() {
+    if first.checked_add(frames - 1).is_none() {
         refuse!(
-            "--frame-index {}: each of the {} frames has the next one; allowed: up to {}",
-            args.frame_index,
-            args.frames,
-            u32::MAX - (args.frames - 1)
+            "--frame-index {first}: each of the {frames} frames has the next one; allowed: up to {}",
+            u32::MAX - (frames - 1)
         );
     }
-    let is_folder = args.frame.is_dir();
-    let frames = (0..args.frames).map(|frame| FrameFiles {
-        file: match is_folder {
-            true => numbered_file(&args.frame, frame),
-            false => file_at_frame(&args.frame, frame),
-        },
-        out: numbered_file(&out, frame),
-        index: args.frame_index + frame,
-    });
-    Ok(frames.collect())
+    Ok(out)
 }
 
-fn select_filter(args: &BlurArgs) -> Result<FilterChoice, Error> {
-    let names = [args.filter.clone()];
-    let mut filters = select_filters(
-        &names,
-        args.preset.as_deref(),
-        &args.set,
-        args.programs.programs(),
-    )?;
-    Ok(filters.remove(0).as_written(args.as_written))
+/// Names the file of a frame.
+fn frame_file(args: &BlurArgs, frame: u32) -> PathBuf {
+    match args.frames {
+        1 => args.frame.clone(),
+        _ if args.frame.is_dir() => numbered_file(&args.frame, frame),
+        _ => file_at_frame(&args.frame, frame),
+    }
 }
 
 /// Buffers of a frame file that a filter needs. Any OpenEXR file with these channels will do.
 struct Buffers {
+    path: PathBuf,
     color: Image,
     velocity: Vectors,
     depth: Plane,
@@ -184,18 +180,17 @@ struct Buffers {
 
 impl Buffers {
     /// Reads the buffers, and converts them from the convention of their engine.
-    fn read(path: &Path, exposure: Option<f64>, convention: &Convention) -> Result<Self, Error> {
-        let file = read_exr(path)?;
-        let guard_band: u32 = match file.attributes.contains_key("guard_band") {
-            true => file.get("guard_band")?,
-            false => 0,
+    fn read(path: PathBuf, exposure: Option<f64>, convention: &Convention) -> Result<Self, Error> {
+        let file = read_exr(&path)?;
+        let has = |attribute| file.attributes.contains_key(attribute);
+        let guard_band = if has("guard_band") {
+            file.get("guard_band")?
+        } else {
+            0
         };
-        let [x, y] = [file.plane("velocity.X")?, file.plane("velocity.Y")?];
-        let velocity = x.zip(&y, |x, y| [*x, *y]);
-        let (color, depth) = (file.color("")?, file.plane("Z")?);
         let exposure = match exposure {
             Some(exposure) => exposure,
-            None if file.attributes.contains_key("exposure") => file.get("exposure")?,
+            None if has("exposure") => file.get("exposure")?,
             None => {
                 refuse!(
                     "{}: has no attribute \"exposure\"; give one with --exposure (0.5 = 180 degrees)",
@@ -204,41 +199,24 @@ impl Buffers {
             }
         };
         check_exposure(exposure)?;
+        let reprojection = match has("reprojection") {
+            true => Some(Reprojection::from_exr(&file)?.moved(f64::from(guard_band))),
+            false => None,
+        };
+        let velocity = file
+            .plane("velocity.X")?
+            .zip(&file.plane("velocity.Y")?, |x, y| [*x, *y]);
         Ok(Self {
-            color: convention.restore_color(&color),
+            color: convention.restore_color(&file.color("")?),
             velocity: convention.restore_velocity(&velocity, exposure),
-            depth: convention.restore_depth(&depth),
-            reprojection: read_reprojection(&file, guard_band)?,
+            depth: convention.restore_depth(&file.plane("Z")?),
+            reprojection,
             camera: Camera::from_exr(&file)?,
             exposure,
             frames_per_second: read_frame_rate(&file)?,
             guard_band,
+            path,
         })
-    }
-
-    fn size(&self) -> (u32, u32) {
-        (self.color.width, self.color.height)
-    }
-
-    /// Refuses a frame of another size than the first one.
-    fn check_size(
-        &self,
-        size: (u32, u32),
-        own: &FrameFiles,
-        first: &FrameFiles,
-    ) -> Result<(), Error> {
-        match self.size() == size {
-            true => Ok(()),
-            false => refuse!(
-                "{}: has {}x{} pixels, {} has {}x{}; the frames of a sequence have one size",
-                own.file.display(),
-                self.size().0,
-                self.size().1,
-                first.file.display(),
-                size.0,
-                size.1
-            ),
-        }
     }
 
     /// Makes the input of a filter, with colours in place of the frame's own.
@@ -257,17 +235,7 @@ impl Buffers {
 
     /// Counts the pixels per row without the guard band.
     fn picture_width(&self) -> u32 {
-        self.color
-            .width
-            .saturating_sub(self.guard_band.saturating_mul(2))
-            .max(1)
+        let band = self.guard_band.saturating_mul(2);
+        self.color.width.saturating_sub(band).max(1)
     }
-}
-
-/// Reads the camera's motion between places of the file's rasters, if the file has it.
-fn read_reprojection(file: &ExrFile, band: u32) -> Result<Option<Reprojection>, Error> {
-    if !file.attributes.contains_key("reprojection") {
-        return Ok(None);
-    }
-    Ok(Some(Reprojection::from_exr(file)?.moved(f64::from(band))))
 }

@@ -9,7 +9,7 @@ use tracer::{Progress, Watch};
 
 use super::expected::print_expected_time;
 use super::kept_truths::take_packed_truths;
-use super::run_files::write_run;
+use super::pages::write_run;
 use super::run_plan::{check_replicates_for_intervals, claim_out, make_plan};
 use crate::arguments::{MeasureArgs, SequenceArgs, within};
 use crate::output::print;
@@ -65,9 +65,22 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
     )?;
     check_seeds(plan.render.seed, args.runs)?;
     let _claim = claim_out(&plan)?;
+    let adapters: Vec<Option<&str>> = match args.adapters.as_slice() {
+        // The fastest.
+        [] => vec![None],
+        named => named.iter().map(|name| Some(name.as_str())).collect(),
+    };
+    let count = adapters.len() * args.runs as usize;
+    // None of them was made before.
+    let one = estimate_run(&plan, None);
+    print_expected_time(
+        one.seconds * count as f64,
+        &format!("{count} runs of {} cases", one.cases),
+    );
     let monitor = plan.monitor;
-    print_expected_runs(args, &plan);
-    let runs = monitor.watch("runs in all", |watch| run_all(args, &mut plan, watch))?;
+    let runs = monitor.watch("runs in all", |watch| {
+        run_all(args, &mut plan, &adapters, watch)
+    })?;
     let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
     for scene in calibration.scenes() {
         let path = out.join(format!("{scene}.bounds.toml"));
@@ -76,14 +89,6 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         print(&format!("# {}\n\n{text}", printable_path(&path)))?;
     }
     Ok(())
-}
-
-/// Prints the expected time of all runs, none of which was made before.
-fn print_expected_runs(args: &CalibrateArgs, plan: &RunPlan) {
-    let runs = chosen_adapters(args).len() * args.runs as usize;
-    let one = estimate_run(plan, None);
-    let more = format!("{runs} runs of {} cases", one.cases);
-    print_expected_time(one.seconds * runs as f64, &more);
 }
 
 /// Refuses metrics of sequences where single frames are measured.
@@ -110,14 +115,18 @@ fn check_seeds(first: u64, runs: u32) -> Result<(), Error> {
 }
 
 /// Runs once per adapter and seed.
-fn run_all(args: &CalibrateArgs, plan: &mut RunPlan, watch: Watch) -> Result<Vec<Run>, Error> {
-    let adapters = chosen_adapters(args);
+fn run_all(
+    args: &CalibrateArgs,
+    plan: &mut RunPlan,
+    adapters: &[Option<&str>],
+    watch: Watch,
+) -> Result<Vec<Run>, Error> {
     let total = adapters.len() as u64 * u64::from(args.runs);
     let first = plan.render.seed;
     let truths = plan.truths.clone();
     let mut runs: Vec<Run> = Vec::new();
     for adapter in adapters {
-        let gpu = open_gpu(&plan.filters, adapter, plan.monitor)?;
+        let gpu = open_gpu(&plan.filters, *adapter, plan.monitor)?;
         for seed in (0..args.runs).map(|run| first + u64::from(run)) {
             // A run that is interrupted says so itself.
             let _ = watch(Progress {
@@ -137,12 +146,4 @@ fn run_all(args: &CalibrateArgs, plan: &mut RunPlan, watch: Watch) -> Result<Vec
         }
     }
     Ok(runs)
-}
-
-/// Lists the adapters to run on: those that are named, or the fastest.
-fn chosen_adapters(args: &CalibrateArgs) -> Vec<Option<&str>> {
-    match args.adapters.as_slice() {
-        [] => vec![None],
-        named => named.iter().map(|name| Some(name.as_str())).collect(),
-    }
 }

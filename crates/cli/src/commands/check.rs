@@ -6,20 +6,21 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Command, Id};
 use frame::FileError;
 use judge::{
-    BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, add_evidence, bound_subframes, check,
-    check_lengths, check_names, compare_with_baseline, judge, require_bounds, size_for_bounds,
+    BOUNDS_FILE, Baseline, Finding, Judgement, RunBounds, Side, add_evidence, bound_subframes,
+    check, check_lengths, check_names, compare_with_baseline, judge, require_bounds,
+    size_for_bounds,
 };
 use metrics::Metric;
 use store::{printable_path, refuse_tracked};
-use suite::{Error, Run, open_gpu};
+use suite::{Case, Error, Run, open_gpu};
 use tracer::Location;
 
-use super::margins::{Margins, read_margins};
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, page_path, refuse_folder, write_run_page};
+use super::pages::{WrittenFile, page_lines, refuse_folder, write_judged_run, write_run_page};
 use super::result::Ending;
-use super::run_files::write_judged_run;
-use super::run_plan::{check_replicates_for_intervals, make_plan, read_case_bounds};
+use super::run_plan::{
+    Margins, add_bounds, check_replicates_for_intervals, make_plan, read_margins,
+};
 use crate::arguments::{AdapterArgs, MeasureArgs, SequenceArgs};
 use crate::output::{is_verbose, print, print_json, print_note};
 use crate::tables::{adapter_text, annotations, check_text, junit, summary, verdict_text};
@@ -108,17 +109,17 @@ pub fn execute(args: &CheckArgs) -> Result<Ending, Error> {
         measured.iter().for_each(|text| print_note(text));
     } else {
         let text = check_text(&checked, &folder, is_verbose());
-        let adapter = adapter_text(&run.adapter);
-        let pages = page_lines("report", &pages);
         let other = (baseline.iter()).find(|baseline| !baseline.is_of_class(&run.adapter));
         let note = other.map_or(String::new(), |baseline| {
             let theirs = adapter_text(&baseline.adapter);
             format!("the baseline is of another class of adapter: {theirs}\n")
         });
+        let pages = page_lines("report", &pages);
+        let adapter = adapter_text(&run.adapter);
         let measured = measured.map_or(String::new(), |text| text + "\n");
+        let verdict = verdict_text(&checked);
         print(&format!(
-            "{text}{note}{pages}adapter: {adapter}\n{measured}{}",
-            verdict_text(&checked)
+            "{text}{note}{pages}adapter: {adapter}\n{measured}{verdict}"
         ))?;
     }
     if args.github {
@@ -144,11 +145,9 @@ struct Judged {
 /// nothing is judged by them.
 fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<Judged, Error> {
     let (mut plan, bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
-    if let Some((width, height)) =
-        size_for_bounds(bounds.values(), &plan.filters, args.measure.size)?
-    {
-        (plan.render.width, plan.render.height) = (width, height);
-        plan.check()?;
+    let asked = args.measure.size;
+    if let Some(size) = size_for_bounds(bounds.values(), &plan.filters, asked)? {
+        (plan.render.width, plan.render.height) = size;
     }
     check_lengths(bounds.values(), &plan.filters, args.sequence.frames())?;
     plan.frames = args.sequence.frames();
@@ -164,10 +163,8 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
         require_bounds(root, bounds.iter(), &plan.filters, plan.frames)?;
     }
     if let Some(truths) = &plan.truths {
-        refuse_tracked(
-            truths,
-            "choose a folder or a pack outside of the repository for --truths",
-        )?;
+        let way_out = "choose a folder or a pack outside of the repository for --truths";
+        refuse_tracked(truths, way_out)?;
     }
     if !plan.no_cache {
         let way_out = "choose a folder outside of the repository for --out, or have all made anew with --no-cache";
@@ -181,9 +178,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     } = measure(&mut plan, gpu.as_ref())?;
     let mut findings = judge(&whole, &bounds);
     add_evidence(&whole, &mut findings, &plan.out)?;
-    write_judged_run(&whole, &findings, &plan.out)?;
-    let html = page_path(args.html.as_ref(), &plan.out);
-    let pages = write_run_page(&whole, &findings, &plan.out, &html)?;
+    let pages = write_judged_run(&whole, &findings, &plan.out, args.html.as_ref())?;
     findings.retain(|finding| run.cases.iter().any(|case| finding.is_of(case)));
     Ok(Judged {
         run,
@@ -195,15 +190,12 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
 
 /// Judges a finished run by the bounds beside its scenes: nothing is rendered, and no adapter is opened.
 fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judged, Error> {
-    let path = match path.is_dir() {
-        true => path.join("run.json"),
-        false => path.to_owned(),
+    let side = Side::read(path)?;
+    let folder = match side.folder() {
+        own if own.as_os_str().is_empty() => PathBuf::from("."),
+        own => own.to_owned(),
     };
-    let run = Run::read(&path)?;
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
-        _ => PathBuf::from("."),
-    };
+    let run = side.run;
     refuse_tracked(&folder, "measure it now: shuttertruth check, without a RUN")?;
     let root = &args.measure.scenes.root.scenes_dir;
     let bounds = read_run_bounds(&run, root)?;
@@ -212,7 +204,7 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
         refuse!(
             "{}: none of its scores has a bound, and a check without bounds fails; bounds are read from {} and from the \
              folder of each scene below it: name another folder with --scenes-dir",
-            path.display(),
+            side.path.display(),
             root.join(BOUNDS_FILE)
         );
     }
@@ -234,30 +226,21 @@ fn judge_finished(args: &CheckArgs, path: &Path, compared: bool) -> Result<Judge
 
 /// Reads the bounds of a run's scenes, for pictures of the run's size, from the folder of scenes.
 fn read_run_bounds(run: &Run, root: &Location) -> Result<RunBounds, Error> {
-    let mut found = RunBounds::new();
-    for case in &run.cases {
-        if found.contains_key(&case.scene) {
-            continue;
-        }
-        let size = (run.render.width, run.render.height);
-        let bounds = read_case_bounds(root, case, size)?.ok_or_else(|| {
-            if case.drawn.is_some() {
-                return Error::Usage(format!(
-                    "{}: an engine drew it, and its bounds lie beside what was ingested, which is not in {}; name the folder \
-                     above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check --scenes",
-                    case.scene,
-                    root
-                ));
-            }
-            let folder = root.join(&case.scene.name);
-            Error::Usage(format!(
-                "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",
-                folder
-            ))
-        })?;
-        found.insert(case.scene.clone(), bounds);
+    let mut bounds = RunBounds::new();
+    add_bounds(&mut bounds, run, root)?;
+    let is_missing = |case: &&Case| !bounds.contains_key(&case.scene);
+    match run.cases.iter().find(is_missing) {
+        None => Ok(bounds),
+        Some(case) if case.drawn.is_some() => refuse!(
+            "{}: an engine drew it, and its bounds lie beside what was ingested, which is not in {root}; name the folder \
+             above that with --scenes-dir, such as out/engine, or measure it now: shuttertruth check --scenes",
+            case.scene
+        ),
+        Some(case) => refuse!(
+            "{}: there is no such scene, and its bounds cannot be read; name the folder of the run's scenes with --scenes-dir",
+            root.join(&case.scene.name)
+        ),
     }
-    Ok(found)
 }
 
 fn find_summary_file() -> Result<PathBuf, Error> {

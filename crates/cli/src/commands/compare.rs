@@ -7,8 +7,8 @@ use judge::{Side, compare_runs};
 use report::compare_page;
 use suite::Error;
 
-use super::margins::read_margins;
 use super::pages::write_page;
+use super::run_plan::read_margins;
 use crate::arguments::RootArgs;
 use crate::output::{make_monitor, print, print_json};
 use crate::tables::compare_table;

@@ -1,11 +1,10 @@
 //! The command `engine ingest`.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use engine::{Capture, Ingested, ingest};
-use frame::{Display, Region};
+use frame::{Display, Region, Truth};
 use store::printable_path;
 use suite::{EngineScene, Error};
 use tracer::{Location, Scene};
@@ -46,7 +45,10 @@ pub fn execute(args: &IngestArgs) -> Result<(), Error> {
         print_note(note);
     }
     let traced = find_scene(&capture, &args.root.scenes_dir);
-    let display = find_display(&capture, traced.as_ref());
+    let mut display = traced
+        .as_ref()
+        .map_or_else(Display::default, |scene| scene.display);
+    display.stops = capture.description.stops.unwrap_or(display.stops);
     let names = traced.as_ref().map(Scene::object_names);
     let ingested = make_monitor().watch("sub-frames", |watch| {
         ingest(&capture, (display, names), &out, watch)
@@ -81,50 +83,29 @@ fn find_scene(capture: &Capture, scenes: &Location) -> Option<Scene> {
     found
 }
 
-/// Finds the exposures at which pictures are shown and compared.
-fn find_display(capture: &Capture, traced: Option<&Scene>) -> Display {
-    let display = traced.map_or_else(Display::default, |scene| scene.display);
-    Display {
-        stops: capture.description.stops.unwrap_or(display.stops),
-        ..display
-    }
-}
-
+/// Describes the truth, the picture, and what is wrong with them.
 fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
     let scene = &ingested.scene;
     let [width, height] = scene.size;
     let folder = printable_path(out);
-    let mut text = format!(
-        "{}: {width}x{height}, drawn by {}\n",
+    let mut lines = vec![format!(
+        "{}: {width}x{height}, drawn by {}",
         scene.id, scene.engine
-    );
+    )];
     if let Some(truth) = &ingested.truth {
-        text += &describe_truth(scene);
-        let floor = truth.noise_floors().into_iter();
-        let floors: Vec<String> = (floor
-            .filter(|(region, _)| matches!(region, Region::Moving | Region::Still | Region::Full)))
-        .map(|(region, floor)| format!("{region} {floor:.2e}"))
-        .collect();
-        let _ = writeln!(
-            text,
-            "noise of the truth, from its halves: {}",
-            floors.join(", ")
-        );
+        push_truth(&mut lines, scene, truth);
     }
     if let Some(moving) = ingested.moving {
-        let restless = 100.0 * ingested.restless;
-        let _ = writeln!(
-            text,
-            "moving: {:.1} % of the pixels; {restless:.1} % change between sub-frames though no velocity reaches them",
-            100.0 * moving
-        );
+        let [moving, restless] = [moving, ingested.restless].map(|part| 100.0 * part);
+        lines.push(format!(
+            "moving: {moving:.1} % of the pixels; {restless:.1} % change between sub-frames though no velocity reaches them"
+        ));
         if ingested.restless > LEAST_RESTLESS {
-            let _ = writeln!(
-                text,
+            lines.push(format!(
                 "FOUND: the moving region has {restless:.1} % of the pixels too many if nothing moves there, and its scores are diluted; \
                  draw all sub-frames with one seed, without grain and temporal effects; if things do move there, `engine audit` says whether \
                  velocity is right"
-            );
+            ));
         }
     }
     if let Some(truth) = &ingested.truth {
@@ -132,61 +113,59 @@ fn describe(ingested: &Ingested, out: &Path, traced: Option<&Scene>) -> String {
             1 => "none: the sub-frames have no ids, and there are no scores of objects".to_owned(),
             _ => truth.objects[1..].join(", "),
         };
-        let _ = writeln!(text, "objects: {objects}");
+        lines.push(format!("objects: {objects}"));
     }
     if scene.has_picture {
-        let _ = writeln!(text, "picture: the engine's own blur, {folder}/blurred.exr");
+        lines.push(format!(
+            "picture: the engine's own blur, {folder}/blurred.exr"
+        ));
     }
     match ingested.gain {
         Some(gain) if (gain - 1.0).abs() > LEAST_GAIN => {
             let change = if gain > 1.0 { "brighter" } else { "darker" };
-            let _ = writeln!(
-                text,
+            lines.push(format!(
                 "FOUND: the engine's blur makes the picture {change}, {gain:.4} times where no velocity reaches; its weights should \
                  add up to 1"
-            );
+            ));
         }
-        None if scene.has_picture => {
-            let _ = writeln!(
-                text,
-                "the gain of the engine's blur is not judged: velocity reaches every lit pixel"
-            );
-        }
+        None if scene.has_picture => lines.push(
+            "the gain of the engine's blur is not judged: velocity reaches every lit pixel"
+                .to_owned(),
+        ),
         _ => {}
     }
-    let _ = writeln!(text, "written: {folder}");
+    lines.push(format!("written: {folder}"));
     let dot = if out.is_relative() { "./" } else { "" };
-    match scene.check_truth() {
-        Ok(()) => {
-            let ours = traced.map_or(String::new(), |scene| format!("{},", scene.id));
-            let _ = writeln!(text, "next: shuttertruth run --scenes {ours}{dot}{folder}");
-        }
-        Err(_) => {
-            let _ = writeln!(
-                text,
-                "no sub-frames, and so no truth: `run` needs one; `score` can compare the picture with a truth of ours"
-            );
-        }
-    }
-    text
+    let ours = traced.map_or(String::new(), |scene| format!("{},", scene.id));
+    lines.push(match scene.check_truth() {
+        Ok(()) => format!("next: shuttertruth run --scenes {ours}{dot}{folder}"),
+        Err(_) => "no sub-frames, and so no truth: `run` needs one; `score` can compare the picture with a truth of ours".to_owned(),
+    });
+    lines.join("\n") + "\n"
 }
 
-/// Says what the truth is, and how far it can be trusted.
-fn describe_truth(scene: &EngineScene) -> String {
+/// Adds what the truth is, and how far it can be trusted.
+fn push_truth(lines: &mut Vec<String>, scene: &EngineScene, truth: &Truth) {
     let length = scene.step * f64::from(scene.subframes);
     let most = scene.ladder.last().copied().unwrap_or(1);
-    let mut text = format!(
+    lines.push(format!(
         "truth: mean of {} sub-frames, {} shutter, open for {} frames; not path traced\n\
          limit: 99 % of what moves goes at most {length:.1} px while the shutter is open, {:.2} px between two sub-frames; a smear has \
-         steps of that length, and equivalent sub-frames are told up to {most}\n",
+         steps of that length, and equivalent sub-frames are told up to {most}",
         scene.subframes, scene.alignment, scene.exposure, scene.step
-    );
+    ));
     if scene.step > LONG_STEP {
         let wanted = ((length / LONG_STEP).ceil() as u32).next_multiple_of(2);
-        let _ = writeln!(
-            text,
+        lines.push(format!(
             "advice: {wanted} sub-frames would have steps of half a pixel"
-        );
+        ));
     }
-    text
+    let floors: Vec<String> = (truth.noise_floors().iter())
+        .filter(|(region, _)| matches!(region, Region::Moving | Region::Still | Region::Full))
+        .map(|(region, floor)| format!("{region} {floor:.2e}"))
+        .collect();
+    lines.push(format!(
+        "noise of the truth, from its halves: {}",
+        floors.join(", ")
+    ));
 }

@@ -1,13 +1,12 @@
 //! The command `list`.
 
 use clap::Args;
-use filters::{AdapterDescription, Filter, list_adapters};
-use suite::{Error, InputFormat};
+use filters::{AdapterDescription, Filter, FilterError, Limits, list_adapters, try_out};
+use suite::{Error, InputFormat, open_adapter};
 use tracer::{SceneListing, list_scenes};
 
-use super::try_filters::try_filters;
 use crate::arguments::{AdapterArgs, RootArgs};
-use crate::output::{print, print_json, print_note};
+use crate::output::{make_silent_monitor, print, print_json, print_note};
 use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
 use crate::tables::{
     details_text, filter_json, filters_text, input_json, inputs_text, scene_json, scenes_text,
@@ -37,17 +36,10 @@ pub struct ListArgs {
     pub json: bool,
 }
 
-/// Scenes and filters to list.
-#[derive(Default)]
-struct Listing {
-    scenes: Vec<SceneListing>,
-    filters: Vec<Filter>,
-}
-
 /// Prints scenes and filters: in brief, or those that are named in detail.
 pub fn execute(args: &ListArgs) -> Result<(), Error> {
     if args.what == ["adapters"] {
-        return print_adapters();
+        return print(&adapters_text());
     }
     if args.what == ["inputs"] {
         let kinds = InputFormat::kinds();
@@ -57,15 +49,8 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
         };
     }
     let is_brief = args.filters.is_empty()
-        && args
-            .what
-            .iter()
-            .all(|what| ["scenes", "filters"].contains(&what.as_str()));
-    let listing = match is_brief {
-        true => list_all(args)?,
-        false => list_named(args)?,
-    };
-    let Listing { scenes, filters } = &listing;
+        && (args.what.iter()).all(|what| what == "scenes" || what == "filters");
+    let (scenes, filters) = find_named(args)?;
     if args.json {
         return print_json(&serde_json::json!({
             "scenes": scenes.iter().map(scene_json).collect::<Vec<_>>(),
@@ -73,104 +58,113 @@ pub fn execute(args: &ListArgs) -> Result<(), Error> {
         }));
     }
     if !is_brief {
-        return print(&details_text(scenes, filters));
+        return print(&details_text(&scenes, &filters));
     }
     let mut text = String::new();
     if !scenes.is_empty() {
-        text += &scenes_text(scenes);
+        text += &scenes_text(&scenes);
     }
     if !filters.is_empty() {
-        text += &filters_text(filters);
+        text += &filters_text(&filters);
     }
     print(&(text + "details: shuttertruth list NAME\n"))
 }
 
-/// Lists all scenes, all filters, or both.
-fn list_all(args: &ListArgs) -> Result<Listing, Error> {
-    let wants = |what: &str| args.what.is_empty() || args.what.iter().any(|own| own == what);
-    let mut listing = Listing::default();
-    if args.what.is_empty() && !args.root.scenes_dir.is_dir() {
-        let folder = &args.root.scenes_dir;
-        print_note(&format!(
-            "no scenes: there is no folder {folder}; --scenes-dir names another one"
-        ));
-    } else if wants("scenes") {
-        listing.scenes = list_scenes(&args.root.scenes_dir)?;
-    }
-    if wants("filters") {
-        listing.filters = builtin_filters()?;
-    }
-    Ok(listing)
-}
-
-/// Lists the scenes and filters that are named. Tries out filters of the user's own.
-fn list_named(args: &ListArgs) -> Result<Listing, Error> {
+/// Lists the scenes and filters that are named, or all. Tries out filters of the user's own.
+fn find_named(args: &ListArgs) -> Result<(Vec<SceneListing>, Vec<Filter>), Error> {
     let builtin = Filter::builtin_names();
-    // Built-in filters can be listed where there are no scenes.
-    let needs_scenes = args.what.iter().any(|what| !builtin.contains(what));
-    let scenes = match needs_scenes && args.root.scenes_dir.is_dir() {
-        true => list_scenes(&args.root.scenes_dir)?,
-        false => Vec::new(),
+    let asked = match args.what.is_empty() && args.filters.is_empty() {
+        true => vec!["scenes".to_owned(), "filters".to_owned()],
+        false => args.what.clone(),
     };
-    let mut listing = Listing::default();
-    for what in &args.what {
-        find_named(what, &scenes, &mut listing)?;
+    let folder = &args.root.scenes_dir;
+    // Built-in filters can be listed where there are no scenes.
+    let needs_scenes = asked
+        .iter()
+        .any(|what| what != "filters" && !builtin.contains(what));
+    let known_scenes = match needs_scenes {
+        true if folder.is_dir() || args.what.iter().any(|what| what == "scenes") => {
+            list_scenes(folder)?
+        }
+        true if args.what.is_empty() => {
+            print_note(&format!(
+                "no scenes: there is no folder {folder}; --scenes-dir names another one"
+            ));
+            Vec::new()
+        }
+        _ => Vec::new(),
+    };
+    let scene_names: Vec<String> = known_scenes.iter().map(|it| it.name.clone()).collect();
+    let known = [&scene_names[..], &builtin].concat();
+    let (mut scenes, mut filters) = (Vec::new(), Vec::new());
+    for what in &asked {
+        let names = match what.as_str() {
+            "scenes" => scene_names.clone(),
+            "filters" => builtin.clone(),
+            _ if is_pattern(what) => match_names("list", what, &known)?,
+            _ if known.contains(what) => vec![what.clone()],
+            _ => Vec::new(),
+        };
+        if names.is_empty() && what != "scenes" {
+            let suggestion = suggest_names(what, &known);
+            refuse!(
+                "list: no scene and no filter \"{what}\"; {suggestion} A filter of your own is listed by --filter FOLDER"
+            );
+        }
+        let named = known_scenes.iter().filter(|it| names.contains(&it.name));
+        scenes.extend(named.cloned());
+        for name in names.iter().filter(|name| builtin.contains(name)) {
+            filters.push(Filter::builtin(name)?);
+        }
     }
     for name in &args.filters {
-        listing.filters.extend(load_filters(name)?);
+        filters.extend(load_filters(name)?);
     }
-    let own: Vec<Filter> = (listing.filters.iter())
-        .filter(|filter| !builtin.contains(&filter.name))
-        .cloned()
-        .collect();
+    let is_own = |filter: &&Filter| !builtin.contains(&filter.name);
+    let own: Vec<&Filter> = filters.iter().filter(is_own).collect();
     try_filters(&own, args.adapter.adapter.as_deref())?;
-    Ok(listing)
+    Ok((scenes, filters))
 }
 
-/// Adds the scenes and filters that a name or a pattern means.
-fn find_named(what: &str, scenes: &[SceneListing], listing: &mut Listing) -> Result<(), Error> {
-    let filters = Filter::builtin_names();
-    let scene_names: Vec<String> = scenes.iter().map(|scene| scene.name.clone()).collect();
-    let known: Vec<String> = scene_names.iter().chain(&filters).cloned().collect();
-    let names = match what {
-        "scenes" => scene_names,
-        "filters" => filters.clone(),
-        _ if is_pattern(what) => match_names("list", what, &known)?,
-        _ => vec![what.to_owned()],
-    };
-    if names.is_empty() || !names.iter().all(|name| known.contains(name)) {
-        let suggestion = suggest_names(what, &known);
-        refuse!(
-            "list: no scene and no filter \"{what}\"; {suggestion} A filter of your own is listed by --filter FOLDER"
-        );
-    }
-    let named = scenes.iter().filter(|scene| names.contains(&scene.name));
-    listing.scenes.extend(named.cloned());
-    for name in names.iter().filter(|name| filters.contains(name)) {
-        listing.filters.push(Filter::builtin(name)?);
-    }
-    Ok(())
-}
-
-fn builtin_filters() -> Result<Vec<Filter>, Error> {
-    let names = Filter::builtin_names();
-    let filters = names.iter().map(|name| Filter::builtin(name));
-    Ok(filters.collect::<Result<_, _>>()?)
-}
-
-/// Prints one adapter a line, numbered as `--adapter` takes them.
-fn print_adapters() -> Result<(), Error> {
+/// Lists one adapter a line, numbered as `--adapter` takes them.
+fn adapters_text() -> String {
     let line = |(number, adapter): (usize, &AdapterDescription)| {
         format!(
             "{number}: {} ({}, {}, {})\n",
             adapter.name, adapter.backend, adapter.driver, adapter.kind
         )
     };
-    print(
-        &list_adapters()
-            .iter()
-            .enumerate()
-            .map(line)
-            .collect::<String>(),
-    )
+    list_adapters().iter().enumerate().map(line).collect()
+}
+
+/// Holds kernels to the adapter's limits and runs them with every preset and at both ends of every range. Without an adapter,
+/// holds them to the lowest common limits, and says so.
+fn try_filters(filters: &[&Filter], adapter: Option<&str>) -> Result<(), Error> {
+    let have_kernels = filters.iter().any(|filter| filter.command.is_none());
+    if !have_kernels && adapter.is_none() {
+        return Ok(());
+    }
+    let gpu = match open_adapter(adapter, make_silent_monitor()) {
+        Err(FilterError::NoAdapter) => None,
+        found => Some(found?),
+    };
+    for filter in filters {
+        gpu.as_ref()
+            .map_or_else(Limits::lowest, Limits::of)
+            .check(filter)?;
+        if let Some(gpu) = &gpu {
+            try_out(gpu, filter)?;
+        }
+    }
+    if gpu.is_none() {
+        print_note(
+            "no GPU adapter was found: kernels were held to the lowest common limits, and no preset or range was tried",
+        );
+    }
+    for filter in filters {
+        if let Err(error) = Limits::lowest().check(filter) {
+            print_note(&format!("other adapters may refuse this filter: {error}"));
+        }
+    }
+    Ok(())
 }

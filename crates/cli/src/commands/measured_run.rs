@@ -25,7 +25,7 @@ pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Err
     choose_folder(plan)?;
     let claim = claim_out(plan)?;
     take_packed_truths(plan)?;
-    let earlier = find_earlier(plan, gpu)?;
+    let earlier = EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter)).map_err(name_options)?;
     if !is_quiet() {
         print_expected(&estimate_run(plan, gpu), &plan.out);
     }
@@ -62,11 +62,6 @@ fn choose_folder(plan: &mut RunPlan) -> Result<(), Error> {
         plan.out = folder;
     }
     Ok(())
-}
-
-/// Finds the cases of an earlier run.
-fn find_earlier(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<Option<EarlierCases>, Error> {
-    EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter)).map_err(name_options)
 }
 
 /// Names the options for an earlier run that cannot be kept.

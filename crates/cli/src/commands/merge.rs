@@ -7,7 +7,7 @@ use judge::JUDGEMENT_FILE;
 use store::printable_path;
 use suite::{Error, holds_run, merge, merge_runs, refuse_failures};
 
-use super::run_files::write_run;
+use super::pages::write_run;
 use crate::output::{count_text, print};
 use crate::tables::failures_text;
 

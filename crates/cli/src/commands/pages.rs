@@ -1,8 +1,8 @@
-//! Pages and other files that a command writes, with the lines that name them.
+//! Files that a command writes: run.json, pages, and the lines that name them.
 
 use std::path::{Path, PathBuf};
 
-use judge::Finding;
+use judge::{Finding, Judgement};
 use report::{LARGEST_PAGE, SEQUENCES_PAGE, sequences_page, write_report};
 use store::printable_path;
 use suite::{Error, Run};
@@ -67,6 +67,26 @@ pub fn write_run_page(
         files.insert(1, path);
     }
     files.into_iter().map(WrittenFile::new).collect()
+}
+
+/// Writes `run.json`.
+pub fn write_run(run: &Run, out: &Path) -> Result<(), Error> {
+    Ok(frame::write_atomically(
+        &out.join("run.json"),
+        run.text().as_bytes(),
+    )?)
+}
+
+/// Writes `run.json`, the findings about it, and the page.
+pub fn write_judged_run(
+    run: &Run,
+    findings: &[Finding],
+    out: &Path,
+    html: Option<&PathBuf>,
+) -> Result<Vec<WrittenFile>, Error> {
+    write_run(run, out)?;
+    Judgement::new(out, findings.to_vec())?.write(out)?;
+    write_run_page(run, findings, out, &page_path(html, out))
 }
 
 /// Writes a page.

@@ -1,21 +1,23 @@
 //! The command `truths render`.
 
+use std::ops::Range;
+
 use clap::Args;
 use frame::{Alignment, Truth};
 use store::{LADDER, MAX_REPLICATES, Sharing, claim, printable_path, scene_folder};
 use suite::{
     Error, LadderFiles, deciding_floor, estimate_render_seconds, render_frame, render_part,
-    render_shared, render_truth, render_truths_until,
+    render_shared, render_truths_until,
 };
 use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
 use super::render_settings::make_render_settings;
 use crate::arguments::{
-    Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size,
+    Replicates, SceneArgs, above_zero, frame_count, parse_replicates, parse_size, within,
 };
 use crate::output::{count_text, make_monitor, print, print_scene_notes};
-use crate::selection::{SceneChoice, select_scenes};
+use crate::selection::select_scenes;
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
@@ -53,55 +55,48 @@ pub struct RenderArgs {
         long,
         value_name = "N",
         default_value_t = 64,
-        requires = "noise"
+        requires = "noise",
+        value_parser = within::<u32>(0..=u64::from(MAX_REPLICATES))
     )]
     pub most_replicates: u32,
 }
 
 /// Renders each scene's frame and truths, or a part of them, and prints their folders and noise.
 pub fn execute(args: &RenderArgs) -> Result<(), Error> {
-    if args.most_replicates > MAX_REPLICATES {
-        refuse!(
-            "--most-replicates {}; allowed: up to {MAX_REPLICATES}",
-            args.most_replicates
-        );
+    let whole = [
+        ("--ladders", args.ladders),
+        ("--noise", args.noise.is_some()),
+    ];
+    let asked = whole.iter().find(|(_, is_asked)| *is_asked);
+    if let (Replicates::Part(_), Some((option, _))) = (&args.replicates, asked) {
+        refuse!("{option} needs whole truths: give --replicates a number, not a part A..B");
     }
-    let mut noisy = Vec::new();
     let choices = select_scenes(&args.scenes.root.scenes_dir, &args.scenes.names()?)?;
-    print_scene_notes(choices.iter().map(|choice| &choice.scene));
-    check_frames(args, &choices)?;
-    print_expected_renders(args, &choices)?;
-    let frames = choices.iter().flat_map(|choice| {
-        let frames = 0..args.frames;
-        frames.map(|frame| choice.scene.at_frame(frame))
-    });
-    for scene in frames {
-        match &args.replicates {
-            Replicates::All(count) => noisy.extend(render_whole(args, &scene, *count)?),
-            Replicates::Part(_) if args.ladders => {
-                refuse!(
-                    "--ladders needs whole truths: give --replicates a number, not a part A..B"
-                );
-            }
-            Replicates::Part(indices) if args.noise.is_none() => {
-                let settings = scene_settings(args, &scene, RenderSettings::default().replicates)?;
-                let (out, monitor) = (&args.scenes.out, make_monitor());
-                let _claim = claim(out, [&scene], Sharing::Together)?;
-                if indices.start == 0 {
-                    render_frame(&scene, &settings, out, monitor)?;
-                }
-                let shared = indices.clone();
-                render_shared(&scene, &settings, &args.alignments, shared, out, monitor)?;
-                for alignment in &args.alignments {
-                    render_part(&scene, &settings, *alignment, indices.clone(), out, monitor)?;
-                }
-                print(&format!("{}\n", printable_path(&scene_folder(out, &scene))))?;
-            }
-            Replicates::Part(_) => {
-                refuse!(
-                    "--noise needs whole truths: give --replicates a number to start from, not a part A..B"
-                );
-            }
+    let scenes: Vec<Scene> = choices.into_iter().map(|choice| choice.scene).collect();
+    print_scene_notes(&scenes);
+    let mut seconds = 0.0;
+    let mut settings = Vec::new();
+    for scene in &scenes {
+        let own = scene_settings(args, scene)?;
+        let timed = match &args.replicates {
+            Replicates::All(_) => own,
+            Replicates::Part(some) => own.with_replicates((some.len() as u32).next_multiple_of(2)),
+        };
+        seconds += f64::from(args.frames) * estimate_render_seconds(&timed, args.alignments.len());
+        settings.push(own);
+    }
+    print_expected_time(seconds, &count_text(scenes.len(), "scene", "scenes"));
+    let mut noisy = Vec::new();
+    for (scene, settings) in scenes.iter().zip(&settings) {
+        for frame in 0..args.frames {
+            let scene = scene.at_frame(frame);
+            let _claim = claim(&args.scenes.out, [&scene], Sharing::Together)?;
+            let found = match &args.replicates {
+                Replicates::All(_) => render_whole(args, &scene, settings, &mut noisy)?,
+                Replicates::Part(indices) => render_some(args, &scene, settings, indices)?,
+            };
+            let folder = printable_path(&scene_folder(&args.scenes.out, &scene));
+            print(&format!("{folder}\n{found}"))?;
         }
     }
     match noisy.as_slice() {
@@ -110,46 +105,57 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     }
 }
 
-/// Refuses frames at which a scene is not defined, before anything is rendered.
-fn check_frames(args: &RenderArgs, choices: &[SceneChoice]) -> Result<(), Error> {
-    for SceneChoice { scene, .. } in choices {
-        let settings = scene_settings(args, scene, RenderSettings::default().replicates)?;
-        for frame in 1..args.frames {
-            let later = scene.at_frame(frame);
-            for alignment in &args.alignments {
-                settings.check_truth(&later, *alignment)?;
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Prints the expected time of all scenes, none of which is rendered yet.
-fn print_expected_renders(args: &RenderArgs, choices: &[SceneChoice]) -> Result<(), Error> {
+/// Makes the settings of a scene's renders. Refuses frames at which it is not defined.
+fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Error> {
+    let size = args.size.unwrap_or((scene.width, scene.height));
     let count = match &args.replicates {
         Replicates::All(count) => *count,
-        Replicates::Part(indices) => (indices.len() as u32).next_multiple_of(2),
+        Replicates::Part(_) => RenderSettings::default().replicates,
     };
-    let mut seconds = 0.0;
-    for choice in choices {
-        let settings = scene_settings(args, &choice.scene, count)?;
-        seconds += estimate_render_seconds(&settings, args.alignments.len());
+    let settings = make_render_settings(&args.scenes, size, count)?;
+    for frame in 1..args.frames {
+        let later = scene.at_frame(frame);
+        for alignment in &args.alignments {
+            settings.check_truth(&later, *alignment)?;
+        }
     }
-    seconds *= f64::from(args.frames);
-    let scenes = count_text(choices.len(), "scene", "scenes");
-    print_expected_time(seconds, &scenes);
-    Ok(())
+    Ok(settings)
 }
 
-/// Renders a scene's frame and truths; returns a line for each truth that stayed noisier than asked for.
-fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<String>, Error> {
-    let settings = scene_settings(args, scene, count)?;
+/// Renders some replicates of a scene's truths, and its frame with the first of them. Says nothing about their noise.
+fn render_some(
+    args: &RenderArgs,
+    scene: &Scene,
+    settings: &RenderSettings,
+    indices: &Range<u32>,
+) -> Result<String, Error> {
     let (out, monitor) = (&args.scenes.out, make_monitor());
-    let _claim = claim(out, [scene], Sharing::Together)?;
-    render_frame(scene, &settings, out, monitor)?;
-    let mut noisy = Vec::new();
-    let mut report = format!("{}\n", printable_path(&scene_folder(out, scene)));
-    let mut ended = |truth: &Truth| {
+    if indices.start == 0 {
+        render_frame(scene, settings, out, monitor)?;
+    }
+    let alignments = &args.alignments;
+    render_shared(scene, settings, alignments, indices.clone(), out, monitor)?;
+    for alignment in alignments {
+        render_part(scene, settings, *alignment, indices.clone(), out, monitor)?;
+    }
+    Ok(String::new())
+}
+
+/// Renders a scene's frame and truths; returns a line for each truth. Adds one to `noisy` for each that is noisier than asked for.
+fn render_whole(
+    args: &RenderArgs,
+    scene: &Scene,
+    settings: &RenderSettings,
+    noisy: &mut Vec<String>,
+) -> Result<String, Error> {
+    let (out, monitor) = (&args.scenes.out, make_monitor());
+    render_frame(scene, settings, out, monitor)?;
+    let (target, most) = (args.noise.unwrap_or(f64::INFINITY), args.most_replicates);
+    let mut report = String::new();
+    let ended = |truth: &Truth, is_reached: bool| {
+        if !is_reached {
+            noisy.push(too_noisy_line(truth, target, most));
+        }
         if args.ladders {
             let settings = settings.with_replicates(truth.provenance.replicates);
             LadderFiles::new(scene, &settings, truth, out).ensure(&LADDER, monitor)?;
@@ -157,40 +163,17 @@ fn render_whole(args: &RenderArgs, scene: &Scene, count: u32) -> Result<Vec<Stri
         report += &floors_line(truth);
         Ok(())
     };
-    match args.noise {
-        None => {
-            render_shared(scene, &settings, &args.alignments, 0..count, out, monitor)?;
-            for &alignment in &args.alignments {
-                ended(&render_truth(scene, &settings, alignment, out, monitor)?)?;
-            }
-        }
-        Some(target) => {
-            let most = args.most_replicates;
-            let until = (target, most);
-            let alignments = &args.alignments;
-            render_truths_until(
-                scene,
-                &settings,
-                alignments,
-                until,
-                out,
-                monitor,
-                |truth, reached| {
-                    if !reached {
-                        noisy.push(too_noisy_line(truth, target, most));
-                    }
-                    ended(truth)
-                },
-            )?;
-        }
-    }
-    print(&report)?;
-    Ok(noisy)
-}
-
-fn scene_settings(args: &RenderArgs, scene: &Scene, count: u32) -> Result<RenderSettings, Error> {
-    let size = args.size.unwrap_or((scene.width, scene.height));
-    make_render_settings(&args.scenes, size, count)
+    let until = (target, most);
+    render_truths_until(
+        scene,
+        settings,
+        &args.alignments,
+        until,
+        out,
+        monitor,
+        ended,
+    )?;
+    Ok(report)
 }
 
 /// Makes a line: `  trailing: 8 replicates, noise: moving 0.0021, static 0.0009, full 0.0012`

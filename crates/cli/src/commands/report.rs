@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use judge::Judgement;
+use judge::{Judgement, Side};
 use report::{TuneFolder, tuning_page, write_gallery};
 use store::printable_path;
-use suite::{Error, Run, write_layers};
+use suite::{Error, write_layers};
 
 use super::pages::{WrittenFile, page_lines, page_path, write_page, write_run_page};
 use crate::output::{make_monitor, print, print_json};
@@ -32,9 +32,17 @@ pub struct ReportArgs {
 
 /// Reads a finished run, or a tuning, and writes its page, and its layers where they are asked for.
 pub fn execute(args: &ReportArgs) -> Result<(), Error> {
-    let (pages, layers) = match find_subject(&args.run) {
-        Subject::Run(path) => write_run_report(args, &path)?,
-        Subject::Tuning(folder) => (write_tuning_report(args, &folder)?, Vec::new()),
+    let path = args.run.as_path();
+    let file = path.file_name().unwrap_or_default();
+    // The names that `run` and `tune search` give to their files.
+    let tuning = match path.is_dir() {
+        true => Some(path).filter(|folder| !folder.join("run.json").is_file()),
+        false if file == "tune.json" || file == "sensitivity.json" => path.parent(),
+        false => None,
+    };
+    let (pages, layers) = match tuning {
+        Some(folder) => (write_tuning_report(args, folder)?, Vec::new()),
+        None => write_run_report(args)?,
     };
     if args.json {
         let written: Vec<&WrittenFile> = pages.iter().chain(&layers).collect();
@@ -52,52 +60,26 @@ pub fn execute(args: &ReportArgs) -> Result<(), Error> {
     print(&text)
 }
 
-/// The thing that a report is about.
-enum Subject {
-    /// Path of a run.json.
-    Run(PathBuf),
-    /// Folder of a tuning.
-    Tuning(PathBuf),
-}
-
-/// Finds out what lies at a path, by the names that `run` and `tune search` give to their files.
-fn find_subject(path: &Path) -> Subject {
-    let run = path.join("run.json");
-    let file = path.file_name().unwrap_or_default();
-    if path.is_dir() && run.is_file() {
-        Subject::Run(run)
-    } else if path.is_dir() {
-        Subject::Tuning(path.to_owned())
-    } else if file == "tune.json" || file == "sensitivity.json" {
-        Subject::Tuning(path.parent().unwrap_or(Path::new("")).to_owned())
-    } else {
-        Subject::Run(path.to_owned())
-    }
-}
-
 /// Writes the page of a run, and its layers; returns the page's files, then those of the layers.
-fn write_run_report(
-    args: &ReportArgs,
-    path: &Path,
-) -> Result<(Vec<WrittenFile>, Vec<WrittenFile>), Error> {
-    let run = Run::read(path)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
+fn write_run_report(args: &ReportArgs) -> Result<(Vec<WrittenFile>, Vec<WrittenFile>), Error> {
+    let side = Side::read(&args.run)?;
+    let (run, folder) = (&side.run, side.folder());
     let is_other_asked = args.exr.is_some() || args.gallery.is_some();
     let mut pages = match &args.html {
         None if is_other_asked => Vec::new(),
         html => {
             let html = page_path(html.as_ref(), folder);
-            let judgement = Judgement::read(&run, folder)?;
+            let judgement = Judgement::read(run, folder)?;
             let findings = judgement.map_or_else(Vec::new, |judgement| judgement.findings);
-            write_run_page(&run, &findings, folder, &html)?
+            write_run_page(run, &findings, folder, &html)?
         }
     };
     if let Some(out) = &args.gallery {
-        pages.push(WrittenFile::new(write_gallery(&run, folder, out)?)?);
+        pages.push(WrittenFile::new(write_gallery(run, folder, out)?)?);
     }
     let layers = match &args.exr {
         Some(out) => {
-            make_monitor().watch("layers", |watch| write_layers(&run, folder, out, watch))?
+            make_monitor().watch("layers", |watch| write_layers(run, folder, out, watch))?
         }
         None => Vec::new(),
     };

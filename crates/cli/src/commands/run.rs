@@ -9,9 +9,8 @@ use store::printable_path;
 use suite::{Error, Part, Run, open_gpu, refuse_failures};
 
 use super::measured_run::{MeasuredRun, measure};
-use super::pages::{WrittenFile, page_lines, page_path, refuse_folder, write_run_page};
-use super::run_files::{write_judged_run, write_run};
-use super::run_plan::{apply_options, make_plan, read_case_bounds};
+use super::pages::{WrittenFile, page_lines, refuse_folder, write_judged_run, write_run};
+use super::run_plan::{add_bounds, apply_options, make_plan};
 use crate::arguments::{AdapterArgs, MeasureArgs, RunOptions, parse_named};
 use crate::output::{clock_text, print};
 use crate::tables::{
@@ -47,57 +46,48 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let (mut plan, mut bounds) = make_plan(&args.measure, args.measure.scenes.out.clone())?;
     apply_options(&mut plan, &args.options)?;
     plan.part = args.part.unwrap_or_default();
-    let size = (plan.render.width, plan.render.height);
-    for bounds in bounds.values_mut() {
-        *bounds = std::mem::take(bounds).at(size).over(plan.frames);
-    }
     let gpu = open_gpu(&plan.filters, args.adapter.adapter.as_deref(), plan.monitor)?;
     let MeasuredRun {
         run,
         whole,
         claim: _claim,
     } = measure(&mut plan, gpu.as_ref())?;
-    if plan.part != Part::Whole {
-        let json = write_run(&whole, &plan.out)?;
-        print(&match args.json {
-            true => format!("{json}\n"),
-            false => {
-                failures_text(&run.failures) + &closing_text(&run, &[], &plan.out, began.elapsed())
-            }
-        })?;
-        return refuse_failures(&run.failures);
-    }
-    // Cases of an earlier run keep their targets.
-    let root = &args.measure.scenes.root.scenes_dir;
-    for case in &whole.cases {
-        if !bounds.contains_key(&case.scene)
-            && let Some(earlier) = read_case_bounds(root, case, size)?
-        {
-            bounds.insert(case.scene.clone(), earlier.over(plan.frames));
+    let (scores, pages) = if plan.part == Part::Whole {
+        // Cases of an earlier run keep their targets.
+        add_bounds(&mut bounds, &whole, &args.measure.scenes.root.scenes_dir)?;
+        let size = (plan.render.width, plan.render.height);
+        for bounds in bounds.values_mut() {
+            *bounds = std::mem::take(bounds).at(size).over(plan.frames);
         }
-    }
-    // Bounds are the business of `check`: those that a run breaks fail nothing.
-    let mut findings = judge(&whole, &bounds);
-    for finding in &mut findings {
-        finding.level = Level::Report;
-    }
-    let json = write_judged_run(&whole, &findings, &plan.out)?;
-    let html = page_path(args.html.as_ref(), &plan.out);
-    let pages = write_run_page(&whole, &findings, &plan.out, &html)?;
-    if args.json {
-        print(&format!("{json}\n"))?;
+        // Bounds are the business of `check`: those that a run breaks fail nothing.
+        let mut findings = judge(&whole, &bounds);
+        (findings.iter_mut()).for_each(|finding| finding.level = Level::Report);
+        let pages = write_judged_run(&whole, &findings, &plan.out, args.html.as_ref())?;
+        (scores_text(&run, args.table), pages)
     } else {
-        let scores = match args.table {
-            true => run_table(&run),
-            false => ranking_text(&run.cases),
-        };
-        let scaling = run.scaling_note();
-        let scaling = scaling.map_or(String::new(), |note| legend_text(&note));
-        let text =
-            scores + &scaling + &sequences_text(&run, args.table) + &failures_text(&run.failures);
-        print(&(text + &closing_text(&run, &pages, &plan.out, began.elapsed())))?;
-    }
+        write_run(&whole, &plan.out)?;
+        (String::new(), Vec::new())
+    };
+    print(&match args.json {
+        true => whole.text() + "\n",
+        false => {
+            scores
+                + &failures_text(&run.failures)
+                + &closing_text(&run, &pages, &plan.out, began.elapsed())
+        }
+    })?;
     refuse_failures(&run.failures)
+}
+
+/// Makes the ranking or the table, and what it is about.
+fn scores_text(run: &Run, as_table: bool) -> String {
+    let scores = match as_table {
+        true => run_table(run),
+        false => ranking_text(&run.cases),
+    };
+    let scaling = run.scaling_note();
+    let scaling = scaling.map_or(String::new(), |note| legend_text(&note));
+    scores + &scaling + &sequences_text(run, as_table)
 }
 
 /// Names the report, run.json and the adapter, and counts cases and time.

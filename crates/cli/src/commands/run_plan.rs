@@ -1,14 +1,16 @@
 //! Plans of runs from the command line.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::FrameOptions;
 use judge::{
-    BOUNDS_FILE, BoundsFile, RunBounds, SceneBounds, read_bounds, read_bounds_beside_scenes,
-    read_bounds_file,
+    BOUNDS_FILE, BoundsFile, Margin, RunBounds, SceneBounds, read_bounds,
+    read_bounds_beside_scenes, read_bounds_file,
 };
+use metrics::Metric;
 use store::{Claim, Sharing, claim};
-use suite::{Case, EngineScene, Error, FilterChoice, MIN_REPLICATES, RunPlan, engine_name};
+use suite::{EngineScene, Error, FilterChoice, MIN_REPLICATES, Run, RunPlan, engine_name};
 use tracer::{Location, RenderSettings, Scene, SceneId};
 
 use super::kept_truths::check_truths;
@@ -34,7 +36,11 @@ pub fn make_plan(args: &MeasureArgs, out: PathBuf) -> Result<(RunPlan, RunBounds
     for scene in &engine_scenes {
         bounds.insert(scene.id.clone(), read_engine_bounds(&scene.folder)?);
     }
-    let filters = load_filters(args)?;
+    let (preset, programs) = (args.preset.as_deref(), args.programs.programs());
+    let filters = select_filters(&args.filters, preset, &args.set, programs)?.into_iter();
+    let filters = filters
+        .map(|choice| choice.as_written(args.as_written))
+        .collect();
     let filters = leave_out_filters(filters, &engine_scenes, scenes.is_empty())?;
     let default = RenderSettings::default();
     let drawn = (engine_scenes.first()).map(|scene| (scene.size[0], scene.size[1]));
@@ -73,41 +79,34 @@ pub fn apply_options(plan: &mut RunPlan, options: &RunOptions) -> Result<(), Err
 /// Leaves out filters that no scene of an engine can be measured with, and says so. Where scenes are rendered too, those filters run
 /// on them.
 fn leave_out_filters(
-    filters: Vec<FilterChoice>,
+    mut filters: Vec<FilterChoice>,
     engine_scenes: &[EngineScene],
     alone: bool,
 ) -> Result<Vec<FilterChoice>, Error> {
-    let mut taken = vec![false; filters.len()];
-    for scene in engine_scenes {
-        let alignment = scene.alignment;
-        let mut left_out = [0, 0];
-        for (choice, taken) in filters.iter().zip(&mut taken) {
-            match (
-                choice.filter.alignment == alignment,
-                choice.filter.reads_camera(),
-            ) {
-                (false, _) => left_out[0] += 1,
-                (true, true) => left_out[1] += 1,
-                (true, false) => *taken = true,
-            }
-        }
+    for EngineScene { id, alignment, .. } in engine_scenes {
+        let others = filters
+            .iter()
+            .filter(|it| it.filter.alignment != *alignment);
+        let lost = (filters.iter())
+            .filter(|it| it.filter.alignment == *alignment && it.filter.reads_camera());
         let reasons = [
             format!("of another shutter than the {alignment} one that the engine drew"),
             "that need the camera, which no capture has".to_owned(),
         ];
-        for (count, reason) in left_out.into_iter().zip(reasons) {
+        for (count, reason) in [others.count(), lost.count()].into_iter().zip(reasons) {
             if count > 0 {
                 let presets = count_text(count, "preset", "presets");
-                print_note(&format!("{}: leaves out {presets} {reason}", scene.id));
+                print_note(&format!("{id}: leaves out {presets} {reason}"));
             }
         }
     }
     if !alone || engine_scenes.is_empty() {
         return Ok(filters);
     }
-    let filters: Vec<FilterChoice> = (filters.into_iter().zip(taken))
-        .filter_map(|(choice, taken)| taken.then_some(choice))
-        .collect();
+    filters.retain(|FilterChoice { filter, .. }| {
+        let mut scenes = engine_scenes.iter();
+        !filter.reads_camera() && scenes.any(|scene| scene.alignment == filter.alignment)
+    });
     match filters.is_empty() {
         false => Ok(filters),
         true => refuse!(
@@ -145,7 +144,7 @@ fn refuse_render_options(args: &SceneArgs, scene: &EngineScene) -> Result<(), Er
 }
 
 /// Reads the bounds beside an engine's scene; those beside our scenes were measured on frames of ours.
-pub fn read_engine_bounds(folder: &Path) -> Result<SceneBounds, Error> {
+fn read_engine_bounds(folder: &Path) -> Result<SceneBounds, Error> {
     let path = folder.join(BOUNDS_FILE);
     let files = (path.is_file().then(|| read_bounds_file(&path))).transpose()?;
     files.as_ref().map_or(Ok(()), refuse_sequence_limits)?;
@@ -168,23 +167,26 @@ fn refuse_sequence_limits(file: &BoundsFile) -> Result<(), Error> {
     }
 }
 
-/// Reads the bounds of a case's scene, below the folder `root`, for pictures of one size; none where there is no such scene. What an
-/// engine drew has none of the bounds of ours.
-pub fn read_case_bounds(
-    root: &Location,
-    case: &Case,
-    size: (u32, u32),
-) -> Result<Option<SceneBounds>, Error> {
-    let folder = root.join(&case.scene.name);
-    let drawn = (folder.on_disk()).filter(|folder| EngineScene::is_in(folder));
-    match (case.drawn.is_some(), drawn) {
-        (true, Some(folder)) => Ok(Some(read_engine_bounds(folder)?.at(size))),
-        (true, None) => Ok(None),
-        (false, _) if !folder.is_dir() => Ok(None),
-        (false, _) => Ok(Some(
-            read_scene_bounds(root, &folder, &case.scene, Some(size))?.at(size),
-        )),
+/// Adds the bounds of the scenes of a run's cases, for pictures of the run's size, from the folder `root`; not those of scenes that
+/// are not there. What an engine drew has none of the bounds of ours.
+pub fn add_bounds(bounds: &mut RunBounds, run: &Run, root: &Location) -> Result<(), Error> {
+    let size = (run.render.width, run.render.height);
+    for case in &run.cases {
+        if bounds.contains_key(&case.scene) {
+            continue;
+        }
+        let folder = root.join(&case.scene.name);
+        let drawn = (folder.on_disk()).filter(|folder| EngineScene::is_in(folder));
+        let found = match (case.drawn.is_some(), drawn) {
+            (true, Some(folder)) => read_engine_bounds(folder)?,
+            (false, _) if folder.is_dir() => {
+                read_scene_bounds(root, &folder, &case.scene, Some(size))?
+            }
+            _ => continue,
+        };
+        bounds.insert(case.scene.clone(), found.at(size));
     }
+    Ok(())
 }
 
 /// Claims the folder of a run for this process alone.
@@ -222,18 +224,6 @@ fn read_scene_bounds(
     }
 }
 
-fn load_filters(args: &MeasureArgs) -> Result<Vec<FilterChoice>, Error> {
-    let filters = select_filters(
-        &args.filters,
-        args.preset.as_deref(),
-        &args.set,
-        args.programs.programs(),
-    )?;
-    Ok((filters.into_iter())
-        .map(|choice| choice.as_written(args.as_written))
-        .collect())
-}
-
 /// Refuses truths with too few replicates for intervals.
 pub fn check_replicates_for_intervals(replicates: u32) -> Result<(), Error> {
     match replicates {
@@ -241,5 +231,17 @@ pub fn check_replicates_for_intervals(replicates: u32) -> Result<(), Error> {
         few => refuse!(
             "--replicates {few}: {MIN_REPLICATES} or more are needed to tell how sure a score is"
         ),
+    }
+}
+
+/// Margins by the names of metrics.
+pub type Margins = BTreeMap<Metric, Margin>;
+
+/// Reads the margins by which scores may differ before it matters; none where the folder has no bounds.
+pub fn read_margins(root: &Location) -> Result<Margins, Error> {
+    let file = root.join(BOUNDS_FILE);
+    match file.exists() {
+        true => Ok(read_bounds_file(&file)?.margins),
+        false => Ok(BTreeMap::new()),
     }
 }

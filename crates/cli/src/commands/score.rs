@@ -1,25 +1,60 @@
 //! The command `score`.
 
-use frame::{Frame, Ladder, Truth};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use frame::{Frame, Ladder, Provenance, Truth};
 use metrics::Metric;
 use store::printable;
-use suite::{Error, Scored, engine_name, missing_scores, read_finished_picture, score};
+use suite::{Error, Frames, Scored, engine_name, missing_scores, read_finished_picture, score};
 
 use super::convention::read_convention;
-use super::score_sequence;
-use super::scored::{ScoreArgs, scored_json};
+use crate::arguments::{RootArgs, above_zero, frame_count};
 use crate::output::{print, print_json};
 use crate::tables::score_table;
 
-/// Scores one finished picture, or a sequence of them, and prints the scores, and those that its file does not allow.
+#[derive(Debug, Args)]
+pub struct ScoreArgs {
+    /// The truth: truth_<alignment>.exr of `truths render` or `run`; of a sequence that of the first frame.
+    #[arg(long, value_name = "FILE")]
+    pub truth: PathBuf,
+    /// The frame that the picture was made from: frame.exr of the same scene; of a sequence the first one.
+    #[arg(long, value_name = "FILE")]
+    pub frame: PathBuf,
+    /// The picture: OpenEXR with scene-linear R G B and optional coverage.<object>; or a PNG for display. With --frames a folder of
+    /// such pictures, 0000.exr, 0001.exr and so on.
+    #[arg(long, value_name = "FILE|DIR")]
+    pub image: PathBuf,
+    /// TOML file with a table [convention] that says which colour the picture has [default: scene-linear].
+    #[arg(long, value_name = "FILE")]
+    pub convention: Option<PathBuf>,
+    /// The folder ladder_<alignment> of `run` [default: no equivalent sub-frames, and no skill
+    /// unless the shutter is centred].
+    #[arg(long, value_name = "FOLDER")]
+    pub ladder: Option<PathBuf>,
+    /// Score a sequence of N consecutive frames. Later frames and truths lie in numbered folders beside the first ones, as `run` and
+    /// `truths render` lay them out.
+    #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count(), conflicts_with = "ladder")]
+    pub frames: u32,
+    /// Frames per second at which the sequence is shown. No score but JOD depends on it. A scene at a frame rate is shown at that.
+    #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = above_zero(1000.0))]
+    pub fps: f64,
+    #[command(flatten, next_help_heading = "Sequences")]
+    pub root: RootArgs,
+    /// Print all scores as JSON instead of the table.
+    #[arg(help_heading = "Output", long)]
+    pub json: bool,
+}
+
+/// Scores one finished picture, and prints the scores, and those that its file does not allow.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
-    if args.frames > 1 {
-        return score_sequence::execute(args);
-    }
     let truth = Truth::read(&args.truth)?;
     let frame = Frame::read(&args.frame)?;
     let ladder = args.ladder.as_deref().map(Ladder::read).transpose()?;
-    check_scenes(args, &truth, &frame, ladder.as_ref())?;
+    check_scene(&args.frame, &frame.provenance, &truth)?;
+    if let (Some(path), Some(ladder)) = (&args.ladder, &ladder) {
+        check_scene(path, &ladder.provenance, &truth)?;
+    }
     let convention = read_convention(args.convention.as_deref())?;
     let picture = read_finished_picture(&args.image, &convention, &frame, &truth)?;
     let scored = score(&picture, &frame, &truth, ladder.as_ref())
@@ -33,25 +68,16 @@ pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     }
 }
 
-/// Refuses files of different scenes.
-fn check_scenes(
-    args: &ScoreArgs,
-    truth: &Truth,
-    frame: &Frame,
-    ladder: Option<&Ladder>,
-) -> Result<(), Error> {
-    let frame = (&args.frame, &frame.provenance.scene);
-    let ladder = (args.ladder.iter()).zip(ladder.map(|ladder| &ladder.provenance.scene));
-    for (path, scene) in std::iter::once(frame).chain(ladder) {
-        let truth_scene = &truth.provenance.scene;
-        if scene != truth_scene {
-            refuse!(
-                "{}: was rendered from the scene {scene}, the truth from {truth_scene}; render both from one",
-                path.display()
-            );
-        }
+/// Refuses a file of another scene than the truth's.
+pub fn check_scene(path: &Path, provenance: &Provenance, truth: &Truth) -> Result<(), Error> {
+    let (own, scene) = (&provenance.scene, &truth.provenance.scene);
+    match own == scene {
+        true => Ok(()),
+        false => refuse!(
+            "{}: was rendered from the scene {own}, the truth from {scene}; render both from one",
+            path.display()
+        ),
     }
-    Ok(())
 }
 
 fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Scored) -> String {
@@ -76,18 +102,32 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
     }
     for (reason, metrics) in missing_scores(scores) {
         let names: Vec<String> = metrics.iter().map(|metric| metric.name()).collect();
-        let way_out = match args.ladder {
-            None if names_ladder(&metrics) && reason.contains("ladder") => {
-                "; give one with --ladder: `run` writes it beside the truth"
-            }
-            _ => "",
+        let is_of_ladder = |metric| matches!(metric, Metric::Equivalent(_) | Metric::Skill(_));
+        let is_lacking = args.ladder.is_none() && reason.contains("ladder");
+        let way_out = match is_lacking && metrics.into_iter().any(is_of_ladder) {
+            true => "; give one with --ladder: `run` writes it beside the truth",
+            false => "",
         };
         text += &format!("not available: {}: {reason}{way_out}\n", names.join(", "));
     }
     text
 }
 
-/// Tells whether any of the scores needs a ladder.
-fn names_ladder(metrics: &[Metric]) -> bool {
-    (metrics.iter()).any(|metric| matches!(metric, Metric::Equivalent(_) | Metric::Skill(_)))
+/// Describes what was scored as JSON.
+pub fn scored_json(
+    args: &ScoreArgs,
+    truth: &Truth,
+    notes: &[String],
+    scores: impl serde::Serialize,
+) -> serde_json::Value {
+    serde_json::json!({
+        "format": suite::FORMAT,
+        "program": suite::PROGRAM,
+        "image": args.image,
+        "scene": truth.provenance.scene,
+        "exposure": truth.shutter.exposure(),
+        "alignment": truth.alignment.name(),
+        "notes": notes,
+        "scores": scores,
+    })
 }

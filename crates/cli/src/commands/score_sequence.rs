@@ -10,7 +10,7 @@ use suite::{
 use tracer::Scene;
 
 use super::convention::read_convention;
-use super::scored::{ScoreArgs, scored_json};
+use super::score::{ScoreArgs, check_scene, scored_json};
 use crate::output::{print, print_json};
 use crate::selection::select_scenes;
 use crate::tables::score_sequence_table;
@@ -18,12 +18,11 @@ use crate::tables::score_sequence_table;
 /// Scores the numbered pictures of a folder, and prints their scores over time.
 pub fn execute(args: &ScoreArgs) -> Result<(), Error> {
     let files = find_numbered(&args.image, args.frames)?;
-    let first = read_truth(args, 0)?;
-    let scene = load_scene(args, &first)?;
-    let others = (1..args.frames).map(|frame| read_truth(args, frame));
-    let truths = std::iter::once(Ok(first))
-        .chain(others)
-        .collect::<Result<Vec<SequenceTruth>, Error>>()?;
+    let mut truths = vec![read_truth(args, 0)?];
+    let scene = load_scene(args, &truths[0])?;
+    for frame in 1..args.frames {
+        truths.push(read_truth(args, frame)?);
+    }
     let convention = read_convention(args.convention.as_deref())?;
     let mut notes: Vec<String> = Vec::new();
     let mut pictures: Vec<Image> = Vec::new();
@@ -53,14 +52,7 @@ fn read_truth(args: &ScoreArgs, frame: u32) -> Result<SequenceTruth, Error> {
     let truth = Truth::read(&path)?;
     let own = file_at_frame(&args.frame, frame);
     let frame = Frame::read(&own)?;
-    if frame.provenance.scene != truth.provenance.scene {
-        refuse!(
-            "{}: was rendered from the scene {}, the truth from {}; render both from one",
-            own.display(),
-            frame.provenance.scene,
-            truth.provenance.scene
-        );
-    }
+    check_scene(&own, &frame.provenance, &truth)?;
     Ok(SequenceTruth { frame, truth, path })
 }
 

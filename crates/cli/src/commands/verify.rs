@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use frame::{FileError, Tile};
+use frame::FileError;
 use serde_json::json;
 use store::{Pack, printable_path};
 use suite::{
@@ -55,29 +55,27 @@ pub fn execute(args: &VerifyArgs) -> Result<Ending, Error> {
         .map(|kept| kept.scene.at_frame(0).to_string())
         .collect();
     let known: Vec<String> = known.into_iter().collect();
-    let chosen = choose_names("--scenes", &args.scenes, &known)?;
     let verification = Verification {
         seed: args.seed.unwrap_or_else(choose_seed),
         tiles: args.tiles,
     };
     let mut verified = Verified::default();
-    for name in &chosen {
-        verified.add(verify_named(args, name, &kept, &verification)?);
+    for name in choose_names("--scenes", &args.scenes, &known)? {
+        verified.add(verify_named(args, &name, &kept, &verification)?);
     }
-    let result = match verified.differences.as_slice() {
-        [] => Ok(()),
-        differences => Err(Error::Broken(differences.join("\n"))),
-    };
     if args.json {
         print_json(&verified_json(&verified, &verification))?;
-        return match result {
-            Ok(()) => Ok(Ending::Done),
-            Err(error) => Ok(Ending::Failed(error)),
-        };
     }
-    result?;
-    print(&verified_text(&args.truths, &verified, &verification))?;
-    Ok(Ending::Done)
+    let differences = verified.differences.join("\n");
+    match (differences.is_empty(), args.json) {
+        (true, true) => Ok(Ending::Done),
+        (true, false) => {
+            print(&verified_text(&args.truths, &verified, &verification))?;
+            Ok(Ending::Done)
+        }
+        (false, true) => Ok(Ending::Failed(Error::Broken(differences))),
+        (false, false) => Err(Error::Broken(differences)),
+    }
 }
 
 /// Checks a pack and unpacks it into a temporary folder; none for what is no file.
@@ -117,8 +115,7 @@ fn verify_named(
     })?;
     for kept in (kept.iter()).filter(|kept| kept.scene.at_frame(0) == name) {
         let scene = choices[0].scene.at_frame(kept.scene.frame);
-        let found = verify_scene(&scene, kept, verification, make_monitor())?;
-        verified.add(found);
+        verified.add(verify_scene(&scene, kept, verification, make_monitor())?);
     }
     Ok(verified)
 }
@@ -137,13 +134,8 @@ fn verified_text(truths: &Path, verified: &Verified, verification: &Verification
 /// Describes what was verified as JSON, tiles in pixels from the top left.
 fn verified_json(verified: &Verified, verification: &Verification) -> serde_json::Value {
     let tiles = verified.tiles.iter().map(|(file, tile)| {
-        let Tile {
-            x,
-            y,
-            width,
-            height,
-        } = tile;
-        json!({"file": file, "x": x, "y": y, "width": width, "height": height})
+        let [x, y] = [tile.x, tile.y];
+        json!({"file": file, "x": x, "y": y, "width": tile.width, "height": tile.height})
     });
     json!({
         "seed": verification.seed,

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use anstream::ColorChoice;
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 /// Amount and colours of output; every command has these arguments.
 #[derive(Clone, Copy, Debug, Args)]
@@ -24,18 +24,7 @@ pub struct OutputArgs {
         hide_default_value = true,
         hide_possible_values = true
     )]
-    pub color: Color,
-}
-
-/// Choice of colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Color {
-    /// On a terminal.
-    Auto,
-    /// Everywhere.
-    Always,
-    /// Nowhere.
-    Never,
+    pub color: clap::ColorChoice,
 }
 
 static OUTPUT: OnceLock<OutputArgs> = OnceLock::new();
@@ -44,9 +33,9 @@ static OUTPUT: OnceLock<OutputArgs> = OnceLock::new();
 pub fn set_output(args: OutputArgs) {
     let _ = OUTPUT.set(args);
     match args.color {
-        Color::Auto => ColorChoice::Auto,
-        Color::Always => ColorChoice::AlwaysAnsi,
-        Color::Never => ColorChoice::Never,
+        clap::ColorChoice::Auto => ColorChoice::Auto,
+        clap::ColorChoice::Always => ColorChoice::AlwaysAnsi,
+        clap::ColorChoice::Never => ColorChoice::Never,
     }
     .write_global();
 }

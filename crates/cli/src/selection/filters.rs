@@ -5,7 +5,9 @@ use std::path::Path;
 use filters::Filter;
 use suite::{Error, FilterChoice};
 
-use super::names::{is_path, is_pattern, match_names, refuse_empty_names, suggest_names};
+use super::names::{
+    find_twin, is_path, is_pattern, match_names, refuse_empty_names, suggest_names,
+};
 
 /// Permission to select filters that are programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,10 +31,9 @@ pub fn select_filters(
     programs: Programs,
 ) -> Result<Vec<FilterChoice>, Error> {
     refuse_empty_names("--filter", names)?;
-    let names = if names.is_empty() {
-        Filter::builtin_names()
-    } else {
-        names.to_vec()
+    let names = match names.is_empty() {
+        true => Filter::builtin_names(),
+        false => names.to_vec(),
     };
     let mut choices: Vec<FilterChoice> = Vec::new();
     for text in &names {
@@ -62,16 +63,10 @@ pub fn load_filters(name: &str) -> Result<Vec<Filter>, Error> {
         return Ok(vec![Filter::load(Path::new(name))?]);
     }
     let known = Filter::builtin_names();
-    if known.iter().any(|own| own == name) {
-        return Ok(vec![Filter::builtin(name)?]);
-    }
-    if is_pattern(name) {
-        let matched = match_names("--filter", name, &known)?;
-        if !matched.is_empty() {
-            return Ok((matched.iter())
-                .map(|name| Filter::builtin(name))
-                .collect::<Result<_, _>>()?);
-        }
+    let matched = match_names("--filter", name, &known)?;
+    if !matched.is_empty() {
+        let loaded = matched.iter().map(|name| Filter::builtin(name));
+        return Ok(loaded.collect::<Result<_, _>>()?);
     }
     if Path::new(name).is_dir() {
         return Ok(vec![Filter::load(&Path::new(".").join(name))?]);
@@ -87,20 +82,17 @@ fn find_presets(filter: &Filter, text: Option<&str>) -> Result<Vec<String>, Erro
     let known: Vec<String> = (filter.presets.iter())
         .map(|preset| preset.name.clone())
         .collect();
-    match text {
-        None => Ok(known),
-        Some(text) if is_pattern(text) => {
-            let matched = match_names("--filter", text, &known)?;
-            match matched.is_empty() {
-                true => refuse!(
-                    "--filter: no preset of {} matches '{text}'; allowed: {}",
-                    filter.name,
-                    known.join(", ")
-                ),
-                false => Ok(matched),
-            }
-        }
-        Some(text) => Ok(vec![text.to_owned()]),
+    let Some(text) = text else {
+        return Ok(known);
+    };
+    match match_names("--filter", text, &known)? {
+        matched if !matched.is_empty() => Ok(matched),
+        _ if is_pattern(text) => refuse!(
+            "--filter: no preset of {} matches '{text}'; allowed: {}",
+            filter.name,
+            known.join(", ")
+        ),
+        _ => Ok(vec![text.to_owned()]),
     }
 }
 
@@ -118,45 +110,38 @@ fn refuse_programs(choices: &[FilterChoice]) -> Result<(), Error> {
 
 /// Refuses a preset that is named twice, or two filters of one name: both would be written to one folder and counted as two.
 fn refuse_duplicates(choices: &[FilterChoice]) -> Result<(), Error> {
-    for (index, choice) in choices.iter().enumerate() {
-        let name = choice.name();
-        if choices[..index].iter().any(|other| other.name() == name) {
-            refuse!(
-                "--filter: {name} is named twice; allowed: each filter and preset once; give a folder of your own \
-                 another name in its filter.toml"
-            );
-        }
+    let names: Vec<String> = choices.iter().map(FilterChoice::name).collect();
+    match find_twin(&names) {
+        None => Ok(()),
+        Some(name) => refuse!(
+            "--filter: {name} is named twice; allowed: each filter and preset once; give a folder of your own \
+             another name in its filter.toml"
+        ),
     }
-    Ok(())
 }
 
 fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error> {
     let parts = text.split_once('=').and_then(|(place, value)| {
-        place
-            .split_once('.')
-            .map(|(filter, parameter)| (filter, parameter, value))
+        let (filter, parameter) = place.split_once('.')?;
+        Some((filter, parameter, value))
     });
     let Some((name, parameter, value)) = parts else {
         refuse!("--set {text}; allowed: filter.parameter=value, such as jump_flood.samples=16");
     };
-    let mut found = false;
-    for choice in choices
-        .iter_mut()
-        .filter(|choice| choice.filter.name == name)
-    {
-        choice.set(parameter, value)?;
-        found = true;
-    }
-    if found {
-        return Ok(());
-    }
-    let mut names: Vec<&str> = choices
-        .iter()
-        .map(|choice| choice.filter.name.as_str())
+    let mut names: Vec<String> = (choices.iter())
+        .map(|choice| choice.filter.name.clone())
         .collect();
-    names.dedup();
-    refuse!(
-        "--set {text}: no filter \"{name}\" takes part; allowed: {}",
-        names.join(", ")
-    )
+    if !names.iter().any(|own| own == name) {
+        names.dedup();
+        refuse!(
+            "--set {text}: no filter \"{name}\" takes part; allowed: {}",
+            names.join(", ")
+        );
+    }
+    for choice in choices.iter_mut() {
+        if choice.filter.name == name {
+            choice.set(parameter, value)?;
+        }
+    }
+    Ok(())
 }

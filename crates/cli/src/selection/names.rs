@@ -16,11 +16,14 @@ pub fn is_path(text: &str) -> bool {
     text.contains(['/', '\\'])
 }
 
-/// Lists the known names that a pattern matches.
+/// Lists the known names that a name or a pattern means; none if it means none of them.
 ///
 /// # Errors
 /// The pattern is malformed.
 pub fn match_names(option: &str, text: &str, known: &[String]) -> Result<Vec<String>, Error> {
+    if !is_pattern(text) || known.iter().any(|name| name == text) {
+        return Ok((known.iter().filter(|name| *name == text).cloned()).collect());
+    }
     let pattern = Pattern::new(text)
         .map_err(|error| Error::Usage(format!("{option}: the pattern '{text}': {error}")))?;
     let matched = known.iter().filter(|name| pattern.matches(name));
@@ -39,20 +42,21 @@ pub fn choose_names(
     refuse_empty_names(option, texts)?;
     let mut chosen = Vec::new();
     for text in texts {
-        let matched = match is_pattern(text) {
-            true => match_names(option, text, known)?,
-            false => (known.iter().filter(|name| *name == text).cloned()).collect(),
-        };
+        let matched = match_names(option, text, known)?;
         if matched.is_empty() {
-            refuse!(
-                "{option}: no \"{text}\" there; {}",
-                suggest_names(text, known)
-            );
+            let suggestion = suggest_names(text, known);
+            refuse!("{option}: no \"{text}\" there; {suggestion}");
         }
         chosen.extend(matched);
     }
     let is_chosen = |name: &&String| texts.is_empty() || chosen.contains(name);
     Ok(known.iter().filter(is_chosen).cloned().collect())
+}
+
+/// Finds the first thing that is there twice.
+pub fn find_twin<T: PartialEq>(all: &[T]) -> Option<&T> {
+    let is_twin = |(index, own): &(usize, &T)| all[..*index].contains(own);
+    all.iter().enumerate().find(is_twin).map(|(_, own)| own)
 }
 
 /// Refuses a list with an empty name, which a comma too many makes.
@@ -80,24 +84,5 @@ pub fn suggest_names(text: &str, known: &[String]) -> String {
     match best.filter(|name| similarity(text, name) >= SIMILAR) {
         Some(name) => format!("did you mean {name}?"),
         None => format!("allowed: {}.", known.join(", ")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_misspelt_name_gets_a_suggestion_and_another_one_the_list() {
-        let known = ["railing", "fan", "two_spheres"].map(str::to_owned);
-        for misspelt in ["raling", "Railing", "railings", "rialing"] {
-            assert_eq!(suggest_names(misspelt, &known), "did you mean railing?");
-        }
-        let commands = ["score", "run", "render"].map(str::to_owned);
-        assert_eq!(suggest_names("rnu", &commands), "did you mean run?");
-        assert_eq!(
-            suggest_names("my_scene", &known),
-            "allowed: railing, fan, two_spheres."
-        );
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use suite::{EngineScene, Error};
 use tracer::{Location, Scene, SceneId, list_scene, list_scenes, load_scene};
 
-use super::names::{is_path, is_pattern, match_names, refuse_empty_names, suggest_names};
+use super::names::{is_path, match_names, refuse_empty_names, suggest_names};
 
 /// A loaded scene and the folder that it came from.
 pub struct SceneChoice {
@@ -28,13 +28,10 @@ pub fn select_scenes(
     // Where every scene is given by its path, `root` need not exist.
     let listings = match !names.is_empty() && names.iter().all(|name| is_path(name)) {
         true => Vec::new(),
-        false if !root.is_dir() => {
-            refuse!(
-                "{}: there is no such folder of scenes; name one with --scenes-dir, or a scene by its path with --scenes",
-                root
-            );
-        }
-        false => list_scenes(root)?,
+        false if root.is_dir() => list_scenes(root)?,
+        false => refuse!(
+            "{root}: there is no such folder of scenes; name one with --scenes-dir, or a scene by its path with --scenes"
+        ),
     };
     if names.is_empty() {
         return listings
@@ -42,10 +39,7 @@ pub fn select_scenes(
             .map(|listing| load_choice(&listing.folder, &SceneId::default()))
             .collect();
     }
-    let known: Vec<String> = listings
-        .iter()
-        .map(|listing| listing.name.clone())
-        .collect();
+    let known: Vec<String> = listings.into_iter().map(|own| own.name).collect();
     let mut scenes: Vec<SceneChoice> = Vec::new();
     for text in names {
         let (name, id) = split_scene(text);
@@ -56,7 +50,7 @@ pub fn select_scenes(
             }
         }
     }
-    refuse_duplicates(&scenes)?;
+    refuse_twins((scenes.iter()).map(|own| (&own.scene.id, own.folder.clone())))?;
     Ok(scenes)
 }
 
@@ -73,29 +67,22 @@ pub fn select_engine_scenes(
     let scenes: Vec<EngineScene> = (ingested.into_iter())
         .map(|name| EngineScene::read(Path::new(name)))
         .collect::<Result<_, _>>()?;
-    for (index, scene) in scenes.iter().enumerate() {
-        if let Some(other) = scenes[..index].iter().find(|it| it.id == scene.id) {
-            let folders = [&other.folder, &scene.folder].map(Location::from);
-            return refuse_twins(&scene.id, folders.each_ref());
-        }
-    }
+    refuse_twins(
+        scenes
+            .iter()
+            .map(|own| (&own.id, Location::from(&own.folder))),
+    )?;
     Ok((scenes, others.into_iter().cloned().collect()))
 }
 
 /// Finds the folders of a name, a pattern or a path. A scene of `root` goes before a folder of the same name elsewhere.
 fn find_folders(root: &Location, name: &str, known: &[String]) -> Result<Vec<Location>, Error> {
-    let below_root = |name: &String| root.join(name);
     if is_path(name) {
         return Ok(vec![Path::new(name).into()]);
     }
-    if known.iter().any(|own| own == name) {
-        return Ok(vec![root.join(name)]);
-    }
-    if is_pattern(name) {
-        let matched = match_names("--scenes", name, known)?;
-        if !matched.is_empty() {
-            return Ok(matched.iter().map(below_root).collect());
-        }
+    let matched = match_names("--scenes", name, known)?;
+    if !matched.is_empty() {
+        return Ok(matched.iter().map(|name| root.join(name)).collect());
     }
     if Path::new(name).is_dir() {
         return Ok(vec![Path::new(name).into()]);
@@ -136,44 +123,30 @@ const ALL: &str = "all";
 fn load_all_variants(folder: &Location, all: &SceneId) -> Result<Vec<SceneChoice>, Error> {
     let variants = list_scene(folder)?.variants;
     if variants.is_empty() {
-        refuse!(
-            "--scenes: {} has no variants for @all; name the scene without it",
-            folder
-        );
+        refuse!("--scenes: {folder} has no variants for @all; name the scene without it");
     }
+    let of_variant = |variant| SceneId {
+        variant: Some(variant),
+        ..all.clone()
+    };
     (variants.into_iter())
-        .map(|variant| {
-            let variant = Some(variant);
-            load_choice(
-                folder,
-                &SceneId {
-                    variant,
-                    ..all.clone()
-                },
-            )
-        })
+        .map(|variant| load_choice(folder, &of_variant(variant)))
         .collect()
 }
 
 /// Refuses two scenes of one name: both would be written to one folder and counted as two.
-fn refuse_duplicates(scenes: &[SceneChoice]) -> Result<(), Error> {
-    for (index, scene) in scenes.iter().enumerate() {
-        let name = &scene.scene.id;
-        let mut before = scenes[..index].iter();
-        if let Some(other) = before.find(|other| other.scene.id == *name) {
-            return refuse_twins(name, [&other.folder, &scene.folder]);
+fn refuse_twins<'a>(scenes: impl Iterator<Item = (&'a SceneId, Location)>) -> Result<(), Error> {
+    let mut known: Vec<(&SceneId, Location)> = Vec::new();
+    for (name, folder) in scenes {
+        if let Some((_, other)) = known.iter().find(|(other, _)| *other == name) {
+            refuse!(
+                "--scenes: {name} is named twice, as {other} and {folder}; allowed: each name once; rename one of the folders, or \
+                 run them into two --out folders"
+            );
         }
+        known.push((name, folder));
     }
     Ok(())
-}
-
-fn refuse_twins<T>(name: &SceneId, [one, other]: [&Location; 2]) -> Result<T, Error> {
-    refuse!(
-        "--scenes: {name} is named twice, as {} and {}; allowed: each name once; rename one of the folders, or \
-         run them into two --out folders",
-        one,
-        other
-    )
 }
 
 fn load_choice(folder: &Location, id: &SceneId) -> Result<SceneChoice, Error> {
@@ -184,37 +157,16 @@ fn load_choice(folder: &Location, id: &SceneId) -> Result<SceneChoice, Error> {
         .to_string_lossy();
     if own.contains('@') {
         refuse!(
-            "--scenes: the folder {} cannot name a scene; allowed: names without @, which stands before a variant; rename it",
-            folder
+            "--scenes: the folder {folder} cannot name a scene; allowed: names without @, which begins a variant; rename it"
         );
     }
     if folder.on_disk().is_some_and(EngineScene::is_in) {
         refuse!(
-            "--scenes: {} holds what an engine drew, and nothing to render; `run` and `check` measure it",
-            folder
+            "--scenes: {folder} holds what an engine drew, and nothing to render; `run` and `check` measure it"
         );
     }
     Ok(SceneChoice {
         folder: folder.clone(),
         scene: load_scene(folder, id.choice().strip_prefix('@'))?,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_at_stands_before_a_variant_only_in_the_last_name() {
-        for (text, name, variant) in [
-            ("fan", "fan", None),
-            ("fan@fast", "fan", Some("fast")),
-            ("./me@home/fan", "./me@home/fan", None),
-            ("./me@home/fan@fast", "./me@home/fan", Some("fast")),
-            ("me@home/fan@fast/", "me@home/fan", Some("fast")),
-        ] {
-            let (found, id) = split_scene(text);
-            assert_eq!((found, id.variant.as_deref()), (name, variant), "{text}");
-        }
-    }
 }

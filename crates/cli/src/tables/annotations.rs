@@ -1,12 +1,10 @@
 //! Text for GitHub Actions: annotations, and the summary of a step.
 
-use std::fmt::Write;
-
 use judge::{Check, Decision, Finding, number};
 use report::{finding_line, length_text, limit_text, way_out};
 use store::printable;
 
-use super::{comparison_line, count_lines, verdict_word};
+use super::{comparison_line, count_lines, markdown_table, range_text, verdict_word};
 
 /// Upper limit that GitHub sets on the annotations of a step.
 const MAX_ANNOTATIONS: usize = 10;
@@ -31,85 +29,82 @@ pub fn annotations(check: &Check) -> String {
     });
     let mut all: Vec<(String, String)> = failures.chain(findings).chain(comparisons).collect();
     if all.len() > MAX_ANNOTATIONS {
-        let more = all.len() - (MAX_ANNOTATIONS - 1);
-        all.truncate(MAX_ANNOTATIONS - 1);
-        all.push((
-            "shuttertruth".to_owned(),
-            format!("and {more} more: see the summary"),
-        ));
+        let more = all.split_off(MAX_ANNOTATIONS - 1).len();
+        let more = format!("and {more} more: see the summary");
+        all.push(("shuttertruth".to_owned(), more));
     }
-    all.iter()
-        .map(|(title, message)| {
-            format!(
-                "::error title={}::{}\n",
-                escape_property(title),
-                escape_message(message)
-            )
-        })
-        .collect()
+    let line = |(title, message): &(String, String)| {
+        let title = escape_property(title);
+        format!("::error title={title}::{}\n", escape_message(message))
+    };
+    all.iter().map(line).collect()
 }
 
 /// Makes the summary of the step, as Markdown.
 pub fn summary(check: &Check) -> String {
-    let mut text = format!("## Shuttertruth: {}\n\n", verdict_word(check.decision));
+    let mut text = format!(
+        "## Shuttertruth: {}\n\n{}\n\n",
+        verdict_word(check.decision),
+        count_lines(check).join("\n\n")
+    );
+    for failure in &check.failures {
+        let case = format!("{} / {}", failure.scene, failure.filter);
+        let [case, reason] = [&case, &failure.reason].map(|text| escape_cell(text));
+        text += &format!("- **{case} failed**: {reason}\n\n");
+    }
     let notable: Vec<&Finding> = (check.findings.iter())
         .filter(|finding| finding.outcome.is_notable())
         .collect();
-    let _ = writeln!(text, "{}\n", count_lines(check).join("\n\n"));
-    for failure in &check.failures {
-        let (scene, filter) = (
-            escape_cell(&failure.scene.to_string()),
-            escape_cell(&failure.filter),
-        );
-        let _ = writeln!(
-            text,
-            "- **{scene} / {filter} failed**: {}\n",
-            escape_cell(&failure.reason)
-        );
-    }
     if !notable.is_empty() {
-        text +=
-            "| scene | filter | metric | value | 95 % | limit | floor | worst at | most like | |\n";
-        text += "|---|---|---|---|---|---|---|---|---|---|\n";
-    }
-    for finding in notable.iter().take(MAX_ROWS) {
-        text += &summary_row(finding);
+        let titles = [
+            "scene",
+            "filter",
+            "metric",
+            "value",
+            "95 %",
+            "limit",
+            "floor",
+            "worst at",
+            "most like",
+            "",
+        ];
+        let rows = notable.iter().take(MAX_ROWS);
+        text += &markdown_table(&titles, rows.map(|finding| summary_row(finding)));
     }
     if notable.len() > MAX_ROWS {
-        let _ = writeln!(text, "\nand {} more", notable.len() - MAX_ROWS);
+        text += &format!("\nand {} more\n", notable.len() - MAX_ROWS);
     }
     if !check.comparisons.is_empty() {
         text += "\n### Comparison with the baseline\n\n";
         for comparison in &check.comparisons {
-            let _ = writeln!(text, "- {}", escape_cell(&comparison_line(comparison)));
+            text += &format!("- {}\n", escape_cell(&comparison_line(comparison)));
         }
     }
     text
 }
 
-fn summary_row(finding: &Finding) -> String {
-    let or_none = |text: Option<String>| text.unwrap_or_default();
-    let interval = (finding.interval.as_ref())
-        .map(|interval| format!("{} to {}", number(interval.low), number(interval.high)));
+fn summary_row(finding: &Finding) -> Vec<String> {
+    let value = finding.value.map(|value| finding.with_unit(value));
+    let interval = finding.interval.as_ref();
+    let interval = interval.map(|own| range_text([own.low, own.high], number));
+    let worst = match (&finding.worst, finding.worst_frame) {
+        (Some(worst), _) => Some(format!("({}, {})", worst.x, worst.y)),
+        (None, frame) => frame.map(|frame| format!("frame {frame}")),
+    };
+    let alike = finding.resembles.as_ref();
     let cells = [
         finding.scene.to_string(),
         finding.filter.clone(),
         metric_cell(finding),
-        or_none(finding.value.map(|value| finding.with_unit(value))),
-        or_none(interval),
+        value.unwrap_or_default(),
+        interval.unwrap_or_default(),
         limit_text(finding),
-        or_none(finding.floor.map(number)),
-        or_none(match (&finding.worst, finding.worst_frame) {
-            (Some(worst), _) => Some(format!("({}, {})", worst.x, worst.y)),
-            (None, frame) => frame.map(|frame| format!("frame {frame}")),
-        }),
-        or_none((finding.resembles.as_ref()).map(|alike| alike.decoy.clone())),
-        match finding.decision() {
-            Decision::Pass => "target".to_owned(),
-            decision => decision_word(decision).to_owned(),
-        },
+        finding.floor.map(number).unwrap_or_default(),
+        worst.unwrap_or_default(),
+        alike.map(|alike| alike.decoy.clone()).unwrap_or_default(),
+        decision_word(finding.decision()).to_owned(),
     ];
-    format!("| {} |\n", cells.map(|text| escape_cell(&text)).join(" | "))
+    cells.map(|text| escape_cell(&text)).to_vec()
 }
 
 /// Names the metric, and the length of the sequence.
@@ -122,7 +117,7 @@ fn metric_cell(finding: &Finding) -> String {
 
 fn decision_word(decision: Decision) -> &'static str {
     match decision {
-        Decision::Pass => "pass",
+        Decision::Pass => "target",
         Decision::Inconclusive => "undecided",
         Decision::Broken => "broken",
         Decision::Misconfigured => "misconfigured",
@@ -131,12 +126,9 @@ fn decision_word(decision: Decision) -> &'static str {
 
 /// Escapes the text of a cell: a vertical bar would end it, and other signs make links or pictures of names.
 fn escape_cell(text: &str) -> String {
-    let one_line = text.replace('\n', " ");
     let mut cell = String::new();
-    for letter in printable(&one_line).chars() {
-        if MARKDOWN.contains(letter) {
-            cell.push('\\');
-        }
+    for letter in printable(&text.replace('\n', " ")).chars() {
+        cell.extend(MARKDOWN.contains(letter).then_some('\\'));
         cell.push(letter);
     }
     cell
@@ -161,14 +153,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_would_end_a_command_is_escaped() {
+    fn what_would_end_a_command_or_make_a_picture_is_escaped() {
         assert_eq!(escape_message("95 %\nof it: a, b"), "95 %25%0Aof it: a, b");
         assert_eq!(escape_property("a:b, 5 %"), "a%3Ab%2C 5 %25");
         assert_eq!(escape_message("a\r\u{1b}[2J"), "a\\r\\u001b[2J");
-    }
-
-    #[test]
-    fn names_make_no_pictures_in_a_summary() {
         assert_eq!(
             escape_cell("![a](b)<img src=c> `d`\ne|f"),
             "!\\[a](b)\\<img src=c> \\`d\\` e\\|f"

@@ -1,10 +1,10 @@
 //! Table of an audit.
 
-use engine::{CaptureAudit, ObjectAudit, ObjectShown};
+use engine::{CaptureAudit, ObjectAudit};
 use store::printable;
 use suite::engine_name;
 
-use super::Table;
+use super::{Table, cell};
 use crate::output::push_wrapped;
 
 /// Lists, per object, what the engine shows of it and the error of its velocity, then the error of depth, then what is wrong.
@@ -15,30 +15,28 @@ pub fn audit_table(audit: &CaptureAudit) -> String {
     ];
     let mut table = Table::new("object", columns);
     let mut compared = 0;
-    for ObjectShown {
-        object,
-        pixels,
-        shown,
-    } in &audit.objects
-    {
-        let velocity = audit.velocity.iter().find(|own| own.object == *object);
+    for own in &audit.objects {
+        let velocity = audit.velocity.iter().find(|it| it.object == own.object);
         compared += velocity.map_or(0, |own| own.pixels);
         let none = || ["0", "n/a", "n/a", "n/a", "n/a", "n/a", "n/a"].map(str::to_owned);
         let errors = velocity.map_or_else(none, list_errors);
-        let shown = [pixels.to_string(), format!("{:.1} %", 100.0 * shown)];
-        table.push(object, shown.into_iter().chain(errors));
+        let shown = [
+            own.pixels.to_string(),
+            format!("{:.1} %", 100.0 * own.shown),
+        ];
+        table.push(&own.object, shown.into_iter().chain(errors));
     }
     let pixels = f64::from(width) * f64::from(height);
+    let basis = match audit.has_ids {
+        true => "their ids",
+        false => "their depth",
+    };
     let mut text = format!(
         "{} drawn by {}, {width}x{height}: {:.1} % of the pixels show what the scene shows, by {}\nvelocity in pixels per frame, compared at {:.1} % of them\n\n",
         audit.scene,
         printable(engine_name(&audit.engine)),
         100.0 * audit.alike,
-        if audit.has_ids {
-            "their ids"
-        } else {
-            "their depth"
-        },
+        basis,
         100.0 * compared as f64 / pixels,
     );
     text += &table.text();
@@ -71,8 +69,6 @@ fn list_errors(object: &ObjectAudit) -> [String; 7] {
         format!("{:.3}", object.p95),
         format!("{:.3}", object.worst),
         format!("{},{}", object.worst_at[0], object.worst_at[1]),
-        object
-            .scale
-            .map_or("n/a".to_owned(), |scale| format!("{scale:.3}")),
+        cell(object.scale, |scale| format!("{scale:.3}")),
     ]
 }

@@ -3,7 +3,7 @@
 use filters::Clock;
 use suite::{BASELINE, Bench, CaseCost, GROWTH_FROM, REACHES, Spread};
 
-use super::Table;
+use super::{Table, cell};
 use crate::output::push_wrapped;
 
 /// Makes the tables: cost per filter and pass, then cost against reach.
@@ -39,12 +39,9 @@ fn push_costs(text: &mut String, bench: &Bench) {
     }
     let copy = spread_text(&bench.copy.seconds, 1e3);
     let speed = format!("{:.1} GB/s", bench.copy.bytes_per_second * 1e-9);
-    table.push(
-        "copy of a buffer",
-        [copy, String::new(), String::new(), speed],
-    );
-    *text += &table.text();
-    *text += "\n";
+    let none = String::new;
+    table.push("copy of a buffer", [copy, none(), none(), speed]);
+    *text += &format!("{}\n", table.text());
     let legend = format!(
         "baseline: {BASELINE}. B/px: every texture that a pass reads or writes, counted once per pass. of copy: those bytes per \
          second, as a part of what copying a buffer reached."
@@ -72,13 +69,13 @@ fn push_reaches(text: &mut String, bench: &Bench) {
     let growth = format!("{last} / {GROWTH_FROM}");
     let mut table = Table::new("ms at a reach of (pixels)", reaches.chain([growth]));
     for cost in &bench.reaches {
-        let times = cost.points.iter().map(|point| match &point.seconds {
-            Some(seconds) if seconds.median < 0.1 => format!("{:.2}", 1e3 * seconds.median),
-            Some(seconds) => format!("{:.0}", 1e3 * seconds.median),
-            None => "n/a".to_owned(),
+        let times = cost.points.iter().map(|point| {
+            cell(point.seconds.as_ref(), |seconds| {
+                let digits = if seconds.median < 0.1 { 2 } else { 0 };
+                format!("{:.digits$}", 1e3 * seconds.median)
+            })
         });
-        let growth = cost.growth.as_ref();
-        let growth = growth.map_or("n/a".to_owned(), |growth| spread_text(growth, 1.0));
+        let growth = cell(cost.growth.as_ref(), |growth| spread_text(growth, 1.0));
         table.push(
             format!("{}:{}", cost.filter, cost.preset),
             times.chain([growth]),

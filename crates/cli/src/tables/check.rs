@@ -1,13 +1,11 @@
 //! Text of a check: every score that does not keep its bound.
 
-use std::fmt::Write;
 use std::path::Path;
 
-use judge::{BaselineComparison, Check, Decision, Finding, Level, Outcome, number};
+use judge::{BaselineComparison, Check, Decision, Finding, Level, Outcome, Worst, number};
 use report::{finding_score, finding_status, length_text, way_out, worst_frame_text};
-use store::printable_path;
 
-use super::failures_text;
+use super::{failures_text, list_once};
 use crate::output::{bad, count_text, doubtful, good, heading, push_wrapped};
 
 /// Lists scores that are broken, undecided or limited within the noise, by scene and filter; then comparisons, then counts. Targets, which
@@ -22,12 +20,10 @@ pub fn check_text(check: &Check, out: &Path, targets: bool) -> String {
         }
         let own = format!("{} / {}", finding.scene, finding.filter);
         if case.as_ref() != Some(&own) {
-            let _ = writeln!(text, "{}", heading(&own));
+            text += &format!("{}\n", heading(&own));
             case = Some(own);
         }
-        for (indent, line) in finding_lines(finding, out) {
-            push_wrapped(&mut text, indent, &line);
-        }
+        push_finding(&mut text, finding, out);
     }
     if !check.comparisons.is_empty() {
         text += &(heading("compared with the baseline") + "\n");
@@ -68,52 +64,38 @@ pub fn verdict_text(check: &Check) -> String {
     }
 }
 
-fn finding_lines(finding: &Finding, out: &Path) -> Vec<(usize, String)> {
+fn push_finding(text: &mut String, finding: &Finding, out: &Path) {
+    let status = finding_status(finding);
     let status = match finding.outcome {
-        Outcome::Broken => bad(finding_status(finding)),
-        Outcome::Kept => good(finding_status(finding)),
-        _ => doubtful(finding_status(finding)),
+        Outcome::Broken => bad(status),
+        Outcome::Kept => good(status),
+        _ => doubtful(status),
     };
-    let mut lines = vec![
-        (2, format!("{status} {}", finding_score(finding))),
-        (6, place_text(finding)),
-    ];
-    if let Some(worst) = &finding.worst {
-        let picture = out.join(&worst.picture);
-        lines.push((
-            6,
-            format!(
-                "worst at ({}, {}): {}",
-                worst.x,
-                worst.y,
-                printable_path(&picture)
-            ),
+    push_wrapped(text, 2, &format!("{status} {}", finding_score(finding)));
+    let mut push = |line: String| push_wrapped(text, 6, &line);
+    push(format!("{}: {}", finding.place, finding.why));
+    let pictures = out.join(&finding.pictures).display().to_string();
+    if let Some(Worst { x, y, picture, .. }) = &finding.worst {
+        push(format!(
+            "worst at ({x}, {y}): {}",
+            out.join(picture).display()
         ));
     }
     if let Some(frame) = worst_frame_text(finding) {
-        let pictures = out.join(&finding.pictures);
-        lines.push((6, format!("{frame}: {}", printable_path(&pictures))));
+        push(format!("{frame}: {pictures}"));
     }
     if let Some(alike) = &finding.resembles {
         let distance = (100.0 * alike.distance).round();
-        lines.push((6, format!("most like {}, {distance} % off", alike.decoy)));
+        push(format!("most like {}, {distance} % off", alike.decoy));
     } else if finding.worst.is_some() {
-        lines.push((6, "no known failure pattern matched".to_owned()));
+        push("no known failure pattern matched".to_owned());
     }
     if let Some(way_out) = way_out(finding) {
-        lines.push((6, way_out));
+        push(way_out);
     }
     if finding.worst.is_some() {
-        lines.push((
-            6,
-            format!("pictures: {}", printable_path(&out.join(&finding.pictures))),
-        ));
+        push(format!("pictures: {pictures}"));
     }
-    lines
-}
-
-fn place_text(finding: &Finding) -> String {
-    format!("{}: {}", finding.place, finding.why)
 }
 
 /// Describes a comparison with the baseline on one line.
@@ -140,18 +122,9 @@ pub fn comparison_line(comparison: &BaselineComparison) -> String {
 
 /// Counts required bounds, and apart from them targets.
 pub fn count_lines(check: &Check) -> Vec<String> {
-    let of_level = |level: Level| {
-        check
-            .findings
-            .iter()
-            .filter(move |finding| finding.level == level)
-    };
-    let count = |level: Level, outcome: Outcome| {
-        of_level(level)
-            .filter(|finding| finding.outcome == outcome)
-            .count()
-    };
-    let counts = |level: Level, kept: &str, broken: &str| {
+    let line = |level: Level, one: &str, [kept, broken]: [&str; 2], note: &str| {
+        let findings = check.findings.iter();
+        let own: Vec<&Finding> = findings.filter(|own| own.level == level).collect();
         let words = [
             (Outcome::Kept, kept),
             (Outcome::Broken, broken),
@@ -160,58 +133,35 @@ pub fn count_lines(check: &Check) -> Vec<String> {
             (Outcome::NotApplicable, "not applicable"),
             (Outcome::NotJudged, "not judged"),
         ];
-        let words = words.map(|(outcome, word)| (count(level, outcome), word));
-        let words = words.iter().filter(|(count, _)| *count > 0);
-        let words: Vec<String> = words
-            .map(|(count, word)| format!("{count} {word}"))
-            .collect();
-        words.join(", ")
+        let counts = words.iter().filter_map(|(outcome, word)| {
+            let count = own.iter().filter(|own| own.outcome == *outcome).count();
+            (count > 0).then(|| format!("{count} {word}"))
+        });
+        let counts = counts.collect::<Vec<_>>().join(", ");
+        let all = count_text(own.len(), one, &format!("{one}s"));
+        (!own.is_empty()).then(|| format!("{all}: {counts}{note}"))
     };
-    let mut lines = Vec::new();
-    if of_level(Level::Required).next().is_some() {
-        lines.push(format!(
-            "{}: {}",
-            count_text(
-                of_level(Level::Required).count(),
-                "required bound",
-                "required bounds"
-            ),
-            counts(Level::Required, "met", "broken")
-        ));
-    }
-    if of_level(Level::Report).next().is_some() {
-        lines.push(format!(
-            "{}: {} (a missed target fails nothing; -v lists them)",
-            count_text(of_level(Level::Report).count(), "target", "targets"),
-            counts(Level::Report, "met", "missed")
-        ));
-    }
-    lines.extend(not_judged_line(check));
-    lines
+    let note = " (a missed target fails nothing; -v lists them)";
+    let required = line(Level::Required, "required bound", ["met", "broken"], "");
+    let targets = line(Level::Report, "target", ["met", "missed"], note);
+    let lines = [required, targets, not_judged_line(check)];
+    lines.into_iter().flatten().collect()
 }
 
 /// Says which limits were not judged, since they are on sequences of another length, and how they are; none where all were.
 fn not_judged_line(check: &Check) -> Option<String> {
-    let findings = check.findings.iter();
-    let not_judged = findings.filter(|finding| finding.outcome == Outcome::NotJudged);
     let mut lengths: Vec<(String, String)> = Vec::new();
-    for finding in not_judged {
-        let length = length_text(finding)?;
+    for finding in (check.findings.iter()).filter(|own| own.outcome == Outcome::NotJudged) {
         let fps = finding.fps.map(|fps| format!(" --fps {fps}"));
         let options = format!("--frames {}{}", finding.frames?, fps.unwrap_or_default());
-        if !lengths.iter().any(|(known, _)| *known == length) {
-            lengths.push((length, options));
-        }
+        lengths.push((length_text(finding)?, options));
     }
-    let list = |part: fn(&(String, String)) -> &String| {
-        let parts: Vec<&str> = lengths.iter().map(|own| part(own).as_str()).collect();
-        parts.join(", ")
-    };
+    let (lengths, options): (Vec<_>, Vec<_>) = list_once(lengths.into_iter()).into_iter().unzip();
     (!lengths.is_empty()).then(|| {
         format!(
             "not judged: limits on sequences of {}; measure with {} to judge them",
-            list(|own| &own.0),
-            list(|own| &own.1)
+            lengths.join(", "),
+            options.join(", ")
         )
     })
 }

@@ -1,4 +1,4 @@
-//! Parts that tables of cases and tables of means share.
+//! Parts that tables share.
 
 use metrics::Metric;
 
@@ -37,20 +37,53 @@ pub fn list_once<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     listed
 }
 
-/// Makes tables with a few columns side by side, so that a row fits a terminal.
+/// Fills the cell of a value, which may be missing.
+pub fn cell<T>(value: Option<T>, text: impl FnOnce(T) -> String) -> String {
+    value.map_or("n/a".to_owned(), text)
+}
+
+/// Writes an interval: `0.052 to 0.053`.
+pub fn range_text(ends: [f64; 2], number: impl Fn(f64) -> String) -> String {
+    let [low, high] = ends.map(number);
+    format!("{low} to {high}")
+}
+
+/// Writes the mean of numbers.
+pub fn mean_text(numbers: impl Iterator<Item = f64>, text: impl Fn(f64) -> String) -> String {
+    let all: Vec<f64> = numbers.collect();
+    let mean = (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64);
+    cell(mean, text)
+}
+
+/// Makes tables with a few columns side by side, so that a row fits a terminal, and the note below them.
 pub fn abreast_text<R>(
     title: &str,
-    columns: &[&str],
+    columns: &[String],
     rows: &[R],
     name: impl Fn(&R) -> String,
-    cell: impl Fn(&R, &str) -> String,
+    cell: impl Fn(&R, &String) -> String,
+    legend: &str,
 ) -> String {
     let tables = columns.chunks(ABREAST).map(|columns| {
-        let mut table = Table::new(title, columns.iter().copied());
+        let mut table = Table::new(title, columns);
         for row in rows {
             table.push(name(row), columns.iter().map(|column| cell(row, column)));
         }
         table.text()
     });
-    tables.collect()
+    let tables: String = tables.collect();
+    format!("\n{tables}\n{}", legend_text(legend))
+}
+
+/// Makes a table of Markdown.
+pub fn markdown_table(titles: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let mut text = format!(
+        "| {} |\n|{}\n",
+        titles.join(" | "),
+        "---|".repeat(titles.len())
+    );
+    for row in rows {
+        text += &format!("| {} |\n", row.join(" | "));
+    }
+    text
 }

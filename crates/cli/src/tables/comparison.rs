@@ -4,7 +4,7 @@ use judge::{Basis, Change, ChangeKind, MeanChange, RunComparison, SettingChange,
 use metrics::Metric;
 use report::ChangeCells;
 
-use super::Table;
+use super::{Table, list_once};
 use crate::output::{bad, count_text, doubtful, faint, good, push_wrapped};
 
 /// Upper limit on changed cases in the table; `--json` and the page have all.
@@ -34,16 +34,11 @@ pub fn compare_table(compared: &RunComparison) -> String {
 }
 
 fn setting_line(setting: &SettingChange) -> String {
-    let value = |value: &str| match value.is_empty() {
-        true => "none".to_owned(),
-        false => value.to_owned(),
-    };
-    format!(
-        "{}: {} -> {}",
-        setting.name,
-        value(&setting.first),
-        value(&setting.second)
-    )
+    let [first, second] = [&setting.first, &setting.second].map(|value| match value.as_str() {
+        "" => "none",
+        value => value,
+    });
+    format!("{}: {first} -> {second}", setting.name)
 }
 
 /// Makes the table of means; one line names the filters of which no scene changed.
@@ -53,10 +48,8 @@ fn means_table(means: &[MeanChange]) -> String {
     for mean in means.iter().filter(|mean| mean.kind != ChangeKind::Same) {
         if filter != mean.filter {
             filter = &mean.filter;
-            table.push_text(format!(
-                "{filter}, {}",
-                count_text(mean.scenes, "scene", "scenes")
-            ));
+            let scenes = count_text(mean.scenes, "scene", "scenes");
+            table.push_text(format!("{filter}, {scenes}"));
         }
         push_change(&mut table, mean.metric, mean.kind, mean.into());
     }
@@ -64,21 +57,14 @@ fn means_table(means: &[MeanChange]) -> String {
         "" => String::new(),
         _ => table.text(),
     };
-    let mut same: Vec<&str> = Vec::new();
-    for mean in means {
-        let all = means.iter().filter(|own| own.filter == mean.filter);
-        if !same.contains(&mean.filter.as_str())
-            && all.clone().all(|own| own.kind == ChangeKind::Same)
-        {
-            same.push(&mean.filter);
-        }
-    }
+    let mut same = list_once(means.iter().map(|mean| mean.filter.as_str()));
+    same.retain(|filter| {
+        let mut own = means.iter().filter(|mean| mean.filter == *filter);
+        own.all(|mean| mean.kind == ChangeKind::Same)
+    });
     if !same.is_empty() {
-        push_wrapped(
-            &mut text,
-            0,
-            &format!("nothing changed of: {}", same.join(", ")),
-        );
+        let line = format!("nothing changed of: {}", same.join(", "));
+        push_wrapped(&mut text, 0, &line);
     }
     text
 }
@@ -92,9 +78,8 @@ fn changes_table(changes: &[Change]) -> String {
     let mut table = change_table("scene / filter");
     for (scene, filter) in ranked.iter().take(CASES) {
         table.push_text(format!("{scene} / {filter}"));
-        let own = changes
-            .iter()
-            .filter(|change| change.scene == **scene && change.filter == **filter);
+        let own =
+            (changes.iter()).filter(|change| change.scene == **scene && change.filter == **filter);
         for change in own.filter(|change| change.kind.is_decided()) {
             push_change(&mut table, change.metric, change.kind, change.into());
         }
@@ -102,9 +87,8 @@ fn changes_table(changes: &[Change]) -> String {
     let mut text = "\n".to_owned() + &table.text();
     if ranked.len() > CASES {
         let more = ranked.len() - CASES;
-        text += &faint(&format!(
-            "and {more} cases more: --json or --html show them\n"
-        ));
+        let note = format!("and {more} cases more: --json or --html show them\n");
+        text += &faint(&note);
     }
     text
 }

@@ -4,26 +4,25 @@ use metrics::Metric;
 use suite::{Case, InputFormat};
 use tracer::FrameRate;
 
-use super::{abreast_text, legend_text, list_once};
+use super::{abreast_text, list_once, mean_text};
 
 /// Makes a row per frame rate and rule of the shutter, and a column per filter and per picture of doing nothing: the mean FLIP over the
 /// scenes. Empty for a run of one rate.
 pub fn frame_rates_text(cases: &[Case]) -> String {
-    let rows = list_rows(cases);
+    let rows = list_once(cases.iter().filter_map(Row::of));
     if rows.iter().all(|row| row.rate == rows[0].rate) {
         return String::new();
     }
-    let columns: Vec<String> = cases.iter().filter_map(column).collect();
-    let columns = list_once(columns.iter().map(String::as_str));
-    let cell = |row: &Row, name: &str| mean_flip(cases, row, name);
-    let mut text = "\n".to_owned();
-    text += &abreast_text("frame rate", &columns, &rows, Row::title, cell);
-    text += "\n";
-    text += &legend_text(
-        "Mean FLIP at each frame rate, against the truths of that rate. [identity] is doing nothing. Compare the filters of one row, \
-         and each with the identity of its shutter.",
-    );
-    text
+    let columns = list_once(cases.iter().filter_map(column));
+    let flip = |row: &Row, name: &String| {
+        let of_row = cases.iter().filter(|case| row.holds(case));
+        let own = of_row.filter(|case| column(case).as_ref() == Some(name));
+        let flips = own.filter_map(|case| case.estimate(Metric::FLIP));
+        mean_text(flips, |mean| Metric::FLIP.number(mean))
+    };
+    let legend = "Mean FLIP at each frame rate, against the truths of that rate. [identity] is doing nothing. Compare the filters of one \
+                  row, and each with the identity of its shutter.";
+    abreast_text("frame rate", &columns, &rows, Row::title, flip, legend)
 }
 
 /// A row of the table.
@@ -36,34 +35,30 @@ struct Row {
 }
 
 impl Row {
-    fn title(&self) -> String {
-        let rate = self
-            .rate
-            .map_or("as written".to_owned(), |rate| rate.word());
-        match self.input.change() {
-            None => rate,
-            Some(change) => format!("{rate} {change}"),
-        }
-    }
-}
-
-/// Lists rates and rules in the order of the cases. At the rate of the files every rule is the right one.
-fn list_rows(cases: &[Case]) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for case in cases {
-        let row = Row {
-            rate: case.rate,
-            input: InputFormat {
-                rule: case.input.rule,
-                ..InputFormat::default()
-            },
+    /// Makes the row of a case; none of another form than those of the table. At the rate of the files every rule is the right one.
+    fn of(case: &Case) -> Option<Self> {
+        let input = InputFormat {
+            rule: case.input.rule,
+            ..InputFormat::default()
         };
-        let is_shown = row.input == InputFormat::default() || row.rate.is_some();
-        if is_shown && row.input == case.input && !rows.contains(&row) {
-            rows.push(row);
-        }
+        let is_shown = input == InputFormat::default() || case.rate.is_some();
+        (is_shown && input == case.input).then_some(Self {
+            rate: case.rate,
+            input,
+        })
     }
-    rows
+
+    /// Tells whether a case is in the row. Doing nothing follows no rule.
+    fn holds(&self, case: &Case) -> bool {
+        case.rate == self.rate && (case.input == self.input || case.is_reference)
+    }
+
+    fn title(&self) -> String {
+        let rate = self.rate.map(|rate| rate.word());
+        let rate = rate.unwrap_or("as written".to_owned());
+        let change = self.input.change().map(|change| format!(" {change}"));
+        rate + &change.unwrap_or_default()
+    }
 }
 
 /// Names the column of a case, without the form of its input; none of a reference other than doing nothing.
@@ -72,22 +67,10 @@ fn column(case: &Case) -> Option<String> {
     match (case.is_reference, case.filter.as_str()) {
         (false, _) => {
             let form = case.input.change().map(|change| format!(" {change}"));
-            let full = form.and_then(|form| name.strip_suffix(form.as_str()).map(str::to_owned));
-            Some(full.unwrap_or(name))
+            let full = name.strip_suffix(form.as_deref().unwrap_or_default());
+            Some(full.unwrap_or(&name).to_owned())
         }
         (true, suite::IDENTITY) => Some(format!("[{name}] {}", case.alignment)),
         _ => None,
-    }
-}
-
-/// Averages FLIP over the scenes of a row. Doing nothing follows no rule.
-fn mean_flip(cases: &[Case], row: &Row, name: &str) -> String {
-    let of_row =
-        |case: &&Case| case.rate == row.rate && (case.input == row.input || case.is_reference);
-    let own = (cases.iter().filter(of_row)).filter(|case| column(case).as_deref() == Some(name));
-    let flips: Vec<f64> = own.filter_map(|case| case.estimate(Metric::FLIP)).collect();
-    match flips.len() {
-        0 => "n/a".to_owned(),
-        count => Metric::FLIP.number(flips.iter().sum::<f64>() / count as f64),
     }
 }

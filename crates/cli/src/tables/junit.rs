@@ -9,32 +9,24 @@ use super::comparison_line;
 /// Makes the document. A case that failed and a broken required bound are failures; an inconclusive one and one whose limit lies within the noise are
 /// errors; what does not apply or was not judged, and what is broken but only reported, is skipped.
 pub fn junit(check: &Check) -> String {
-    let mut report = Report::new("shuttertruth check");
     let mut suites: Vec<TestSuite> = Vec::new();
-    let mut add = |name: &str, case: TestCase| {
-        match suites.iter_mut().find(|suite| suite.name.as_str() == name) {
-            Some(suite) => drop(suite.add_test_case(case)),
-            None => {
-                let mut suite = TestSuite::new(name);
-                suite.add_test_case(case);
-                suites.push(suite);
-            }
-        };
+    let mut add = |suite: &str, filter: &str, what: &str, status: TestCaseStatus| {
+        let mut case = TestCase::new(format!("{filter} {what}"), status);
+        case.set_classname(format!("{suite}.{filter}"));
+        let known = suites.iter().position(|own| own.name.as_str() == suite);
+        let index = known.unwrap_or_else(|| {
+            suites.push(TestSuite::new(suite));
+            suites.len() - 1
+        });
+        suites[index].add_test_case(case);
     };
     for finding in &check.findings {
-        let mut case = TestCase::new(
-            format!("{} {}", finding.filter, finding.metric),
-            status(finding),
-        );
-        case.set_classname(format!("{}.{}", finding.scene, finding.filter));
-        add(&finding.scene.to_string(), case);
+        let (scene, metric) = (finding.scene.to_string(), finding.metric.name());
+        add(&scene, &finding.filter, &metric, status(finding));
     }
     for failure in &check.failures {
-        let reason = failure.reason.clone();
-        let status = with_message(NonSuccessKind::Failure, "failed", reason);
-        let mut case = TestCase::new(format!("{} runs", failure.filter), status);
-        case.set_classname(format!("{}.{}", failure.scene, failure.filter));
-        add(&failure.scene.to_string(), case);
+        let status = with_message(NonSuccessKind::Failure, "failed", failure.reason.clone());
+        add(&failure.scene.to_string(), &failure.filter, "runs", status);
     }
     for comparison in &check.comparisons {
         let line = comparison_line(comparison);
@@ -43,27 +35,28 @@ pub fn junit(check: &Check) -> String {
             Decision::Broken => with_message(NonSuccessKind::Failure, "worse", line),
             _ => with_message(NonSuccessKind::Error, "inconclusive", line),
         };
-        let name = format!("{} {}", comparison.filter, comparison.metric);
-        let mut case = TestCase::new(name, status);
-        case.set_classname(format!("baseline.{}", comparison.filter));
-        add("baseline", case);
+        add(
+            "baseline",
+            &comparison.filter,
+            &comparison.metric.to_string(),
+            status,
+        );
     }
+    let mut report = Report::new("shuttertruth check");
     report.add_test_suites(suites);
     report.to_string().expect("a report in memory is written")
 }
 
 fn status(finding: &Finding) -> TestCaseStatus {
-    let mut message = finding_line(finding);
-    message.extend(way_out(finding).map(|way_out| format!("; {way_out}")));
-    if let Some(worst) = &finding.worst {
-        message += &format!("; worst at ({}, {})", worst.x, worst.y);
-    }
-    if let Some(frame) = worst_frame_text(finding) {
-        message += &format!("; {frame}");
-    }
-    if let Some(alike) = &finding.resembles {
-        message += &format!("; most like {}", alike.decoy);
-    }
+    let worst = finding.worst.as_ref();
+    let parts = [
+        way_out(finding),
+        worst.map(|worst| format!("worst at ({}, {})", worst.x, worst.y)),
+        worst_frame_text(finding),
+        (finding.resembles.as_ref()).map(|alike| format!("most like {}", alike.decoy)),
+    ];
+    let parts = std::iter::once(finding_line(finding)).chain(parts.into_iter().flatten());
+    let message = parts.collect::<Vec<_>>().join("; ");
     match (finding.outcome, finding.level) {
         (Outcome::Kept, _) => TestCaseStatus::success(),
         (Outcome::Broken, Level::Required) => {

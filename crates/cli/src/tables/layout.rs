@@ -151,16 +151,6 @@ mod tests {
     }
 
     #[test]
-    fn columns_never_touch() {
-        assert_eq!(
-            make_table()
-                .text_in(80)
-                .replace(['\u{fdd0}', '\u{fdd1}'], ""),
-            "filter     FLIP  scene\n  a       -69.6  fan\n  b:c   28209.7  railing\n"
-        );
-    }
-
-    #[test]
     fn a_name_that_does_not_fit_has_a_line_of_its_own() {
         let mut table = make_table();
         table.push("x".repeat(60), ["0.1".into(), "fan".into()]);

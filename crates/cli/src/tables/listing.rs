@@ -1,18 +1,16 @@
 //! Listings of scenes and filters, in brief and in detail.
 
 use filters::{Command, Filter, Parameter, Preset, Unit};
-use store::printable;
 use suite::InputKind;
 use tracer::SceneListing;
 
-use crate::output::{heading, push_wrapped, wrap_lines};
+use crate::output::{heading, push_wrapped};
 
 /// Lists scenes, one short paragraph each.
 pub fn scenes_text(scenes: &[SceneListing]) -> String {
     let mut text = heading("scenes") + "\n";
     for scene in scenes {
-        let line = format!("{}: {}", printable(&scene.name), printable(&scene.exposes));
-        push_wrapped(&mut text, 2, &line);
+        push_wrapped(&mut text, 2, &format!("{}: {}", scene.name, scene.exposes));
     }
     text
 }
@@ -21,17 +19,13 @@ pub fn scenes_text(scenes: &[SceneListing]) -> String {
 pub fn filters_text(filters: &[Filter]) -> String {
     let mut text = heading("filters") + "\n";
     for filter in filters {
-        let presets: Vec<&str> = filter
-            .presets
-            .iter()
-            .map(|preset| preset.name.as_str())
-            .collect();
+        let presets = filter.presets.iter().map(|preset| preset.name.as_str());
         let line = format!(
             "{}: {}. Shutter: {}; presets: {}",
             filter.name,
-            printable(filter.summary.trim_end_matches('.')),
+            filter.summary.trim_end_matches('.'),
             filter.alignment,
-            presets.join(", ")
+            presets.collect::<Vec<_>>().join(", ")
         );
         push_wrapped(&mut text, 2, &line);
     }
@@ -42,11 +36,8 @@ pub fn filters_text(filters: &[Filter]) -> String {
 pub fn inputs_text(kinds: &[InputKind]) -> String {
     let mut text = String::new();
     for kind in kinds {
-        push_wrapped(
-            &mut text,
-            0,
-            &format!("{}: {}", heading(kind.name), kind.help),
-        );
+        let line = format!("{}: {}", heading(kind.name), kind.help);
+        push_wrapped(&mut text, 0, &line);
         for form in &kind.forms {
             push_wrapped(&mut text, 2, &format!("{}: {}", form.name, form.help));
         }
@@ -67,9 +58,16 @@ pub fn input_json(kind: &InputKind) -> serde_json::Value {
 
 /// Describes scenes and filters in detail.
 pub fn details_text(scenes: &[SceneListing], filters: &[Filter]) -> String {
-    let scenes: String = scenes.iter().map(scene_text).collect();
-    let filters: String = filters.iter().map(filter_text).collect();
-    wrap_lines(&(scenes + &filters))
+    let mut text = String::new();
+    for scene in scenes {
+        push_scene(&mut text, scene);
+        text += "\n";
+    }
+    for filter in filters {
+        push_filter(&mut text, filter);
+        text += "\n";
+    }
+    text
 }
 
 /// Describes a scene as JSON.
@@ -117,65 +115,47 @@ pub fn filter_json(filter: &Filter) -> serde_json::Value {
     })
 }
 
-fn scene_text(scene: &SceneListing) -> String {
+fn push_scene(text: &mut String, scene: &SceneListing) {
     let family = serde_json::to_value(scene.family).expect("a family is a word");
-    let mut text = format!(
-        "  {}  ({})\n    {}\n",
-        printable(&scene.name),
-        family.as_str().unwrap_or_default(),
-        printable(&scene.exposes)
-    );
+    let family = family.as_str().unwrap_or_default();
+    push_wrapped(text, 2, &format!("{}  ({family})", scene.name));
+    push_wrapped(text, 4, &scene.exposes);
     if !scene.variants.is_empty() {
-        text += &format!("    variants: {}\n", scene.variants.join(" "));
+        push_wrapped(text, 4, &format!("variants: {}", scene.variants.join(" ")));
     }
-    text + "\n"
 }
 
-fn filter_text(filter: &Filter) -> String {
-    let parameter = |parameter: &Parameter| {
-        format!(
-            "    .{} = {}{} ({})\n        {}\n",
-            parameter.name,
-            parameter.default,
-            parameter.unit.map_or("", |Unit::Pixels| " pixels"),
-            parameter.kind.allowed(),
-            printable(&parameter.doc)
-        )
-    };
-    let command = match &filter.command {
-        Some(command) => command_text(command),
-        None => {
-            let compilers = filter.list_compilers().into_iter();
-            let lines = compilers.map(|line| format!("    {}\n", printable(&line)));
-            lines.collect()
+fn push_filter(text: &mut String, filter: &Filter) {
+    let title = format!("{}  (shutter: {})", filter.name, filter.alignment);
+    push_wrapped(text, 2, &title);
+    push_wrapped(text, 4, &filter.summary);
+    push_wrapped(text, 4, &format!("cannot: {}", filter.cannot));
+    for line in filter.list_compilers() {
+        push_wrapped(text, 4, &line);
+    }
+    if let Some(command) = &filter.command {
+        push_wrapped(text, 4, &format!("runs: {}", command.words().join(" ")));
+        if !command.environment.is_empty() {
+            let names = command.environment.join(" ");
+            push_wrapped(text, 4, &format!("environment: {names}"));
         }
-    };
-    format!(
-        "  {}  (shutter: {})\n    {}\n    cannot: {}\n{command}{}{}\n",
-        filter.name,
-        filter.alignment,
-        printable(&filter.summary),
-        printable(&filter.cannot),
-        filter.presets.iter().map(preset_text).collect::<String>(),
-        filter.parameters.iter().map(parameter).collect::<String>()
-    )
-}
-
-/// Describes the program of a filter, and the variables that it wants to see.
-fn command_text(command: &Command) -> String {
-    let words = command.words().join(" ");
-    let mut text = format!("    runs: {}\n", printable(&words));
-    if !command.environment.is_empty() {
-        let names = command.environment.join(" ");
-        text += &format!("    environment: {}\n", printable(&names));
     }
-    text
+    for preset in &filter.presets {
+        push_preset(text, preset);
+    }
+    for parameter in &filter.parameters {
+        let unit = parameter.unit.map_or("", |Unit::Pixels| " pixels");
+        let Parameter { name, default, .. } = parameter;
+        let allowed = parameter.kind.allowed();
+        push_wrapped(text, 4, &format!(".{name} = {default}{unit} ({allowed})"));
+        push_wrapped(text, 8, &parameter.doc);
+    }
 }
 
 /// Describes a preset: its source, and its differences from that.
-fn preset_text(preset: &Preset) -> String {
-    let mut text = format!("    :{}  {}\n", preset.name, printable(&preset.doc));
-    let mut line = |words: String| text += &format!("        {}\n", printable(&words));
+fn push_preset(text: &mut String, preset: &Preset) {
+    push_wrapped(text, 4, &format!(":{}  {}", preset.name, preset.doc));
+    let mut line = |words: String| push_wrapped(text, 8, &words);
     if let Some(source) = &preset.source {
         if let Some(code) = &source.code {
             line(format!("source: {code}"));
@@ -190,5 +170,4 @@ fn preset_text(preset: &Preset) -> String {
     if let Some(width) = preset.reference_width {
         line(format!("made for pictures {width} pixels wide"));
     }
-    text
 }

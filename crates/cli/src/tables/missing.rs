@@ -9,9 +9,10 @@ use super::legend_text;
 pub struct Missing(Vec<Reason>);
 
 /// A reason, and the scores and rows that it takes out.
+#[derive(Default)]
 struct Reason {
     text: String,
-    titles: Vec<&'static str>,
+    titles: Vec<String>,
     /// Headings of the rows.
     groups: Vec<String>,
     rows: Vec<String>,
@@ -22,25 +23,21 @@ const MAX_NAMED: usize = 3;
 
 impl Missing {
     /// Adds a score of a row below a heading, if it does not apply.
-    pub fn note(&mut self, title: &'static str, measured: &Measured, [group, row]: [&str; 2]) {
+    pub fn note(&mut self, title: &str, measured: &Measured, [group, row]: [&str; 2]) {
         let Measured::NotApplicable { reason } = measured else {
             return;
         };
         let known = self.0.iter().position(|known| known.text == *reason);
-        let index = known.unwrap_or_else(|| {
+        let index = known.unwrap_or(self.0.len());
+        if known.is_none() {
             self.0.push(Reason {
                 text: reason.clone(),
-                titles: Vec::new(),
-                groups: Vec::new(),
-                rows: Vec::new(),
+                ..Reason::default()
             });
-            self.0.len() - 1
-        });
-        let known = &mut self.0[index];
-        if !known.titles.contains(&title) {
-            known.titles.push(title);
         }
-        for (names, name) in [(&mut known.groups, group), (&mut known.rows, row)] {
+        let known = &mut self.0[index];
+        let lists = [&mut known.titles, &mut known.groups, &mut known.rows];
+        for (names, name) in lists.into_iter().zip([title, group, row]) {
             if !names.iter().any(|own| own == name) {
                 names.push(name.to_owned());
             }

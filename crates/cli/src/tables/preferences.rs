@@ -1,11 +1,10 @@
 //! Tables of what people prefer.
 
-use store::printable_path;
 use study::{
     MIN_PEOPLE, Preferences, QuestionResult, RESAMPLES, Resampled, ScoreAgreement, ShutterScale,
 };
 
-use super::{Table, legend_text};
+use super::{Table, cell, legend_text, range_text};
 use crate::output::{count_text, heading, push_wrapped};
 
 /// Meaning of the columns of a scale.
@@ -19,14 +18,13 @@ const SCORES_KEY: &str = "Rank: correlation of the score's means over scenes wit
 
 /// Makes the tables of all questions.
 pub fn preferences_table(found: &Preferences) -> String {
-    let mut text = String::new();
-    for (index, question) in found.questions.iter().enumerate() {
-        if index > 0 {
-            text += "\n";
-        }
+    let mut questions = Vec::new();
+    for question in &found.questions {
+        let mut text = String::new();
         push_question(&mut text, question);
+        questions.push(text);
     }
-    text
+    questions.join("\n")
 }
 
 fn push_question(text: &mut String, found: &QuestionResult) {
@@ -52,24 +50,18 @@ fn push_question(text: &mut String, found: &QuestionResult) {
 
 /// Names the sessions that failed checks.
 fn push_checks(text: &mut String, found: &QuestionResult) {
-    let sum =
-        |count: fn(&study::SessionFacts) -> usize| found.sessions.iter().map(count).sum::<usize>();
-    let (checks, failed) = (sum(|own| own.checks), sum(|own| own.failed_checks));
-    let mut line = format!(
-        "{failed} of {} failed",
-        count_text(checks, "check", "checks")
-    );
-    let names = found
-        .sessions
-        .iter()
-        .filter(|own| own.failed_checks > 0)
-        .map(|own| {
-            let name = printable_path(&own.path);
-            format!("{name} {} of {}", own.failed_checks, own.checks)
+    let checks = found.sessions.iter().map(|own| own.checks).sum();
+    let failed: usize = (found.sessions.iter()).map(|own| own.failed_checks).sum();
+    let all = count_text(checks, "check", "checks");
+    let mut line = format!("{failed} of {all} failed");
+    if failed > 0 {
+        let with_failed = (found.sessions.iter()).filter(|own| own.failed_checks > 0);
+        let names = with_failed.map(|own| {
+            let (path, failed) = (own.path.display(), own.failed_checks);
+            format!("{path} {failed} of {}", own.checks)
         });
-    let names: Vec<String> = names.collect();
-    if !names.is_empty() {
-        line += &format!(": {}; none is left out", names.join(", "));
+        let names = names.collect::<Vec<_>>().join(", ");
+        line += &format!(": {names}; none is left out");
     }
     push_wrapped(text, 0, &line);
 }
@@ -80,8 +72,7 @@ fn push_scale(text: &mut String, scale: &ShutterScale) {
     for own in &scale.filters {
         let cells = [
             signed(own.scale),
-            own.interval
-                .map_or("n/a".to_owned(), |ends| range(ends.map(signed))),
+            cell(own.interval, |ends| range_text(ends, signed)),
             format!("{:.0} %", 100.0 * own.chosen_over_mean),
             own.chosen.to_string(),
             own.compared.to_string(),
@@ -123,9 +114,7 @@ fn describe(scale: &ShutterScale) -> Vec<String> {
         ));
     }
     if !scale.separated.is_empty() {
-        let groups: Vec<String> = scale
-            .separated
-            .iter()
+        let groups: Vec<String> = (scale.separated.iter())
             .map(|group| group.join(", "))
             .collect();
         lines.push(format!(
@@ -140,17 +129,15 @@ fn describe(scale: &ShutterScale) -> Vec<String> {
 fn score_table(scores: &[ScoreAgreement]) -> String {
     let columns = ["rank", "95 % CI", "predicted", "95 % CI", "choices"];
     let mut table = Table::new("score", columns);
-    let none = || "n/a".to_owned();
     for own in scores {
         let percent = |share: f64| format!("{:.0}", 100.0 * share);
         let cells = [
-            own.correlation.map_or_else(none, signed),
-            own.correlation_interval
-                .map_or_else(none, |ends| range(ends.map(signed))),
-            own.predicted
-                .map_or_else(none, |share| percent(share) + " %"),
-            own.predicted_interval
-                .map_or_else(none, |ends| range(ends.map(percent)) + " %"),
+            cell(own.correlation, signed),
+            cell(own.correlation_interval, |ends| range_text(ends, signed)),
+            cell(own.predicted, |share| percent(share) + " %"),
+            cell(own.predicted_interval, |ends| {
+                range_text(ends, percent) + " %"
+            }),
             own.choices.to_string(),
         ];
         table.push(own.score.name(), cells);
@@ -162,8 +149,4 @@ fn score_table(scores: &[ScoreAgreement]) -> String {
 fn signed(value: f64) -> String {
     let rounded = (value * 100.0).round() / 100.0 + 0.0;
     format!("{rounded:+.2}")
-}
-
-fn range([low, high]: [String; 2]) -> String {
-    format!("{low} to {high}")
 }

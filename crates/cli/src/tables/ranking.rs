@@ -6,7 +6,9 @@ use metrics::Metric;
 use suite::Case;
 use tracer::FrameRate;
 
-use super::{Table, frame_rates_text, input_forms_text, legend_text, list_once};
+use super::{
+    Table, frame_rates_text, input_forms_text, legend_text, list_once, mean_text, range_text,
+};
 
 /// Makes the summary of cases, in at most 40 lines: filters ranked within each shutter, then references.
 pub fn ranking_text(cases: &[Case]) -> String {
@@ -14,36 +16,26 @@ pub fn ranking_text(cases: &[Case]) -> String {
     if groups.is_empty() {
         return "no filter has a FLIP score: nothing moves in these scenes\n".to_owned();
     }
-    let shown_presets: usize = groups.iter().flatten().map(|ranked| ranked.presets).sum();
-    let rows: usize = groups.iter().map(Vec::len).sum();
-    let hidden = limit_rows(&mut groups, rows);
+    let count = |groups: &[Vec<RankedFilter>]| groups.iter().map(Vec::len).sum::<usize>();
+    let presets: usize = groups.iter().flatten().map(|ranked| ranked.presets).sum();
+    let rows = count(&groups);
+    if rows > MAX_RANKED {
+        let each = (MAX_RANKED / groups.len()).max(1);
+        groups.iter_mut().for_each(|group| group.truncate(each));
+    }
+    let hidden = rows - count(&groups);
     let mut text = ranking_table(cases, &groups).text();
     text += &references_text(cases, &groups);
     text += "\n";
     text += &legend_text(&notes(&groups));
-    if shown_presets > rows {
-        text += &legend_text(&format!(
-            "Each filter by its best preset; --table shows all {shown_presets}."
-        ));
+    if presets > rows {
+        let note = format!("Each filter by its best preset; --table shows all {presets}.");
+        text += &legend_text(&note);
     }
     if hidden > 0 {
         text += &legend_text(&format!("And {hidden} more: --table shows all."));
     }
-    text += &input_forms_text(cases);
-    text += &frame_rates_text(cases);
-    text
-}
-
-/// Keeps the best of every group; returns the number of rows left out.
-fn limit_rows(groups: &mut [Vec<RankedFilter>], rows: usize) -> usize {
-    if rows <= MAX_RANKED {
-        return 0;
-    }
-    let each = (MAX_RANKED / groups.len()).max(1);
-    for group in groups.iter_mut() {
-        group.truncate(each);
-    }
-    rows - groups.iter().map(Vec::len).sum::<usize>()
+    text + &input_forms_text(cases) + &frame_rates_text(cases)
 }
 
 /// Names the shutter of a group: `centred shutter`, with the frame rate if it is none of the scenes' files.
@@ -90,10 +82,7 @@ pub fn ranking_cells(
     scenes: usize,
     number: impl Fn(f64) -> String,
 ) -> [String; 3] {
-    let interval = match ranked.interval {
-        Some([low, high]) => format!("{} to {}", number(low), number(high)),
-        None => "-".to_owned(),
-    };
+    let interval = (ranked.interval).map_or("-".to_owned(), |ends| range_text(ends, &number));
     let (scene, worst) = &ranked.worst;
     let mut worst = format!("{scene} {}", number(*worst));
     if ranked.scenes < scenes {
@@ -102,55 +91,45 @@ pub fn ranking_cells(
     [number(ranked.mean), interval, worst]
 }
 
-/// Name of the row of the lag.
-const LAG: &str = "lag behind the frame";
-
 /// Makes the table of references: one row each, one column per shutter. The last row is the lag of the shutter's middle behind
 /// the frame.
 fn references_text(cases: &[Case], groups: &[Vec<RankedFilter>]) -> String {
     let references = || (list_summarized(cases).into_iter()).filter(|case| case.is_reference);
-    let names: Vec<String> = references().map(|case| case.name()).collect();
-    let names = list_once(names.iter().map(String::as_str));
+    let names = list_once(references().map(|case| case.name()));
     if names.is_empty() {
         return String::new();
     }
-    let shutters: Vec<(Alignment, Option<FrameRate>)> = groups
+    let shutters = groups
         .iter()
-        .map(|group| (group[0].alignment, group[0].rate))
-        .collect();
-    let columns = shutters.iter().map(|(alignment, rate)| match rate {
+        .map(|group| (group[0].alignment, group[0].rate));
+    let columns = shutters.clone().map(|(alignment, rate)| match rate {
         None => alignment.to_string(),
         Some(rate) => format!("{alignment} {}", rate.word()),
     });
     let mut table = Table::new("references", columns);
-    let of_shutter = |(alignment, rate): &(Alignment, Option<FrameRate>)| -> Vec<&Case> {
-        let is_own = |case: &&Case| case.alignment == *alignment && case.rate == *rate;
-        references().filter(is_own).collect()
-    };
-    let of_shutters: Vec<Vec<&Case>> = shutters.iter().map(of_shutter).collect();
+    let of_shutters: Vec<Vec<&Case>> = shutters
+        .map(|shutter| {
+            let own = references().filter(|case| (case.alignment, case.rate) == shutter);
+            own.collect()
+        })
+        .collect();
+    let number = |value| Metric::FLIP.number(value);
     let mut push = |name: &str, cells: Vec<String>| {
         table.push_row(true, format!("     {name}"), cells);
     };
     for name in names {
-        let mean = |own: &Vec<&Case>| mean_flip(own.iter().filter(|case| case.name() == name));
-        push(name, of_shutters.iter().map(mean).collect());
+        let mean = |own: &Vec<&Case>| {
+            let own = own.iter().filter(|case| case.name() == name);
+            mean_text(own.filter_map(|case| case.estimate(Metric::FLIP)), number)
+        };
+        push(&name, of_shutters.iter().map(mean).collect());
     }
     let lags: Vec<Option<f64>> = of_shutters.iter().map(|own| mean_lag(own)).collect();
     if lags.iter().any(Option::is_some) {
-        let text = |lag: &Option<f64>| lag.map_or("-".to_owned(), |lag| Metric::FLIP.number(lag));
-        push(LAG, lags.iter().map(text).collect());
+        let text = |lag: &Option<f64>| lag.map_or("-".to_owned(), number);
+        push("lag behind the frame", lags.iter().map(text).collect());
     }
     table.text()
-}
-
-fn mean_flip<'a>(cases: impl Iterator<Item = &'a &'a Case>) -> String {
-    let values: Vec<f64> = cases
-        .filter_map(|case| case.estimate(Metric::FLIP))
-        .collect();
-    match values.len() {
-        0 => "n/a".to_owned(),
-        count => Metric::FLIP.number(values.iter().sum::<f64>() / count as f64),
-    }
 }
 
 fn notes(groups: &[Vec<RankedFilter>]) -> String {

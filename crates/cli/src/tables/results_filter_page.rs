@@ -1,14 +1,13 @@
 //! Pages of filters beside the kept results, in Markdown: what each is, what it costs, and where it fails.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use filters::Filter;
 use judge::{RankedFilter, ResultScores, Results};
 use metrics::Metric;
 use tracer::{Location, SceneId, SceneListing, list_scenes};
 
-use super::{cost_text, list_filters, main_results, mean, sealed_of};
+use super::{cost_text, list_filters, main_results, markdown_table, mean, or_dash, sealed_of};
 
 /// Number of scenes that a page names for each preset, the worst first.
 const WORST: usize = 3;
@@ -31,22 +30,22 @@ pub fn picture_name(case: &ResultScores) -> String {
 }
 
 fn page(name: &str, results: &Results, sealed: Option<&Results>) -> String {
-    let mut page = format!("# {name}\n");
     let shipped = Filter::builtin(name).ok();
-    match &shipped {
-        Some(filter) => push_facts(&mut page, filter),
-        None => page += "\nThis filter is not one of the program's.\n",
-    }
-    push_scores(&mut page, name, results, sealed);
-    push_picture(&mut page, name, results);
-    if let Some(filter) = &shipped {
-        push_presets(&mut page, filter);
-    }
-    page
+    let facts = shipped.as_ref().map_or(
+        "\nThis filter is not one of the program's.\n".to_owned(),
+        facts,
+    );
+    let scores = scores(name, results, sealed);
+    let presets = shipped.as_ref().map_or(String::new(), presets);
+    format!(
+        "# {name}\n{facts}{scores}{}{presets}",
+        picture(name, results)
+    )
 }
 
-fn push_facts(page: &mut String, filter: &Filter) {
+fn facts(filter: &Filter) -> String {
     let Filter {
+        name,
         summary,
         source,
         reach,
@@ -54,43 +53,43 @@ fn push_facts(page: &mut String, filter: &Filter) {
         alignment,
         ..
     } = filter;
-    let _ = write!(
-        page,
+    format!(
         "\n{summary}\n\n- Published: {source}\n- Shutter: {alignment}\n- Reach: {reach}\n- Known limits: {cannot}\n- Files: \
-         [shaders/{name}](../shaders/{name})\n",
-        name = filter.name
-    );
+         [shaders/{name}](../shaders/{name})\n"
+    )
 }
 
-/// A row per preset: rank, scores, time, and the scenes that it is worst on.
-fn push_scores(page: &mut String, name: &str, results: &Results, sealed: Option<&Results>) {
+/// Makes a row per preset: rank, scores, time, and the scenes that it is worst on.
+fn scores(name: &str, results: &Results, sealed: Option<&Results>) -> String {
     let [width, height] = results.size;
     let of = |results: &Results| -> Vec<RankedFilter> {
         let ranked = results.ranking(None).into_iter().flatten();
         ranked.filter(|own| own.filter == name).collect()
     };
     let others = sealed.map(of).unwrap_or_default();
-    let _ = write!(
-        page,
-        "\n## Scores at {width}x{height}\n\n| preset | rank in its shutter | FLIP (95 % CI) | sealed: rank | time | worst scenes |\n|---|---|---|---|---|---|\n"
-    );
-    for ranked in of(results) {
+    let titles = [
+        "preset",
+        "rank in its shutter",
+        "FLIP (95 % CI)",
+        "sealed: rank",
+        "time",
+        "worst scenes",
+    ];
+    let row = |ranked: RankedFilter| {
         let other = others.iter().find(|other| other.name == ranked.name);
-        let _ = writeln!(
-            page,
-            "| `{}` | {} | {} | {} | {} | {} |",
-            ranked.name,
+        vec![
+            format!("`{}`", ranked.name),
             ranked.rank_text(),
             mean(&ranked),
-            other.map_or("-".to_owned(), RankedFilter::rank_text),
-            results
-                .costs
-                .get(&ranked.name)
-                .map_or("-".to_owned(), cost_text),
-            worst_scenes(&ranked.name, results)
-        );
-    }
-    page.push_str("\n[All filters](README.md), with what the columns mean.\n");
+            or_dash(other, RankedFilter::rank_text),
+            or_dash(results.costs.get(&ranked.name), cost_text),
+            worst_scenes(&ranked.name, results),
+        ]
+    };
+    format!(
+        "\n## Scores at {width}x{height}\n\n{}\n[All filters](README.md), with what the columns mean.\n",
+        markdown_table(&titles, of(results).into_iter().map(row))
+    )
 }
 
 /// `fan 0.136, wires 0.110`
@@ -106,19 +105,18 @@ fn worst_scenes(name: &str, results: &Results) -> String {
     texts.join(", ")
 }
 
-fn push_picture(page: &mut String, name: &str, results: &Results) {
-    let Some(worst) = results.worst_of(name) else {
-        return;
+fn picture(name: &str, results: &Results) -> String {
+    let text = |worst: &ResultScores| {
+        format!(
+            "\n## Worst picture of its best preset\n\nScenes in which even the one-frame oracle gains nothing are left out: all filters fail alike there.\n\n![truth, output and FLIP of {case} on {scene}](pictures/{file})\n\nTruth, output and FLIP of `{case}` \
+             on {scene}{exposes}\n",
+            case = worst.name,
+            scene = worst.scene,
+            file = picture_name(worst),
+            exposes = exposes(&worst.scene),
+        )
     };
-    let _ = write!(
-        page,
-        "\n## Worst picture of its best preset\n\nScenes in which even the one-frame oracle gains nothing are left out: all filters fail alike there.\n\n![truth, output and FLIP of {case} on {scene}](pictures/{file})\n\nTruth, output and FLIP of `{case}` \
-         on {scene}{exposes}\n",
-        case = worst.name,
-        scene = worst.scene,
-        file = picture_name(worst),
-        exposes = exposes(&worst.scene),
-    );
+    results.worst_of(name).map_or(String::new(), text)
 }
 
 /// What a scene of the program's exposes, as the end of a sentence.
@@ -131,21 +129,22 @@ fn exposes(scene: &SceneId) -> String {
     }
 }
 
-fn push_presets(page: &mut String, filter: &Filter) {
-    page.push_str("\n## Presets\n\n");
+fn presets(filter: &Filter) -> String {
+    let mut text = "\n## Presets\n\n".to_owned();
     for preset in &filter.presets {
-        let _ = writeln!(page, "- `{}:{}`: {}", filter.name, preset.name, preset.doc);
+        text += &format!("- `{}:{}`: {}\n", filter.name, preset.name, preset.doc);
         let Some(source) = &preset.source else {
             continue;
         };
         if let Some(publication) = &source.publication {
-            let _ = writeln!(page, "  - Follows {publication}");
+            text += &format!("  - Follows {publication}\n");
         }
         if let Some(code) = &source.code {
-            let _ = writeln!(page, "  - Code: {code}");
+            text += &format!("  - Code: {code}\n");
         }
         if !source.differs.is_empty() {
-            let _ = writeln!(page, "  - Differs: {}", source.differs.join(" "));
+            text += &format!("  - Differs: {}\n", source.differs.join(" "));
         }
     }
+    text
 }

@@ -1,15 +1,14 @@
 //! The page of kept results, in Markdown.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
 use suite::{Error, MIN_SCENES};
-use tracer::{Family, Location, SceneId, list_scenes};
+use tracer::{Family, Location, SceneId, SceneListing, list_scenes};
 
-use super::list_once;
+use super::{list_once, markdown_table, range_text};
 
 const FAMILIES: [Family; 7] = [
     Family::Translation,
@@ -81,27 +80,20 @@ fn push_size(
 ) -> Result<(), Error> {
     let [width, height] = results.size;
     let scenes = results.scenes();
-    let _ = write!(
-        page,
-        "\n## {width}x{height}, {} scenes\n\nOn {}:\n\n    {}\n",
+    *page += &format!(
+        "\n## {width}x{height}, {} scenes\n\nOn {}:\n\n",
         scenes.len(),
         results.adapter.as_deref().unwrap_or("no adapter"),
-        command(results, &scenes)
     );
-    if let Some(sealed) = sealed {
-        let _ = writeln!(page, "    {}", command(sealed, &scenes));
+    for run in std::iter::once(results).chain(sealed) {
+        *page += &format!("    {}\n", command(run, &scenes));
     }
     let sealed_groups = sealed.map(|sealed| sealed.ranking(None));
     for group in results.ranking(None) {
         let alignment = group[0].alignment;
         let others = (sealed_groups.iter().flatten()).find(|other| other[0].alignment == alignment);
-        let _ = write!(page, "\n### {width}x{height}, {alignment} shutter\n\n");
-        let beside = Beside {
-            sealed: others.map(Vec::as_slice),
-            costs: &results.costs,
-            pages,
-        };
-        push_ranking(page, &group, &beside);
+        *page += &format!("\n### {width}x{height}, {alignment} shutter\n\n");
+        *page += &ranking(&group, others.map(Vec::as_slice), &results.costs, pages);
         if let Some(sealed) = sealed {
             push_agreement(page, results, sealed, alignment)?;
         }
@@ -110,89 +102,73 @@ fn push_size(
     Ok(())
 }
 
-/// The command that makes the run.
+/// Writes the command that makes the run.
 fn command(results: &Results, scenes: &[&SceneId]) -> String {
     let [width, height] = results.size;
-    let filters = list_filters(results);
     let (seal, of_seal) = match results.seal {
         Some(seed) => (format!(" --seal {seed}"), format!("_seal{seed}")),
         None => (String::new(), String::new()),
     };
     let shipped = list_scenes(Location::of_bundle(&catalogue::SCENES))
         .expect("the program's own scenes can be listed");
-    let is_all = shipped
-        .iter()
-        .all(|listing| scenes.iter().any(|scene| **scene == listing.name.as_str()));
-    let scenes = match is_all {
+    let is_there = |listing: &SceneListing| scenes.iter().any(|own| **own == listing.name.as_str());
+    let scenes = match shipped.iter().all(is_there) {
         true => String::new(),
-        false => format!(
-            " --scenes {}",
-            scenes
-                .iter()
-                .map(|scene| scene.to_string())
-                .collect::<Vec<_>>()
-                .join(",")
-        ),
+        false => {
+            let names: Vec<String> = scenes.iter().map(|scene| scene.to_string()).collect();
+            format!(" --scenes {}", names.join(","))
+        }
     };
     format!(
         "shuttertruth run{scenes}{seal} --size {width}x{height} --samples-per-pixel {} --jitter-frames 0 --filter {} --out out/results_{width}x{height}{of_seal}",
         results.samples_per_pixel,
-        filters.join(",")
+        list_filters(results).join(",")
     )
 }
 
-/// What stands beside the ranks of filters.
-struct Beside<'a> {
-    /// The same shutter's ranks in the sealed variants.
-    sealed: Option<&'a [RankedFilter]>,
-    /// Costs by preset.
-    costs: &'a BTreeMap<String, ResultCost>,
-    /// Filters that have a page.
-    pages: &'a [&'a str],
-}
-
-fn push_ranking(page: &mut String, group: &[RankedFilter], beside: &Beside) {
+/// Makes the table of a shutter's filters, with their ranks in the sealed variants and their costs. Names of filters with a page lead
+/// there.
+fn ranking(
+    group: &[RankedFilter],
+    sealed: Option<&[RankedFilter]>,
+    costs: &BTreeMap<String, ResultCost>,
+    pages: &[&str],
+) -> String {
     let mut titles = vec!["rank", "filter", "FLIP (95 % CI)"];
-    if beside.sealed.is_some() {
+    if sealed.is_some() {
         titles.extend(["sealed: rank", "FLIP (95 % CI)"]);
     }
-    if !beside.costs.is_empty() {
+    if !costs.is_empty() {
         titles.push("time");
     }
-    titles.push(match beside.sealed {
+    titles.push(match sealed {
         Some(_) => "worst scene of the catalogue",
         None => "worst scene",
     });
-    let _ = write!(
-        page,
-        "| {} |\n|{}\n",
-        titles.join(" | "),
-        "---|".repeat(titles.len())
-    );
-    for ranked in group {
-        let _ = writeln!(page, "| {} |", ranking_row(ranked, beside).join(" | "));
-    }
+    let row = |ranked: &RankedFilter| {
+        let name = format!("`{}`", ranked.name);
+        let name = match pages.contains(&ranked.filter.as_str()) {
+            true => format!("[{name}]({}.md)", ranked.filter),
+            false => name,
+        };
+        let mut cells = vec![ranked.rank_text(), name, mean(ranked)];
+        if let Some(sealed) = sealed {
+            let other = sealed.iter().find(|other| other.name == ranked.name);
+            cells.extend([RankedFilter::rank_text, mean].map(|text| or_dash(other, text)));
+        }
+        if !costs.is_empty() {
+            cells.push(or_dash(costs.get(&ranked.name), cost_text));
+        }
+        let (scene, worst) = &ranked.worst;
+        cells.push(format!("{scene} {}", Metric::FLIP.number(*worst)));
+        cells
+    };
+    markdown_table(&titles, group.iter().map(row))
 }
 
-fn ranking_row(ranked: &RankedFilter, beside: &Beside) -> Vec<String> {
-    let name = format!("`{}`", ranked.name);
-    let name = match beside.pages.contains(&ranked.filter.as_str()) {
-        true => format!("[{name}]({}.md)", ranked.filter),
-        false => name,
-    };
-    let mut cells = vec![ranked.rank_text(), name, mean(ranked)];
-    if let Some(sealed) = beside.sealed {
-        let other = sealed.iter().find(|other| other.name == ranked.name);
-        cells
-            .extend([RankedFilter::rank_text, mean].map(|text| other.map_or("-".to_owned(), text)));
-    }
-    if !beside.costs.is_empty() {
-        let cost = beside.costs.get(&ranked.name);
-        cells.push(cost.map_or("-".to_owned(), cost_text));
-    }
-    let (scene, worst) = &ranked.worst;
-    cells.push(format!("{scene} {}", Metric::FLIP.number(*worst)));
-    cells
+/// Fills a cell; a dash where there is nothing.
+pub(super) fn or_dash<T>(value: Option<T>, text: impl FnOnce(T) -> String) -> String {
+    value.map_or("-".to_owned(), text)
 }
 
 /// `0.47 (0.40 to 0.53)`: median and quartiles.
@@ -206,17 +182,10 @@ pub(super) fn cost_text(cost: &ResultCost) -> String {
 
 pub(super) fn mean(ranked: &RankedFilter) -> String {
     let number = |value| Metric::FLIP.number(value);
-    match ranked.interval {
-        Some([low, high]) => {
-            format!(
-                "{} ({} to {})",
-                number(ranked.mean),
-                number(low),
-                number(high)
-            )
-        }
-        None => number(ranked.mean),
-    }
+    let interval = ranked
+        .interval
+        .map(|ends| format!(" ({})", range_text(ends, number)));
+    number(ranked.mean) + &interval.unwrap_or_default()
 }
 
 /// Says whether the sealed variants order the filters as the catalogue does.
@@ -227,30 +196,23 @@ fn push_agreement(
     alignment: Alignment,
 ) -> Result<(), Error> {
     let compared = compare_sizes(&[results, sealed], Metric::FLIP)?;
-    let Some(SizeComparison { agreement, .. }) =
-        (compared.into_iter()).find(|own| own.alignment == alignment)
-    else {
+    let mut of_shutter = compared.iter().filter(|own| own.alignment == alignment);
+    let Some(SizeComparison { agreement, .. }) = of_shutter.next() else {
         return Ok(());
     };
     let own = &agreement[0];
-    let _ = write!(
-        page,
-        "\nKendall's tau of the catalogue's order and the sealed variants' is {:.2}",
-        own.tau
-    );
-    if let Some([low, high]) = own.interval {
-        let _ = write!(page, " (95 % CI {low:.2} to {high:.2})");
-    }
-    let _ = writeln!(
-        page,
-        ". Both order {} pairs of filters alike; {} pairs are turned round.",
+    let interval = (own.interval)
+        .map(|[low, high]| format!(" (95 % CI {low:.2} to {high:.2})"))
+        .unwrap_or_default();
+    *page += &format!(
+        "\nKendall's tau of the catalogue's order and the sealed variants' is {:.2}{interval}. Both order {} pairs of filters alike; {} pairs are turned round.\n",
+        own.tau,
         own.alike,
         own.reversed.len()
     );
     for turned in &own.reversed {
-        let _ = writeln!(
-            page,
-            "`{}` is better than `{}` on the catalogue, and worse on the sealed variants.",
+        *page += &format!(
+            "`{}` is better than `{}` on the catalogue, and worse on the sealed variants.\n",
             turned.better_here, turned.better_at_largest
         );
     }
@@ -262,38 +224,33 @@ fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
     let alignment = group[0].alignment;
     let families: Vec<(Family, Vec<RankedFilter>)> = (FAMILIES.into_iter())
         .filter_map(|family| {
-            let groups = results.ranking(Some(family)).into_iter();
-            let own = groups
-                .into_iter()
-                .find(|own| own[0].alignment == alignment)?;
-            Some((family, own))
+            let mut groups = results.ranking(Some(family)).into_iter();
+            Some((family, groups.find(|own| own[0].alignment == alignment)?))
         })
         .collect();
     if families.len() < 2 {
         return;
     }
-    let names: String = (families.iter())
-        .map(|(family, ranked)| format!(" {} ({}) |", family.name(), ranked[0].scenes))
-        .collect();
-    let _ = write!(
-        page,
-        "\nMean FLIP per family, with its number of scenes; where there are {MIN_SCENES} or more, with its 95 % CI and the rank. Fewer order nothing:\n\n| filter |{names}\n|---|{}\n",
-        "---|".repeat(families.len())
+    let names = (families.iter())
+        .map(|(family, ranked)| format!("{} ({})", family.name(), ranked[0].scenes));
+    let titles: Vec<String> = std::iter::once("filter".to_owned()).chain(names).collect();
+    let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
+    let cell = |own: &RankedFilter| match own.scenes >= MIN_SCENES {
+        true => format!("{}, {}", mean(own), own.rank_text()),
+        false => Metric::FLIP.number(own.mean),
+    };
+    let row = |ranked: &RankedFilter| {
+        let of_family = |(_, family): &(Family, Vec<RankedFilter>)| {
+            let own = family.iter().find(|own| own.name == ranked.name);
+            own.map_or_else(String::new, cell)
+        };
+        let cells = families.iter().map(of_family);
+        std::iter::once(format!("`{}`", ranked.name))
+            .chain(cells)
+            .collect()
+    };
+    *page += &format!(
+        "\nMean FLIP per family, with its number of scenes; where there are {MIN_SCENES} or more, with its 95 % CI and the rank. Fewer order nothing:\n\n{}",
+        markdown_table(&titles, group.iter().map(row))
     );
-    for ranked in group {
-        let _ = write!(page, "| `{}` |", ranked.name);
-        for (_, family) in &families {
-            let _ = match family.iter().find(|own| own.name == ranked.name) {
-                Some(own) => {
-                    let text = match own.scenes >= MIN_SCENES {
-                        true => format!("{}, {}", mean(own), own.rank_text()),
-                        false => Metric::FLIP.number(own.mean),
-                    };
-                    write!(page, " {text} |")
-                }
-                None => write!(page, " |"),
-            };
-        }
-        page.push('\n');
-    }
 }

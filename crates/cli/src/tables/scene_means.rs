@@ -4,7 +4,7 @@ use frame::Alignment;
 use metrics::{Metric, SkillMetric};
 use suite::{Overall, rank_filters};
 
-use super::{Column, Table, bracket_name, legend_text, list_once, shutter_text};
+use super::{Column, Table, bracket_name, cell, legend_text, list_once, range_text, shutter_text};
 use crate::output::heading;
 
 /// Columns behind FLIP, which ranks filters of one alignment.
@@ -28,7 +28,7 @@ pub fn means_table(overall: &[Overall]) -> String {
     if groups.is_empty() {
         return String::new();
     }
-    let mut by_flip = means_heading(overall, "FLIP", &MEAN_COLUMNS, None);
+    let mut by_flip = begin_means(overall, "FLIP", &MEAN_COLUMNS, None);
     for group in groups {
         let shutter = shutter_text(group[0].alignment, group[0].rate);
         by_flip.push_text(heading(&shutter));
@@ -42,24 +42,23 @@ pub fn means_table(overall: &[Overall]) -> String {
             );
         }
     }
-    let mut text = "\n".to_owned() + &by_flip.text();
+    let mut text = format!("\n{}", by_flip.text());
     for group in rank_filters(overall, Metric::SKILL) {
-        let mut by_skill = means_heading(overall, "skill", &SKILL_COLUMNS, Some("shutter"));
+        let mut by_skill = begin_means(overall, "skill", &SKILL_COLUMNS, Some("shutter"));
         if let Some(rate) = group[0].rate {
             by_skill.push_text(heading(&rate.text()));
         }
         for row in group {
-            let columns = (Metric::SKILL, &SKILL_COLUMNS[..]);
+            let last = Some(row.alignment.name());
             push_mean(
                 &mut by_skill,
                 overall,
                 row,
-                columns,
-                Some(row.alignment.name()),
+                (Metric::SKILL, &SKILL_COLUMNS),
+                last,
             );
         }
-        text += "\n";
-        text += &by_skill.text();
+        text += &format!("\n{}", by_skill.text());
         text += &legend_text(
             "Skill is by FLIP, by MSE and by label TV: the share of the way from a sharp picture of the shutter's middle, 0 \
              ([identity] if centred, else [accumulate:1]), to [scatter_oracle], 1.",
@@ -91,12 +90,10 @@ fn fewer_scenes_note(overall: &[Overall]) -> String {
     }
 }
 
-fn means_heading(overall: &[Overall], by: &str, others: &[Column], last: Option<&str>) -> Table {
+fn begin_means(overall: &[Overall], by: &str, others: &[Column], last: Option<&str>) -> Table {
     let scenes = overall.iter().map(|mean| mean.scenes).max().unwrap_or(0);
-    let titles = [by, "95 % CI"].into_iter();
-    let titles = titles
-        .chain(others.iter().map(|(title, _)| *title))
-        .chain(last);
+    let others = others.iter().map(|(title, _)| *title);
+    let titles = [by, "95 % CI"].into_iter().chain(others).chain(last);
     Table::new(format!("mean over {scenes} scenes"), titles)
 }
 
@@ -108,13 +105,14 @@ fn push_mean(
     (by, others): (Metric, &[Column]),
     last: Option<&str>,
 ) {
-    let [low, high] = row.interval.map(|end| by.number(end));
-    let ranked_by = [by.number(row.mean), format!("{low} to {high}")];
-    let means = others.iter().map(|(_, metric)| {
-        let own = (overall.iter()).find(|mean| mean.metric == *metric && mean.is_of_same(row));
-        own.map_or("n/a".to_owned(), |own| metric.number(own.mean))
-    });
-    let cells = (ranked_by.into_iter().chain(means)).chain(last.map(str::to_owned));
+    let number = |value| by.number(value);
+    let mut cells = vec![number(row.mean), range_text(row.interval, number)];
+    for (_, metric) in others {
+        let mut own = overall.iter().filter(|mean| mean.is_of_same(row));
+        let mean = own.find(|mean| mean.metric == *metric);
+        cells.push(cell(mean, |mean| metric.number(mean.mean)));
+    }
+    cells.extend(last.map(str::to_owned));
     let name = bracket_name(&row.filter, row.is_reference);
     table.push_row(row.is_reference, name, cells);
 }

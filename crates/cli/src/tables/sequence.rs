@@ -5,7 +5,9 @@ use metrics::{SequenceMetric, SequenceScores};
 use suite::{Run, Sequence};
 use tracer::SceneId;
 
-use super::{Table, bracket_name, group_text, legend_text, list_once, ranked_name, ranking_cells};
+use super::{
+    Table, bracket_name, cell, group_text, legend_text, list_once, ranked_name, ranking_cells,
+};
 use crate::output::heading;
 
 /// Columns, each with its title.
@@ -33,13 +35,8 @@ pub fn sequences_text(run: &Run, all: bool) -> String {
     match scenes.len() {
         0 => String::new(),
         1 => sequence_table(run, &scenes),
-        _ => {
-            let tables = match all {
-                true => sequence_table(run, &scenes),
-                false => String::new(),
-            };
-            ranking_table(run, scenes.len()) + &tables
-        }
+        count if all => ranking_table(run, count) + &sequence_table(run, &scenes),
+        count => ranking_table(run, count),
     }
 }
 
@@ -54,17 +51,14 @@ fn ranking_table(run: &Run, scenes: usize) -> String {
         for own in group {
             let number = |value| RANKED_BY.shown_text(value);
             let [jod, interval, worst] = ranking_cells(&own.ranked, scenes, number);
-            let [error, along] =
-                [SequenceMetric::Error, SequenceMetric::FlickerAlong].map(|metric| {
-                    let mut means = own.means.iter();
-                    let mean =
-                        means.find_map(|(known, mean)| (*known == metric).then_some(*mean)?);
-                    mean.map_or("n/a".to_owned(), |mean| metric.shown_text(mean.mean))
-                });
-            table.push(
-                ranked_name(&own.ranked),
-                [jod, interval, error, along, worst],
-            );
+            let mean = |metric: SequenceMetric| {
+                let mut means = own.means.iter();
+                let mean = means.find_map(|(known, mean)| (*known == metric).then_some(*mean)?);
+                cell(mean, |mean| metric.shown_text(mean.mean))
+            };
+            let [error, along] = [SequenceMetric::Error, SequenceMetric::FlickerAlong].map(mean);
+            let cells = [jod, interval, error, along, worst];
+            table.push(ranked_name(&own.ranked), cells);
         }
     }
     let mut notes = "Sequences, ranked by JOD: quality by ColorVideoVDP, 10 at most, higher is better. Error: of single frames; along: of \
@@ -84,15 +78,13 @@ fn sequence_table(run: &Run, scenes: &[&SceneId]) -> String {
         let of_scene = || run.sequences.iter().filter(|own| own.scene == **scene);
         let groups = rank_sequences_on(run, scene);
         for alignment in list_once(of_scene().map(|own| own.alignment)) {
-            let title = format!("{scene}, {alignment} shutter");
-            table.push_text(heading(&title));
-            let of_shutter: Vec<&Sequence> = of_scene()
-                .filter(|own| own.alignment == alignment)
-                .collect();
-            let ranked: Vec<&RankedSequence> = (groups.iter().flatten())
-                .filter(|own| own.ranked.alignment == alignment)
-                .collect();
-            for (name, own) in order_rows(&of_shutter, &ranked) {
+            table.push_text(heading(&format!("{scene}, {alignment} shutter")));
+            let of_shutter = of_scene().filter(|own| own.alignment == alignment);
+            let ranked = groups.iter().flatten();
+            let ranked = ranked.filter(|own| own.ranked.alignment == alignment);
+            for (name, own) in
+                order_rows(&of_shutter.collect::<Vec<_>>(), &ranked.collect::<Vec<_>>())
+            {
                 table.push_row(own.is_reference, name, score_cells(&own.scores));
             }
         }
@@ -127,17 +119,17 @@ fn order_rows<'a>(
     sequences: &[&'a Sequence],
     ranked: &[&RankedSequence],
 ) -> Vec<(String, &'a Sequence)> {
-    let references = sequences.iter().filter(|own| own.is_reference);
-    let references =
-        references.map(|own| (format!("    {}", bracket_name(&own.filter, true)), *own));
+    let mut rows = Vec::new();
+    for own in sequences.iter().filter(|own| own.is_reference) {
+        rows.push((format!("    {}", bracket_name(&own.filter, true)), *own));
+    }
     let filters = || sequences.iter().filter(|own| !own.is_reference);
-    let with_rank = ranked.iter().filter_map(|own| {
-        let mut filters = filters();
-        let sequence = filters.find(|sequence| sequence.filter == own.ranked.name)?;
-        Some((ranked_name(&own.ranked), *sequence))
-    });
-    let has_rank = |own: &Sequence| ranked.iter().any(|it| it.ranked.name == own.filter);
-    let without = filters().filter(|own| !has_rank(own));
-    let without = without.map(|own| (format!("    {}", own.filter), *own));
-    references.chain(with_rank).chain(without).collect()
+    for RankedSequence { ranked, .. } in ranked {
+        let own = filters().find(|own| own.filter == ranked.name);
+        rows.extend(own.map(|own| (ranked_name(ranked), *own)));
+    }
+    for own in filters().filter(|own| !ranked.iter().any(|it| it.ranked.name == own.filter)) {
+        rows.push((format!("    {}", own.filter), *own));
+    }
+    rows
 }

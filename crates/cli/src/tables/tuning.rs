@@ -3,7 +3,7 @@
 use suite::MIN_SCENES;
 use tune::{Advice, Difference, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning};
 
-use super::Table;
+use super::{Table, cell};
 use crate::output::{count_text, heading, push_wrapped};
 
 /// Upper limit on rows of the front; `tune.json` has all.
@@ -27,14 +27,13 @@ pub fn tuning_table(tuning: &Tuning) -> String {
     text += &heading("trial    error    bleed     cost  values that differ from the start");
     text += "\n";
     let mut rows = vec![&tuning.start];
-    rows.extend(tuning.front.iter().take(ROWS));
+    let front = tuning.front.iter().take(ROWS);
+    rows.extend(front.filter(|trial| trial.trial != 0));
     if !rows.iter().any(|row| row.trial == tuning.chosen.trial) {
         rows.push(&tuning.chosen);
     }
-    for (index, trial) in rows.iter().enumerate() {
-        if index == 0 || trial.trial != 0 {
-            text += &trial_row(trial, &tuning.start, tuning.chosen.trial);
-        }
+    for trial in rows {
+        text += &trial_row(trial, &tuning.start, tuning.chosen.trial);
     }
     text += "bleed: bleed_lateral of the worst scene, in pixels\n";
     if tuning.front.len() > ROWS {
@@ -61,25 +60,23 @@ pub fn tuning_table(tuning: &Tuning) -> String {
         text += "\n";
         text += &heading("family left out  scenes  trial  on the others  on the family    gap");
         text += "\n";
-        for fold in &tuning.folds {
-            text += &format!(
-                "{:15} {:7} {:6} {:14.3} {:14.3} {:6.3}\n",
-                fold.family, fold.scenes, fold.trial, fold.others, fold.held_out, fold.gap
-            );
-        }
+    }
+    for fold in &tuning.folds {
+        text += &format!(
+            "{:15} {:7} {:6} {:14.3} {:14.3} {:6.3}\n",
+            fold.family, fold.scenes, fold.trial, fold.others, fold.held_out, fold.gap
+        );
     }
     if let Some(last) = tuning.held_out.last() {
+        let times = match tuning.held_out.len() {
+            1 => "once".to_owned(),
+            times => format!("{times} times"),
+        };
+        let [width, height, samples] = last.render;
         text += &format!(
-            "\nheld-out scenes, evaluated {} at {}x{}, {} samples per pixel:\n",
-            match tuning.held_out.len() {
-                1 => "once".to_owned(),
-                times => format!("{times} times"),
-            },
-            last.render[0],
-            last.render[1],
-            last.render[2]
+            "\nheld-out scenes, evaluated {times} at {width}x{height}, {samples} samples per pixel:\n{}",
+            paired_table(&last.paired, ["start", "chosen"])
         );
-        text += &paired_table(&last.paired, ["start", "chosen"]);
     }
     for (trial, reason) in &tuning.failed {
         push_wrapped(&mut text, 0, &format!("failed: trial {trial}: {reason}"));
@@ -116,26 +113,19 @@ pub fn advice_text(tuning: &Tuning) -> String {
 }
 
 fn trial_row(trial: &Trial, start: &Trial, chosen: usize) -> String {
-    let changed: Vec<String> = (trial.values.iter())
+    let changed = (trial.values.iter())
         .filter(|(name, value)| start.values[*name] != **value)
-        .map(|(name, value)| format!("{name}={value}"))
-        .collect();
-    let number = |value: Option<f64>| match value {
-        Some(value) => format!("{value:8.3}"),
-        None => format!("{:>8}", "-"),
-    };
+        .map(|(name, value)| format!("{name}={value}"));
     let changed = match trial.trial {
         0 => "the start".to_owned(),
-        _ => changed.join(" "),
+        _ => changed.collect::<Vec<_>>().join(" "),
     };
-    let numbers = format!(
-        "{:4}{} {} {} {}",
-        trial.trial,
-        if trial.trial == chosen { "*" } else { " " },
-        number(trial.error),
-        number(trial.bleed),
-        number(trial.cost),
-    );
+    let mut numbers = format!("{:4}", trial.trial);
+    numbers += if trial.trial == chosen { "*" } else { " " };
+    for value in [trial.error, trial.bleed, trial.cost] {
+        let text = value.map_or("-".to_owned(), |value| format!("{value:.3}"));
+        numbers += &format!(" {text:>8}");
+    }
     let mut values = String::new();
     // As far to the right as the numbers are wide.
     push_wrapped(&mut values, VALUES, &changed);
@@ -152,45 +142,31 @@ pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
         second,
     ];
     let mut table = Table::new("scene", titles);
-    let bleed = |bleed: Option<f64>| bleed.map_or("n/a".to_owned(), |bleed| format!("{bleed:.3}"));
-    for (scene, [first, second]) in &paired.scenes {
-        let flips = [first.flip, second.flip].map(|flip| format!("{flip:.4}"));
-        let bleeds = [first.bleed, second.bleed].map(bleed);
+    for (scene, both) in &paired.scenes {
+        let flips = both.map(|own| format!("{:.4}", own.flip));
+        let bleeds = both.map(|own| cell(own.bleed, |bleed| format!("{bleed:.3}")));
         table.push(scene, flips.into_iter().chain(bleeds));
     }
     let mut text = table.text();
-    let flip = format!(
-        "FLIP of {} against {}: {}: {}",
-        names[1],
-        names[0],
-        paired.flip.text(percent),
-        verdict_text(&paired.flip, names)
-    );
-    push_wrapped(&mut text, 0, &flip);
+    let mut push = |what: &str, numbers: String, verdict: &str| {
+        let line = format!("{what} of {second} against {first}: {numbers}: {verdict}");
+        push_wrapped(&mut text, 0, &line);
+    };
+    let verdict = |difference: &Difference| match difference.verdict {
+        Preference::First => format!("{first} is better"),
+        Preference::Second => format!("{second} is better"),
+        Preference::Undecided => "undecided".to_owned(),
+    };
+    push("FLIP", paired.flip.text(percent), &verdict(&paired.flip));
     if let Some(bleed) = &paired.bleed {
-        let bleed = format!(
-            "lateral bleed of {} against {}: {}: {}",
-            names[1],
-            names[0],
-            bleed.text(|bleed| format!("{bleed:+.3} px")),
-            match bleed.verdict {
-                Preference::Undecided if bleed.is_no_worse(LEAST_BLEED) => {
-                    "undecided, and no worse".to_owned()
-                }
-                _ => verdict_text(bleed, names),
-            }
-        );
-        push_wrapped(&mut text, 0, &bleed);
+        let mut verdict = verdict(bleed);
+        if bleed.verdict == Preference::Undecided && bleed.is_no_worse(LEAST_BLEED) {
+            verdict += ", and no worse";
+        }
+        let numbers = bleed.text(|bleed| format!("{bleed:+.3} px"));
+        push("lateral bleed", numbers, &verdict);
     }
     text
-}
-
-fn verdict_text(difference: &Difference, names: [&str; 2]) -> String {
-    match difference.verdict {
-        Preference::First => format!("{} is better", names[0]),
-        Preference::Second => format!("{} is better", names[1]),
-        Preference::Undecided => "undecided".to_owned(),
-    }
 }
 
 /// Formats a mean of logs as a change of the error.

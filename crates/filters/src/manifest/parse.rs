@@ -81,15 +81,11 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     if let Some(reach_by) = &manifest.reach_by {
         check_reach_by(&file, reach_by, names)?;
     }
+    let width = manifest.reference_width.as_ref();
     Ok(Filter {
         name: manifest.name.get_ref().clone(),
         folder: None,
-        presets: read_presets(
-            &file,
-            &manifest.preset,
-            &parameters,
-            manifest.reference_width.as_ref(),
-        )?,
+        presets: read_presets(&file, &manifest.preset, &parameters, width)?,
         passes: read_passes(&file, &manifest.pass, names)?,
         convention,
         history: read_history(&file, &manifest)?,

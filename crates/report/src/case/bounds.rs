@@ -3,9 +3,8 @@
 use judge::{CROP, Finding, Level, number};
 use maud::{Markup, html};
 
-use super::case_view::CaseView;
-use super::evidence::Evidence;
-use crate::filter_id::case_anchor;
+use super::case_view::{CaseView, Evidence};
+use crate::address::case_anchor;
 use crate::finding_text::{Status, Tally, finding_line, limit_text, way_out, worst_frame_text};
 use crate::numbers::counted;
 use crate::sequence::SEQUENCES_PAGE;
@@ -13,7 +12,7 @@ use crate::sequence::SEQUENCES_PAGE;
 /// Lists the required bounds of a run that are not met, each with a link to its case.
 pub fn broken_bounds(pages: &[CaseView]) -> Markup {
     let broken: Vec<(&CaseView, &Finding)> = (pages.iter())
-        .flat_map(|page| page.findings.iter().map(move |finding| (page, finding)))
+        .flat_map(|page| page.findings.iter().map(move |finding| (page, *finding)))
         .filter(|(_, finding)| finding.level == Level::Required && finding.outcome.is_notable())
         .collect();
     html! {

@@ -4,29 +4,24 @@ use judge::{BLOCK, Finding, worst_block};
 use metrics::Metric;
 use suite::{Case, Error, Run};
 
-use super::evidence::{Evidence, find_evidence};
 use super::profile::{Profile, trace_profile, worst_pixel};
-use crate::pixels::scene_files::{Layers, SceneFiles};
+use crate::pixels::scene_files::{CaseFiles, Layers, SceneFiles};
 
 /// A case with all that a page shows of its files.
 pub struct CaseView<'a> {
-    /// Run that holds the case.
     pub run: &'a Run,
     /// Number of the case in the run.
     pub index: usize,
-    /// Scores of the case.
     pub case: &'a Case,
-    /// Findings, one per bound; none where the run was not judged.
-    pub findings: Vec<Finding>,
-    /// Place to look at, per finding; none where it needs no explanation.
+    /// Findings, one per bound; none if the run was not judged.
+    pub findings: Vec<&'a Finding>,
+    /// Place to look at, per finding; none if it needs no explanation.
     pub evidence: Vec<Option<Evidence>>,
     /// Number of the scene in the run.
     pub scene: usize,
-    /// Every picture that there is.
     pub layers: Layers,
     /// Plane of the objects' indices.
     pub objects: usize,
-    /// Names of the objects.
     pub names: Vec<String>,
     /// Display exposure of the scene, in stops.
     pub stops: f32,
@@ -35,16 +30,19 @@ pub struct CaseView<'a> {
 }
 
 impl<'a> CaseView<'a> {
-    /// Reads the files of a case, given its number in the run, that of its scene, and the findings about it.
+    /// Reads the files of a case, given its number in the run, that of its scene, and the findings about the scene.
     pub fn read(
         run: &'a Run,
         index: usize,
         scene: usize,
-        findings: Vec<Finding>,
+        findings: &[&'a Finding],
         files: &mut SceneFiles,
     ) -> Result<Self, Error> {
         let case = &run.cases[index];
         let own = files.read_case(case)?;
+        let name = case.name();
+        let is_own = |own: &&&Finding| !case.is_reference && own.filter == name;
+        let findings: Vec<&Finding> = findings.iter().filter(is_own).copied().collect();
         let evidence: Vec<Option<Evidence>> = (findings.iter())
             .map(|finding| find_evidence(finding, case, &own, files))
             .collect::<Result<_, _>>()?;
@@ -71,4 +69,44 @@ impl<'a> CaseView<'a> {
             scene,
         })
     }
+}
+
+/// The worst place of one score.
+pub struct Evidence {
+    /// Middle of the block whose error is largest.
+    pub place: [u32; 2],
+    /// The error map, as errors.exr calls it.
+    pub map: String,
+    pub plane: usize,
+}
+
+/// Finds the place to look at; none for a finding that needs no explanation, or is about a sequence. `check` has looked for the place;
+/// after `run` it is looked for here.
+fn find_evidence(
+    finding: &Finding,
+    case: &Case,
+    files: &CaseFiles,
+    scene: &mut SceneFiles,
+) -> Result<Option<Evidence>, Error> {
+    if !finding.outcome.is_notable() {
+        return Ok(None);
+    }
+    let metric = finding.metric;
+    if let Metric::Sequence(_) = metric {
+        return Ok(None);
+    }
+    let map = match &finding.worst {
+        Some(worst) => worst.map.clone(),
+        None => metric.row().map.name().to_owned(),
+    };
+    let plane = files.errors.map(&map)?;
+    let (x, y) = match &finding.worst {
+        Some(worst) => (worst.x, worst.y),
+        None => worst_block(metric, &plane, &scene.truths[&case.alignment].regions),
+    };
+    Ok(Some(Evidence {
+        place: [x, y],
+        plane: scene.planes.add(&plane),
+        map,
+    }))
 }

@@ -2,7 +2,6 @@
 
 pub mod bounds;
 pub mod case_view;
-mod evidence;
 pub mod legend;
 mod profile;
 mod profile_chart;
@@ -19,8 +18,8 @@ use profile_chart::profile_chart;
 use scores::score_rows;
 use suite::{Case, Drawn};
 
+use crate::address::{anchor, case_anchor, section_anchor};
 use crate::case_table::CaseTable;
-use crate::filter_id::{anchor, case_anchor, section_anchor};
 use crate::finding_text::Tally;
 use crate::numbers::{counted, value_text};
 use crate::pixels::scene_files::find_traced;

@@ -5,7 +5,7 @@ use suite::Case;
 
 use crate::pixels::scene_files::{CaseFiles, SceneFiles, TruthFile};
 
-/// Least motion, in pixels over the shutter, of a place that is not taken to stand.
+/// Least motion of a place that moves, in pixels over the shutter.
 const LEAST_MOTION: f32 = 0.5;
 /// Least and largest length before and behind the place, in pixels.
 const REACH: [f32; 2] = [16.0, 80.0];
@@ -13,7 +13,6 @@ const REACH: [f32; 2] = [16.0, 80.0];
 const LENGTHS: f32 = 1.5;
 
 /// One line through a case's pictures.
-#[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     /// The pixel in the middle.
     pub place: [u32; 2],
@@ -24,9 +23,7 @@ pub struct Profile {
 }
 
 /// The brightness of one picture along a line.
-#[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Name of the picture.
     pub title: String,
     /// Class in the style sheet.
     pub class: &'static str,
@@ -99,21 +96,16 @@ pub fn worst_pixel(map: &Raster<f32>, [x, y]: [u32; 2], block: u32) -> [u32; 2] 
 /// what the truth saw there.
 fn motion_at([x, y]: [u32; 2], frame: &Frame, truth: &TruthFile) -> [f32; 2] {
     let over_shutter = |motion: &[f32; 2]| motion.map(|axis| axis * frame.exposure as f32);
-    let moves = |motion: &[f32; 2]| motion[0].hypot(motion[1]) >= LEAST_MOTION;
-    let own = over_shutter(frame.velocity.at(x, y));
-    if moves(&own) {
-        return own;
-    }
-    nearest_moving(&frame.velocity.map(over_shutter), [x, y], moves)
+    nearest_moving(&frame.velocity.map(over_shutter), [x, y])
         .or_else(|| Some(*truth.offset.at(x, y)).filter(moves))
         .unwrap_or([0.0; 2])
 }
 
-fn nearest_moving(
-    motions: &Vectors,
-    [x, y]: [u32; 2],
-    moves: impl Fn(&[f32; 2]) -> bool,
-) -> Option<[f32; 2]> {
+fn moves(motion: &[f32; 2]) -> bool {
+    motion[0].hypot(motion[1]) >= LEAST_MOTION
+}
+
+fn nearest_moving(motions: &Vectors, [x, y]: [u32; 2]) -> Option<[f32; 2]> {
     let distance = |at: usize| {
         let [column, row] = [at as u32 % motions.width, at as u32 / motions.width];
         i64::from(column.abs_diff(x)).pow(2) + i64::from(row.abs_diff(y)).pow(2)
@@ -168,8 +160,7 @@ mod tests {
             (8, 8) => [0.0, 2.0],
             _ => [0.0; 2],
         });
-        let moves = |motion: &[f32; 2]| *motion != [0.0; 2];
-        assert_eq!(nearest_moving(&motions, [3, 4], moves), Some([3.0, 0.0]));
-        assert_eq!(nearest_moving(&motions, [6, 6], moves), Some([0.0, 2.0]));
+        assert_eq!(nearest_moving(&motions, [3, 4]), Some([3.0, 0.0]));
+        assert_eq!(nearest_moving(&motions, [6, 6]), Some([0.0, 2.0]));
     }
 }

@@ -52,7 +52,7 @@ pub fn score_rows(page: &CaseView) -> Markup {
 
 fn row(page: &CaseView, metric: Metric) -> Markup {
     let case = page.case;
-    let finding = (page.findings.iter()).find(|finding| finding.metric == metric);
+    let finding = (page.findings.iter().copied()).find(|finding| finding.metric == metric);
     let status = finding.and_then(|finding| Status::of(finding.outcome));
     let required = finding.and_then(Status::required_class);
     html! {

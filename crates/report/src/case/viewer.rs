@@ -2,6 +2,7 @@
 
 use judge::BLOCK;
 use maud::{Markup, html};
+use serde_json::{Value, json};
 use suite::Run;
 
 use super::legend::draw_legends;
@@ -137,15 +138,15 @@ fn stage(run: &Run) -> Markup {
 
 /// Describes every kind of picture for the script, as JSON.
 fn layers() -> String {
-    let all = Layer::ALL.map(|layer| {
-        let facts = serde_json::json!({
+    let describe = |layer: &Layer| {
+        let facts = json!({
             "title": layer.title(),
-            "hint": layer.hint(),
+            "hint": layer.help(),
             "painter": layer.painter(),
         });
         (layer.name().to_owned(), facts)
-    });
-    serde_json::Value::Object(all.into_iter().collect()).to_string()
+    };
+    Value::Object(Layer::ALL.iter().map(describe).collect()).to_string()
 }
 
 /// Makes a picture that zooms and moves with all others.
@@ -180,7 +181,7 @@ fn readout() -> Markup {
                     tr data-layer=(layer.name()) hidden {
                         th scope="row" { (layer.title()) }
                         @for component in 0..3 {
-                            td data-label=[layer.components().split(' ').nth(component).filter(|name| !name.is_empty())] {}
+                            td data-label=[layer.components().get(component)] {}
                         }
                     }
                 }

@@ -93,7 +93,7 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// Makes a chart that stands beside others.
+    /// Makes a chart that has others next to it.
     pub fn small(x: Axis, y: Axis) -> Self {
         let size = [360.0, 220.0];
         Self { size, x, y }

@@ -9,11 +9,9 @@ use crate::pixels::png::{embed_file, embed_picture};
 
 /// Pictures of one case, each as an address that holds the picture itself.
 pub struct Pictures {
-    /// Output of the filter in the first run.
+    /// Output of the filter in either run.
     pub first: String,
-    /// Output of the filter in the second run.
     pub second: String,
-    /// Truth.
     pub truth: Option<String>,
     /// Change of the visible difference from the truth.
     pub change: Option<String>,

@@ -4,8 +4,8 @@ use judge::{Finding, Level, Outcome};
 use maud::{Markup, html};
 use metrics::{Ideal, Measured, Metric};
 
+use crate::address::case_anchor;
 use crate::case::case_view::CaseView;
-use crate::filter_id::case_anchor;
 use crate::finding_text::{Status, interval_text, limit_text};
 
 /// Least badness that a colour tells from another one, where scores have a logarithmic scale.

@@ -3,12 +3,12 @@
 use filters::Clock;
 use maud::{Markup, html};
 use metrics::Metric;
-use suite::{BASELINE, Bench, CaseCost, FilterId, GROWTH_FROM, REACHES, Spread};
+use suite::{BASELINE, Bench, CaseCost, FilterId, GROWTH_FROM, REACHES};
 
-use super::bench_file::cost_of;
+use super::bench_file::{cost_of, milliseconds, spread};
 use super::pareto::{Point, pareto_section};
 use crate::case_table::CaseTable;
-use crate::filter_id::mean;
+use crate::numbers::mean;
 use crate::run_facts::adapter_text;
 use crate::table::Column::{self, Plain};
 use crate::table::{grouped_table, scroll_table};
@@ -63,15 +63,13 @@ fn list_timed<'a>(table: &'a CaseTable) -> Vec<(&'a FilterId, &'a CaseCost)> {
         .collect()
 }
 
-/// Measures FLIP and time of every filter that was timed. Filters of all shutters stand in one picture, so FLIP is against one
+/// Measures FLIP and time of every filter that was timed. Filters of all shutters are in one chart, so FLIP is against one
 /// shutter for all.
 fn points(table: &CaseTable, timed: &[(&FilterId, &CaseCost)]) -> Vec<Point> {
     let point = |(filter, cost): &(&FilterId, &CaseCost)| {
-        let seconds = &cost.seconds;
         Some(Point {
             title: filter.to_string(),
-            milliseconds: 1e3 * seconds.median,
-            quartiles: [1e3 * seconds.lower_quartile, 1e3 * seconds.upper_quartile],
+            seconds: cost.seconds,
             error: mean_error(table, filter)?,
         })
     };
@@ -142,16 +140,4 @@ fn reaches(bench: &Bench) -> Markup {
     };
     let caption = "Cost against reach: milliseconds for motion of 8 to 256 pixels, with the filter set to cover it";
     scroll_table(None, "Cost against reach", Some(caption), &columns, &rows)
-}
-
-fn spread(seconds: &Spread) -> Markup {
-    html! {
-        td { (milliseconds(seconds.median)) }
-        td { (milliseconds(seconds.lower_quartile)) "–" (milliseconds(seconds.upper_quartile)) }
-    }
-}
-
-fn milliseconds(seconds: f64) -> String {
-    let digits = if seconds < 0.01 { 2 } else { 1 };
-    format!("{:.digits$}", 1e3 * seconds)
 }

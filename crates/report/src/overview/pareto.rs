@@ -1,7 +1,9 @@
 //! Chart of error against time, and the filters that no other one beats in both.
 
 use maud::{Markup, html};
+use suite::Spread;
 
+use super::bench_file::{milliseconds, spread};
 use crate::charts::is_undominated;
 use crate::charts::plot::{Axis, Plot};
 use crate::numbers::three_digits;
@@ -13,21 +15,24 @@ const LETTER: f64 = 5.8;
 const LINE: f64 = 11.0;
 
 /// A filter that was timed.
-#[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Name of the filter.
     pub title: String,
-    /// Time of all its passes: median and quartiles.
-    pub milliseconds: f64,
-    /// Lower and upper quartile of the time.
-    pub quartiles: [f64; 2],
+    /// Time of all its passes.
+    pub seconds: Spread,
     /// Mean FLIP where anything moves, against one shutter for all.
     pub error: f64,
 }
 
 impl Point {
+    /// Time in milliseconds, and error.
     fn place(&self) -> [f64; 2] {
-        [self.milliseconds, self.error]
+        [1e3 * self.seconds.median, self.error]
+    }
+
+    /// Ends of the bar of quartiles.
+    fn bar(&self) -> [(f64, f64); 2] {
+        [self.seconds.lower_quartile, self.seconds.upper_quartile]
+            .map(|seconds| (1e3 * seconds, self.error))
     }
 }
 
@@ -43,7 +48,7 @@ pub fn pareto_section(points: &[Point], references: &[(String, f64)]) -> Markup 
     let mut sorted: Vec<(&Point, bool)> = with_front.collect();
     // Filters that nothing beats are named first: labels that find no room are left out.
     sorted.sort_by(|(a, a_leads), (b, b_leads)| {
-        let times = a.milliseconds.total_cmp(&b.milliseconds);
+        let times = a.seconds.median.total_cmp(&b.seconds.median);
         b_leads.cmp(a_leads).then(times)
     });
     html! {
@@ -60,38 +65,43 @@ pub fn pareto_section(points: &[Point], references: &[(String, f64)]) -> Markup 
 
 /// Draws filters as discs with their names, and references as lines.
 fn chart(points: &[(&Point, bool)], references: &[(String, f64)]) -> Markup {
-    let plot = make_plot(points, references);
-    let levels = named_levels(references, 0.05 * plot.y.high);
+    let bars = || points.iter().flat_map(|(point, _)| point.bar());
+    let errors = (references.iter().map(|own| own.1)).chain(bars().map(|(_, error)| error));
+    let plot = Plot {
+        size: [640.0, 380.0],
+        x: Axis::log("ms, logarithmic", bars().map(|(time, _)| time)),
+        y: Axis::linear("mean FLIP*", errors.chain([0.0])),
+    };
     let end = plot.size[0] - 12.0;
-    let level_height = |error: f64| plot.place(plot.x.low, error).1;
-    let names_of_levels = levels.iter().map(|(title, error)| {
-        let bottom = level_height(*error) - 1.0;
-        [end - text_width(title), bottom - LINE, end, bottom]
+    let levels = named_levels(references, 0.05 * plot.y.high).into_iter();
+    let levels: Vec<(String, f64, f64)> = levels
+        .map(|(title, error)| (title, error, plot.place(plot.x.low, error).1 - 3.0))
+        .collect();
+    let names_of_levels = levels.iter().map(|(title, _, y)| {
+        let left = end - text_width(title);
+        [left, y + 2.0 - LINE, end, y + 2.0]
     });
-    let bars = points.iter().map(|(point, _)| {
-        let [(left, y), (right, _)] = point.quartiles.map(|time| plot.place(time, point.error));
-        [left, y - 2.0, right, y + 2.0]
-    });
-    let bars: Vec<[f64; 4]> = bars.chain(names_of_levels).collect();
-    let named: Vec<(&str, (f64, f64))> = (points.iter())
+    let labels: Vec<(&str, [f64; 4])> = (points.iter())
         .map(|(point, _)| {
-            (
-                point.title.as_str(),
-                plot.place(point.milliseconds, point.error),
-            )
+            let [time, error] = point.place();
+            let (x, y) = plot.place(time, error);
+            let [left, right] = point.bar().map(|(time, error)| plot.place(time, error).0);
+            let disc = [left.min(x - 5.0), y - 5.0, right.max(x + 5.0), y + 5.0];
+            (point.title.as_str(), disc)
         })
         .collect();
+    let corners = place_labels(&labels, names_of_levels.collect(), plot.size[0]);
     let marks = html! {
-        @for (title, error) in &levels {
+        @for (title, error, y) in &levels {
             (plot.level("reference", *error))
-            text.reference x=(end) y=(format!("{:.1}", level_height(*error) - 3.0)) text-anchor="end" { (title) }
+            text.reference x=(end) y=(format!("{y:.1}")) text-anchor="end" { (title) }
         }
         @for (point, leads) in points {
-            (plot.line("quartiles", &point.quartiles.map(|time| (time, point.error))))
+            (plot.line("quartiles", &point.bar()))
             (plot.mark(point.place().into(), if *leads { "" } else { "faint" }, 4.5, &words(point)))
         }
-        @for ((title, _), label) in named.iter().zip(place_labels(&named, &bars, plot.size[0])) {
-            @if let Some([left, top]) = label {
+        @for ((title, _), corner) in labels.iter().zip(corners) {
+            @if let Some([left, top]) = corner {
                 text.name x=(format!("{left:.1}")) y=(format!("{:.1}", top + LINE - 2.0)) { (title) }
             }
         }
@@ -107,8 +117,7 @@ fn numbers(points: &[(&Point, bool)], references: &[(String, f64)]) -> Markup {
         @for (point, leads) in points {
             tr {
                 th scope="row" { (point.title) }
-                td { (three_digits(point.milliseconds)) }
-                td { (three_digits(point.quartiles[0])) "–" (three_digits(point.quartiles[1])) }
+                (spread(&point.seconds))
                 td { (three_digits(point.error)) }
                 td { @if *leads { "✓" } }
             }
@@ -123,28 +132,20 @@ fn numbers(points: &[(&Point, bool)], references: &[(String, f64)]) -> Markup {
             }
         }
     };
-    html! {
-        (scroll_table(None, "Quality against time", None, &[
-            Plain("filter"), Plain("ms"), Plain("quartiles"), Plain("mean FLIP*"), Plain("undominated"),
-        ], &rows))
-    }
-}
-
-fn make_plot(points: &[(&Point, bool)], references: &[(String, f64)]) -> Plot {
-    let points = || points.iter().map(|(point, _)| point);
-    let times = points().flat_map(|point| point.quartiles.into_iter().chain([point.milliseconds]));
-    let errors = points()
-        .map(|point| point.error)
-        .chain(references.iter().map(|own| own.1));
-    Plot {
-        size: [640.0, 380.0],
-        x: Axis::log("ms, logarithmic", times),
-        y: Axis::linear("mean FLIP*", errors.chain([0.0])),
-    }
+    scroll_table(
+        None,
+        "Quality against time",
+        None,
+        &["filter", "ms", "quartiles", "mean FLIP*", "undominated"].map(Plain),
+        &rows,
+    )
 }
 
 fn words(point: &Point) -> String {
-    let [time, error] = [point.milliseconds, point.error].map(three_digits);
+    let (time, error) = (
+        milliseconds(point.seconds.median),
+        three_digits(point.error),
+    );
     format!("{}: {time} ms, FLIP* {error}", point.title)
 }
 
@@ -152,64 +153,48 @@ fn text_width(text: &str) -> f64 {
     LETTER * text.chars().count() as f64
 }
 
-/// Finds the upper left corner of every label: next to its point, where it covers no point, no bar and no other label; none where
-/// there is no room. The first bars are the points' own, in their order.
+/// Finds the upper left corner of every label: next to its disc, where it covers no disc, no other label and nothing that is taken; none
+/// if there is no room.
 fn place_labels(
-    points: &[(&str, (f64, f64))],
-    bars: &[[f64; 4]],
+    discs: &[(&str, [f64; 4])],
+    mut taken: Vec<[f64; 4]>,
     width: f64,
 ) -> Vec<Option<[f64; 2]>> {
-    let discs = (points.iter()).map(|(_, (x, y))| [x - 5.0, y - 5.0, x + 5.0, y + 5.0]);
-    let mut taken: Vec<[f64; 4]> = discs.chain(bars.iter().copied()).collect();
+    taken.extend(discs.iter().map(|(_, disc)| disc));
     let free = |own: &[f64; 4], taken: &[[f64; 4]]| {
         let apart = |other: &[f64; 4]| {
             own[2] <= other[0] || other[2] <= own[0] || own[3] <= other[1] || other[3] <= own[1]
         };
         own[0] >= 60.0 && own[2] <= width && own[1] >= 0.0 && taken.iter().all(apart)
     };
-    let mut labels = Vec::new();
-    for (index, (title, (x, y))) in points.iter().enumerate() {
+    let place = |(title, [left, top, right, bottom]): &(&str, [f64; 4])| {
         let length = text_width(title);
-        let [start, _, end, _] = bars.get(index).copied().unwrap_or([*x, *y, *x, *y]);
-        let (middle, above, below) = (y - LINE / 2.0, y - 7.0 - LINE, y + 6.0);
-        let corners = [
-            [end.max(x + 3.0) + 4.0, middle],
-            [start.min(x - 3.0) - 4.0 - length, middle],
-            [x - length / 2.0, above],
-            [x - length / 2.0, below],
-            [x + 4.0, above],
-            [x + 4.0, below],
-            [x - length + 4.0, above],
-            [x - length + 4.0, below],
-        ];
-        let found = corners
-            .map(|[left, top]| [left, top, left + length, top + LINE])
-            .into_iter()
-            .find(|own| free(own, &taken));
-        taken.extend(found);
-        labels.push(found.map(|[left, top, ..]| [left, top]));
-    }
-    labels
+        let beside = f64::midpoint(*top, *bottom) - LINE / 2.0;
+        let center = f64::midpoint(*left, *right);
+        let (above, below) = (top - 2.0 - LINE, bottom + 1.0);
+        let columns = [center - length / 2.0, center + 4.0, center + 4.0 - length];
+        let corners = [[right + 2.0, beside], [left - 2.0 - length, beside]].into_iter();
+        let corners = corners.chain(columns.into_iter().flat_map(|x| [[x, above], [x, below]]));
+        let mut boxes = corners.map(|[left, top]| [left, top, left + length, top + LINE]);
+        let found = boxes.find(|own| free(own, &taken))?;
+        taken.push(found);
+        Some([found[0], found[1]])
+    };
+    discs.iter().map(place).collect()
 }
 
 /// Sorts references, lowest first. Of lines nearer than `near` only the uppermost has a name, which is that of all.
 fn named_levels(references: &[(String, f64)], near: f64) -> Vec<(String, f64)> {
     let mut sorted = references.to_vec();
     sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let are_near = |a: &(String, f64), b: &(String, f64)| b.1 - a.1 < near;
-    let groups = sorted.chunk_by(are_near).flat_map(|group| {
-        let last = group.len() - 1;
-        let title = match group.len() {
-            1 => group[0].0.clone(),
-            count => format!(
-                "{count} references: {:.3} to {:.3}",
-                group[0].1, group[last].1
-            ),
-        };
-        let name = move |index: usize| (index == last).then(|| title.clone());
-        (group.iter().enumerate()).map(move |(index, own)| (name(index).unwrap_or_default(), own.1))
-    });
-    groups.collect()
+    for group in sorted.chunk_by_mut(|a, b| b.1 - a.1 < near) {
+        if let [first, .., last] = &*group {
+            let (count, low, high) = (group.len(), first.1, last.1);
+            group.iter_mut().for_each(|own| own.0.clear());
+            group[count - 1].0 = format!("{count} references: {low:.3} to {high:.3}");
+        }
+    }
+    sorted
 }
 
 #[cfg(test)]
@@ -217,31 +202,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn references_that_lie_together_share_a_name() {
-        let references = [("far", 0.9), ("b", 0.52), ("a", 0.5)];
-        let references = references.map(|(title, error)| (title.to_owned(), error));
-        let levels = named_levels(&references, 0.05);
-        let expected = [
-            ("", 0.5),
-            ("2 references: 0.500 to 0.520", 0.52),
-            ("far", 0.9),
-        ];
-        assert_eq!(
-            levels,
-            expected.map(|(title, error)| (title.to_owned(), error))
-        );
+    fn references_near_one_another_share_a_name() {
+        let named = |all: [(&str, f64); 3]| all.map(|(title, error)| (title.to_owned(), error));
+        let references = named([("far", 0.9), ("b", 0.52), ("a", 0.5)]);
+        let range = "2 references: 0.500 to 0.520";
+        let expected = named([("", 0.5), (range, 0.52), ("far", 0.9)]);
+        assert_eq!(named_levels(&references, 0.05), expected);
     }
 
     #[test]
     fn labels_cover_neither_points_nor_one_another() {
-        let title = "jump_flood:paper";
-        let points = [(200.0, 100.0), (208.0, 100.0), (204.0, 102.0)].map(|place| (title, place));
-        let labels = place_labels(&points, &[], 640.0);
+        let disc = |x: f64, y: f64| ("jump_flood:paper", [x - 5.0, y - 5.0, x + 5.0, y + 5.0]);
+        let discs = [disc(200.0, 100.0), disc(208.0, 100.0), disc(204.0, 102.0)];
+        let labels = place_labels(&discs, Vec::new(), 640.0);
         assert!(labels[0].is_some());
         assert!(
             labels[0] != labels[1] && labels[1] != labels[2],
             "{labels:?}"
         );
-        assert_eq!(place_labels(&[(title, (70.0, -20.0))], &[], 90.0), [None]);
+        assert_eq!(place_labels(&[disc(70.0, -20.0)], Vec::new(), 90.0), [None]);
     }
 }

@@ -9,11 +9,12 @@ use tracer::FrameRate;
 use super::bench_file::cost_of;
 use super::cell::{Colors, cell};
 use super::costs::cost_text;
+use crate::address::section_anchor;
 use crate::case::case_view::CaseView;
 use crate::case_table::CaseTable;
 use crate::charts::strip::Strip;
-use crate::filter_id::{mean, section_anchor};
 use crate::finding_text::Tally;
+use crate::numbers::mean;
 
 /// Lengths of the middle half of the means that the scale goes on beyond it; what lies farther is drawn as an arrow.
 const WHISKERS: f64 = 1.5;

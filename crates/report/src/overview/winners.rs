@@ -5,8 +5,8 @@ use maud::{Markup, html};
 use metrics::Metric;
 use suite::{FilterId, Run};
 
+use crate::address::{case_anchor, section_anchor};
 use crate::case_table::CaseTable;
-use crate::filter_id::{case_anchor, section_anchor};
 use crate::sequence::SEQUENCES_PAGE;
 
 /// Names the best filters of every shutter, the scene that the first is weakest on, and the last filter of the ranking.

@@ -1,11 +1,11 @@
-//! Files of a report: a page, and where that would be too large, parts of it beside it.
+//! Files of a report: a page, and if that would be too large, parts of it in files next to it.
 
 use std::path::{Path, PathBuf};
 
 use frame::{FileError, write_atomically};
 
 /// Largest page, in bytes, that holds its own numbers: it opens within seconds, and mails still carry it. The numbers of a
-/// larger report lie beside the page, and a browser opens one scene at a time; so do the tables of its cases, if they alone are
+/// larger report lie next to the page, and a browser opens one scene at a time; so do the tables of its cases, if they alone are
 /// larger.
 pub const LARGEST_PAGE: usize = 25_000_000;
 
@@ -24,16 +24,16 @@ pub struct SceneTexts {
     written: Vec<PathBuf>,
 }
 
-/// Where the texts of all scenes are.
+/// Place of the texts of all scenes.
 pub enum Place {
     /// In the page, one per scene.
     Page(Vec<String>),
-    /// In files beside it.
+    /// In files next to it.
     Beside(Vec<PathBuf>),
 }
 
 impl Place {
-    /// Lists the files beside the page.
+    /// Lists the files next to the page.
     pub fn paths(self) -> Vec<PathBuf> {
         match self {
             Self::Page(_) => Vec::new(),
@@ -56,19 +56,13 @@ impl SceneTexts {
     }
 
     /// Adds the text of the next scene.
-    ///
-    /// # Errors
-    /// A file cannot be written.
     pub fn add(&mut self, text: String) -> Result<(), FileError> {
         self.bytes += text.len();
         self.texts.push(text);
         self.write_what_is_too_large()
     }
 
-    /// Finds the place of all texts; `rest` is the number of bytes that the page holds beside them.
-    ///
-    /// # Errors
-    /// A file cannot be written.
+    /// Finds the place of all texts; `rest` is the number of bytes of everything else in the page.
     pub fn place(mut self, rest: usize) -> Result<Place, FileError> {
         self.bytes += rest;
         self.write_what_is_too_large()?;
@@ -95,7 +89,7 @@ impl SceneTexts {
     }
 }
 
-/// Returns the name of the folder beside the page at `html`.
+/// Returns the name of the folder next to the page at `html`.
 pub fn folder_name(html: &Path) -> String {
     format!(
         "{}_files",
@@ -103,35 +97,26 @@ pub fn folder_name(html: &Path) -> String {
     )
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn texts_that_are_too_large_leave_the_page() {
-        let folder = tempfile::tempdir().unwrap();
-        let html = folder.path().join("a page.html");
-        let place = |largest: usize, rest: usize| {
-            let mut texts = SceneTexts::new("scene", &html, REST + largest);
-            texts.add("[]".repeat(40)).unwrap();
-            texts.add("[]".repeat(10)).unwrap();
-            texts.place(rest).unwrap()
-        };
-        assert!(matches!(place(110, 10), Place::Page(texts) if texts[1] == "[]".repeat(10)));
-        for (largest, rest) in [(110, 11), (90, 0), (10, 0)] {
-            let Place::Beside(paths) = place(largest, rest) else {
-                panic!("{largest} bytes are too few");
-            };
-            let names = ["scene_0.js", "scene_1.js"];
-            assert_eq!(
-                paths,
-                names.map(|name| folder.path().join("a page_files").join(name))
-            );
-            let text = std::fs::read_to_string(&paths[1]).unwrap();
-            assert_eq!(
-                text,
-                format!("shuttertruth.arrived(\"scene_1\", {});\n", "[]".repeat(10))
-            );
-        }
+#[test]
+fn texts_that_are_too_large_leave_the_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let html = folder.path().join("a page.html");
+    let place = |largest: usize, rest: usize| {
+        let mut texts = SceneTexts::new("scene", &html, REST + largest);
+        texts.add("[]".repeat(40)).unwrap();
+        texts.add("[]".repeat(10)).unwrap();
+        texts.place(rest).unwrap()
+    };
+    assert!(matches!(place(110, 10), Place::Page(texts) if texts[1] == "[]".repeat(10)));
+    for (largest, rest) in [(110, 11), (90, 0), (10, 0)] {
+        let paths = place(largest, rest).paths();
+        let names = ["a page_files/scene_0.js", "a page_files/scene_1.js"];
+        assert_eq!(paths, names.map(|name| folder.path().join(name)));
+        let text = std::fs::read_to_string(&paths[1]).unwrap();
+        let expected = "[]".repeat(10);
+        assert_eq!(
+            text,
+            format!("shuttertruth.arrived(\"scene_1\", {expected});\n")
+        );
     }
 }

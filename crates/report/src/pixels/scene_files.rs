@@ -27,7 +27,7 @@ pub struct SceneFiles {
     pub accumulations: BTreeMap<Alignment, (String, Image)>,
     /// Plane of the object that each pixel's centre sees.
     pub objects: usize,
-    /// The run's.
+    /// Folder of the run.
     folder: PathBuf,
     /// Folder of the same scene as it was rendered, where an engine drew this one.
     traced: Option<PathBuf>,
@@ -51,11 +51,8 @@ pub struct TruthFile {
 
 /// Files that a run left of one case.
 pub struct CaseFiles<'a> {
-    /// Output of the filter.
     pub output: Image,
-    /// The error maps.
     pub errors: ErrorMaps<'a>,
-    /// Every picture that there is.
     pub layers: Layers,
 }
 
@@ -163,19 +160,9 @@ impl SceneFiles {
         file.expect_finite()?;
         let errors = ErrorMaps::read(case, &self.folder)?;
         let output = file.color("")?;
-        let sizes = [
-            (output.width, output.height),
-            errors.size(),
-            self.frame.size(),
-        ];
-        let [output_size, error_size, frame_size] =
-            sizes.map(|(width, height)| format!("{width}x{height}"));
-        if output_size != frame_size || error_size != frame_size {
-            return Err(Error::Usage(format!(
-                "{}: output.exr has {output_size} pixels, errors.exr {error_size}, the scene's frame {frame_size}; run the case again",
-                own.display()
-            )));
-        }
+        let (found, size) = ((output.width, output.height), self.frame.size());
+        check_size(&own.join("output.exr"), found, size)?;
+        check_size(&own.join("errors.exr"), errors.size(), size)?;
         if !self.truths.contains_key(&case.alignment) {
             let truth = self.read_truth(case)?;
             self.truths.insert(case.alignment, truth);
@@ -203,7 +190,7 @@ impl SceneFiles {
             let planes = axes.map(|plane| self.planes.add(&plane));
             layers.push((Layer::Dilated, planes.to_vec()));
         }
-        layers.sort();
+        layers.sort_by_key(|(layer, _)| *layer as usize);
         Ok(CaseFiles {
             output,
             errors,
@@ -226,7 +213,7 @@ fn check_size(path: &Path, found: (u32, u32), expected: (u32, u32)) -> Result<()
     }
     let [found, expected] = [found, expected].map(|(width, height)| format!("{width}x{height}"));
     Err(Error::Usage(format!(
-        "{}: has {found} pixels, the run's pictures have {expected}; run the scene again",
+        "{}: has {found} pixels, the run's pictures have {expected}; run it again",
         path.display()
     )))
 }

@@ -9,7 +9,7 @@ use filters::Filter;
 use suite::{Error, RunPlan};
 use tracer::SceneId;
 
-use super::arguments::PlanArgs;
+use crate::arguments::MeasureArgs;
 use crate::selection::{select_engine_scenes, select_scenes};
 
 /// Options that are in the words of scenes and filters, or that no job gets.
@@ -112,6 +112,7 @@ fn files_below(folder: &Path) -> Result<Vec<String>, Error> {
 }
 
 /// A scene of a plan.
+#[derive(Clone)]
 pub struct SceneWords {
     /// Word for `--scenes`.
     pub word: String,
@@ -124,8 +125,8 @@ pub struct SceneWords {
 }
 
 /// Lists the scenes in the order of the plan: those that are rendered, then those that engines drew.
-pub fn list_scene_words(args: &PlanArgs, plan: &RunPlan) -> Result<Vec<SceneWords>, Error> {
-    let scenes = &args.measure.scenes;
+pub fn list_scene_words(args: &MeasureArgs, plan: &RunPlan) -> Result<Vec<SceneWords>, Error> {
+    let scenes = &args.scenes;
     let root = &scenes.root.scenes_dir;
     let mut all = Vec::new();
     if !plan.scenes.is_empty() {
@@ -155,19 +156,20 @@ pub fn list_scene_words(args: &PlanArgs, plan: &RunPlan) -> Result<Vec<SceneWord
 }
 
 /// Some presets of one filter, which one job measures.
+#[derive(Clone)]
 pub struct FilterWords {
     /// Name of the job's folder, which no other filter of the plan has.
     pub name: String,
-    /// Values of `--filter`.
-    pub words: Vec<String>,
-    /// Values of `--set`.
-    pub overrides: Vec<String>,
+    /// Its presets and overrides as options.
+    pub options: Vec<String>,
+    /// Number of presets.
+    pub presets: usize,
     /// Files of a filter of the user's own.
     pub files: Vec<String>,
 }
 
 /// Groups the presets of a plan by their filters, in the order of the plan.
-pub fn list_filter_words(args: &PlanArgs, plan: &RunPlan) -> Result<Vec<FilterWords>, Error> {
+pub fn list_filter_words(args: &MeasureArgs, plan: &RunPlan) -> Result<Vec<FilterWords>, Error> {
     let place = |filter: &Filter| (filter.name.clone(), filter.folder.clone());
     let groups = (plan.filters).chunk_by(|one, other| place(&one.filter) == place(&other.filter));
     let mut names: Vec<&String> = Vec::new();
@@ -175,16 +177,23 @@ pub fn list_filter_words(args: &PlanArgs, plan: &RunPlan) -> Result<Vec<FilterWo
     for group in groups {
         let Filter { name, folder, .. } = &group[0].filter;
         let base = (folder.as_deref()).map_or(Ok(name.clone()), folder_word)?;
-        let is_own = |set: &&String| set.split('.').next() == Some(name.as_str());
+        let presets = group
+            .iter()
+            .map(|choice| format!("{base}:{}", choice.preset));
+        let mut options: Vec<String> = Vec::new();
+        presets.for_each(|preset| options.extend(words(["--filter", &preset])));
+        for set in &args.set {
+            if set.split('.').next() == Some(name) {
+                options.extend(words(["--set", set]));
+            }
+        }
         all.push(FilterWords {
             name: match names.iter().filter(|other| **other == name).count() {
                 0 => name.clone(),
                 before => format!("{name}+{before}"),
             },
-            words: (group.iter())
-                .map(|choice| format!("{base}:{}", choice.preset))
-                .collect(),
-            overrides: (args.measure.set.iter()).filter(is_own).cloned().collect(),
+            options,
+            presets: group.len(),
             files: (folder.as_deref()).map_or(Ok(Vec::new()), files_below)?,
         });
         names.push(name);

@@ -1,4 +1,4 @@
-//! Addresses of filters and cases in a page, and lists of filters.
+//! Addresses of filters and cases in a page.
 
 use suite::{CaseId, FilterId};
 
@@ -33,19 +33,8 @@ fn escape(name: &str) -> String {
     escaped.collect()
 }
 
-/// Averages numbers; none of none.
-pub fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let (count, sum) = values.fold((0, 0.0), |(count, sum), value| (count + 1, sum + value));
-    (count > 0).then(|| sum / f64::from(count))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_in_addresses_are_plain() {
-        assert_eq!(escape("panel@64px_45deg"), "panel@64px_45deg");
-        assert_eq!(escape("bevy:high a/b&c"), "bevy:high~20a~2fb~26c");
-    }
+#[test]
+fn names_in_addresses_are_plain() {
+    assert_eq!(escape("panel@64px_45deg"), "panel@64px_45deg");
+    assert_eq!(escape("bevy:high a/b&c"), "bevy:high~20a~2fb~26c");
 }
