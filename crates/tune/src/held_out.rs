@@ -10,7 +10,7 @@ use store::read_text;
 use suite::Error;
 
 use crate::comparison::PairedComparison;
-use crate::journal::{journal_error, line_of};
+use crate::journal::line_of;
 
 /// One comparison of start and choice on the held-out scenes: a line of `openings.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,10 +32,13 @@ fn read_held_out_results(path: &Path) -> Result<Vec<HeldOutResult>, Error> {
         return Ok(Vec::new());
     }
     let text = read_text(path)?;
-    let line = |(index, line)| {
+    let line = |(index, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
-            let reason = format!("is no result on held-out scenes: {error}");
-            journal_error(path, index, &reason)
+            Error::Usage(format!(
+                "{}:{}: is no result on held-out scenes: {error}; choose another output folder",
+                path.display(),
+                index + 1
+            ))
         })
     };
     text.lines().enumerate().map(line).collect()

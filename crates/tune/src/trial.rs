@@ -26,7 +26,7 @@ pub const JOURNAL_FORMAT: u32 = 1;
 /// Everything that trials depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JournalHeader {
-    /// [`JOURNAL_FORMAT`].
+    /// Version of the layout.
     pub format: u32,
     /// Program name and version.
     pub program: String,
