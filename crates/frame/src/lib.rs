@@ -38,6 +38,7 @@ mod raster;
 mod region;
 mod replicate;
 mod reprojection;
+mod sheet;
 mod shutter;
 mod support;
 mod tile;
@@ -64,6 +65,7 @@ pub use raster::{Image, Plane, Raster, Vectors};
 pub use region::{Region, Regions};
 pub use replicate::Replicate;
 pub use reprojection::Reprojection;
+pub use sheet::tile_pictures;
 pub use shutter::{
     Alignment, Efficiency, LONGEST_EXPOSURE, SHORTEST_EXPOSURE, Shutter, ShutterError,
     ShutterProfile,
