@@ -138,6 +138,14 @@ macro_rules! metrics {
         }
 
         impl $Scores {
+            /// Makes scores that do not apply, because of `reason`, of nothing in particular.
+            pub fn not_applicable(reason: &str) -> Self {
+                Self {
+                    $($fact: Default::default(),)*
+                    $($field: $Score::not_applicable(reason),)*
+                }
+            }
+
             /// Returns the score of a metric.
             pub fn get(&self, metric: $Metric) -> &$Score {
                 match metric {

@@ -296,8 +296,6 @@ fn average_patch(patch: Option<&Patch>, regions: &Regions) -> Option<f64> {
 
 /// Makes a score of a value and its noise, with the metric's floor, or gives the reason for their absence.
 fn score(metric: ObjectMetric, value: Option<f64>, noise: Option<f64>, reason: &str) -> Measured {
-    match (value, noise) {
-        (Some(value), Some(noise)) => Measured::score(value, metric.ideal().floor(noise)),
-        _ => Measured::not_applicable(reason),
-    }
+    let floor = noise.map(|noise| metric.ideal().floor(noise));
+    Measured::of(value, floor, reason)
 }

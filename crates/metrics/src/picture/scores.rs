@@ -16,9 +16,11 @@ fn score(found: &Found, error: impl Fn(&Pooled) -> f64) -> Measured {
 
 /// Scores the errors of colour.
 pub fn score_image(found: &Found) -> ImageScores {
+    // An error below its noise counts as the noise.
+    let noise = found.map_or(0.0, |(_, noise)| noise.mse);
     ImageScores {
         mse: score(found, |pooled| pooled.mse),
-        psnr: score_psnr(found),
+        psnr: score(found, |pooled| psnr(pooled.mse, noise)),
         relmse: score(found, |pooled| pooled.relmse),
         mae: score(found, |pooled| pooled.mae),
         smape: score(found, |pooled| pooled.smape),
@@ -28,21 +30,6 @@ pub fn score_image(found: &Found) -> ImageScores {
         flip_p99: score(found, |pooled| pooled.flip_p99),
         flip_hdr: score(found, |pooled| pooled.flip_hdr),
         ssim: score_ssim(found),
-    }
-}
-
-impl ImageScores {
-    /// Makes scores that do not apply, because of `reason`.
-    pub fn not_applicable(reason: &'static str) -> Self {
-        score_image(&Err(reason))
-    }
-}
-
-/// Scores PSNR; an error below its noise counts as the noise.
-fn score_psnr(found: &Found) -> Measured {
-    match found {
-        Ok((own, noise)) => Measured::score(psnr(own.mse, noise.mse), psnr(noise.mse, noise.mse)),
-        Err(reason) => Measured::not_applicable(*reason),
     }
 }
 

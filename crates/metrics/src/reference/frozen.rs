@@ -47,9 +47,9 @@ impl FrozenReference {
         let squared = squared_error(output, halves, viewing.scale());
         let flip = self.seen.map_errors(displayed);
         let found = [pool(&squared, regions), pool(&flip, regions)];
-        let score = |which: usize| match (found[which], self.noise) {
-            (Some(value), Some(noise)) => Measured::score(value, noise[which]),
-            _ => Measured::not_applicable(NOTHING_MOVES),
+        let score = |which: usize| {
+            let noise = self.noise.map(|noise| noise[which]);
+            Measured::of(found[which], noise, NOTHING_MOVES)
         };
         let scores = FrozenScores {
             mse: score(0),
@@ -78,10 +78,8 @@ fn measure_shading(
         })
     });
     let noise = squared_error(&differences[0], [&differences[1]; 2], 0.5 * scale);
-    match (pool(&product, regions), pool_scatter(&noise, regions)) {
-        (Some(value), Some(noise)) => Measured::score(value, noise),
-        _ => Measured::not_applicable(NOTHING_MOVES),
-    }
+    let (value, floor) = (pool(&product, regions), pool_scatter(&noise, regions));
+    Measured::of(value, floor, NOTHING_MOVES)
 }
 
 fn pool_scatter(noise: &Raster<f64>, regions: &Regions) -> Option<f64> {

@@ -4,6 +4,7 @@ use frame::{Image, Raster};
 
 use super::pairs::{mean_in, subtract};
 use crate::color::cross_error::multiply;
+use crate::math::pooling::mean;
 use crate::math::raster::index_pixels;
 
 /// Pixels from the middle of the square whose mean is taken away, which leaves fine patterns alone.
@@ -47,8 +48,7 @@ pub fn correlate(frames: &[FineError], scale: f64) -> Option<f64> {
             products.extend(mean_in(&map, &mask));
         }
     }
-    let count = products.len() as f64;
-    (count > 0.0).then(|| products.iter().sum::<f64>() / count)
+    mean(products)
 }
 
 /// Takes the mean of the square around each pixel away, as far as that lies in the picture.

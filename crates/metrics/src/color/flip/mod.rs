@@ -19,13 +19,12 @@ mod seen;
 mod space;
 mod weights;
 
-use frame::{Image, Plane, Raster, display_srgb};
+use frame::{Image, Plane, Raster, decode_srgb, display_srgb};
 
 use crate::Viewing;
 use crate::math::raster::map_pixels;
 use filter::Exposure;
 use seen::{Seen, raise_to_errors};
-use space::decode_srgb;
 
 /// Upper limit on the exposures of HDR-FLIP.
 pub const MAX_EXPOSURES: u32 = 128;
