@@ -2,7 +2,7 @@
 
 use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
 
-use crate::label::total_variation::average_on_object;
+use crate::label::average_on_object;
 use crate::object::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
 use crate::object::bleed::{Bleed, measure_bleed};
 use crate::object::gradient::{gradient_error, gradient_magnitude};

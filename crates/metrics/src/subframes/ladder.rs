@@ -5,7 +5,7 @@ use frame::{Accumulation, Image, Picture, Raster};
 use super::curve::Curve;
 use crate::color::cross_error::cross;
 use crate::color::flip::{Displayed, SeenDisplay};
-use crate::label::total_variation::label_variation;
+use crate::label::label_variation;
 use crate::math::pooling::mean_over;
 use crate::{Region, Regions, Viewing};
 
