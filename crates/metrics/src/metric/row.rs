@@ -130,11 +130,6 @@ macro_rules! metrics {
                     },)*
                 }
             }
-
-            /// Returns its ideal value.
-            pub fn ideal(self) -> Ideal {
-                self.row().ideal
-            }
         }
 
         impl $Scores {

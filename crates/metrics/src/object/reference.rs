@@ -8,7 +8,7 @@ use crate::object::bleed::{Bleed, measure_bleed};
 use crate::object::gradient::{gradient_error, gradient_magnitude};
 use crate::object::mass::{Mass, measure_mass};
 use crate::object::misplacement::{Misplacement, measure_misplacement};
-use crate::object::mover::{Directions, Mover, Stillness};
+use crate::object::mover::{Directions, Mover};
 use crate::object::patch::Patch;
 use crate::object::row_mass::RowMass;
 use crate::object::sides::{Side, find_sides};
@@ -20,7 +20,8 @@ pub struct ObjectReference {
     truth: Plane,
     /// Pixels where the object is seen throughout the shutter.
     core: Raster<bool>,
-    mover: Result<Moving, Stillness>,
+    /// Its motion, or the reason why it has no matte scores.
+    mover: Result<Moving, &'static str>,
     /// Mass scores of the truth's first half.
     mass_noise: Option<Mass>,
     /// Mean error of the first half's labels on the object.
@@ -172,7 +173,7 @@ impl ObjectReference {
     pub(crate) fn score_bleed(&self, matte: &Plane) -> [Measured; 3] {
         let moving = match self.moving() {
             Ok(moving) => moving,
-            Err(reason) => return [(); 3].map(|()| Measured::not_applicable(&reason)),
+            Err(reason) => return [(); 3].map(|()| Measured::not_applicable(reason)),
         };
         let found = moving
             .sides
@@ -227,14 +228,17 @@ impl ObjectReference {
             pick(ObjectMetric::Extent, |found| found.extent),
             Measured::score(
                 grid.total_variation() / rows.truth.total_variation() - 1.0,
-                ObjectMetric::TvExcess.ideal().floor(rows.variation_noise),
+                ObjectMetric::TvExcess
+                    .row()
+                    .ideal
+                    .floor(rows.variation_noise),
             ),
         ]
     }
 
     fn score_mass(&self, matte: &Plane) -> [Measured; 3] {
         if let Err(reason) = self.moving() {
-            return [(); 3].map(|()| Measured::not_applicable(&reason));
+            return [(); 3].map(|()| Measured::not_applicable(reason));
         }
         let (found, noise) = (
             measure_mass(matte, &self.truth, &self.core),
@@ -268,11 +272,8 @@ impl ObjectReference {
         ]
     }
 
-    fn moving(&self) -> Result<&Moving, String> {
-        self.mover.as_ref().map_err(|stillness| match stillness {
-            Stillness::Invisible => "is not visible at the instant".to_owned(),
-            Stillness::Still => "does not move".to_owned(),
-        })
+    fn moving(&self) -> Result<&Moving, &'static str> {
+        self.mover.as_ref().map_err(|reason| *reason)
     }
 
     fn along_motion(&self) -> Result<(&AlongMotion, &Mover), String> {
@@ -296,6 +297,6 @@ fn average_patch(patch: Option<&Patch>, regions: &Regions) -> Option<f64> {
 
 /// Makes a score of a value and its noise, with the metric's floor, or gives the reason for their absence.
 fn score(metric: ObjectMetric, value: Option<f64>, noise: Option<f64>, reason: &str) -> Measured {
-    let floor = noise.map(|noise| metric.ideal().floor(noise));
+    let floor = noise.map(|noise| metric.row().ideal.floor(noise));
     Measured::of(value, floor, reason)
 }

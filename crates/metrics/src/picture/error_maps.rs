@@ -46,7 +46,7 @@ impl ErrorMaps {
         mean: &Picture,
         seen: &SeenTruth,
     ) -> Self {
-        let flip = seen.display.map_errors(displayed);
+        let flip = seen.display.map_errors(&displayed.linear);
         let flip_hdr = seen.exposures.map_errors(&output.color);
         let ssim = map_ssim(&displayed.srgb, &seen.srgb);
         Self {
