@@ -35,10 +35,9 @@ pub fn score_image(found: &Found) -> ImageScores {
 
 /// Scores SSIM, without windows that extend beyond the picture.
 fn score_ssim(found: &Found) -> Measured {
-    let windows = |(own, noise): &(Pooled, Pooled)| Some((own.ssim?, noise.ssim?));
-    match found.as_ref().map(windows) {
-        Ok(Some((own, noise))) => Measured::score(own, noise),
-        Ok(None) => Measured::not_applicable("no window of the region lies within the picture"),
+    let reason = "no window of the region lies within the picture";
+    match found {
+        Ok((own, noise)) => Measured::of(own.ssim, noise.ssim, reason),
         Err(reason) => Measured::not_applicable(*reason),
     }
 }
