@@ -24,11 +24,15 @@ fn judge_bars(choice: &SceneChoice, out: &Path) -> [Vec<JudgedScore>; 2] {
         ..RenderSettings::default()
     };
     let scene = &choice.scene;
-    let frame = suite::render_frame(scene, &settings, out, Monitor::SILENT).unwrap();
-    let shutter = Alignment::Trailing;
-    let truth = suite::render_truth(scene, &settings, shutter, out, Monitor::SILENT).unwrap();
-    let ladder = suite::LadderFiles::new(scene, &settings, &truth, out);
-    let rung = ladder.read_or_render(64, Monitor::SILENT).unwrap();
+    let rendering = suite::Rendering {
+        scene,
+        settings,
+        out,
+        monitor: Monitor::SILENT,
+    };
+    let frame = rendering.frame().unwrap();
+    let truth = rendering.truth(Alignment::Trailing).unwrap();
+    let rung = rendering.ladder(&truth).read_or_render(64).unwrap();
     let reference = Reference::new(&frame, &truth, None, &scene.display.into()).unwrap();
     let bounds = judge::read_bounds(scenes(), &choice.folder, Some((160, 90))).unwrap();
     // Bounds for all filters, required or not.

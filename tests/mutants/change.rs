@@ -2,7 +2,7 @@
 
 use filters::{Blur, FilterError, Gpu, Input, Kernels};
 use frame::{Frame, Image, Region, Regions, regions};
-use suite::{Error, FilterChoice, Monitor, render_frame, render_truth};
+use suite::{Error, FilterChoice, Monitor, Rendering};
 use tracer::{Scene, SceneId};
 
 use crate::bench::{Bench, SEED, mutant_place};
@@ -124,8 +124,14 @@ impl SoundPicture {
     fn new(bench: &Bench, scene: &Scene, sound: &FilterChoice) -> Result<Self, Error> {
         let (out, gpu): (_, &Gpu) = (bench.truths(SEED), &bench.gpu);
         let alignment = sound.filter.alignment;
-        let frame = render_frame(scene, &bench.render, &out, Monitor::SILENT)?;
-        let truth = render_truth(scene, &bench.render, alignment, &out, Monitor::SILENT)?;
+        let rendering = Rendering {
+            scene,
+            settings: bench.render,
+            out: &out,
+            monitor: Monitor::SILENT,
+        };
+        let frame = rendering.frame()?;
+        let truth = rendering.truth(alignment)?;
         let floors = truth.noise_floors();
         Ok(Self {
             scene: scene.id.clone(),

@@ -85,7 +85,6 @@ fn way_out(error: &Error) -> Option<&'static str> {
         Error::Trace(TraceError::Undefined { .. }) => {
             Some("see --frames, --frame-rate, --exposure")
         }
-        Error::Filter(FilterError::UnknownAdapter { .. }) => Some("choose one with --adapter"),
         _ => None,
     }
 }

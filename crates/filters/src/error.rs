@@ -11,22 +11,12 @@ pub enum FilterError {
          Vulkan driver serves: on Debian and Ubuntu `apt-get install mesa-vulkan-drivers libvulkan1`"
     )]
     NoAdapter,
-    /// No adapter has that index or name.
-    #[error("no adapter is called \"{wanted}\"; found: {}", found.join("; "))]
-    UnknownAdapter {
-        /// Index or part of the name that was asked for.
-        wanted: String,
-        /// `index: name` of every adapter there is.
-        found: Vec<String>,
-    },
-    /// The adapter cannot be opened.
-    #[error("adapter \"{adapter}\" cannot be used: {reason}; choose another adapter")]
-    Device {
-        /// Name of the adapter.
-        adapter: String,
-        /// Message of the driver.
-        reason: String,
-    },
+    /// A name that is unknown, an adapter that cannot be opened, or failures of a filter with values that its filter.toml allows.
+    #[error("{0}")]
+    Refused(
+        /// What was asked for, and what there is.
+        String,
+    ),
     /// A fault in a filter folder.
     #[error("{}{}{}: {reason}", path.display(), after_colon(*line), after_colon(*column))]
     Folder {
@@ -38,24 +28,6 @@ pub enum FilterError {
         column: Option<usize>,
         /// Fault, and what is allowed; of naga, with the line itself and a mark below.
         reason: String,
-    },
-    /// No built-in filter has that name.
-    #[error("no built-in filter is called \"{name}\"; allowed: {}; a folder of your own is given by its path, such as ./{name}", known.join(", "))]
-    UnknownFilter {
-        /// The name asked for.
-        name: String,
-        /// Every built-in filter.
-        known: Vec<String>,
-    },
-    /// The filter has no preset of that name.
-    #[error("filter {filter} has no preset \"{preset}\"; allowed: {}", known.join(", "))]
-    UnknownPreset {
-        /// The filter.
-        filter: String,
-        /// The name asked for.
-        preset: String,
-        /// Every preset of the filter.
-        known: Vec<String>,
     },
     /// A parameter that the filter does not have, or a value that it does not allow.
     #[error("{filter}.{parameter}: {reason}")]
@@ -98,12 +70,6 @@ pub enum FilterError {
     /// A command was stopped on request.
     #[error("interrupted")]
     Interrupted,
-    /// A filter fails with values that its filter.toml allows.
-    #[error("{}", .0.join("\n"))]
-    TriedOut(
-        /// Failures with their places, a line each.
-        Vec<String>,
-    ),
     /// A pass took too long and was given up. The adapter may still be at work on it, so nothing else is run there.
     #[error(
         "filter {filter}, pass {pass}: took longer than {time_limit} s and was given up; make it faster, or raise \

@@ -2,7 +2,8 @@
 
 use frame::{Camera, Image, Plane, Raster, Reprojection, Vectors};
 
-use crate::FilterError;
+use crate::filter::CameraUse;
+use crate::{Filter, FilterError};
 
 /// Frames per second of frames that do not say their rate, for filters whose convention does not either.
 pub(crate) const FRAMES_PER_SECOND: f64 = 60.0;
@@ -31,16 +32,11 @@ pub struct Input<'a> {
 
 impl Input<'_> {
     /// Refuses rasters of another size than `size`, and values that no frame holds.
-    pub(crate) fn check(
-        &self,
-        filter: &str,
-        size: [u32; 2],
-        reads: CameraUse,
-    ) -> Result<(), FilterError> {
+    pub(crate) fn check(&self, filter: &Filter, size: [u32; 2]) -> Result<(), FilterError> {
         self.check_values(size)
-            .and(self.check_camera(reads))
+            .and(self.check_camera(filter.camera_use()))
             .map_err(|reason| FilterError::Input {
-                filter: filter.to_owned(),
+                filter: filter.name.clone(),
                 reason,
             })
     }
@@ -77,15 +73,6 @@ impl Input<'_> {
         }
         Ok(())
     }
-}
-
-/// Parts of the camera that a filter reads.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct CameraUse {
-    /// The camera's motion over the pixels.
-    pub reprojection: bool,
-    /// Its matrices.
-    pub matrices: bool,
 }
 
 /// Returns true if no value is infinite or NaN.

@@ -34,10 +34,10 @@ pub use filter::{
     Scale, Settings, Source, Texture, TuningRecord, Unit, Value, VelocitySign, VelocityTime,
     VelocityUnit, VerticalDirection,
 };
-pub(crate) use filter::{Length, Pass, Repeat, Rounding, Stage};
+pub(crate) use filter::{Count, Pass, Rounding, Stage};
 pub use gpu::{
     AdapterDescription, Blur, BufferCopy, Clock, Gpu, Kernels, Limits, LoadedBlur, LoopLimit,
-    PassTime, UploadedInput, list_adapters, try_out,
+    PassTime, list_adapters, try_out,
 };
 pub use input::Input;
 pub use shader::Format;

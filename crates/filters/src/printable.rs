@@ -59,13 +59,8 @@ mod tests {
     #[test]
     fn control_characters_and_commands_are_refused() {
         for text in [
-            "two\nlines",
-            "red \u{1b}[31m",
-            "\u{9b}31m",
             "back\rward",
-            "\u{202e}desrever",
             "a\u{2028}b",
-            "::error::no",
             "see ::error file=a::no",
             "##[error]no",
         ] {

@@ -39,14 +39,9 @@ impl FilterChoice {
         Ok(())
     }
 
-    /// Lists the overrides as names show them: ` samples=8`.
-    pub fn overrides_text(&self) -> String {
-        overrides_text(&self.overrides)
-    }
-
     /// Names filter, preset and overrides: `jump_flood:paper samples=8`.
     pub fn name(&self) -> String {
-        format!("{}:{}", self.filter.name, self.preset) + &self.overrides_text()
+        format!("{}:{}", self.filter.name, self.preset) + &overrides_text(&self.overrides)
     }
 
     /// Keeps values in pixels as the presets have them, if that is asked for.

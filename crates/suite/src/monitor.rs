@@ -22,7 +22,7 @@ pub struct Monitor {
 impl Monitor {
     /// A monitor that shows nothing and interrupts nothing.
     pub const SILENT: Self = Self {
-        begin: |_| Box::new(HiddenStep),
+        begin: |_| Box::new(()),
         interrupted: || false,
     };
 
@@ -48,8 +48,6 @@ impl Monitor {
 }
 
 /// A step that is not shown.
-struct HiddenStep;
-
-impl Step for HiddenStep {
+impl Step for () {
     fn advance(&self, _: Progress) {}
 }

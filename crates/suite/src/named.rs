@@ -5,12 +5,12 @@
 #[macro_export]
 macro_rules! named {
     (
-        $(#[$about:meta])*
+        $(#[doc = $about:literal])+
         pub enum $kind:ident {
             $($(#[doc = $help:literal])+ $value:ident = $name:literal,)+
         }
     ) => {
-        $(#[$about])*
+        $(#[doc = $about])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
         pub enum $kind {
             $($(#[doc = $help])+ #[serde(rename = $name)] $value,)+
@@ -23,6 +23,9 @@ macro_rules! named {
         }
 
         impl $kind {
+            /// What the values are, in a sentence.
+            pub const ABOUT: &str = concat!($($about),+).trim_ascii();
+
             /// Every value.
             pub const ALL: &[Self] = &[$(Self::$value),+];
 

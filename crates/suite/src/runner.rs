@@ -21,8 +21,7 @@ pub fn open_gpu(
     adapter: Option<&str>,
     monitor: Monitor,
 ) -> Result<Option<Gpu>, FilterError> {
-    let needed = choices.iter().any(|choice| choice.filter.command.is_none());
-    if !needed && adapter.is_none() {
+    if adapter.is_none() && choices.iter().all(|own| own.filter.command.is_some()) {
         return Ok(None);
     }
     let gpu = open_adapter(adapter, monitor)?;
@@ -48,16 +47,13 @@ impl<'g> Runner<'g> {
         (width, height): (u32, u32),
         monitor: Monitor,
     ) -> Result<Self, FilterError> {
-        let FilterChoice {
-            filter, settings, ..
-        } = choice;
-        Ok(match filter.command {
-            Some(_) => Self::command(filter, settings, (width, height), monitor)?,
-            None => {
-                let gpu = gpu.expect("an adapter was opened for the kernels");
-                Self::Kernels(Box::new(Blur::new(gpu, filter, settings, width, height)?))
-            }
-        })
+        let (filter, settings) = (&choice.filter, &choice.settings);
+        if filter.command.is_some() {
+            return Self::command(filter, settings, (width, height), monitor);
+        }
+        let gpu = gpu.expect("an adapter was opened for the kernels");
+        let blur = Blur::new(gpu, filter, settings, width, height)?;
+        Ok(Self::Kernels(Box::new(blur)))
     }
 
     /// Makes a filter ready whose colours are rounded nowhere that the suite chooses the format, for numbers that are no colours; none

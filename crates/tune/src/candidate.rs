@@ -1,34 +1,8 @@
 //! Candidate of a tuning, ready to blur one scene after another.
 
-use filters::{Blur, Filter, FilterError, Gpu, Input, Kernels, Settings, UploadedInput};
+use filters::{Blur, Filter, FilterError, Kernels, Settings};
 use frame::{Frame, Image, Plane};
 use suite::{Monitor, Runner, filter_input, pack_planes, unpack_planes};
-
-use crate::rendered_scene::RenderedScene;
-
-/// A filter's kernels and the inputs of all scenes, on the GPU: every candidate uses them, and so costs its blurs alone.
-pub struct SharedKernels<'a> {
-    /// Compiled for every size and all settings.
-    kernels: Kernels<'a>,
-    /// Inputs in the order of the scenes.
-    inputs: Vec<UploadedInput>,
-}
-
-impl<'a> SharedKernels<'a> {
-    /// Compiles the kernels and uploads the scenes; with their mattes if `bleed` is to be measured.
-    pub fn compile(
-        gpu: &'a Gpu,
-        filter: &Filter,
-        scenes: &[RenderedScene],
-        bleed: bool,
-    ) -> Result<Self, FilterError> {
-        let kernels = Kernels::compile(gpu, filter)?;
-        let inputs = (scenes.iter())
-            .map(|scene| with_input(&scene.frame, bleed, |input| kernels.upload(input)))
-            .collect::<Result<_, _>>()?;
-        Ok(Self { kernels, inputs })
-    }
-}
 
 /// A filter with the settings to try.
 pub struct Candidate<'e, 'a> {
@@ -37,7 +11,7 @@ pub struct Candidate<'e, 'a> {
     /// Its settings.
     pub settings: &'e Settings,
     /// The filter's kernels; none if it is a program.
-    pub shared: Option<&'e SharedKernels<'a>>,
+    pub kernels: Option<&'e Kernels<'a>>,
     /// Monitor that can end a program.
     pub monitor: Monitor,
     /// The filter, ready for pictures of one size; none before the first picture.
@@ -48,22 +22,19 @@ pub struct Candidate<'e, 'a> {
 pub type Blurred = (Image, Option<Vec<Plane>>);
 
 impl<'a> Candidate<'_, 'a> {
-    /// Blurs the frame of a scene, given by its index; its mattes too if `bleed` is to be measured.
-    pub fn blur(
-        &mut self,
-        scene: usize,
-        frame: &Frame,
-        bleed: bool,
-    ) -> Result<Blurred, FilterError> {
+    /// Blurs the frame of a scene; its mattes too if `bleed` is to be measured.
+    pub fn blur(&mut self, frame: &Frame, bleed: bool) -> Result<Blurred, FilterError> {
         let size = frame.size();
         if self.runner.as_ref().is_none_or(|(made, _)| *made != size) {
             self.runner = Some((size, self.make_runner(size)?));
         }
         let (_, runner) = self.runner.as_mut().expect("it was just made");
-        let outputs = match (runner, self.shared) {
-            (Runner::Kernels(blur), Some(shared)) => blur.run_uploaded(&shared.inputs[scene])?,
-            (runner, _) => with_input(frame, bleed, |input| runner.run(input))?,
+        let mattes = match bleed {
+            true => pack_planes(&frame.coverage),
+            false => Vec::new(),
         };
+        let color: Vec<&Image> = std::iter::once(&frame.color).chain(&mattes).collect();
+        let outputs = runner.run(&filter_input(frame, &color))?;
         let mut outputs = outputs
             .iter()
             .map(|output| output.cropped(frame.guard_band));
@@ -74,22 +45,12 @@ impl<'a> Candidate<'_, 'a> {
     }
 
     fn make_runner(&self, size: (u32, u32)) -> Result<Runner<'a>, FilterError> {
-        match self.shared {
-            Some(shared) => {
-                let blur = Blur::with_kernels(&shared.kernels, self.settings, size.0, size.1)?;
+        match self.kernels {
+            Some(kernels) => {
+                let blur = Blur::with_kernels(kernels, self.settings, size.0, size.1)?;
                 Ok(Runner::Kernels(Box::new(blur)))
             }
             None => Runner::command(self.filter, self.settings, size, self.monitor),
         }
     }
-}
-
-/// Calls `run` with a frame: its colour, and after it the mattes, if they are to be blurred.
-fn with_input<T>(frame: &Frame, bleed: bool, run: impl FnOnce(&Input) -> T) -> T {
-    let mattes = match bleed {
-        true => pack_planes(&frame.coverage),
-        false => Vec::new(),
-    };
-    let color: Vec<&Image> = std::iter::once(&frame.color).chain(&mattes).collect();
-    run(&filter_input(frame, &color))
 }

@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::mpsc;
 
-use filters::{Blur, FilterError, Gpu, Settings};
+use filters::{Blur, FilterError, Gpu, Kernels, Settings};
 use frame::{Image, Plane};
 use suite::{Error, FilterChoice, Monitor, filter_input};
 use tracer::TraceError;
 
-use crate::candidate::{Candidate, SharedKernels};
+use crate::candidate::Candidate;
 use crate::rendered_scene::RenderedScene;
 use crate::target::{SceneScore, Target};
 
@@ -28,13 +28,13 @@ pub struct Evaluator<'a> {
     /// Monitor that can end the work.
     pub(crate) monitor: Monitor,
     /// The filter's kernels; none if it is a program.
-    shared: Option<SharedKernels<'a>>,
+    kernels: Option<Kernels<'a>>,
     /// Scores by scene, of each candidate.
     memory: HashMap<String, BTreeMap<String, SceneScore>>,
 }
 
 impl<'a> Evaluator<'a> {
-    /// Compiles the filter's kernels and uploads the scenes; measures nothing yet.
+    /// Compiles the filter's kernels; measures nothing yet.
     pub fn new(
         gpu: Option<&'a Gpu>,
         choice: &FilterChoice,
@@ -45,12 +45,11 @@ impl<'a> Evaluator<'a> {
         let targets: Vec<Target> = (scenes.iter())
             .map(|scene| Target::new(scene, &choice.filter.name, &choice.preset))
             .collect::<Result<_, _>>()?;
-        let shared = match choice.filter.command {
+        let kernels = match choice.filter.command {
             Some(_) => None,
             None => {
                 let gpu = gpu.expect("an adapter was opened for the kernels");
-                let filter = &choice.filter;
-                Some(SharedKernels::compile(gpu, filter, scenes, bleed)?)
+                Some(Kernels::compile(gpu, &choice.filter)?)
             }
         };
         Ok(Self {
@@ -59,7 +58,7 @@ impl<'a> Evaluator<'a> {
             targets,
             bleed,
             monitor,
-            shared,
+            kernels,
             memory: HashMap::new(),
         })
     }
@@ -118,13 +117,13 @@ impl<'a> Evaluator<'a> {
             let mut candidate = Candidate {
                 filter: &self.choice.filter,
                 settings,
-                shared: self.shared.as_ref(),
+                kernels: self.kernels.as_ref(),
                 monitor: self.monitor,
                 runner: None,
             };
             for scene in scenes {
                 let target = &self.targets[*scene];
-                let (color, mattes) = candidate.blur(*scene, &target.scene.frame, self.bleed)?;
+                let (color, mattes) = candidate.blur(&target.scene.frame, self.bleed)?;
                 check_finite(&target.scene.name, &color, mattes.as_deref())?;
                 let sender = sender.clone();
                 scope.spawn(move |_| {

@@ -5,7 +5,7 @@ use std::path::Path;
 use frame::{Alignment, Frame, Truth};
 use judge::SceneBounds;
 use metrics::Viewing;
-use suite::{Error, Monitor, render_frame, render_truth};
+use suite::{Error, Monitor, Rendering};
 use tracer::{RenderSettings, Scene};
 
 /// A scene, rendered once and measured against hundreds of times.
@@ -31,10 +31,16 @@ pub fn render_scenes(
     monitor: Monitor,
 ) -> Result<Vec<RenderedScene>, Error> {
     let render_scene = |(scene, bounds): &(Scene, SceneBounds)| {
+        let rendering = Rendering {
+            scene,
+            settings: *render,
+            out,
+            monitor,
+        };
         Ok(RenderedScene {
             name: scene.id.to_string(),
-            frame: render_frame(scene, render, out, monitor)?,
-            truth: render_truth(scene, render, alignment, out, monitor)?,
+            frame: rendering.frame()?,
+            truth: rendering.truth(alignment)?,
             viewing: scene.display.into(),
             bounds: bounds.clone().at((render.width, render.height)),
         })

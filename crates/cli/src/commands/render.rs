@@ -5,10 +5,7 @@ use std::ops::Range;
 use clap::Args;
 use frame::{Alignment, Truth};
 use store::{LADDER, MAX_REPLICATES, Sharing, claim, printable_path, scene_folder};
-use suite::{
-    Error, LadderFiles, deciding_floor, estimate_render_seconds, render_frame, render_part,
-    render_shared, render_truths_until,
-};
+use suite::{Error, Rendering, deciding_floor, estimate_render_seconds};
 use tracer::{RenderSettings, Scene};
 
 use super::expected::print_expected_time;
@@ -90,9 +87,15 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
         for frame in 0..args.frames {
             let scene = scene.at_frame(frame);
             let _claim = claim(&args.scenes.out, [&scene], Sharing::Together)?;
+            let rendering = Rendering {
+                scene: &scene,
+                settings: *settings,
+                out: &args.scenes.out,
+                monitor: make_monitor(),
+            };
             let found = match &args.replicates {
-                Replicates::All(_) => render_whole(args, &scene, settings, &mut noisy)?,
-                Replicates::Part(indices) => render_some(args, &scene, settings, indices)?,
+                Replicates::All(_) => render_whole(args, rendering, &mut noisy)?,
+                Replicates::Part(indices) => render_some(args, rendering, indices)?,
             };
             let folder = printable_path(&scene_folder(&args.scenes.out, &scene));
             print(&format!("{folder}\n{found}"))?;
@@ -124,18 +127,15 @@ fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Er
 /// Renders some replicates of a scene's truths, and its frame with the first of them. Says nothing about their noise.
 fn render_some(
     args: &RenderArgs,
-    scene: &Scene,
-    settings: &RenderSettings,
+    rendering: Rendering,
     indices: &Range<u32>,
 ) -> Result<String, Error> {
-    let (out, monitor) = (&args.scenes.out, make_monitor());
     if indices.start == 0 {
-        render_frame(scene, settings, out, monitor)?;
+        rendering.frame()?;
     }
-    let alignments = &args.alignments;
-    render_shared(scene, settings, alignments, indices.clone(), out, monitor)?;
-    for alignment in alignments {
-        render_part(scene, settings, *alignment, indices.clone(), out, monitor)?;
+    rendering.shared(&args.alignments, indices.clone())?;
+    for alignment in &args.alignments {
+        rendering.part(*alignment, indices.clone())?;
     }
     Ok(String::new())
 }
@@ -143,12 +143,10 @@ fn render_some(
 /// Renders a scene's frame and truths; returns a line for each truth. Adds one to `noisy` for each that is noisier than asked for.
 fn render_whole(
     args: &RenderArgs,
-    scene: &Scene,
-    settings: &RenderSettings,
+    rendering: Rendering,
     noisy: &mut Vec<String>,
 ) -> Result<String, Error> {
-    let (out, monitor) = (&args.scenes.out, make_monitor());
-    render_frame(scene, settings, out, monitor)?;
+    rendering.frame()?;
     let (target, most) = (args.noise.unwrap_or(f64::INFINITY), args.most_replicates);
     let mut report = String::new();
     let ended = |truth: &Truth, is_reached: bool| {
@@ -156,22 +154,17 @@ fn render_whole(
             noisy.push(too_noisy_line(truth, target, most));
         }
         if args.ladders {
-            let settings = settings.with_replicates(truth.provenance.replicates);
-            LadderFiles::new(scene, &settings, truth, out).ensure(&LADDER, monitor)?;
+            let replicates = truth.provenance.replicates;
+            let rendering = Rendering {
+                settings: rendering.settings.with_replicates(replicates),
+                ..rendering
+            };
+            rendering.ladder(truth).ensure(&LADDER)?;
         }
         report += &floors_line(truth);
         Ok(())
     };
-    let until = (target, most);
-    render_truths_until(
-        scene,
-        settings,
-        &args.alignments,
-        until,
-        out,
-        monitor,
-        ended,
-    )?;
+    rendering.truths_until(&args.alignments, (target, most), ended)?;
     Ok(report)
 }
 

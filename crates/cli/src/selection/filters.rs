@@ -103,7 +103,7 @@ fn refuse_programs(choices: &[FilterChoice]) -> Result<(), Error> {
             "{}:{}: the filter is a program and would run `{}`; read what that does, and allow it with --allow-commands",
             command.manifest.display(),
             command.line,
-            command.words().join(" ")
+            command.words.join(" ")
         ),
     }
 }

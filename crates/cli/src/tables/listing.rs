@@ -1,6 +1,6 @@
 //! Listings of scenes and filters, in brief and in detail.
 
-use filters::{Command, Filter, Parameter, Preset, Unit};
+use filters::{Filter, Parameter, Preset, Unit};
 use suite::InputKind;
 use tracer::SceneListing;
 
@@ -76,7 +76,7 @@ pub fn filter_json(filter: &Filter) -> serde_json::Value {
         "summary": filter.summary,
         "source": filter.source,
         "alignment": filter.alignment.name(),
-        "command": filter.command.as_ref().map(Command::words),
+        "command": filter.command.as_ref().map(|command| &command.words),
         "environment": filter.command.as_ref().map(|command| &command.environment),
         "compilers": filter.list_compilers(),
         "parameters": filter.parameters.iter().map(parameter).collect::<Vec<_>>(),
@@ -102,7 +102,7 @@ fn push_filter(text: &mut String, filter: &Filter) {
         push_wrapped(text, 4, &line);
     }
     if let Some(command) = &filter.command {
-        push_wrapped(text, 4, &format!("runs: {}", command.words().join(" ")));
+        push_wrapped(text, 4, &format!("runs: {}", command.words.join(" ")));
         if !command.environment.is_empty() {
             let names = command.environment.join(" ");
             push_wrapped(text, 4, &format!("environment: {names}"));

@@ -8,9 +8,9 @@ use std::time::Duration;
 use frame::{ExrFile, FileError, Image, read_exr, write_exr};
 
 use super::environment::collect_environment;
-use super::process::{End, Limits, run_process};
+use super::process::{End, run_process};
 use crate::filter::fill_placeholders;
-use crate::input::{CameraUse, FRAMES_PER_SECOND, find_pixel, is_finite};
+use crate::input::{FRAMES_PER_SECOND, find_pixel, is_finite};
 use crate::{Command, Filter, FilterError, Input, Settings};
 
 /// Upper limit on the bytes per pixel that a program may write: 64 channels of 32 bits.
@@ -24,12 +24,9 @@ pub const BESIDE_PIXELS: u64 = 1 << 20;
 /// Programs run one at a time. On Linux, every process that this one starts while a program runs ends with the program.
 #[derive(Debug)]
 pub struct CommandBlur {
-    filter: String,
-    command: Command,
+    filter: Filter,
     settings: Settings,
     size: [u32; 2],
-    /// Longest time of one run, in seconds.
-    time_limit: f64,
     interrupted: fn() -> bool,
 }
 
@@ -43,21 +40,18 @@ impl CommandBlur {
         height: u32,
         interrupted: fn() -> bool,
     ) -> Result<Self, FilterError> {
-        let command = filter.command.clone();
         settings.check(filter)?;
         Ok(Self {
-            filter: filter.name.clone(),
-            command: command.expect("a filter that is a command has one"),
+            filter: filter.clone(),
             settings: settings.clone(),
             size: [width, height],
-            time_limit: filter.time_limit,
             interrupted,
         })
     }
 
     /// Blurs every colour image of the input, in order: one run of the program each.
     pub fn run(&self, input: &Input) -> Result<Vec<Image>, FilterError> {
-        input.check(&self.filter, self.size, CameraUse::default())?;
+        input.check(&self.filter, self.size)?;
         (input.color.iter())
             .map(|color| self.blur(color, input))
             .collect()
@@ -70,24 +64,24 @@ impl CommandBlur {
         let [frame, out] = ["frame.exr", "out.exr"].map(|name| place.join(name));
         write_exr(&frame, &make_frame_file(color, input))
             .map_err(|error| self.refuse_frame_file(error))?;
-        let mut process = Process::new(self.program());
+        let mut process = Process::new(match self.is_in_folder() {
+            true => self.command().folder.join(self.program()),
+            false => PathBuf::from(self.program()),
+        });
         process
             .args(self.arguments(input, &frame, &out))
-            .current_dir(&self.command.folder)
+            .current_dir(&self.command().folder)
             .env_clear()
-            .envs(collect_environment(&self.command.environment));
-        let limits = Limits {
-            time: Duration::from_secs_f64(self.time_limit),
-            out: (&out, self.max_bytes()),
-        };
-        let (end, output) = run_process(process, &limits, self.interrupted)
+            .envs(collect_environment(&self.command().environment));
+        let limit = Duration::from_secs_f64(self.filter.time_limit);
+        let (end, output) = run_process(process, limit, (&out, self.max_bytes()), self.interrupted)
             .map_err(|error| self.refuse(self.describe_start_failure(&error)))?;
         let outcome = match end {
             End::Interrupted => return Err(FilterError::Interrupted),
             End::OutOfTime => Err(format!(
                 "took longer than {} s and was stopped; raise time_limit in {}",
-                self.time_limit,
-                self.command.folder.join("filter.toml").display()
+                self.filter.time_limit,
+                self.command().folder.join("filter.toml").display()
             )),
             End::TooLarge => Err(self.describe_too_large()),
             End::Exited(status) if !status.success() => Err(format!("ended with {status}")),
@@ -102,22 +96,23 @@ impl CommandBlur {
             };
             self.refuse(format!(
                 "`{} {}` {reason}{said}",
-                self.command.program,
+                self.program(),
                 words.join(" ")
             ))
         })
     }
 
-    fn program(&self) -> PathBuf {
-        if self.is_in_folder() {
-            self.command.folder.join(&self.command.program)
-        } else {
-            PathBuf::from(&self.command.program)
-        }
+    fn command(&self) -> &Command {
+        let command = self.filter.command.as_ref();
+        command.expect("a filter that is a command has one")
+    }
+
+    fn program(&self) -> &str {
+        &self.command().words[0]
     }
 
     fn is_in_folder(&self) -> bool {
-        self.command.program.contains(['/', '\\'])
+        self.program().contains(['/', '\\'])
     }
 
     fn arguments(&self, input: &Input, frame: &Path, out: &Path) -> Vec<String> {
@@ -131,7 +126,7 @@ impl CommandBlur {
                 parameter => self.settings.values.get(parameter)?.to_string(),
             })
         };
-        (self.command.arguments.iter())
+        (self.command().words[1..].iter())
             .map(|word| {
                 fill_placeholders(word, value).expect("placeholders were checked with filter.toml")
             })
@@ -204,8 +199,8 @@ impl CommandBlur {
     }
 
     fn describe_start_failure(&self, error: &std::io::Error) -> String {
-        let program = &self.command.program;
-        let folder = self.command.folder.display();
+        let program = self.program();
+        let folder = self.command().folder.display();
         match (self.is_in_folder(), error.kind()) {
             (false, ErrorKind::NotFound) => format!(
                 "`{program}` is not on the PATH; a program in {folder} is called ./{program}"
@@ -223,7 +218,7 @@ impl CommandBlur {
 
     fn refuse(&self, reason: String) -> FilterError {
         FilterError::Command {
-            filter: self.filter.clone(),
+            filter: self.filter.name.clone(),
             reason,
         }
     }

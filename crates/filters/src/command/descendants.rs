@@ -1,6 +1,6 @@
 //! Processes that a program started, even those that left its process group (Linux).
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 use rustix::process::{
@@ -26,22 +26,22 @@ impl Descendants {
     pub fn new() -> Self {
         // A system that refuses leaves such orphans to the init process, where they are not found.
         let _ = set_child_subreaper(Some(getpid()));
-        let own = own_id();
-        let mut children = list_children();
         Self {
-            before: children.remove(&own).unwrap_or_default(),
+            before: list_children(),
         }
     }
 
-    /// Kills all of them, and those that they start meanwhile.
+    /// Kills all of them, and those that they start meanwhile. The children of a killed child become children of this process, whose
+    /// turn comes with the next look.
     pub fn kill(&self) {
         let start = Instant::now();
         loop {
-            let alive = self.find_alive();
-            if alive.is_empty() || start.elapsed() > LONGEST_WAIT {
+            let children = list_children();
+            let mut alive = children.difference(&self.before).peekable();
+            if alive.peek().is_none() || start.elapsed() > LONGEST_WAIT {
                 return;
             }
-            for pid in alive.into_iter().filter_map(Pid::from_raw) {
+            for pid in alive.filter_map(|id| Pid::from_raw(*id)) {
                 // A process of another user cannot be killed; one that has ended is as good as killed.
                 let _ = kill_process(pid, Signal::KILL);
                 let _ = waitpid(Some(pid), WaitOptions::NOHANG);
@@ -49,44 +49,19 @@ impl Descendants {
             std::thread::sleep(PAUSE);
         }
     }
-
-    fn find_alive(&self) -> Vec<i32> {
-        let children = list_children();
-        let of = |parent: i32| children.get(&parent).into_iter().flatten().copied();
-        let mut found: Vec<i32> = of(own_id())
-            .filter(|child| !self.before.contains(child))
-            .collect();
-        let mut next = 0;
-        while let Some(parent) = found.get(next) {
-            found.extend(of(*parent));
-            next += 1;
-        }
-        found
-    }
 }
 
-fn own_id() -> i32 {
-    getpid().as_raw_nonzero().get()
-}
-
-/// Lists the children of every process in /proc; empty if it cannot be read.
-fn list_children() -> BTreeMap<i32, BTreeSet<i32>> {
-    let mut children: BTreeMap<i32, BTreeSet<i32>> = BTreeMap::new();
-    for entry in std::fs::read_dir("/proc").into_iter().flatten().flatten() {
-        let id = entry
-            .file_name()
-            .to_str()
-            .and_then(|name| name.parse().ok());
-        let Some(id) = id else {
-            continue;
-        };
+/// Lists the children of this process in /proc; empty if it cannot be read.
+fn list_children() -> BTreeSet<i32> {
+    let own = getpid().as_raw_nonzero().get();
+    let entries = std::fs::read_dir("/proc").into_iter().flatten().flatten();
+    let children = entries.filter_map(|entry| {
+        let id = entry.file_name().to_str()?.parse().ok()?;
         // A process may have ended since the folder was listed.
-        let stat = std::fs::read(entry.path().join("stat")).unwrap_or_default();
-        if let Some(parent) = parse_parent(&stat) {
-            children.entry(parent).or_default().insert(id);
-        }
-    }
-    children
+        let stat = std::fs::read(entry.path().join("stat")).ok()?;
+        (parse_parent(&stat)? == own).then_some(id)
+    });
+    children.collect()
 }
 
 /// Parses the parent's id in a line of /proc/<pid>/stat: `pid (name) state parent ..`, where the name may hold anything.

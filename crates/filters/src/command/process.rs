@@ -21,25 +21,18 @@ pub enum End {
     Interrupted,
 }
 
-/// Limits of a program.
-pub struct Limits<'a> {
-    /// Longest time that it may run.
-    pub time: Duration,
-    /// The file that it is to write, and the most bytes that this may hold.
-    pub out: (&'a Path, u64),
-}
-
 /// Longest pause between two looks at a running program.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// Lock that lets one program run at a time: every process that appears below this one meanwhile belongs to it.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
-/// Runs a program and reads what it prints; returns how it ended, and the last lines that it printed. Whatever it has started
-/// ends with it, however it ends.
+/// Runs a program for at most `limit`, and reads what it prints; returns how it ended, and the last lines that it printed. Whatever it
+/// has started ends with it, however it ends. `out` is the file that it is to write, and the most bytes that this may hold.
 pub fn run_process(
     mut command: Command,
-    limits: &Limits,
+    limit: Duration,
+    out: (&Path, u64),
     interrupted: fn() -> bool,
 ) -> io::Result<(End, String)> {
     let _turn = (ONE_AT_A_TIME.lock()).unwrap_or_else(PoisonError::into_inner);
@@ -49,14 +42,19 @@ pub fn run_process(
         .stdout(pipe.try_clone()?)
         .stderr(pipe);
     let mut group = ProcessGroup::spawn(command)?;
-    let end = watch(&mut group, limits, interrupted);
+    let end = watch(&mut group, limit, out, interrupted);
     // A living process would keep the pipe open.
     drop(group);
     Ok((end?, output.into_lines()))
 }
 
 /// Waits until the program ends, breaks a limit or is interrupted.
-fn watch(group: &mut ProcessGroup, limits: &Limits, interrupted: fn() -> bool) -> io::Result<End> {
+fn watch(
+    group: &mut ProcessGroup,
+    limit: Duration,
+    (out, max_bytes): (&Path, u64),
+    interrupted: fn() -> bool,
+) -> io::Result<End> {
     let start = Instant::now();
     let mut pause = Duration::from_millis(1);
     loop {
@@ -66,10 +64,9 @@ fn watch(group: &mut ProcessGroup, limits: &Limits, interrupted: fn() -> bool) -
         if interrupted() {
             return Ok(End::Interrupted);
         }
-        if start.elapsed() >= limits.time {
+        if start.elapsed() >= limit {
             return Ok(End::OutOfTime);
         }
-        let (out, max_bytes) = limits.out;
         if std::fs::symlink_metadata(out).is_ok_and(|found| found.len() > max_bytes) {
             return Ok(End::TooLarge);
         }

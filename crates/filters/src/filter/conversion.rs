@@ -9,24 +9,14 @@ use super::convention::{
 impl Convention {
     /// Converts velocity in pixels per frame to the engine's.
     pub fn convert_velocity(&self, velocity: &Vectors, exposure: f64) -> Vectors {
-        let factors = self.velocity_factors([velocity.width, velocity.height], exposure);
-        velocity.map(|[x, y]| {
-            [
-                (f64::from(*x) * factors[0]) as f32,
-                (f64::from(*y) * factors[1]) as f32,
-            ]
-        })
+        let [x, y] = self.velocity_factors([velocity.width, velocity.height], exposure);
+        velocity.map(|v| [(f64::from(v[0]) * x) as f32, (f64::from(v[1]) * y) as f32])
     }
 
     /// Converts the engine's velocity to pixels per frame.
     pub fn restore_velocity(&self, velocity: &Vectors, exposure: f64) -> Vectors {
-        let factors = self.velocity_factors([velocity.width, velocity.height], exposure);
-        velocity.map(|[x, y]| {
-            [
-                (f64::from(*x) / factors[0]) as f32,
-                (f64::from(*y) / factors[1]) as f32,
-            ]
-        })
+        let [x, y] = self.velocity_factors([velocity.width, velocity.height], exposure);
+        velocity.map(|v| [(f64::from(v[0]) / x) as f32, (f64::from(v[1]) / y) as f32])
     }
 
     /// Returns the engine's velocity of a surface that moves by a pixel per frame to the right and down.
@@ -110,43 +100,6 @@ mod tests {
 
     use super::*;
 
-    const WIDTH: u32 = 80;
-    const HEIGHT: u32 = 40;
-
-    /// A quarter of the width to the right and an eighth of the height down, per frame.
-    fn moving() -> Vectors {
-        Raster::from_fn(WIDTH, HEIGHT, |_, _| [20.0, 5.0])
-    }
-
-    #[test]
-    fn each_form_of_velocity_has_the_number_that_it_should_have() {
-        // (form, velocity of that surface with a shutter of half a frame)
-        let cases = [
-            ("", [20.0, 5.0]),
-            ("velocity = 'uv'", [0.25, 0.125]),
-            ("velocity = 'ndc'", [0.5, 0.25]),
-            ("velocity_y = 'up'", [20.0, -5.0]),
-            ("velocity_sign = 'previous_minus_current'", [-20.0, -5.0]),
-            ("velocity_per = 'shutter'", [10.0, 2.5]),
-            (
-                "velocity_per = 'second'\nframes_per_second = 60",
-                [1200.0, 300.0],
-            ),
-            ("velocity_scale = 0.5", [10.0, 2.5]),
-            // Unreal, per shutter: twice that part of the picture, upwards, for half the time.
-            (
-                "velocity = 'ndc'\nvelocity_y = 'up'\nvelocity_per = 'shutter'",
-                [0.25, -0.125],
-            ),
-        ];
-        for (text, expected) in cases {
-            let form: Convention = toml::from_str(text).unwrap();
-            let converted = form.convert_velocity(&moving(), 0.5);
-            assert_eq!(*converted.at(3, 4), expected, "{form:?}");
-            assert_eq!(form.restore_velocity(&converted, 0.5), moving(), "{form:?}");
-        }
-    }
-
     #[test]
     fn each_form_of_depth_has_its_planes_at_its_ends_and_leads_back() {
         let planes = |depth, far| Convention {
@@ -193,17 +146,5 @@ mod tests {
                 assert!(error < 1e-5, "{form:?}: {:?}", back.pixels);
             }
         }
-    }
-
-    #[test]
-    fn exposed_colour_is_divided_again() {
-        let exposed = Convention {
-            color_scale: Some(4.0),
-            ..Convention::default()
-        };
-        let color = Raster::from_fn(2, 2, |x, y| [x as f32, y as f32, 0.3]);
-        let converted = exposed.convert_color(&color);
-        assert_eq!(*converted.at(1, 0), [4.0, 0.0, 1.2]);
-        assert_eq!(exposed.restore_color(&converted), color);
     }
 }

@@ -11,9 +11,7 @@ use super::parameter::Parameter;
 use super::pass::{Pass, Texture};
 use super::preset::Preset;
 use super::reach::ReachBy;
-use super::values::{count_numbers, is_of_matrix};
 use crate::Format;
-use crate::input::CameraUse;
 use crate::shader::{EntryPoint, Shader};
 
 /// Textures that every filter may read.
@@ -84,7 +82,7 @@ impl Filter {
 
     /// Finds the shader that a pass runs.
     pub(crate) fn shader(&self, pass: &Pass) -> &Shader {
-        &self.shaders[pass.shader_index]
+        &self.shaders[pass.shaders[0]]
     }
 
     /// Says which compiler made the shader of each pass that needs one, and why others failed: `blur.hlsl compiled by slangc`.
@@ -101,35 +99,12 @@ impl Filter {
         listed
     }
 
-    /// Returns true if a shader reads where the camera is, or how it moved.
-    pub fn reads_camera(&self) -> bool {
-        let CameraUse {
-            reprojection,
-            matrices,
-        } = self.camera_use();
-        reprojection || matrices
-    }
-
     /// Lists the stages of a pass: its kernel or fragment shader, then the vertex stage if the pass names one.
     pub(crate) fn stages(&self, pass: &Pass) -> Vec<(&Shader, &EntryPoint)> {
-        let corners = pass.vertex_index.map(|index| &self.shaders[index]);
+        let corners = pass.shaders[1..].iter().map(|index| &self.shaders[*index]);
         let corners = corners.map(|shader| (shader, &shader.entry_points[0]));
         let own = (self.shader(pass), self.entry_point(pass));
         [own].into_iter().chain(corners).collect()
-    }
-
-    /// Lists the parts of the camera the shaders read.
-    pub(crate) fn camera_use(&self) -> CameraUse {
-        let mut blocks = self.shaders.iter().flat_map(|shader| &shader.blocks);
-        CameraUse {
-            reprojection: self.shaders.iter().any(|shader| shader.reads_reprojection),
-            matrices: blocks.any(|block| block.reads_any(&is_of_matrix)),
-        }
-    }
-
-    /// Counts the numbers of a name that a member of a uniform block can get its value from; none for an unknown name.
-    pub(crate) fn count_numbers(&self, name: &str) -> Option<usize> {
-        count_numbers(name, &self.parameters, &self.convention)
     }
 
     /// Finds a declared texture.

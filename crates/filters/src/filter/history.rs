@@ -15,11 +15,8 @@ pub enum History {
 impl History {
     /// Returns the name of the input, as filter.toml and shaders have it.
     pub fn input(self) -> &'static str {
-        match self {
-            History::Color => "color",
-            History::Velocity => "velocity",
-            History::Depth => "depth",
-        }
+        let texture = self.texture();
+        texture.strip_suffix("_before").unwrap_or(texture)
     }
 
     /// Returns the name of its texture, as shaders have it.

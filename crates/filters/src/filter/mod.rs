@@ -22,15 +22,13 @@ pub use definition::Filter;
 pub(crate) use definition::{DEFAULT_TIME_LIMIT, INPUTS, Lines};
 pub use history::History;
 pub use parameter::{Kind, Parameter, Scale, Unit, Value};
+pub(crate) use pass::{Count, Pass, Rounding};
 pub use pass::{Holds, Texture};
-pub(crate) use pass::{Pass, Repeat, Rounding};
 pub(crate) use pass_shader::{Binding, BindingPlace, PassShader, Stage, VertexShader};
 pub(crate) use placeholders::{PLACEHOLDERS, fill_placeholders};
 pub use preset::{Code, Preset, Source, TuningRecord};
-pub(crate) use reach::Length;
 pub use reach::ReachBy;
 pub use settings::Settings;
 pub(crate) use values::{
-    MATRICES, MATRIX_NUMBERS, count_numbers, explain_unknown, find_matrix, list_values,
-    split_element,
+    CameraUse, MATRICES, MATRIX_NUMBERS, explain_unknown, find_matrix, split_element,
 };

@@ -46,16 +46,14 @@ pub(crate) struct Pass {
     pub entry: String,
     /// The shader, if the pass names one of its own.
     pub shader: Option<PassShader>,
-    /// Index of the shader among those of the filter.
-    pub(crate) shader_index: usize,
-    /// Index of the shader of its vertex stage.
-    pub(crate) vertex_index: Option<usize>,
+    /// Indices of the shaders of its stages among those of the filter.
+    pub(crate) shaders: Vec<usize>,
     /// Texture whose texels it runs over; `None` for the image's pixels.
     pub over: Option<String>,
     /// True if a whole workgroup runs for each of those texels, instead of one invocation.
     pub workgroup_per_texel: bool,
     /// Number of runs.
-    pub repeat: Repeat,
+    pub repeat: Count,
 }
 
 impl Pass {
@@ -73,15 +71,15 @@ impl Pass {
     }
 }
 
-/// Number of times that a pass runs.
+/// A number of runs or of pixels.
 #[derive(Clone, Debug, PartialEq, serde::Deserialize)]
 #[serde(
     untagged,
-    expecting = "repeat is a count from 1 or the name of an integer parameter"
+    expecting = "a unit or repeat is a count from 1 or the name of an integer parameter"
 )]
-pub(crate) enum Repeat {
+pub(crate) enum Count {
     /// A fixed number.
-    Times(u32),
+    Number(u32),
     /// The value of this integer parameter.
     Parameter(String),
 }

@@ -41,10 +41,6 @@ pub(crate) fn fill_placeholders(
 mod tests {
     use super::fill_placeholders;
 
-    fn fill(word: &str) -> Result<String, String> {
-        fill_placeholders(word, |name| (name == "exposure").then(|| "0.5".to_owned()))
-    }
-
     #[test]
     fn names_in_braces_are_replaced_and_nothing_else() {
         for (word, expected) in [
@@ -56,20 +52,9 @@ mod tests {
             ("{{{exposure}}}", "{0.5}"),
             ("größe={exposure}", "größe=0.5"),
         ] {
-            assert_eq!(fill(word).as_deref(), Ok(expected), "{word}");
-        }
-    }
-
-    #[test]
-    fn unknown_names_and_lone_braces_are_refused() {
-        for (word, says) in [
-            ("{shutter}", "holds the unknown {shutter}"),
-            ("{}", "holds the unknown {}"),
-            ("{ exposure }", "holds the unknown { exposure }"),
-            ("{exposure", "has a brace without the other"),
-            ("exposure}", "has a brace without the other"),
-        ] {
-            assert_eq!(fill(word), Err(says.to_owned()), "{word}");
+            let filled =
+                fill_placeholders(word, |name| (name == "exposure").then(|| "0.5".to_owned()));
+            assert_eq!(filled.as_deref(), Ok(expected), "{word}");
         }
     }
 }

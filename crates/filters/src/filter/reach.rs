@@ -2,18 +2,7 @@
 
 use serde::Deserialize;
 
-/// A length in pixels.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(
-    untagged,
-    expecting = "a length is a number of pixels or the name of an integer parameter"
-)]
-pub(crate) enum Length {
-    /// A fixed number.
-    Pixels(u32),
-    /// The value of this integer parameter.
-    Parameter(String),
-}
+use super::pass::Count;
 
 /// The parameter that bounds the reach of a filter.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -25,11 +14,11 @@ pub struct ReachBy {
     pub(crate) growth: Growth,
     /// The reach when the parameter is 1; a pixel if left out.
     #[serde(default = "one_pixel")]
-    pub(crate) unit: Length,
+    pub(crate) unit: Count,
 }
 
-fn one_pixel() -> Length {
-    Length::Pixels(1)
+fn one_pixel() -> Count {
+    Count::Number(1)
 }
 
 /// Growth of the reach with a parameter.

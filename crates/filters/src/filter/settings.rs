@@ -7,7 +7,8 @@ use serde::Serialize;
 use super::convention::CONVENTION_VALUES;
 use super::definition::Filter;
 use super::parameter::{Kind, Parameter, Unit, Value};
-use super::reach::{Growth, Length};
+use super::pass::Count;
+use super::reach::Growth;
 use crate::FilterError;
 use crate::printable::escape_controls;
 
@@ -27,18 +28,16 @@ pub struct Settings {
 impl Filter {
     /// Takes the values of a preset, or of the first one.
     pub fn settings(&self, preset: Option<&str>) -> Result<Settings, FilterError> {
-        let preset = match preset {
-            None => &self.presets[0],
-            Some(name) => self
-                .presets
-                .iter()
-                .find(|preset| preset.name == name)
-                .ok_or_else(|| FilterError::UnknownPreset {
-                    filter: self.name.clone(),
-                    preset: name.to_owned(),
-                    known: self.presets.iter().map(|p| p.name.clone()).collect(),
-                })?,
-        };
+        let wanted = preset.unwrap_or(&self.presets[0].name);
+        let names = self.presets.iter().map(|preset| &preset.name[..]);
+        let preset = self.presets.iter().find(|preset| preset.name == wanted);
+        let preset = preset.ok_or_else(|| {
+            FilterError::Refused(format!(
+                "filter {} has no preset \"{wanted}\"; allowed: {}",
+                self.name,
+                names.collect::<Vec<_>>().join(", ")
+            ))
+        })?;
         let mut values: BTreeMap<String, Value> = self
             .parameters
             .iter()
@@ -152,11 +151,14 @@ impl Settings {
         })
     }
 
-    /// Returns the value of an integer parameter, which the check of the folder found to be positive.
-    pub(crate) fn count(&self, parameter: &str) -> u32 {
-        match self.values[parameter] {
-            Value::Integer(value) if value > 0 => value as u32,
-            _ => unreachable!("counts come from integer parameters that start at 1"),
+    /// Returns a number, or the value of an integer parameter, which the check of the folder found to be positive.
+    pub(crate) fn count(&self, count: &Count) -> u32 {
+        match count {
+            Count::Number(number) => *number,
+            Count::Parameter(name) => match self.values[name] {
+                Value::Integer(value) if value > 0 => value as u32,
+                _ => unreachable!("counts come from integer parameters that start at 1"),
+            },
         }
     }
 
@@ -165,7 +167,7 @@ impl Settings {
     pub fn with_reach(&self, filter: &Filter, pixels: u32) -> Result<Settings, FilterError> {
         let mut settings = self.clone();
         if let Some(reach_by) = &filter.reach_by {
-            let units = pixels.div_ceil(self.pixels(&reach_by.unit)).max(1);
+            let units = pixels.div_ceil(self.count(&reach_by.unit)).max(1);
             let value = match reach_by.growth {
                 Growth::Linear => units,
                 Growth::Doubling => units.next_power_of_two().ilog2() + 1,
@@ -173,14 +175,6 @@ impl Settings {
             settings.set_value(filter, &reach_by.parameter, Value::Integer(value as i32))?;
         }
         Ok(settings)
-    }
-
-    /// Converts a length to a number of pixels.
-    pub(crate) fn pixels(&self, length: &Length) -> u32 {
-        match length {
-            Length::Pixels(pixels) => *pixels,
-            Length::Parameter(parameter) => self.count(parameter),
-        }
     }
 }
 

@@ -1,23 +1,20 @@
 //! Names of values that members of uniform blocks may have, besides parameters.
 
-use super::convention::{CONVENTION_VALUES, Convention};
-use super::parameter::Parameter;
+use super::convention::CONVENTION_VALUES;
+use super::definition::Filter;
 
-/// Numbers of the frame and of the pass, each with its meaning.
-const NUMBERS: [(&str, &str); 6] = [
-    ("width", "pixels per row"),
-    ("height", "rows"),
-    ("exposure", "time that the shutter is open, in frames"),
-    (
-        "frame_index",
-        "a number that changes the noise, and nothing else",
-    ),
-    ("iteration", "run of the pass, from 0"),
-    ("iterations", "number of runs of the pass"),
+/// Numbers of the frame and of the pass.
+const NUMBERS: [&str; 6] = [
+    "width",
+    "height",
+    "exposure",
+    "frame_index",
+    "iteration",
+    "iterations",
 ];
 
-/// Values of several numbers, each with their count. `resolution[0]` is the first number.
-const LISTS: [(&str, usize); 2] = [("resolution", 2), ("jitter", 2)];
+/// Values of two numbers. `resolution[0]` is the first number.
+const PAIRS: [&str; 2] = ["resolution", "jitter"];
 
 /// Matrices of the camera of this frame. With `previous_` before its name, each is that of the frame before.
 pub(crate) const MATRICES: [&str; 6] = [
@@ -35,30 +32,67 @@ pub(crate) const PREVIOUS: &str = "previous_";
 /// Numbers of a matrix.
 pub(crate) const MATRIX_NUMBERS: usize = 16;
 
-/// Counts the numbers that a name stands for; none for an unknown name.
-pub(crate) fn count_numbers(
-    name: &str,
-    parameters: &[Parameter],
-    convention: &Convention,
-) -> Option<usize> {
-    let is_parameter = (parameters.iter()).any(|parameter| parameter.name == name);
-    let is_number = is_parameter
-        || NUMBERS.iter().any(|(known, _)| *known == name)
-        || convention.value(name).is_some();
-    if is_number {
-        return Some(1);
+/// Parts of the camera that a filter reads.
+pub(crate) struct CameraUse {
+    /// The camera's motion over the pixels.
+    pub reprojection: bool,
+    /// Its matrices.
+    pub matrices: bool,
+}
+
+impl Filter {
+    /// Counts the numbers that a name stands for; none for an unknown name.
+    pub(crate) fn count_numbers(&self, name: &str) -> Option<usize> {
+        let is_parameter = (self.parameters.iter()).any(|parameter| parameter.name == name);
+        if is_parameter || NUMBERS.contains(&name) || self.convention.value(name).is_some() {
+            return Some(1);
+        }
+        let count = |whole: &str| {
+            let pair = PAIRS.contains(&whole).then_some(2);
+            let is_known = find_matrix(whole).is_some_and(|(matrix, _)| {
+                self.convention.near.is_some() || !MATRICES[matrix].ends_with("projection")
+            });
+            pair.or(is_known.then_some(MATRIX_NUMBERS))
+        };
+        match split_element(name) {
+            Some((whole, index)) => count(whole).filter(|count| index < *count).map(|_| 1),
+            None => count(name),
+        }
     }
-    let count = |whole: &str| {
-        let list = LISTS.iter().find(|(known, _)| *known == whole);
-        let is_known = find_matrix(whole).is_some_and(|(matrix, _)| {
-            convention.near.is_some() || !MATRICES[matrix].ends_with("projection")
-        });
-        let matrix = is_known.then_some(MATRIX_NUMBERS);
-        list.map(|(_, count)| *count).or(matrix)
-    };
-    match split_element(name) {
-        Some((whole, index)) => count(whole).filter(|count| index < *count).map(|_| 1),
-        None => count(name),
+
+    /// Lists the names of all values, for messages.
+    pub(crate) fn list_values(&self) -> String {
+        let of_convention = CONVENTION_VALUES.into_iter();
+        let matrices = MATRICES.map(str::to_owned).into_iter();
+        let previous = MATRICES.map(|name| format!("{PREVIOUS}{name}"));
+        let names = (self
+            .parameters
+            .iter()
+            .map(|parameter| parameter.name.clone()))
+        .chain(NUMBERS.map(str::to_owned))
+        .chain(of_convention.map(str::to_owned))
+        .chain(PAIRS.map(str::to_owned))
+        .chain(matrices.chain(previous));
+        let known = names.filter(|name| self.count_numbers(name).is_some());
+        known.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Returns true if a shader reads where the camera is, or how it moved.
+    pub fn reads_camera(&self) -> bool {
+        let CameraUse {
+            reprojection,
+            matrices,
+        } = self.camera_use();
+        reprojection || matrices
+    }
+
+    /// Lists the parts of the camera the shaders read.
+    pub(crate) fn camera_use(&self) -> CameraUse {
+        let mut blocks = self.shaders.iter().flat_map(|shader| &shader.blocks);
+        CameraUse {
+            reprojection: self.shaders.iter().any(|shader| shader.reads_reprojection),
+            matrices: blocks.any(|block| block.reads_any(&is_of_matrix)),
+        }
     }
 }
 
@@ -79,7 +113,7 @@ pub(crate) fn split_element(name: &str) -> Option<(&str, usize)> {
 }
 
 /// Returns true for a number of a matrix.
-pub(crate) fn is_of_matrix(name: &str) -> bool {
+fn is_of_matrix(name: &str) -> bool {
     split_element(name).is_some_and(|(whole, _)| find_matrix(whole).is_some())
 }
 
@@ -93,52 +127,5 @@ pub(crate) fn explain_unknown(name: &str) -> Option<&'static str> {
         "frames_per_second" | "delta_time" => Some("needs frames_per_second in [convention]"),
         "near" | "far" => Some("needs to stand in [convention]"),
         _ => None,
-    }
-}
-
-/// Lists all names, for messages.
-pub(crate) fn list_values(parameters: &[Parameter], convention: &Convention) -> String {
-    let of_convention = CONVENTION_VALUES.into_iter();
-    let matrices = MATRICES.map(str::to_owned).into_iter();
-    let previous = MATRICES.map(|name| format!("{PREVIOUS}{name}"));
-    let names = (parameters.iter().map(|parameter| parameter.name.clone()))
-        .chain(NUMBERS.map(|(name, _)| name.to_owned()))
-        .chain(of_convention.map(str::to_owned))
-        .chain(LISTS.map(|(name, _)| name.to_owned()))
-        .chain(matrices.chain(previous));
-    let known = names.filter(|name| count_numbers(name, parameters, convention).is_some());
-    known.collect::<Vec<_>>().join(", ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::DepthKind;
-
-    #[test]
-    fn names_stand_for_as_many_numbers_as_they_say() {
-        let plain = Convention::default();
-        let projected = Convention {
-            depth: DepthKind::Reversed,
-            near: Some(0.1),
-            ..plain
-        };
-        for (name, without, with) in [
-            ("width", Some(1), Some(1)),
-            ("resolution", Some(2), Some(2)),
-            ("resolution[1]", Some(1), Some(1)),
-            ("resolution[2]", None, None),
-            ("width[0]", None, None),
-            ("previous_view", Some(16), Some(16)),
-            ("view[16]", None, None),
-            ("inverse_projection", None, Some(16)),
-            ("previous_view_projection[15]", None, Some(1)),
-            ("previous_previous_view", None, None),
-            ("near", None, Some(1)),
-            ("far", None, None),
-        ] {
-            assert_eq!(count_numbers(name, &[], &plain), without, "{name}");
-            assert_eq!(count_numbers(name, &[], &projected), with, "{name}");
-        }
     }
 }

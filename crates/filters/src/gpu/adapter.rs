@@ -31,13 +31,14 @@ impl Gpu {
             None => adapters.iter().min_by_key(|adapter| rank(adapter)),
             Some(wanted) => choose(&adapters, wanted),
         };
-        let chosen = chosen.ok_or_else(|| FilterError::UnknownAdapter {
-            wanted: adapter.unwrap_or_default().to_owned(),
-            found: adapters
-                .iter()
-                .enumerate()
-                .map(|(index, adapter)| format!("{index}: {}", adapter.get_info().name))
-                .collect(),
+        let chosen = chosen.ok_or_else(|| {
+            let names = adapters.iter().enumerate();
+            let names = names.map(|(index, it)| format!("{index}: {}", it.get_info().name));
+            FilterError::Refused(format!(
+                "no adapter is called \"{}\"; found: {}",
+                adapter.unwrap_or_default(),
+                names.collect::<Vec<_>>().join("; ")
+            ))
         })?;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("shuttertruth"),
@@ -46,13 +47,13 @@ impl Gpu {
             ..Default::default()
         };
         let description = describe(chosen);
-        let (device, queue) =
-            pollster::block_on(chosen.request_device(&descriptor)).map_err(|error| {
-                FilterError::Device {
-                    adapter: description.name.clone(),
-                    reason: error.to_string(),
-                }
-            })?;
+        let opened = pollster::block_on(chosen.request_device(&descriptor));
+        let (device, queue) = opened.map_err(|error| {
+            FilterError::Refused(format!(
+                "adapter \"{}\" cannot be used: {error}; choose another adapter",
+                description.name
+            ))
+        })?;
         let lanes = chosen.get_info().subgroup_max_size;
         let mut gpu = Self {
             adapter: description,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use wgpu::naga::ShaderStage;
+use wgpu::naga::{ScalarKind, ShaderStage};
 
 use super::device::Gpu;
 use crate::shader::{EntryPoint, Role, SamplerFilter, Sampling, Shader, Variable, Wrap};
@@ -94,8 +94,13 @@ fn create_layout(
         let variable = &shader.variables[*index];
         let ty = match variable.role {
             Role::Block(_) => buffer(wgpu::BufferBindingType::Uniform),
-            Role::Read(texel) => wgpu::BindingType::Texture {
-                sample_type: texel.wgpu(entry.interpolated.contains(index)),
+            Role::Read(kind) => wgpu::BindingType::Texture {
+                sample_type: match kind {
+                    ScalarKind::Uint => wgpu::TextureSampleType::Uint,
+                    _ => wgpu::TextureSampleType::Float {
+                        filterable: entry.interpolated.contains(index),
+                    },
+                },
                 view_dimension: wgpu::TextureViewDimension::D2,
                 multisampled: false,
             },
@@ -130,10 +135,10 @@ fn create_layout(
 /// Creates the pipeline of a kernel, or of a fragment shader with its vertex stage if there is one.
 pub(super) fn create_pipeline(
     gpu: &Gpu,
-    stages: &[(&CompiledStage, &EntryPoint)],
+    stages: &[(CompiledStage, &EntryPoint)],
     targets: &[wgpu::TextureFormat],
 ) -> Pipeline {
-    let (stage, entry) = stages[0];
+    let (stage, entry) = &stages[0];
     let layouts: Vec<_> = (stages.iter().map(|(stage, _)| Some(&stage.layout))).collect();
     let layout = gpu
         .device
@@ -180,10 +185,10 @@ fn triangle(@builtin(vertex_index) index: u32) -> Corner {{
 fn create_render_pipeline(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
-    stages: &[(&CompiledStage, &EntryPoint)],
+    stages: &[(CompiledStage, &EntryPoint)],
     targets: &[wgpu::TextureFormat],
 ) -> wgpu::RenderPipeline {
-    let (stage, entry) = stages[0];
+    let (stage, entry) = &stages[0];
     let triangle;
     let (corners, corner) = match stages.get(1) {
         Some((vertex, entry)) => (&vertex.module, &entry.name[..]),

@@ -1,28 +1,26 @@
 //! Run of a filter on the GPU: uploads the frame, dispatches the passes, reads the image back.
 
+use std::sync::Arc;
+
 use frame::{Image, Raster};
 
 use super::bound_passes::{BoundPasses, mark_of};
 use super::device::Gpu;
 use super::dispatch::Dispatch;
-use super::kernels::Kernels;
+use super::kernels::{Kernels, Specialised};
 use super::place::Place;
 use super::transfer::{row_bytes, to_texels, velocity_texels};
 use super::uniforms::FrameValues;
-use super::uploaded_input::UploadedInput;
 use crate::filter::History;
-use crate::input::{CameraUse, find_pixel, is_finite};
-use crate::{Convention, Filter, FilterError, Format, Input, Settings};
+use crate::input::{find_pixel, is_finite};
+use crate::{Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
 #[derive(Debug)]
 pub struct Blur<'g> {
     pub(super) gpu: &'g Gpu,
-    filter: String,
     size: [u32; 2],
-    camera_use: CameraUse,
-    convention: Convention,
-    history: Vec<History>,
+    kernels: Arc<Specialised>,
     pub(super) passes: BoundPasses,
 }
 
@@ -47,26 +45,21 @@ impl<'g> Blur<'g> {
         width: u32,
         height: u32,
     ) -> Result<Self, FilterError> {
-        let Kernels { gpu, filter, .. } = kernels;
-        settings.check(filter)?;
-        check_size(gpu, filter, width, height)?;
+        let gpu = kernels.gpu;
+        settings.check(&kernels.filter)?;
+        check_size(gpu, &kernels.filter, width, height)?;
+        let kernels = kernels.specialise(settings)?;
+        let size = [width, height];
         Ok(Self {
             gpu,
-            filter: filter.name.clone(),
-            size: [width, height],
-            camera_use: filter.camera_use(),
-            convention: filter.convention,
-            history: filter.history.clone(),
-            passes: {
-                let specialised = kernels.specialise(settings)?;
-                BoundPasses::new(gpu, &specialised, settings, [width, height])?
-            },
+            size,
+            passes: BoundPasses::new(gpu, &kernels, settings, size)?,
+            kernels,
         })
     }
 
-    /// Refuses an input that the filter cannot read.
-    pub(super) fn check(&self, input: &Input) -> Result<(), FilterError> {
-        input.check(&self.filter, self.size, self.camera_use)
+    fn filter(&self) -> &Filter {
+        &self.kernels.filter
     }
 
     /// Blurs every colour image of the input, in order. The same input gives the same bytes on the same adapter. For filters with
@@ -78,55 +71,17 @@ impl<'g> Blur<'g> {
     /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame. That has as
     /// many colour images, which go with those of the input.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
-        self.check(input)?;
-        self.check(before)?;
+        input.check(self.filter(), self.size)?;
+        before.check(self.filter(), self.size)?;
         assert_eq!(
             input.color.len(),
             before.color.len(),
             "every colour has one of the frame before"
         );
         self.upload_layers(input, before)?;
-        self.blur_all(input.color.len(), |index| {
-            self.upload_color(input.color[index], before.color[index]);
-        })
-    }
-
-    /// Blurs an input that is on the GPU already, as [`Blur::run`] does.
-    pub fn run_uploaded(&mut self, input: &UploadedInput) -> Result<Vec<Image>, FilterError> {
-        assert_eq!(
-            (&self.filter, self.size),
-            (&input.filter, input.size),
-            "an input stays on the GPU for one filter and size"
-        );
-        let copy = |from, name| self.gpu.copy(from, self.passes.target(name));
-        self.gpu.catch_errors(self.place("upload"), || {
-            self.passes.upload_frame(self.gpu, input.frame);
-            copy(&input.velocity, "velocity");
-            copy(&input.depth, "depth");
-            for history in &self.history {
-                match history {
-                    History::Velocity => copy(&input.velocity, history.texture()),
-                    History::Depth => copy(&input.depth, history.texture()),
-                    History::Color => {}
-                }
-            }
-        })?;
-        self.blur_all(input.color.len(), |index| {
-            copy(&input.color[index], "color");
-            if self.history.contains(&History::Color) {
-                copy(&input.color[index], History::Color.texture());
-            }
-        })
-    }
-
-    /// Blurs each of several colours, which `place_color` uploads by its index.
-    fn blur_all(
-        &self,
-        count: usize,
-        place_color: impl Fn(usize),
-    ) -> Result<Vec<Image>, FilterError> {
-        let outputs = (0..count).map(|index| {
-            (self.gpu).catch_errors(self.place("upload"), || place_color(index))?;
+        let colors = input.color.iter().zip(before.color).enumerate();
+        let outputs = colors.map(|(index, (color, before))| {
+            self.upload_color(color, before)?;
             // Results that do not depend on colour stay from the first image.
             self.blur(|dispatch| index == 0 || dispatch.depends_on_color)
         });
@@ -154,7 +109,7 @@ impl<'g> Blur<'g> {
                     frame_index,
                     ..*input
                 },
-                &self.convention,
+                &self.filter().convention,
             );
             self.passes.upload_frame(self.gpu, frame);
             let first = outputs.is_empty();
@@ -193,7 +148,7 @@ impl<'g> Blur<'g> {
 
     fn refuse_pixel(&self, [x, y]: [u32; 2], [r, g, b, _]: &[f32; 4]) -> FilterError {
         let mut dispatches = self.passes.dispatches.iter();
-        let writer = dispatches.rfind(|dispatch| dispatch.writes_output);
+        let writer = dispatches.rfind(|dispatch| dispatch.writes("output"));
         let place = self.place(writer.map_or("output", |dispatch| &dispatch.entry));
         let mark = mark_of(self.passes.target("output").format);
         if [r, g, b].iter().any(|it| it.to_bits() == mark.to_bits()) {
@@ -246,55 +201,57 @@ impl<'g> Blur<'g> {
 
     /// Names a pass of this filter, for errors.
     pub(super) fn place<'a>(&'a self, pass: &'a str) -> Place<'a> {
-        Place {
-            filter: &self.filter,
-            pass,
-        }
+        self.filter().place(pass)
     }
 
     /// Uploads an input and its first colour, as at the beginning of a sequence.
     pub(super) fn upload_first(&self, input: &Input) -> Result<(), FilterError> {
-        self.check(input)?;
+        input.check(self.filter(), self.size)?;
         self.upload_layers(input, input)?;
         let color = input.color.first().expect("there is a colour to blur");
-        (self.gpu).catch_errors(self.place("upload"), || self.upload_color(color, color))
+        self.upload_color(color, color)
     }
 
     /// Uploads all but the colour, and what the filter reads of the frame before.
     fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
-        let velocity = |input| velocity_texels(&self.convention, input);
-        let depth = |input: &Input| self.convention.convert_depth(input.depth).pixels;
-        let upload = |name, values: &[f32]| self.gpu.upload(self.passes.target(name), values);
+        let texels = |layer: &str, input: &Input| match layer {
+            "velocity" => velocity_texels(&self.filter().convention, input),
+            _ => self.filter().convention.convert_depth(input.depth).pixels,
+        };
+        let history = self
+            .filter()
+            .history
+            .iter()
+            .filter(|it| **it != History::Color);
+        let history = history.map(|it| (it.texture(), it.input(), before));
+        let own = ["velocity", "depth"].map(|layer| (layer, layer, input));
         self.gpu.catch_errors(self.place("upload"), || {
-            upload("velocity", &velocity(input));
-            upload("depth", &depth(input));
-            let frame = FrameValues::of(input, &self.convention);
+            let frame = FrameValues::of(input, &self.filter().convention);
             self.passes.upload_frame(self.gpu, frame);
-            for history in &self.history {
-                match history {
-                    History::Velocity => upload(history.texture(), &velocity(before)),
-                    History::Depth => upload(history.texture(), &depth(before)),
-                    History::Color => {}
-                }
+            for (texture, layer, input) in own.into_iter().chain(history) {
+                let target = self.passes.target(texture);
+                self.gpu.upload(target, &texels(layer, input));
             }
         })
     }
 
     /// Uploads a colour, and that of the frame before if the filter reads it.
-    fn upload_color(&self, color: &Image, before: &Image) {
+    fn upload_color(&self, color: &Image, before: &Image) -> Result<(), FilterError> {
         let upload = |name, color| {
             let texels = to_texels(color, self.color_scale());
             self.gpu.upload(self.passes.target(name), &texels);
         };
-        upload("color", color);
-        if self.history.contains(&History::Color) {
-            upload(History::Color.texture(), before);
-        }
+        self.gpu.catch_errors(self.place("upload"), || {
+            upload("color", color);
+            if self.filter().history.contains(&History::Color) {
+                upload(History::Color.texture(), before);
+            }
+        })
     }
 
     /// Returns the factor on colours that the shaders expect.
     fn color_scale(&self) -> f32 {
-        self.convention.color_scale.unwrap_or(1.0) as f32
+        self.filter().convention.color_scale.unwrap_or(1.0) as f32
     }
 
     /// Runs one dispatch and waits for it, so that an error names the pass that takes too long.
@@ -305,7 +262,7 @@ impl<'g> Blur<'g> {
             dispatch.encode(&mut encoder);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
-        self.gpu.wait(place, self.passes.time_limit)
+        self.gpu.wait(place, self.filter().time_limit)
     }
 }
 

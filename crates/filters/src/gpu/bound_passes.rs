@@ -10,20 +10,17 @@ use super::dispatch::Dispatch;
 use super::kernels::{Compiled, Specialised};
 use super::levels::{Levels, WrittenLevels};
 use super::loop_counts::LoopCounts;
-use super::place::Place;
 use super::targets::Targets;
 use super::transfer::Target;
 use super::uniforms::FrameValues;
 use crate::shader::{Role, UniformBlock, Variable};
-use crate::{Filter, FilterError, Format, Pass, Repeat, Settings};
+use crate::{Filter, FilterError, Format, Pass, Settings};
 
 /// Everything of a filter that lives on the GPU.
 #[derive(Debug)]
 pub(super) struct BoundPasses {
     /// Dispatches in the order in which they run.
     pub dispatches: Vec<Dispatch>,
-    /// Longest time that each may take, in seconds.
-    pub time_limit: f64,
     /// Loop iterations of every dispatch, if they are counted.
     pub loop_counts: Option<LoopCounts>,
     /// Content of the output until a pass has written it.
@@ -42,21 +39,16 @@ impl BoundPasses {
         size: [u32; 2],
     ) -> Result<Self, FilterError> {
         let Specialised { filter, passes, .. } = kernels;
-        let place_of = |pass| Place {
-            filter: &filter.name,
-            pass,
-        };
         let targets = Targets::new(gpu, filter, settings, size)?;
-        let times = |pass: &Pass| match &pass.repeat {
-            Repeat::Times(times) => *times,
-            Repeat::Parameter(name) => settings.count(name),
-        };
+        let times = |pass: &Pass| settings.count(&pass.repeat);
         let count: u32 = filter.passes.iter().map(times).sum();
         let counts = (gpu.loop_limit).map(|limit| {
-            gpu.catch_errors(place_of("counts"), || LoopCounts::new(gpu, limit, count))
+            gpu.catch_errors(filter.place("counts"), || {
+                LoopCounts::new(gpu, limit, count)
+            })
         });
         let format = targets.current("output").format;
-        let mark = gpu.catch_errors(place_of("textures"), || create_mark(gpu, size, format))?;
+        let mark = gpu.catch_errors(filter.place("textures"), || create_mark(gpu, size, format))?;
         let mut binder = Binder {
             gpu,
             filter,
@@ -74,7 +66,6 @@ impl BoundPasses {
         }
         Ok(Self {
             dispatches: binder.dispatches,
-            time_limit: filter.time_limit,
             loop_counts: binder.loop_counts,
             mark,
             targets: binder.targets,
@@ -84,10 +75,7 @@ impl BoundPasses {
 
     /// Copies the mark to the output if every dispatch that writes it is wanted. Pixels that keep the mark were not written.
     pub fn mark_output(&self, gpu: &Gpu, is_wanted: impl Fn(&Dispatch) -> bool) {
-        let mut writers = self
-            .dispatches
-            .iter()
-            .filter(|dispatch| dispatch.writes_output);
+        let mut writers = (self.dispatches.iter()).filter(|it| it.writes("output"));
         if writers.all(is_wanted) {
             gpu.copy(&self.mark, self.target("output"));
         }
@@ -139,10 +127,7 @@ impl Binder<'_> {
     ) -> Result<(), FilterError> {
         let (gpu, filter) = (self.gpu, self.filter);
         let (shader, entry) = (filter.shader(pass), filter.entry_point(pass));
-        let place = Place {
-            filter: &filter.name,
-            pass: &pass.entry,
-        };
+        let place = filter.place(&pass.entry);
         for iteration in 0..iterations {
             let value = |name: &str| match name {
                 "iteration" => f64::from(iteration),
@@ -178,7 +163,6 @@ impl Binder<'_> {
                 bytes: sum_bytes(targets, filter, pass, &levels),
                 depends_on_color: depends_on.0,
                 depends_on_noise: depends_on.1,
-                writes_output: entry.writes.contains("output"),
                 written: (entry.writes.iter())
                     .filter(|name| levels.of_written(name) == 0)
                     .map(|name| (name.clone(), targets.written(entry, name).clone()))

@@ -24,8 +24,6 @@ pub(super) struct Dispatch {
     pub depends_on_color: bool,
     /// True if its result changes with the frame's index.
     pub depends_on_noise: bool,
-    /// True if it writes the output.
-    pub writes_output: bool,
     /// Textures whose first level it writes, by name.
     pub written: Vec<(String, Target)>,
     /// Run of the pass, and number of its runs.
@@ -34,6 +32,11 @@ pub(super) struct Dispatch {
 }
 
 impl Dispatch {
+    /// Returns true if it writes the first level of a texture.
+    pub fn writes(&self, texture: &str) -> bool {
+        self.written.iter().any(|(name, _)| name == texture)
+    }
+
     /// Adds the dispatch to the commands of an encoder.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         for [from, to] in &self.copies {

@@ -10,13 +10,11 @@ use wgpu::naga::ShaderStage;
 use super::binding::{CompiledStage, Pipeline, create_pipeline};
 use super::device::Gpu;
 use super::limits::Limits;
-use super::place::Place;
 use super::targets::list_target_formats;
-use super::uploaded_input::UploadedInput;
 use crate::printable::escape_controls;
-use crate::shader::{Code, Shader, count_loop_iterations, run_on_large_stack};
+use crate::shader::{Shader, count_loop_iterations, run_on_large_stack};
 use crate::translate::{list_constants, specialise};
-use crate::{Filter, FilterError, Input, Pass, Settings};
+use crate::{Filter, FilterError, Pass, Settings};
 
 /// The compiled kernels of one filter, from which [`Blur::with_kernels`](super::Blur::with_kernels) makes blurs without compiling again.
 #[derive(Debug)]
@@ -87,10 +85,9 @@ impl<'g> Kernels<'g> {
             let Some(shader) = pass.shader.as_ref().filter(|_| own != cached) else {
                 continue;
             };
-            let indices = [Some(pass.shader_index), pass.vertex_index];
-            for (stage, index) in shader.stages().iter().zip(indices.into_iter().flatten()) {
-                let made = &self.filter.shaders[index];
-                filter.shaders[index] = specialise(&self.filter, stage, made, settings)?;
+            for (stage, index) in shader.stages().iter().zip(&pass.shaders) {
+                let made = &self.filter.shaders[*index];
+                filter.shaders[*index] = specialise(&self.filter, stage, made, settings)?;
             }
         }
         let made = Arc::new(compile(self.gpu, filter, constants, Some(&first))?);
@@ -100,11 +97,6 @@ impl<'g> Kernels<'g> {
         }
         cached.push(made.clone());
         Ok(made)
-    }
-
-    /// Uploads an input once, for any number of blurs of this filter.
-    pub fn upload(&self, input: &Input) -> Result<UploadedInput, FilterError> {
-        UploadedInput::new(self.gpu, &self.filter, input)
     }
 }
 
@@ -140,7 +132,7 @@ fn compile(
     });
     let passes = passes.unwrap_or_else(|panic| {
         let reason = format!("wgpu fails on it: {panic}");
-        Err(refuse(gpu, &filter, "kernels", reason))
+        Err(refuse(gpu, &filter, "kernels", &reason))
     })?;
     Ok(Specialised {
         constants,
@@ -158,29 +150,24 @@ fn compile_pass(
     pass: &Pass,
     modules: &mut Modules,
 ) -> Result<Compiled, FilterError> {
-    let indices = [Some(pass.shader_index), pass.vertex_index];
-    for index in indices.into_iter().flatten() {
-        if let Entry::Vacant(missing) = modules.entry(index) {
-            missing.insert(compile_shader(gpu, filter, &filter.shaders[index])?);
+    for index in &pass.shaders {
+        if let Entry::Vacant(missing) = modules.entry(*index) {
+            missing.insert(compile_shader(gpu, filter, &filter.shaders[*index])?);
         }
     }
-    let place = Place {
-        filter: &filter.name,
-        pass: &pass.entry,
-    };
-    let compiled = gpu.catch_errors(place, || {
-        let indices = indices.into_iter().flatten().zip(filter.stages(pass));
-        let stages = indices.map(|(index, (shader, entry))| {
-            let (module, counted_at) = &modules[&index];
-            CompiledStage::new(gpu, shader, entry, module.clone(), *counted_at)
+    let compiled = gpu.catch(|| {
+        let stages = pass.shaders.iter().zip(filter.stages(pass));
+        let stages = stages.map(|(index, (shader, entry))| {
+            let (module, counted_at) = &modules[index];
+            let stage = CompiledStage::new(gpu, shader, entry, module.clone(), *counted_at);
+            (stage, entry)
         });
-        let stages: Vec<CompiledStage> = stages.collect();
-        let entries = filter.stages(pass).into_iter().map(|(_, entry)| entry);
-        let named: Vec<_> = stages.iter().zip(entries).collect();
-        let pipeline = create_pipeline(gpu, &named, &list_target_formats(filter, pass));
+        let stages: Vec<_> = stages.collect();
+        let pipeline = create_pipeline(gpu, &stages, &list_target_formats(filter, pass));
+        let stages = stages.into_iter().map(|(stage, _)| stage).collect();
         Compiled { stages, pipeline }
     });
-    compiled.map_err(|error| explain(gpu, filter, &pass.entry, error))
+    compiled.map_err(|reason| refuse(gpu, filter, &pass.entry, &reason))
 }
 
 /// Compiles a module. Its loops are counted if the adapter ends long ones, but for those of vertex stages, which may store nothing.
@@ -193,35 +180,24 @@ fn compile_shader(
     let is_vertex = entries.any(|entry| entry.stage == ShaderStage::Vertex);
     let limit = gpu.loop_limit.filter(|_| !is_vertex);
     let counted_at = limit.map(|_| shader.find_free_binding());
-    let source = match (limit, counted_at, &shader.code) {
-        (Some(limit), Some(binding), code) => count_loop_iterations(code, binding, limit.safe()),
-        (_, _, Code::Wgsl(text)) => wgpu::ShaderSource::Wgsl(text.as_str().into()),
-        (_, _, Code::Module(module)) => wgpu::ShaderSource::Naga(Cow::Owned((**module).clone())),
+    let module = match (limit, counted_at) {
+        (Some(limit), Some(at)) => count_loop_iterations(&shader.module, at, limit.safe()),
+        _ => (*shader.module).clone(),
     };
-    let place = Place {
-        filter: &filter.name,
-        pass: "kernels",
-    };
-    let module = gpu.catch_errors(place, || {
+    let source = wgpu::ShaderSource::Naga(Cow::Owned(module));
+    let module = gpu.catch(|| {
         gpu.device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(&filter.name),
                 source,
             })
     });
-    let module = module.map_err(|error| explain(gpu, filter, "kernels", error))?;
+    let module = module.map_err(|reason| refuse(gpu, filter, "kernels", &reason))?;
     Ok((module, counted_at))
 }
 
-fn explain(gpu: &Gpu, filter: &Filter, pass: &str, error: FilterError) -> FilterError {
-    match error {
-        FilterError::Gpu { reason, .. } => refuse(gpu, filter, pass, reason),
-        error => error,
-    }
-}
-
 /// Makes an error of what wgpu or the driver says of a pass or of all kernels; it names the file and the adapter.
-fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: String) -> FilterError {
+fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: &str) -> FilterError {
     let known = filter.passes.iter().find(|known| known.entry == pass);
     let line = known.and_then(|known| filter.entry_point(known).line);
     let line = line.map_or(String::new(), |line| format!(":{line}"));
@@ -232,13 +208,9 @@ fn refuse(gpu: &Gpu, filter: &Filter, pass: &str, reason: String) -> FilterError
         .map(str::trim)
         .filter(|line| !line.is_empty());
     let lines: Vec<String> = lines.map(escape_controls).collect();
-    FilterError::Gpu {
-        filter: filter.name.clone(),
-        pass: pass.to_owned(),
-        reason: format!(
-            "{path}{line} is refused by adapter \"{}\": {}",
-            gpu.adapter.name,
-            lines.join(" ")
-        ),
-    }
+    filter.place(pass).refuse(format!(
+        "{path}{line} is refused by adapter \"{}\": {}",
+        gpu.adapter.name,
+        lines.join(" ")
+    ))
 }

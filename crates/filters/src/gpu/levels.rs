@@ -44,8 +44,9 @@ impl<'a> Levels<'a> {
             let level = level.as_ref().map(evaluate).transpose()?;
             match role {
                 Role::Read(_) => {
-                    let nearest = |level| targets.current(resource).nearest_level(level);
-                    variables.insert(*index, level.map(nearest));
+                    // A small texture has fewer levels: the pass gets its last.
+                    let last = targets.current(resource).texture.mip_level_count() - 1;
+                    variables.insert(*index, level.map(|level| level.min(last)));
                 }
                 Role::Write(_) => {
                     let level = level.unwrap_or(0);

@@ -11,21 +11,19 @@ pub(super) struct LoopCounts {
     counts: wgpu::Buffer,
     readable: wgpu::Buffer,
     stride: u64,
-    dispatches: u32,
 }
 
 impl LoopCounts {
     pub fn new(gpu: &Gpu, limit: LoopLimit, dispatches: u32) -> Self {
         let alignment = gpu.device.limits().min_storage_buffer_offset_alignment;
         let stride = u64::from(alignment.max(4));
-        let size = stride * u64::from(dispatches.max(1));
+        let size = stride * u64::from(dispatches);
         let buffer = |usage| gpu.create_buffer("loop iterations", size, usage);
         Self {
             limit,
             counts: buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC),
             readable: buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST),
             stride,
-            dispatches,
         }
     }
 
@@ -44,9 +42,6 @@ impl LoopCounts {
         gpu: &Gpu,
         place: impl Fn(usize) -> Place<'p>,
     ) -> Result<(), FilterError> {
-        if self.dispatches == 0 {
-            return Ok(());
-        }
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let size = self.counts.size();
         encoder.copy_buffer_to_buffer(&self.counts, 0, &self.readable, 0, size);

@@ -21,7 +21,6 @@ mod timing;
 mod transfer;
 mod trial;
 mod uniforms;
-mod uploaded_input;
 mod waiting;
 mod wide_colors;
 
@@ -33,4 +32,3 @@ pub use kernels::Kernels;
 pub use limits::Limits;
 pub use timing::{LoadedBlur, PassTime};
 pub use trial::try_out;
-pub use uploaded_input::UploadedInput;

@@ -1,7 +1,7 @@
 //! Place of an error on the GPU: the filter and the pass.
 
 use super::device::Gpu;
-use crate::FilterError;
+use crate::{Filter, FilterError};
 
 /// Filter and pass that an error belongs to.
 #[derive(Clone, Copy)]
@@ -21,6 +21,16 @@ impl Place<'_> {
     }
 }
 
+impl Filter {
+    /// Names a pass of this filter, for errors.
+    pub(super) fn place<'a>(&'a self, pass: &'a str) -> Place<'a> {
+        Place {
+            filter: &self.name,
+            pass,
+        }
+    }
+}
+
 impl Gpu {
     /// Does `work`, and returns an error that names the place if wgpu refuses any of it.
     pub(super) fn catch_errors<T>(
@@ -28,6 +38,11 @@ impl Gpu {
         place: Place,
         work: impl FnOnce() -> T,
     ) -> Result<T, FilterError> {
+        self.catch(work).map_err(|error| place.refuse(error))
+    }
+
+    /// Does `work`, and returns what wgpu says if it refuses any of it.
+    pub(super) fn catch<T>(&self, work: impl FnOnce() -> T) -> Result<T, String> {
         let [memory, internal, validation] = [
             wgpu::ErrorFilter::OutOfMemory,
             wgpu::ErrorFilter::Internal,
@@ -38,7 +53,7 @@ impl Gpu {
         let errors = [validation, internal, memory].map(|scope| pollster::block_on(scope.pop()));
         match errors.into_iter().flatten().next() {
             None => Ok(value),
-            Some(error) => Err(place.refuse(error)),
+            Some(error) => Err(error.to_string()),
         }
     }
 }

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use super::device::Gpu;
-use super::place::Place;
 use super::transfer::{Target, count_texels};
 use crate::filter::{INPUTS, Rounding};
 use crate::shader::{EntryPoint, Role, Variable};
@@ -16,30 +15,20 @@ pub(super) struct Targets(BTreeMap<String, Vec<Target>>);
 /// Bytes that the textures of a filter may take in sum.
 pub const MAX_TEXTURE_BYTES: u64 = 8 << 30;
 
-/// Description of a texture that is to be made.
-struct TargetDescription {
-    name: String,
+/// A texture that is to be made.
+struct Planned {
+    texture: Texture,
     size: [u32; 2],
     mips: u32,
-    format: Format,
     copies: usize,
-    usage: wgpu::TextureUsages,
 }
 
-impl TargetDescription {
-    fn bytes(&self) -> u64 {
-        let [width, height] = self.size;
-        let texels = count_texels(width, height, 0..self.mips);
-        texels * self.format.texel_bytes() * self.copies as u64
-    }
-}
-
-/// Describes the textures that every filter has, and those that this one declares.
-fn describe_targets(
+/// Plans the textures that every filter has, and those that this one declares.
+fn plan_targets(
     filter: &Filter,
     settings: &Settings,
     size: [u32; 2],
-) -> Result<Vec<TargetDescription>, String> {
+) -> Result<Vec<Planned>, String> {
     let before = filter.history.iter().map(|history| history.texture());
     let inputs = INPUTS.into_iter().chain(before);
     let inputs = inputs.map(|name| (name, filter.convention.format_of(name)));
@@ -53,7 +42,7 @@ fn describe_targets(
         holds: None,
     });
     let numbers = settings.list_numbers(filter);
-    let describe = |texture: Texture| {
+    let plan = |texture: Texture| {
         let divisors = find_divisors(&texture, &numbers, size)?;
         let [width, height] = [0, 1].map(|axis| match texture.rounding {
             Rounding::Up => size[axis].div_ceil(divisors[axis]),
@@ -63,20 +52,16 @@ fn describe_targets(
             let mut names = filter.entry_point(pass).exchanged_textures();
             names.any(|name| *name == texture.name)
         });
-        Ok(TargetDescription {
+        Ok(Planned {
             size: [width, height],
             // The last level has one texel.
             mips: texture.mips.min(width.max(height).ilog2() + 1),
-            format: texture.format,
             copies: if is_exchanged { 2 } else { 1 },
-            usage: find_usage(filter, &texture.name),
-            name: texture.name,
+            texture,
         })
     };
-    builtin
-        .chain(filter.textures.iter().cloned())
-        .map(describe)
-        .collect()
+    let all = builtin.chain(filter.textures.iter().cloned());
+    all.map(plan).collect()
 }
 
 /// Computes what divides a texture's width and height on pictures of a size. `numbers` are the settings by name.
@@ -151,31 +136,25 @@ impl Targets {
             height: size[1],
             reason,
         };
-        let descriptions = describe_targets(filter, settings, size).map_err(refuse)?;
-        let bytes: u64 = (descriptions.iter().map(TargetDescription::bytes)).sum();
+        let planned = plan_targets(filter, settings, size).map_err(refuse)?;
+        let sizes = planned.iter().map(|it| {
+            let texels = count_texels(it.size[0], it.size[1], 0..it.mips);
+            texels * it.texture.format.texel_bytes() * it.copies as u64
+        });
+        let bytes: u64 = sizes.sum();
         if bytes > MAX_TEXTURE_BYTES {
             return Err(refuse(format!(
                 "its textures take {bytes} bytes; allowed: at most {MAX_TEXTURE_BYTES}; render a smaller frame, or \
                  declare fewer or smaller textures"
             )));
         }
-        let place = Place {
-            filter: &filter.name,
-            pass: "textures",
-        };
-        gpu.catch_errors(place, || {
-            let made = descriptions.into_iter().map(|planned| {
-                let make = |_| {
-                    gpu.create_target(
-                        &planned.name,
-                        planned.size,
-                        planned.mips,
-                        planned.format,
-                        planned.usage,
-                    )
-                };
-                let copies = (0..planned.copies).map(make).collect();
-                (planned.name, copies)
+        gpu.catch_errors(filter.place("textures"), || {
+            let made = planned.into_iter().map(|it| {
+                let Texture { name, format, .. } = it.texture;
+                let usage = find_usage(filter, &name);
+                let make = |_| gpu.create_target(&name, it.size, it.mips, format, usage);
+                let copies = (0..it.copies).map(make).collect();
+                (name, copies)
             });
             Self(made.collect())
         })

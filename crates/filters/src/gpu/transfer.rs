@@ -6,7 +6,6 @@ use half::f16;
 use super::device::Gpu;
 use super::place::Place;
 use crate::filter::DEFAULT_TIME_LIMIT;
-use crate::shader::Texel;
 use crate::{Convention, FilterError, Format, Input};
 
 impl Format {
@@ -89,16 +88,6 @@ fn shorten(value: f32, cut: u32) -> u32 {
 /// The largest number of 16 bits: larger ones, such as the depth of the background, become this and not infinite.
 const LARGEST_F16: f32 = 65504.0;
 
-impl Texel {
-    /// Converts the type to that of wgpu.
-    pub(super) fn wgpu(self, filterable: bool) -> wgpu::TextureSampleType {
-        match self {
-            Texel::Float => wgpu::TextureSampleType::Float { filterable },
-            Texel::Uint => wgpu::TextureSampleType::Uint,
-        }
-    }
-}
-
 /// A texture on the GPU.
 #[derive(Clone, Debug)]
 pub(super) struct Target {
@@ -127,11 +116,6 @@ impl Target {
             None => count_texels(width, height, 0..self.texture.mip_level_count()),
         };
         texels * self.format.texel_bytes()
-    }
-
-    /// Returns the mip level that a pass gets for one: the last where the texture has fewer.
-    pub fn nearest_level(&self, level: u32) -> u32 {
-        level.min(self.texture.mip_level_count() - 1)
     }
 }
 

@@ -13,15 +13,8 @@ const SIDE: u32 = 16;
 /// Upper limit on failures that are listed.
 const MAX_LISTED: usize = 20;
 
-/// One run of a filter.
-struct Trial {
-    /// Description of the settings.
-    what: String,
-    /// Line of filter.toml that declares it.
-    line: Option<usize>,
-    /// Settings that the filter runs with.
-    settings: Settings,
-}
+/// Settings to try, their description, and the line of filter.toml that declares them.
+type Trial = (Settings, String, Option<usize>);
 
 /// Runs kernels with every preset, and with the first preset and one parameter at either end of its range, or at each of its
 /// choices. The frame has 16x16 pixels: still ones, moving ones, and some that move farther than the frame is wide.
@@ -34,17 +27,26 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
         return Ok(());
     }
     let kernels = Kernels::compile(gpu, filter)?;
-    let frame = TinyFrame::new();
+    let (color, velocity, depth) = make_frame();
+    let input = Input {
+        color: &[&color],
+        velocity: &velocity,
+        depth: &depth,
+        reprojection: Some(Reprojection::STILL),
+        camera: Some(Camera::still(CameraPose::at_origin(f64::from(SIDE)))),
+        exposure: 0.5,
+        frames_per_second: None,
+        frame_index: 0,
+    };
     let mut failures = Vec::new();
-    let presets = list_presets(filter)?;
-    let ends = list_ends(filter, &presets[0].settings)?;
-    for (index, trial) in presets.iter().chain(&ends).enumerate() {
+    let trials = list_trials(filter)?;
+    for (index, (settings, what, line)) in trials.iter().enumerate() {
         // Where the default fails, each of its neighbours fails too.
-        if index == presets.len() && !failures.is_empty() {
+        if index == filter.presets.len() && !failures.is_empty() {
             break;
         }
-        let blurred = Blur::with_kernels(&kernels, &trial.settings, SIDE, SIDE)
-            .and_then(|mut blur| blur.run(&frame.input(&[&frame.color])));
+        let blurred = Blur::with_kernels(&kernels, settings, SIDE, SIDE)
+            .and_then(|mut blur| blur.run(&input));
         let error = match blurred {
             Ok(_) => continue,
             Err(FilterError::Interrupted) => return Err(FilterError::Interrupted),
@@ -52,45 +54,41 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
         };
         // The adapter may still be at work on a pass that was given up.
         let is_last = matches!(error, FilterError::TooSlow { .. });
-        failures.push(describe(filter, trial, &error));
+        let path = filter.lines.path.display();
+        let line = line.map_or(String::new(), |line| format!(":{line}"));
+        failures.push(format!(
+            "{path}{line}: {what} fails on a frame of {SIDE}x{SIDE} pixels: {error}"
+        ));
         if is_last {
             break;
         }
     }
     match failures.is_empty() {
         true => Ok(()),
-        false => Err(FilterError::TriedOut(shorten(failures))),
+        false => Err(FilterError::Refused(shorten(failures).join("\n"))),
     }
 }
 
-/// Makes a trial of every preset.
-fn list_presets(filter: &Filter) -> Result<Vec<Trial>, FilterError> {
-    (filter.presets.iter().enumerate())
-        .map(|(index, preset)| {
-            Ok(Trial {
-                what: format!("preset \"{}\"", preset.name),
-                line: filter.lines.presets.get(index).copied(),
-                settings: filter.settings(Some(&preset.name))?,
-            })
-        })
-        .collect()
-}
-
-/// Makes a trial of either end of every range.
-fn list_ends(filter: &Filter, default: &Settings) -> Result<Vec<Trial>, FilterError> {
-    let mut trials = Vec::new();
+/// Lists every preset, then either end of every range with the first preset.
+fn list_trials(filter: &Filter) -> Result<Vec<Trial>, FilterError> {
+    let mut trials: Vec<Trial> = Vec::new();
+    for (index, preset) in filter.presets.iter().enumerate() {
+        trials.push((
+            filter.settings(Some(&preset.name))?,
+            format!("preset \"{}\"", preset.name),
+            filter.lines.presets.get(index).copied(),
+        ));
+    }
+    let default = trials[0].0.clone();
     for (parameter, line) in filter.parameters.iter().zip(&filter.lines.parameters) {
         for (value, which) in extreme_values(parameter) {
+            let what = format!(
+                "parameter \"{}\" = {value}, {which}, with preset \"{}\"",
+                parameter.name, default.preset
+            );
             let mut settings = default.clone();
-            settings.set_value(filter, &parameter.name, value.clone())?;
-            trials.push(Trial {
-                what: format!(
-                    "parameter \"{}\" = {value}, {which}, with preset \"{}\"",
-                    parameter.name, default.preset
-                ),
-                line: Some(*line),
-                settings,
-            });
+            settings.set_value(filter, &parameter.name, value)?;
+            trials.push((settings, what, Some(*line)));
         }
     }
     Ok(trials)
@@ -110,15 +108,6 @@ fn extreme_values(parameter: &Parameter) -> Vec<(Value, &'static str)> {
     }
 }
 
-fn describe(filter: &Filter, trial: &Trial, error: &FilterError) -> String {
-    let path = filter.lines.path.display();
-    let line = trial.line.map_or(String::new(), |line| format!(":{line}"));
-    format!(
-        "{path}{line}: {} fails on a frame of {SIDE}x{SIDE} pixels: {error}",
-        trial.what
-    )
-}
-
 fn shorten(mut failures: Vec<String>) -> Vec<String> {
     let more = failures.len().saturating_sub(MAX_LISTED);
     failures.truncate(MAX_LISTED);
@@ -129,47 +118,25 @@ fn shorten(mut failures: Vec<String>) -> Vec<String> {
     failures
 }
 
-/// A bright square that moves before a wall, and a sky.
-struct TinyFrame {
-    color: Image,
-    velocity: Vectors,
-    depth: Plane,
-}
-
-impl TinyFrame {
-    fn new() -> Self {
-        let is_square = |x: u32, y: u32| (4..10).contains(&x) && (5..11).contains(&y);
-        let is_sky = |y: u32| y < 3;
-        Self {
-            color: Raster::from_fn(SIDE, SIDE, |x, y| match is_square(x, y) {
-                true => [8.0, 4.0, 0.5],
-                false => [x as f32 / 16.0, y as f32 / 16.0, 0.0],
-            }),
-            velocity: Raster::from_fn(SIDE, SIDE, |x, y| match (is_square(x, y), y) {
-                // One column moves farther than the frame is wide.
-                (true, _) if x == 9 => [40.0, 25.0],
-                (true, _) => [6.5, -3.0],
-                (false, 0..3) => [-1.0, 0.25],
-                (false, _) => [0.0, 0.0],
-            }),
-            depth: Raster::from_fn(SIDE, SIDE, |x, y| match is_square(x, y) {
-                true => 2.0,
-                false if is_sky(y) => FAR_DEPTH,
-                false => 5.0,
-            }),
-        }
-    }
-
-    fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
-        Input {
-            color,
-            velocity: &self.velocity,
-            depth: &self.depth,
-            reprojection: Some(Reprojection::STILL),
-            camera: Some(Camera::still(CameraPose::at_origin(f64::from(SIDE)))),
-            exposure: 0.5,
-            frames_per_second: None,
-            frame_index: 0,
-        }
-    }
+/// Makes a bright square that moves before a wall, and a sky: colour, velocity and depth.
+fn make_frame() -> (Image, Vectors, Plane) {
+    let is_square = |x: u32, y: u32| (4..10).contains(&x) && (5..11).contains(&y);
+    let is_sky = |y: u32| y < 3;
+    let color = Raster::from_fn(SIDE, SIDE, |x, y| match is_square(x, y) {
+        true => [8.0, 4.0, 0.5],
+        false => [x as f32 / 16.0, y as f32 / 16.0, 0.0],
+    });
+    let velocity = Raster::from_fn(SIDE, SIDE, |x, y| match (is_square(x, y), y) {
+        // One column moves farther than the frame is wide.
+        (true, _) if x == 9 => [40.0, 25.0],
+        (true, _) => [6.5, -3.0],
+        (false, 0..3) => [-1.0, 0.25],
+        (false, _) => [0.0, 0.0],
+    });
+    let depth = Raster::from_fn(SIDE, SIDE, |x, y| match is_square(x, y) {
+        true => 2.0,
+        false if is_sky(y) => FAR_DEPTH,
+        false => 5.0,
+    });
+    (color, velocity, depth)
 }

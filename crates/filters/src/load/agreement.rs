@@ -3,30 +3,23 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::filter::{INPUTS, Lines, PassShader};
+use crate::filter::{INPUTS, PassShader};
 use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, written_texture};
 use crate::translate::check_texture;
-use crate::{Expression, Filter, FilterError, Pass, Repeat, Stage};
+use crate::{Count, Expression, Filter, FilterError, Pass, Stage};
 
-/// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
-/// passes read and write.
-pub(super) fn check_agreement(filter: &Filter) -> Result<(), FilterError> {
-    let lines = &filter.lines;
-    let check = Check { filter, lines };
-    match check.kernels() {
-        Some(kernels) => check.check_kernels(kernels)?,
-        None => check.check_parameters_are_used()?,
+impl Filter {
+    /// Refuses a filter whose declarations and kernels differ: parameters, textures, entry points, and the order in which
+    /// passes read and write.
+    pub(super) fn check_agreement(&self) -> Result<(), FilterError> {
+        // The kernels of the filter's WGSL file are bound by name.
+        match self.passes.iter().find(|pass| pass.shader.is_none()) {
+            Some(pass) => self.check_kernels(self.shader(pass))?,
+            None => self.check_parameters_are_used()?,
+        }
+        self.check_passes()
     }
-    check.check_passes()
-}
 
-/// Filter, and the lines of its declarations.
-struct Check<'a> {
-    filter: &'a Filter,
-    lines: &'a Lines,
-}
-
-impl Check<'_> {
     /// Checks the variables of the WGSL file, which are bound by name, and the uniform of parameters.
     fn check_kernels(&self, kernels: &Shader) -> Result<(), FilterError> {
         let mut uniforms = kernels.variables.iter().filter_map(|it| match it.role {
@@ -56,7 +49,7 @@ impl Check<'_> {
             _ => unreachable!("numbers of a kernel are called after members"),
         };
         let manifest = self.lines.path.display();
-        let parameters = &self.filter.parameters;
+        let parameters = &self.parameters;
         for (index, parameter) in parameters.iter().enumerate() {
             let declared = self.lines.parameters[index];
             let wanted = (
@@ -73,7 +66,7 @@ impl Check<'_> {
                 );
                 return Err(self.refuse_manifest(declared, reason));
             };
-            let found = (name(member), member.kind.name(), member.offset as usize);
+            let found = (name(member), member.kind, member.offset as usize);
             if wanted != found {
                 let reason = format!(
                     "member {} of the uniform parameters is {}: {} at byte {}; {manifest}:{declared} declares {}: {} at byte \
@@ -109,20 +102,20 @@ impl Check<'_> {
             passes,
             textures,
             ..
-        } = self.filter;
+        } = self;
         let is_used = |name: &str| {
             let mut blocks = shaders.iter().flat_map(|shader| &shader.blocks);
             let mut repeats = passes.iter().map(|pass| &pass.repeat);
             let mut divisors =
                 (textures.iter()).flat_map(|texture| texture.divided_by.iter().flatten());
             blocks.any(|block| block.reads(name))
-                || repeats.any(|repeat| matches!(repeat, Repeat::Parameter(known) if known == name))
+                || repeats.any(|repeat| matches!(repeat, Count::Parameter(known) if known == name))
                 || divisors.any(|divisor| divisor.reads(name))
                 || (passes.iter().filter_map(|pass| pass.shader.as_ref()))
                     .flat_map(PassShader::list_expressions)
                     .any(|expression| expression.reads(name))
         };
-        let parameters = self.filter.parameters.iter().zip(&self.lines.parameters);
+        let parameters = self.parameters.iter().zip(&self.lines.parameters);
         match parameters.into_iter().find(|(parameter, _)| !is_used(&parameter.name)) {
             None => Ok(()),
             Some((unused, line)) => Err(self.refuse_manifest(
@@ -142,16 +135,16 @@ impl Check<'_> {
             Role::Block(_) => matches!(&name[..], "parameters" | "frame"),
             Role::Write(_) if name == "output" => true,
             Role::Write(_) if name == written_texture(name) => false,
-            _ => self.filter.has_texture(resource) && resource != "output",
+            _ => self.has_texture(resource) && resource != "output",
         };
         match is_known {
-            true => check_texture(self.filter, variable.role, resource),
+            true => check_texture(self, variable.role, resource),
             false => Err(self.refuse_undeclared()),
         }
     }
 
     fn refuse_undeclared(&self) -> String {
-        let textures = &self.filter.textures;
+        let textures = &self.textures;
         let names: Vec<&str> = textures.iter().map(|texture| &texture.name[..]).collect();
         format!(
             "is no known input or output; uniforms: parameters, frame; read: color, velocity, depth, those of the frame before \
@@ -166,18 +159,18 @@ impl Check<'_> {
     }
 
     fn check_passes(&self) -> Result<(), FilterError> {
-        let before = self.filter.history.iter().map(|history| history.texture());
+        let before = self.history.iter().map(|history| history.texture());
         let mut ready: BTreeSet<&str> = INPUTS.into_iter().chain(before).collect();
         let mut used = BTreeSet::new();
-        for (pass, line) in self.filter.passes.iter().zip(&self.lines.passes) {
+        for (pass, line) in self.passes.iter().zip(&self.lines.passes) {
             let refuse = |reason: String| {
                 self.refuse_manifest(*line, format!("pass \"{}\": {reason}", pass.entry))
             };
             let entry = self.find_entry_point(pass).map_err(refuse)?;
             if let Some(shader) = &pass.shader {
-                check_targets(self.filter, shader, entry).map_err(refuse)?;
+                check_targets(self, shader, entry).map_err(refuse)?;
             }
-            if let [_, (_, vertex)] = self.filter.stages(pass)[..] {
+            if let [_, (_, vertex)] = self.stages(pass)[..] {
                 check_vertex(vertex, entry).map_err(refuse)?;
             }
             if let Some(name) = entry.reads.iter().find(|name| !ready.contains(&name[..])) {
@@ -197,7 +190,7 @@ impl Check<'_> {
                 self.refuse_manifest(self.lines.passes.first().copied().unwrap_or(1), reason)
             );
         }
-        for (texture, line) in self.filter.textures.iter().zip(&self.lines.textures) {
+        for (texture, line) in self.textures.iter().zip(&self.lines.textures) {
             if !used.contains(&texture.name) {
                 let reason = format!("texture \"{}\" is used by no pass", texture.name);
                 return Err(self.refuse_manifest(*line, reason));
@@ -207,7 +200,7 @@ impl Check<'_> {
     }
 
     fn find_entry_point(&self, pass: &Pass) -> Result<&EntryPoint, String> {
-        let shader = self.filter.shader(pass);
+        let shader = self.shader(pass);
         shader.entry_point(pass.kernel()).ok_or_else(|| {
             let names: Vec<&str> = shader.entry_points.iter().map(|e| &e.name[..]).collect();
             format!(
@@ -218,14 +211,8 @@ impl Check<'_> {
         })
     }
 
-    /// Returns the kernels of the filter's WGSL file, which are bound by name.
-    fn kernels(&self) -> Option<&Shader> {
-        let pass = self.filter.passes.iter().find(|pass| pass.shader.is_none());
-        pass.map(|pass| self.filter.shader(pass))
-    }
-
     fn kernel_path(&self) -> PathBuf {
-        let file = format!("{}.wgsl", self.filter.name);
+        let file = format!("{}.wgsl", self.name);
         self.lines.path.with_file_name(file)
     }
 

@@ -10,7 +10,6 @@ use include_dir::{Dir, include_dir};
 use crate::shader::Shader;
 use crate::translate::{MAX_MODULE_BYTES, stays_below, translate};
 use crate::{Filter, FilterError, manifest};
-use agreement::check_agreement;
 
 static BUILTIN: Dir = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 
@@ -41,12 +40,12 @@ impl Filter {
 
     /// Loads a filter that the program brings along.
     pub fn builtin(name: &str) -> Result<Self, FilterError> {
-        let folder = BUILTIN
-            .get_dir(name)
-            .ok_or_else(|| FilterError::UnknownFilter {
-                name: name.to_owned(),
-                known: Self::builtin_names(),
-            })?;
+        let folder = BUILTIN.get_dir(name).ok_or_else(|| {
+            FilterError::Refused(format!(
+                "no built-in filter is called \"{name}\"; allowed: {}; a folder of your own is given by its path, such as ./{name}",
+                Self::builtin_names().join(", ")
+            ))
+        })?;
         let text = |path: &Path| {
             let file = BUILTIN.get_file(path);
             file.and_then(|file| file.contents_utf8())
@@ -97,13 +96,12 @@ fn parse_filter(
             let is_noisy = entries.any(|entry| entry.draws_noise);
             (stages[0].entry_points.iter_mut()).for_each(|entry| entry.draws_noise = is_noisy);
             let pass = &mut filter.passes[index];
-            pass.shader_index = shaders.len();
-            pass.vertex_index = (stages.len() > 1).then_some(shaders.len() + 1);
+            pass.shaders = (shaders.len()..shaders.len() + stages.len()).collect();
             shaders.extend(stages);
         }
     }
     filter.shaders = shaders;
-    check_agreement(&filter)?;
+    filter.check_agreement()?;
     Ok(filter)
 }
 

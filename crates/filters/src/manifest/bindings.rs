@@ -6,10 +6,10 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::file::{File, MAX_ENTRIES};
-use super::number::{Names, NumberEntry, NumbersEntry};
-use crate::FilterError;
+use super::number::{NumberEntry, NumbersEntry};
 use crate::filter::{Binding, BindingPlace};
 use crate::shader::{SamplerFilter, Sampling, Wrap};
+use crate::{Filter, FilterError};
 
 /// `[[pass.binding]]`.
 #[derive(Deserialize)]
@@ -36,13 +36,13 @@ pub(super) struct BindingEntry {
 pub(super) fn read_bindings(
     file: &File,
     entries: &[Spanned<BindingEntry>],
-    names: Names,
+    filter: &Filter,
 ) -> Result<Vec<Binding>, FilterError> {
     let lines = file.lines("pass.binding", entries)?;
     let mut bindings = Vec::<Binding>::new();
     for (spanned, line) in entries.iter().zip(lines) {
         let refuse = |reason: String| file.at(spanned, format!("binding: {reason}"));
-        let binding = read_binding(spanned.get_ref(), names, line).map_err(refuse)?;
+        let binding = read_binding(spanned.get_ref(), filter, line).map_err(refuse)?;
         if let BindingPlace::Named(name) = &binding.place {
             file.check_line(spanned, "binding: name", name)?;
         }
@@ -54,7 +54,7 @@ pub(super) fn read_bindings(
     Ok(bindings)
 }
 
-fn read_binding(entry: &BindingEntry, names: Names, line: usize) -> Result<Binding, String> {
+fn read_binding(entry: &BindingEntry, filter: &Filter, line: usize) -> Result<Binding, String> {
     let places = [
         entry.binding.map(|binding| BindingPlace::Bound {
             group: entry.group,
@@ -79,12 +79,12 @@ fn read_binding(entry: &BindingEntry, names: Names, line: usize) -> Result<Bindi
         let read = numbers
             .as_slice()
             .iter()
-            .map(|number| names.read_value(number));
+            .map(|number| filter.read_value(number));
         let read: Result<_, String> = read.collect();
         let read = read.map_err(|reason| format!("{member} = {reason}"))?;
         Ok::<_, String>((member.clone(), read))
     };
-    let level = entry.level.as_ref().map(|level| names.read_level(level));
+    let level = entry.level.as_ref().map(|level| filter.read_level(level));
     Ok(Binding {
         place,
         texture: entry.texture.clone(),

@@ -6,24 +6,47 @@ use super::file::File;
 use crate::filter::{PLACEHOLDERS, fill_placeholders};
 use crate::{Command, FilterError, Parameter};
 
-/// Reads the words of a command; refuses unknown placeholders, and a command without those that it needs.
+/// Reads the words of a command, and the variables that it is to get; none for a filter with kernels.
 pub(super) fn read_command(
     file: &File,
-    words: &Spanned<Vec<String>>,
+    words: Option<&Spanned<Vec<String>>>,
+    environment: Option<&Spanned<Vec<String>>>,
     parameters: &[Parameter],
-) -> Result<Command, FilterError> {
-    let refuse = |reason: String| file.at(words, format!("command: {reason}"));
-    let Some((program, arguments)) = words.get_ref().split_first() else {
-        return Err(refuse("is empty; its first word is the program".into()));
+) -> Result<Option<Command>, FilterError> {
+    if let Some(variables) = environment {
+        check_environment(variables.get_ref(), words.is_some())
+            .map_err(|reason| file.at(variables, format!("environment: {reason}")))?;
+    }
+    let Some(words) = words else {
+        return Ok(None);
+    };
+    check_words(words.get_ref(), parameters)
+        .map_err(|reason| file.at(words, format!("command: {reason}")))?;
+    // It holds wherever the program is started.
+    let manifest = std::path::absolute(file.path)
+        .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
+    Ok(Some(Command {
+        words: words.get_ref().clone(),
+        folder: (manifest.parent().expect("a file lies in a folder")).to_owned(),
+        environment: environment.map_or(Vec::new(), |names| names.get_ref().clone()),
+        manifest: file.path.to_owned(),
+        line: file.line(words.span().start),
+    }))
+}
+
+/// Refuses a command without a program, unknown placeholders, and a command without those that it needs.
+fn check_words(words: &[String], parameters: &[Parameter]) -> Result<(), String> {
+    let Some((program, arguments)) = words.split_first() else {
+        return Err("is empty; its first word is the program".into());
     };
     if program.is_empty() {
-        return Err(refuse("its first word, the program, is empty".into()));
+        return Err("its first word, the program, is empty".into());
     }
     let names: Vec<&str> = parameters.iter().map(|known| known.name.as_str()).collect();
     if let Some(name) = names.iter().find(|name| PLACEHOLDERS.contains(name)) {
-        return Err(refuse(format!(
+        return Err(format!(
             "{{{name}}} already stands for something of the frame; call the parameter otherwise"
-        )));
+        ));
     }
     let mut found = Vec::new();
     for word in arguments {
@@ -36,69 +59,38 @@ pub(super) fn read_command(
             let allowed: Vec<String> = (PLACEHOLDERS.iter().chain(&names))
                 .map(|name| format!("{{{name}}}"))
                 .collect();
-            refuse(format!(
+            format!(
                 "\"{word}\" {reason}; allowed: {}, and {{{{ or }}}} for a brace",
                 allowed.join(", ")
-            ))
+            )
         })?;
     }
-    for (name, why) in [
+    let files = [
         ("frame", "the file to be blurred"),
         ("out", "the file to be written"),
-    ]
-    .into_iter()
-    .chain(names.iter().map(|name| (*name, "a declared parameter")))
-    {
-        if !found.iter().any(|word| word == name) {
-            return Err(refuse(format!(
-                "{{{name}}} is missing: it stands for {why}"
-            )));
-        }
+    ];
+    let declared = names.iter().map(|name| (*name, "a declared parameter"));
+    let mut needed = files.into_iter().chain(declared);
+    match needed.find(|(name, _)| !found.iter().any(|word| word == name)) {
+        None => Ok(()),
+        Some((name, why)) => Err(format!("{{{name}}} is missing: it stands for {why}")),
     }
-    Ok(Command {
-        program: program.clone(),
-        arguments: arguments.to_vec(),
-        folder: find_folder(file)?,
-        environment: Vec::new(),
-        manifest: file.path.to_owned(),
-        line: file.line(words.span().start),
-    })
 }
 
-/// Adds the variables that the command is to get.
-pub(super) fn add_environment(
-    file: &File,
-    names: Option<&Spanned<Vec<String>>>,
-    command: Option<Command>,
-) -> Result<Option<Command>, FilterError> {
-    let Some(names) = names else {
-        return Ok(command);
+/// Refuses variables for kernels, and names that no variable has.
+fn check_environment(names: &[String], is_command: bool) -> Result<(), String> {
+    if !is_command {
+        return Err("is for a program; kernels have none".into());
+    }
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let is_variable = |name: &str| {
+        name.chars().all(is_part) && name.starts_with(|first: char| !first.is_ascii_digit())
     };
-    let refuse = |reason: String| Err(file.at(names, format!("environment: {reason}")));
-    let Some(command) = command else {
-        return refuse("is for a program; kernels have none".into());
-    };
-    if let Some(name) = names.get_ref().iter().find(|name| !is_variable(name)) {
-        return refuse(format!(
+    match names.iter().find(|name| !is_variable(name)) {
+        None => Ok(()),
+        Some(name) => Err(format!(
             "\"{name}\" names no variable; allowed: letters, digits and _, and no digit first; the value comes from \
              whoever runs the program"
-        ));
+        )),
     }
-    Ok(Some(Command {
-        environment: names.get_ref().clone(),
-        ..command
-    }))
-}
-
-fn is_variable(name: &str) -> bool {
-    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    name.chars().all(is_part) && name.starts_with(|first: char| !first.is_ascii_digit())
-}
-
-/// Finds the absolute folder of filter.toml, which holds wherever a program is started.
-fn find_folder(file: &File) -> Result<std::path::PathBuf, FilterError> {
-    let manifest = std::path::absolute(file.path)
-        .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
-    let folder = manifest.parent().expect("a file lies in a folder");
-    Ok(folder.to_owned())
 }

@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 
-use crate::filter::{count_numbers, explain_unknown, list_values};
-use crate::{Convention, Expression, Kind, Parameter, Texture};
+use crate::filter::explain_unknown;
+use crate::{Count, Expression, Filter, Kind};
 
 /// A number, or a text with an expression.
 #[derive(Deserialize)]
@@ -33,15 +33,7 @@ impl NumbersEntry {
     }
 }
 
-/// Names that filter.toml has declared.
-#[derive(Clone, Copy)]
-pub(super) struct Names<'m> {
-    pub textures: &'m [Texture],
-    pub parameters: &'m [Parameter],
-    pub convention: &'m Convention,
-}
-
-impl Names<'_> {
+impl Filter {
     fn is_parameter(&self, name: &str) -> bool {
         self.parameters.iter().any(|known| known.name == name)
     }
@@ -52,33 +44,32 @@ impl Names<'_> {
     }
 
     /// Reads a value of a uniform block: a number, an expression, or the name of several numbers.
-    pub fn read_value(&self, entry: &NumberEntry) -> Result<Expression, String> {
-        let count = |name: &str| count_numbers(name, self.parameters, self.convention);
+    pub(super) fn read_value(&self, entry: &NumberEntry) -> Result<Expression, String> {
         if let NumberEntry::Text(text) = entry {
-            if count(text.trim()).is_some() {
+            if self.count_numbers(text.trim()).is_some() {
                 return Ok(Expression::Name(text.trim().to_owned()));
             }
             if let Some(reason) = explain_unknown(text.trim()) {
                 return Err(format!("\"{text}\" {reason}"));
             }
         }
-        read(entry, &|name| count(name) == Some(1), || {
+        read(entry, &|name| self.count_numbers(name) == Some(1), || {
             format!(
                 "known names: {}; arithmetic takes one of several numbers, such as resolution[0]",
-                list_values(self.parameters, self.convention)
+                self.list_values()
             )
         })
     }
 
     /// Reads the value of a specialisation constant: a number, or an expression of parameters.
-    pub fn read_constant(&self, entry: &NumberEntry) -> Result<Expression, String> {
+    pub(super) fn read_constant(&self, entry: &NumberEntry) -> Result<Expression, String> {
         read(entry, &|name| self.is_setting(name), || {
             "allowed: numbers, parameters, and values of [convention]".into()
         })
     }
 
     /// Reads the mip level of a texture: a number from 0, or an expression of parameters and of the iteration.
-    pub fn read_level(&self, entry: &NumberEntry) -> Result<Expression, String> {
+    pub(super) fn read_level(&self, entry: &NumberEntry) -> Result<Expression, String> {
         let of_run = ["iteration", "iterations"];
         match entry {
             NumberEntry::Number(level) if *level < 0.0 || level.fract() != 0.0 => {
@@ -96,7 +87,7 @@ impl Names<'_> {
 
     /// Reads what divides a side of the image: a number, an integer parameter, or an expression of parameters and of the
     /// picture's size.
-    pub fn read_divisor(&self, entry: &NumberEntry) -> Result<Expression, String> {
+    pub(super) fn read_divisor(&self, entry: &NumberEntry) -> Result<Expression, String> {
         let is_size = |name: &str| matches!(name, "width" | "height");
         match entry {
             NumberEntry::Number(pixels) if *pixels < 1.0 || pixels.fract() != 0.0 => {
@@ -106,7 +97,7 @@ impl Names<'_> {
                 ));
             }
             NumberEntry::Text(text) if is_identifier(text) && !is_size(text) => {
-                self.check_count(text)?;
+                self.check_parameter(text)?;
             }
             _ => {}
         }
@@ -116,12 +107,21 @@ impl Names<'_> {
         })
     }
 
-    /// Refuses a name that is no integer parameter from 1, which a count or a length needs.
-    pub fn check_count(&self, name: &str) -> Result<(), String> {
+    /// Finds the largest value of a count or a length. Refuses 0, and a name that is no integer parameter from 1.
+    pub(super) fn find_largest(&self, count: &Count) -> Result<u32, String> {
+        match count {
+            Count::Number(0) => Err("0; allowed: 1 or more".into()),
+            Count::Number(number) => Ok(*number),
+            Count::Parameter(name) => self.check_parameter(name),
+        }
+    }
+
+    /// Returns the largest value of an integer parameter; refuses any other name, and a range that begins below 1.
+    pub(super) fn check_parameter(&self, name: &str) -> Result<u32, String> {
         let parameter = self.parameters.iter().find(|known| known.name == name);
         match parameter.map(|parameter| &parameter.kind) {
             None => Err(format!("\"{name}\" is no parameter of this filter")),
-            Some(Kind::Integer { min, .. }) if *min >= 1 => Ok(()),
+            Some(Kind::Integer { min, max, .. }) if *min >= 1 => Ok(max.unsigned_abs()),
             Some(_) => Err(format!(
                 "\"{name}\" is not an integer parameter whose range begins at 1 or more"
             )),

@@ -6,16 +6,16 @@ use frame::Alignment;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::command::{add_environment, read_command};
+use super::command::read_command;
 use super::convention::read_convention;
 use super::file::File;
-use super::number::{IDENTIFIER, Names, is_identifier};
+use super::number::{IDENTIFIER, is_identifier};
 use super::parameters::{ParameterEntry, read_parameters};
 use super::pass_shader::PassEntry;
 use super::passes::{TextureEntry, read_passes, read_textures};
 use super::presets::{PresetEntry, read_presets};
 use crate::filter::{DEFAULT_TIME_LIMIT, History, Lines};
-use crate::{Convention, Filter, FilterError, Length, ReachBy};
+use crate::{Convention, Filter, FilterError, ReachBy};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -50,7 +50,11 @@ struct Manifest {
 pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
     let file = File { path, text };
     let manifest: Manifest = file.read("")?;
-    check_name(&file, &manifest.name)?;
+    let name = manifest.name.get_ref();
+    if !is_identifier(name) {
+        let reason = format!("name \"{name}\": {IDENTIFIER}; it also names the WGSL file");
+        return Err(file.at(&manifest.name, reason));
+    }
     check_method(&file, &manifest)?;
     let lines = Lines {
         path: path.to_owned(),
@@ -65,64 +69,54 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Filter, FilterError> {
         })
     };
     let parameters = read_parameters(&file, &manifest.parameter)?;
-    let command = (manifest.command.as_ref())
-        .map(|words| read_command(&file, words, &parameters))
-        .transpose()?;
-    let command = add_environment(&file, manifest.environment.as_ref(), command)?;
-    let is_command = command.is_some();
-    let convention = read_convention(&file, manifest.convention.as_ref(), is_command)?;
-    let mut names = Names {
-        textures: &[],
-        parameters: &parameters,
-        convention: &convention,
-    };
-    let textures = read_textures(&file, &manifest.texture, names)?;
-    names.textures = &textures;
-    if let Some(reach_by) = &manifest.reach_by {
-        check_reach_by(&file, reach_by, names)?;
-    }
+    let (words, variables) = (manifest.command.as_ref(), manifest.environment.as_ref());
+    let command = read_command(&file, words, variables, &parameters)?;
     let width = manifest.reference_width.as_ref();
-    Ok(Filter {
-        name: manifest.name.get_ref().clone(),
+    let mut filter = Filter {
+        name: name.clone(),
         folder: None,
-        presets: read_presets(&file, &manifest.preset, &parameters, width)?,
-        passes: read_passes(&file, &manifest.pass, names)?,
-        convention,
-        history: read_history(&file, &manifest)?,
-        command,
-        time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
-        reach_by: manifest.reach_by.map(Spanned::into_inner),
-        textures,
-        parameters,
         summary: check_sentence("summary", Some(&manifest.summary))?,
         source: check_sentence("source", manifest.source.as_ref())?,
         reach: check_sentence("reach", manifest.reach.as_ref())?,
         cannot: check_sentence("cannot", manifest.cannot.as_ref())?,
         alignment: manifest.alignment,
         mirror_symmetric: manifest.mirror_symmetric,
+        convention: read_convention(&file, manifest.convention.as_ref(), command.is_some())?,
+        history: read_history(&file, &manifest)?,
+        command,
+        time_limit: read_time_limit(&file, manifest.time_limit.as_ref())?,
+        presets: read_presets(&file, &manifest.preset, &parameters, width)?,
+        parameters,
+        reach_by: None,
+        textures: Vec::new(),
+        passes: Vec::new(),
         shaders: Vec::new(),
         lines,
-    })
+    };
+    if let Some(reach_by) = &manifest.reach_by {
+        check_reach_by(&file, reach_by, &filter)?;
+    }
+    filter.reach_by = manifest.reach_by.map(Spanned::into_inner);
+    filter.textures = read_textures(&file, &manifest.texture, &filter)?;
+    filter.passes = read_passes(&file, &manifest.pass, &filter)?;
+    Ok(filter)
 }
 
 /// Refuses a reach that does not come from integer parameters.
 fn check_reach_by(
     file: &File,
     spanned: &Spanned<ReachBy>,
-    names: Names,
+    filter: &Filter,
 ) -> Result<(), FilterError> {
     let ReachBy {
         parameter, unit, ..
     } = spanned.get_ref();
-    let unit = match unit {
-        Length::Pixels(0) => Err("0; allowed: 1 pixel or more".to_owned()),
-        Length::Pixels(_) => Ok(()),
-        Length::Parameter(parameter) => names.check_count(parameter),
-    };
-    let parameter = names.check_count(parameter);
-    parameter
+    let unit = filter.find_largest(unit);
+    filter
+        .check_parameter(parameter)
         .map_err(|reason| format!("parameter = {reason}"))
         .and(unit.map_err(|reason| format!("unit = {reason}")))
+        .map(|_| ())
         .map_err(|reason| file.at(spanned, format!("reach_by: {reason}")))
 }
 
@@ -160,19 +154,6 @@ fn read_history(file: &File, manifest: &Manifest) -> Result<Vec<History>, Filter
         history.push(*own.get_ref());
     }
     Ok(history)
-}
-
-fn check_name(file: &File, name: &Spanned<String>) -> Result<(), FilterError> {
-    match is_identifier(name.get_ref()) {
-        true => Ok(()),
-        false => Err(file.at(
-            name,
-            format!(
-                "name \"{}\": {IDENTIFIER}; it also names the WGSL file",
-                name.get_ref()
-            ),
-        )),
-    }
 }
 
 /// Refuses a filter that is neither a command nor passes over kernels, or both.

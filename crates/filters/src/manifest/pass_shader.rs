@@ -8,10 +8,10 @@ use toml::Spanned;
 
 use super::bindings::{BindingEntry, read_bindings};
 use super::file::File;
-use super::number::{Names, NumberEntry};
+use super::number::NumberEntry;
 use crate::filter::{PassShader, Stage, VertexShader};
 use crate::translate::Language;
-use crate::{FilterError, Repeat};
+use crate::{Count, Filter, FilterError};
 
 /// `[[pass]]`.
 #[derive(Deserialize)]
@@ -21,7 +21,7 @@ pub(super) struct PassEntry {
     pub over: Option<String>,
     #[serde(default)]
     pub workgroup_per_texel: bool,
-    pub repeat: Option<Repeat>,
+    pub repeat: Option<Count>,
     pub shader: Option<Spanned<String>>,
     pub stage: Option<Stage>,
     pub targets: Option<Vec<String>>,
@@ -41,7 +41,7 @@ pub(super) struct PassEntry {
 pub(super) fn read_shader(
     file: &File,
     pass: &Spanned<PassEntry>,
-    names: Names,
+    filter: &Filter,
 ) -> Result<Option<PassShader>, FilterError> {
     let keys = pass.get_ref();
     let Some(path) = &keys.shader else {
@@ -55,16 +55,16 @@ pub(super) fn read_shader(
         Some(ending) if ending == "frag" => Stage::Fragment,
         _ => Stage::Compute,
     });
-    let targets = read_targets(keys, stage, names).map_err(|reason| file.at(pass, reason))?;
+    let targets = read_targets(keys, stage, filter).map_err(|reason| file.at(pass, reason))?;
     check_compiler(keys, language, path.get_ref()).map_err(refuse)?;
     let vertex = read_vertex(file, pass, stage, &relative)?;
     let entry = keys.entry.as_deref().unwrap_or("main");
     let corner = vertex.as_ref().map(|vertex| &vertex.entry[..]);
     let conditions = keys.conditions.iter().map(String::as_str);
     check_names(conditions.chain([entry]).chain(corner)).map_err(refuse)?;
-    let level = keys.level.as_ref().map(|level| names.read_level(level));
+    let level = keys.level.as_ref().map(|level| filter.read_level(level));
     let constants = keys.constants.iter().map(|(name, value)| {
-        let value = names.read_constant(value);
+        let value = filter.read_constant(value);
         let value = value.map_err(|reason| format!("constants: {name} = {reason}"))?;
         Ok((name.clone(), value))
     });
@@ -74,7 +74,7 @@ pub(super) fn read_shader(
         entry: entry.to_owned(),
         stage,
         targets,
-        bindings: read_bindings(file, &keys.binding, names)?,
+        bindings: read_bindings(file, &keys.binding, filter)?,
         level: (level.transpose()).map_err(|reason| file.at(pass, format!("level = {reason}")))?,
         vertex,
         constants: constants.map_err(|reason| file.at(pass, reason))?,
@@ -184,7 +184,7 @@ fn read_vertex(
 }
 
 /// Reads the render targets of a fragment shader: the picture if none are named.
-fn read_targets(keys: &PassEntry, stage: Stage, names: Names) -> Result<Vec<String>, String> {
+fn read_targets(keys: &PassEntry, stage: Stage, filter: &Filter) -> Result<Vec<String>, String> {
     let targets = match (stage, &keys.targets) {
         (Stage::Fragment, None) => return Ok(vec!["output".to_owned()]),
         (Stage::Fragment, Some(targets)) => targets,
@@ -202,9 +202,8 @@ fn read_targets(keys: &PassEntry, stage: Stage, names: Names) -> Result<Vec<Stri
             );
         }
     };
-    let is_declared = |name: &String| (names.textures.iter()).any(|texture| texture.name == *name);
-    let unknown = (targets.iter()).find(|name| *name != "output" && !is_declared(name));
-    if let Some(unknown) = unknown {
+    let is_known = |name: &str| name == "output" || filter.texture(name).is_some();
+    if let Some(unknown) = targets.iter().find(|name| !is_known(name)) {
         return Err(format!(
             "targets: \"{unknown}\" is neither output nor a declared texture"
         ));

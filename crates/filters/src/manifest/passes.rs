@@ -4,12 +4,10 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::file::File;
-use super::number::{IDENTIFIER, Names, NumberEntry, NumbersEntry, is_identifier};
+use super::number::{IDENTIFIER, NumberEntry, NumbersEntry, is_identifier};
 use super::pass_shader::{PassEntry, read_shader};
 use crate::filter::{PassShader, Stage};
-use crate::{
-    Expression, FilterError, Format, Holds, Kind, Parameter, Pass, Repeat, Rounding, Texture,
-};
+use crate::{Count, Expression, Filter, FilterError, Format, Holds, Pass, Rounding, Texture};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -52,12 +50,12 @@ const BUILTIN_VARIABLES: [&str; 9] = [
 pub(super) fn read_textures(
     file: &File,
     entries: &[Spanned<TextureEntry>],
-    names: Names,
+    filter: &Filter,
 ) -> Result<Vec<Texture>, FilterError> {
     let mut textures = Vec::<Texture>::new();
     for spanned in entries {
         let name = &spanned.get_ref().name;
-        let texture = read_texture(spanned.get_ref(), names).and_then(|texture| {
+        let texture = read_texture(spanned.get_ref(), filter).and_then(|texture| {
             match textures.iter().any(|known| known.name == *name) {
                 true => Err(" is declared twice".into()),
                 false => Ok(texture),
@@ -69,7 +67,7 @@ pub(super) fn read_textures(
     Ok(textures)
 }
 
-fn read_texture(entry: &TextureEntry, names: Names) -> Result<Texture, String> {
+fn read_texture(entry: &TextureEntry, filter: &Filter) -> Result<Texture, String> {
     let TextureEntry {
         name, format, mips, ..
     } = entry;
@@ -89,7 +87,7 @@ fn read_texture(entry: &TextureEntry, names: Names) -> Result<Texture, String> {
         );
     }
     let divided_by = entry.divided_by.as_ref();
-    let divided_by = divided_by.map(|entry| read_divisors(entry.as_slice(), names));
+    let divided_by = divided_by.map(|entry| read_divisors(entry.as_slice(), filter));
     Ok(Texture {
         name: name.clone(),
         format: *format,
@@ -102,8 +100,8 @@ fn read_texture(entry: &TextureEntry, names: Names) -> Result<Texture, String> {
 }
 
 /// Reads what divides the width and the height of the image: one for both, or one each.
-fn read_divisors(entries: &[NumberEntry], names: Names) -> Result<[Expression; 2], String> {
-    let divisors = entries.iter().map(|entry| names.read_divisor(entry));
+fn read_divisors(entries: &[NumberEntry], filter: &Filter) -> Result<[Expression; 2], String> {
+    let divisors = entries.iter().map(|entry| filter.read_divisor(entry));
     match &divisors.collect::<Result<Vec<_>, _>>()?[..] {
         [both] => Ok([both.clone(), both.clone()]),
         [width, height] => Ok([width.clone(), height.clone()]),
@@ -118,13 +116,12 @@ fn read_divisors(entries: &[NumberEntry], names: Names) -> Result<[Expression; 2
 pub(super) fn read_passes(
     file: &File,
     entries: &[Spanned<PassEntry>],
-    names: Names,
+    filter: &Filter,
 ) -> Result<Vec<Pass>, FilterError> {
     let mut passes = Vec::new();
     let mut dispatches = 0u32;
     for spanned in entries {
-        let pass = read_pass(file, spanned, names)?;
-        let times = most_runs(&pass.repeat, names.parameters);
+        let (pass, times) = read_pass(file, spanned, filter)?;
         dispatches = dispatches.saturating_add(times);
         if dispatches > MAX_DISPATCHES {
             let reason = format!(
@@ -139,7 +136,12 @@ pub(super) fn read_passes(
     Ok(passes)
 }
 
-fn read_pass(file: &File, spanned: &Spanned<PassEntry>, names: Names) -> Result<Pass, FilterError> {
+/// Reads a pass; returns how often it runs with the largest value that is allowed, too.
+fn read_pass(
+    file: &File,
+    spanned: &Spanned<PassEntry>,
+    filter: &Filter,
+) -> Result<(Pass, u32), FilterError> {
     let PassEntry {
         entry,
         over,
@@ -150,7 +152,7 @@ fn read_pass(file: &File, spanned: &Spanned<PassEntry>, names: Names) -> Result<
     if let Some(entry) = entry {
         file.check_line(spanned, "entry", entry)?;
     }
-    let shader = read_shader(file, spanned, names)?;
+    let shader = read_shader(file, spanned, filter)?;
     let draws = (shader.iter()).any(|shader| shader.stage == Stage::Fragment);
     if draws && (over.is_some() || *workgroup_per_texel) {
         let reason = "pass: over and workgroup_per_texel are for kernels; a fragment shader runs over its `targets`";
@@ -161,34 +163,32 @@ fn read_pass(file: &File, spanned: &Spanned<PassEntry>, names: Names) -> Result<
         (Some(entry), None) => entry.clone(),
         (_, Some(shader)) => name_pass(shader),
     };
-    let repeat = repeat.clone().unwrap_or(Repeat::Times(1));
-    let reason = match (over, &repeat) {
-        (Some(over), _) if !names.textures.iter().any(|it| it.name == *over) => Some(format!(
-            "over = \"{over}\" names no declared texture; leave it out to run over the image"
-        )),
-        (None, _) if *workgroup_per_texel => Some(
-            "workgroup_per_texel = true without over; name the texture whose texels get a workgroup each"
-                .into(),
-        ),
-        (_, Repeat::Times(0)) => Some("repeat = 0; allowed: 1 or more".into()),
-        (_, Repeat::Parameter(parameter)) => {
-            let checked = names.check_count(parameter).err();
-            checked.map(|reason| format!("repeat = {reason}"))
+    let refuse = |reason: String| file.at(spanned, format!("pass \"{entry}\": {reason}"));
+    match over {
+        Some(over) if filter.texture(over).is_none() => {
+            return Err(refuse(format!(
+                "over = \"{over}\" names no declared texture; leave it out to run over the image"
+            )));
         }
-        (_, Repeat::Times(_)) => None,
-    };
-    match reason {
-        Some(reason) => Err(file.at(spanned, format!("pass \"{entry}\": {reason}"))),
-        None => Ok(Pass {
-            entry,
-            shader_index: 0,
-            vertex_index: None,
-            shader,
-            over: over.clone(),
-            workgroup_per_texel: *workgroup_per_texel,
-            repeat,
-        }),
+        None if *workgroup_per_texel => {
+            return Err(refuse(
+                "workgroup_per_texel = true without over; name the texture whose texels get a workgroup each".into(),
+            ));
+        }
+        _ => {}
     }
+    let repeat = repeat.clone().unwrap_or(Count::Number(1));
+    let times = filter.find_largest(&repeat);
+    let times = times.map_err(|reason| refuse(format!("repeat = {reason}")))?;
+    let pass = Pass {
+        entry,
+        shaders: vec![0],
+        shader,
+        over: over.clone(),
+        workgroup_per_texel: *workgroup_per_texel,
+        repeat,
+    };
+    Ok((pass, times))
 }
 
 /// Names a pass with a shader of its own: after its entry point, or after its file where that is called `main` as all are.
@@ -197,19 +197,5 @@ fn name_pass(shader: &PassShader) -> String {
     match (&shader.entry[..], stem) {
         ("main", Some(stem)) => stem.to_owned(),
         (entry, _) => entry.to_owned(),
-    }
-}
-
-/// Returns how often a pass runs with the largest value that is allowed.
-fn most_runs(repeat: &Repeat, parameters: &[Parameter]) -> u32 {
-    match repeat {
-        Repeat::Times(times) => *times,
-        Repeat::Parameter(name) => {
-            let mut known = parameters.iter().filter(|known| known.name == *name);
-            match known.next().map(|known| &known.kind) {
-                Some(Kind::Integer { max, .. }) => u32::try_from(*max).unwrap_or(0),
-                _ => unreachable!("the parameter was found to be an integer"),
-            }
-        }
     }
 }

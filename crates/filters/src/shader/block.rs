@@ -37,32 +37,16 @@ pub(crate) struct BlockNumber {
     pub value: Expression,
 }
 
-/// Type of a number of 32 bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum NumberKind {
-    Float,
-    Signed,
-    Unsigned,
-}
+/// Type of a number of 32 bits, as WGSL names it.
+pub(crate) type NumberKind = &'static str;
 
-impl NumberKind {
-    /// Returns the kind of a scalar; none for those of other sizes.
-    pub fn of(scalar: Scalar) -> Option<Self> {
-        match scalar {
-            Scalar::F32 => Some(Self::Float),
-            Scalar::I32 => Some(Self::Signed),
-            Scalar::U32 => Some(Self::Unsigned),
-            _ => None,
-        }
-    }
-
-    /// Names the type as WGSL does.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Float => "f32",
-            Self::Signed => "i32",
-            Self::Unsigned => "u32",
-        }
+/// Returns the kind of a scalar; none for those of other sizes.
+fn find_kind(scalar: Scalar) -> Option<NumberKind> {
+    match scalar {
+        Scalar::F32 => Some("f32"),
+        Scalar::I32 => Some("i32"),
+        Scalar::U32 => Some("u32"),
+        _ => None,
     }
 }
 
@@ -89,15 +73,16 @@ impl UniformBlock {
     pub fn by_name(module: &Module, block: Handle<Type>, prefix: &str) -> Result<Self, String> {
         let mut numbers = Vec::new();
         for member in list_members(module, block)? {
-            for (index, (offset, kind)) in member.numbers.iter().enumerate() {
+            let count = member.numbers.len();
+            for (index, (offset, kind)) in member.numbers.into_iter().enumerate() {
                 let name = format!("{prefix}{}", member.name);
-                let value = match member.numbers.len() {
-                    1 => Expression::Name(name),
-                    _ => Expression::Name(name_element(&name, index)),
-                };
+                let value = Expression::Name(match count {
+                    1 => name,
+                    _ => name_element(&name, index),
+                });
                 numbers.push(BlockNumber {
-                    offset: *offset,
-                    kind: *kind,
+                    offset,
+                    kind,
                     value,
                 });
             }
@@ -111,9 +96,9 @@ impl UniformBlock {
         for number in &self.numbers {
             let value = number.value.evaluate(value);
             let encoded = match number.kind {
-                NumberKind::Float => (value as f32).to_ne_bytes(),
-                NumberKind::Signed => (value.round() as i32).to_ne_bytes(),
-                NumberKind::Unsigned => (value.round() as u32).to_ne_bytes(),
+                "f32" => (value as f32).to_ne_bytes(),
+                "i32" => (value.round() as i32).to_ne_bytes(),
+                _ => (value.round() as u32).to_ne_bytes(),
             };
             let start = number.offset as usize;
             bytes[start..start + 4].copy_from_slice(&encoded);
@@ -174,7 +159,7 @@ fn list_numbers(
     numbers: &mut Vec<(u32, NumberKind)>,
 ) -> Result<(), String> {
     let mut row = |offset: u32, count: u32, scalar: Scalar| {
-        let kind = NumberKind::of(scalar).ok_or("holds numbers that are not of 32 bits")?;
+        let kind = find_kind(scalar).ok_or("holds numbers that are not of 32 bits")?;
         *left = (left.checked_sub(count as usize))
             .ok_or_else(|| format!("makes the block hold more than {MAX_NUMBERS} numbers"))?;
         numbers.extend((0..count).map(|index| (offset.saturating_add(4 * index), kind)));

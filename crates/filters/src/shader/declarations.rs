@@ -11,10 +11,9 @@ use super::compiled_by::CompiledBy;
 use super::entry_point::{EntryPoint, find_entry_points};
 use super::nesting::check_nesting;
 use super::source::Source;
-use super::stack::run_on_large_stack;
+use super::stack::guard;
 use super::variable::{Variable, find_variable};
 use crate::FilterError;
-use crate::printable::escape_controls;
 
 /// WGSL that is appended to every filter's kernels.
 const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
@@ -24,8 +23,8 @@ const COMMON: &str = include_str!("../../../../shaders/common.wgsl");
 pub(crate) struct Shader {
     /// The filter's file.
     pub path: PathBuf,
-    /// The kernels themselves.
-    pub code: Code,
+    /// The kernels themselves, validated; those of the filter's WGSL file with common.wgsl.
+    pub module: Arc<Module>,
     /// Resource variables of group 0, in order of declaration.
     pub variables: Vec<Variable>,
     /// Uniform blocks, by the index in `Role::Block`.
@@ -40,36 +39,14 @@ pub(crate) struct Shader {
     pub compiled_by: Option<CompiledBy>,
 }
 
-/// Kernels in a form that wgpu takes.
-#[derive(Clone, Debug)]
-pub(crate) enum Code {
-    /// WGSL: the filter's file, then common.wgsl.
-    Wgsl(String),
-    /// A validated module, translated from another language.
-    Module(Box<Module>),
-}
-
-impl Code {
-    /// Returns the kernels as a module of their own.
-    pub fn to_module(&self) -> Module {
-        match self {
-            Self::Wgsl(text) => {
-                front::wgsl::parse_str(text).expect("the kernels were parsed when loaded")
-            }
-            Self::Module(module) => (**module).clone(),
-        }
-    }
-}
-
-impl Default for Code {
-    fn default() -> Self {
-        Self::Wgsl(String::new())
-    }
-}
-
 /// Capabilities of every device; kernels can `enable` nothing more.
 pub(crate) const CAPABILITIES: Capabilities =
     Capabilities::MULTISAMPLED_SHADING.union(Capabilities::CUBE_ARRAY_TEXTURES);
+
+/// Makes a validator of shaders that engines wrote, which may compute in 64 bits.
+pub(crate) fn engine_validator() -> Validator {
+    Validator::new(ValidationFlags::all(), CAPABILITIES | Capabilities::FLOAT64)
+}
 
 /// Parses WGSL that stands alone, without common.wgsl.
 pub(crate) fn parse_wgsl(path: &Path, text: &str) -> Result<Module, FilterError> {
@@ -94,17 +71,7 @@ impl Shader {
     /// sees it.
     pub fn parse(path: &Path, kernels: &str) -> Result<Self, FilterError> {
         check_nesting(path, kernels)?;
-        let parsed = run_on_large_stack(|| Self::parse_here(path, kernels));
-        parsed.unwrap_or_else(|panic| {
-            let panic = escape_controls(&panic);
-            Err(FilterError::in_file(
-                path,
-                None,
-                format!(
-                    "naga, which reads WGSL, fails on it: {panic}; write it otherwise, or make it smaller"
-                ),
-            ))
-        })
+        guard(path, "reads WGSL", || Self::parse_here(path, kernels))
     }
 
     fn parse_here(path: &Path, kernels: &str) -> Result<Self, FilterError> {
@@ -145,7 +112,7 @@ impl Shader {
             blocks,
             compiled: None,
             compiled_by: None,
-            code: Code::Wgsl(source.text),
+            module: Arc::new(module),
         })
     }
 

@@ -84,14 +84,21 @@ pub(crate) fn find_entry_points(
                     Role::Write(_) => _ = writes.insert(resource()),
                 }
             }
+            let function = &entry.function;
+            let outputs =
+                (function.result.iter()).flat_map(|it| find_locations(module, it.ty, &it.binding));
+            let mut locations: Vec<u32> = outputs.collect();
+            locations.sort_unstable();
             EntryPoint {
                 name: entry.name.clone(),
                 stage: entry.stage,
                 workgroup_size: entry.workgroup_size,
                 variables: used,
                 interpolated: find_interpolated(info, handles, variables),
-                locations: find_outputs(module, entry),
-                inputs: find_inputs(module, entry),
+                locations,
+                inputs: (function.arguments.iter())
+                    .flat_map(|it| find_locations(module, it.ty, &it.binding))
+                    .collect(),
                 reads,
                 reads_whole,
                 writes,
@@ -115,23 +122,6 @@ fn find_interpolated(
     (info.sampling_set.iter())
         .filter(|pair| index(pair.sampler).is_some_and(is_linear))
         .filter_map(|pair| index(pair.image))
-        .collect()
-}
-
-/// Lists the locations of the colours that an entry point returns, in order.
-fn find_outputs(module: &Module, entry: &wgpu::naga::EntryPoint) -> Vec<u32> {
-    let result = entry.function.result.iter();
-    let places = result.flat_map(|result| find_locations(module, result.ty, &result.binding));
-    let mut locations: Vec<u32> = places.collect();
-    locations.sort_unstable();
-    locations
-}
-
-/// Lists the locations that an entry point reads.
-fn find_inputs(module: &Module, entry: &wgpu::naga::EntryPoint) -> Vec<u32> {
-    let arguments = entry.function.arguments.iter();
-    arguments
-        .flat_map(|argument| find_locations(module, argument.ty, &argument.binding))
         .collect()
 }
 

@@ -1,23 +1,15 @@
 //! Counters in kernels that tell how many loop iterations each invocation takes.
 
-use std::borrow::Cow;
-
 use wgpu::naga::{
-    AddressSpace, AtomicFunction, BinaryOperator, Block, EntryPoint, Expression, Function,
-    FunctionArgument, FunctionResult, GlobalVariable, Handle, Literal, MemoryDecorations, Module,
-    Range, ResourceBinding, Scalar, Span, Statement, StorageAccess, Type, TypeInner,
+    AddressSpace, AtomicFunction, BinaryOperator, Block, Expression, Function, FunctionArgument,
+    FunctionResult, GlobalVariable, Handle, Literal, MemoryDecorations, Module, Range,
+    ResourceBinding, Scalar, Span, Statement, StorageAccess, Type, TypeInner,
 };
-
-use super::declarations::Code;
 
 /// Rewrites validated kernels so that every invocation counts its loop iterations. Counts from `least` on raise the number in the
 /// storage buffer at `binding`.
-pub(crate) fn count_loop_iterations(
-    code: &Code,
-    binding: u32,
-    least: u32,
-) -> wgpu::ShaderSource<'static> {
-    let mut module = code.to_module();
+pub(crate) fn count_loop_iterations(module: &Module, binding: u32, least: u32) -> Module {
+    let mut module = module.clone();
     let counter = Counter::declare(&mut module, binding);
     let functions = module.functions.iter_mut().map(|(_, function)| function);
     let entries = module.entry_points.iter_mut();
@@ -26,31 +18,16 @@ pub(crate) fn count_loop_iterations(
     }
     for index in 0..module.entry_points.len() {
         let entry = &mut module.entry_points[index];
-        let kernel = std::mem::take(&mut entry.function);
-        let (callee, arguments, result) = make_callable(entry, kernel);
+        let mut callee = std::mem::take(&mut entry.function);
+        let (arguments, result) = (callee.arguments.clone(), callee.result.clone());
+        callee.name = Some(format!("{}_counted", entry.name));
+        // Only entry points have bindings.
+        (callee.arguments.iter_mut()).for_each(|argument| argument.binding = None);
+        (callee.result.iter_mut()).for_each(|result| result.binding = None);
         let callee = module.functions.append(callee, Span::UNDEFINED);
         module.entry_points[index].function = counter.report_from(callee, arguments, result, least);
     }
-    wgpu::ShaderSource::Naga(Cow::Owned(module))
-}
-
-/// Makes the body of an entry point a function that another one can call; returns the arguments and the result of the entry point
-/// too.
-fn make_callable(
-    entry: &EntryPoint,
-    kernel: Function,
-) -> (Function, Vec<FunctionArgument>, Option<FunctionResult>) {
-    let arguments = kernel.arguments.clone();
-    let result = kernel.result.clone();
-    let mut callee = kernel;
-    callee.name = Some(format!("{}_counted", entry.name));
-    for argument in &mut callee.arguments {
-        argument.binding = None;
-    }
-    if let Some(result) = &mut callee.result {
-        result.binding = None;
-    }
-    (callee, arguments, result)
+    module
 }
 
 /// Variables that the rewritten kernels count with.

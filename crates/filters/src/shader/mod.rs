@@ -17,12 +17,11 @@ mod variable;
 
 pub(crate) use block::{BlockNumber, Member, NumberKind, UniformBlock, list_members, name_element};
 pub(crate) use compiled_by::try_each;
-pub(crate) use declarations::{CAPABILITIES, Code, Shader, parse_wgsl};
+pub(crate) use declarations::{Shader, engine_validator, parse_wgsl};
 pub(crate) use entry_point::{EntryPoint, find_entry_points};
 pub(crate) use loop_counter::count_loop_iterations;
 pub(crate) use sampling::{SamplerFilter, Sampling, Wrap};
 pub(crate) use source::tidy;
-pub(crate) use stack::run_on_large_stack;
+pub(crate) use stack::{guard, run_on_large_stack};
 pub use texel::Format;
-pub(crate) use texel::Texel;
 pub(crate) use variable::{FRAME_PREFIX, Role, Variable, find_image_role, written_texture};

@@ -181,10 +181,6 @@ mod tests {
         );
         assert_eq!(refused_line(&"if a { b; } ".repeat(many)), None);
         assert_eq!(
-            refused_line(&"fn f(a: f32) -> f32 { return a; }\n".repeat(many)),
-            None
-        );
-        assert_eq!(
             refused_line(&format!(
                 "/* {} /* */ */ // {}",
                 "(".repeat(many),

@@ -36,21 +36,18 @@ impl ResourceUsage {
                 .sum::<u64>()
         };
         let called = list_called(module, &entry.function);
-        let locals: u64 = (called.iter().map(|handle| &module.functions[*handle]))
-            .chain([&entry.function])
-            .map(|function| sum_local_bytes(module, function))
-            .sum();
-        let values = (called
+        let functions = (called.iter()).map(|handle| (&module.functions[*handle], &info[*handle]));
+        let functions: Vec<_> = functions.chain([(&entry.function, used)]).collect();
+        let locals = functions
             .iter()
-            .map(|handle| (&module.functions[*handle], &info[*handle])))
-        .chain([(&entry.function, used)])
-        .map(|(function, info)| {
-            let types = function
-                .expressions
-                .iter()
-                .map(|(handle, _)| info[handle].ty.inner_with(&module.types));
-            types.map(|ty| size_of_type(module, ty)).max().unwrap_or(0)
+            .flat_map(|(function, _)| function.local_variables.iter())
+            .map(|(_, variable)| size_of_type(module, &module.types[variable.ty].inner));
+        let locals: u64 = locals.sum();
+        let values = functions.iter().flat_map(|(function, info)| {
+            let handles = function.expressions.iter().map(|(handle, _)| handle);
+            handles.map(|handle| info[handle].ty.inner_with(&module.types))
         });
+        let values = values.map(|ty| size_of_type(module, ty));
         Self {
             workgroup_bytes: globals(AddressSpace::WorkGroup),
             invocation_bytes: (globals(AddressSpace::Private) + locals)
@@ -89,13 +86,6 @@ impl ResourceUsage {
 fn size_of_type(module: &Module, ty: &TypeInner) -> u64 {
     ty.try_size(module.to_ctx())
         .map_or(u64::from(u32::MAX), u64::from)
-}
-
-fn sum_local_bytes(module: &Module, function: &Function) -> u64 {
-    let variables = function.local_variables.iter();
-    variables
-        .map(|(_, variable)| size_of_type(module, &module.types[variable.ty].inner))
-        .sum()
 }
 
 /// Lists every function that a function calls, by itself or through others, once.

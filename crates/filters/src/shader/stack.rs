@@ -1,8 +1,12 @@
 //! Thread with a large stack, for code of others that recurses.
 
 use std::any::Any;
+use std::path::Path;
 use std::sync::Once;
 use std::{panic, thread};
+
+use crate::FilterError;
+use crate::printable::escape_controls;
 
 /// Bytes of stack for reading and compiling kernels. Naga takes less than 2 KB per level of
 /// [`MAX_NESTING`](super::MAX_NESTING), and less than 1 KB per declaration that refers to another one.
@@ -22,6 +26,21 @@ pub(crate) fn run_on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Re
             .spawn_scoped(scope, work)
             .map_err(|error| format!("no thread could be started: {error}"))?;
         thread.join().map_err(|panic| message_of(&*panic))
+    })
+}
+
+/// Does work of naga on the shader at `path` on such a thread, and makes an error of a panic.
+pub(crate) fn guard<T: Send>(
+    path: &Path,
+    task: &str,
+    work: impl FnOnce() -> Result<T, FilterError> + Send,
+) -> Result<T, FilterError> {
+    run_on_large_stack(work).unwrap_or_else(|panic| {
+        let panic = escape_controls(&panic);
+        let reason = format!(
+            "naga, which {task}, fails on it: {panic}; write it otherwise, or make it smaller"
+        );
+        Err(FilterError::in_file(path, None, reason))
     })
 }
 

@@ -1,9 +1,10 @@
 //! Formats of the textures that a shader stores to, changed in its module.
 
-use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
+use std::sync::Arc;
+
 use wgpu::naga::{ImageClass, Module, ResourceBinding, Span, Type, TypeInner};
 
-use super::declarations::{CAPABILITIES, Code, Shader};
+use super::declarations::{Shader, engine_validator};
 use super::texel::Format;
 use super::variable::Role;
 
@@ -20,15 +21,13 @@ impl Shader {
             let chosen = choose(&variable.resource, format);
             if chosen != format {
                 variable.role = Role::Write(chosen);
-                let module = module.get_or_insert_with(|| self.code.to_module());
+                let module = module.get_or_insert_with(|| (*self.module).clone());
                 set_format(module, variable.binding, chosen);
             }
         }
         if let Some(module) = module {
-            let capabilities = CAPABILITIES | Capabilities::FLOAT64;
-            let mut validator = Validator::new(ValidationFlags::all(), capabilities);
-            validator.validate(&module).ok()?;
-            stored.code = Code::Module(Box::new(module));
+            engine_validator().validate(&module).ok()?;
+            stored.module = Arc::new(module);
         }
         Some(stored)
     }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use wgpu::TextureFormat;
-use wgpu::naga::StorageFormat;
+use wgpu::naga::{ScalarKind, StorageFormat};
 
 /// Texel format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -110,23 +110,12 @@ impl Format {
     pub(crate) fn is_full_float(self) -> bool {
         matches!(self, Self::R32Float | Self::Rg32Float | Self::Rgba32Float)
     }
-}
 
-/// Type of the numbers in a texture that is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Texel {
-    /// `f32`.
-    Float,
-    /// `u32`.
-    Uint,
-}
-
-impl Texel {
-    /// Returns the type of the numbers in a format.
-    pub fn of(format: Format) -> Self {
-        match format {
-            Format::R32Uint => Texel::Uint,
-            _ => Texel::Float,
+    /// Returns the type of its numbers where a shader reads them: `u32` or `f32`.
+    pub(crate) fn kind(self) -> ScalarKind {
+        match self {
+            Self::R32Uint => ScalarKind::Uint,
+            _ => ScalarKind::Float,
         }
     }
 }

@@ -8,7 +8,7 @@ use wgpu::naga::{
 use super::block::UniformBlock;
 use super::sampling::Sampling;
 use super::source::Source;
-use super::texel::{Format, Texel};
+use super::texel::Format;
 use crate::{Expression, FilterError};
 
 /// A resource variable.
@@ -29,7 +29,7 @@ pub(crate) struct Variable {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
     /// `texture_2d<f32>` or `texture_2d<u32>`.
-    Read(Texel),
+    Read(ScalarKind),
     /// `texture_storage_2d<format, write>`.
     Write(Format),
     /// `var<uniform>`, with the index of its block among the shader's.
@@ -104,11 +104,10 @@ pub(crate) fn find_image_role(inner: &TypeInner) -> Option<Role> {
         return None;
     };
     match *class {
-        ImageClass::Sampled { kind, multi: false } => match kind {
-            ScalarKind::Float => Some(Role::Read(Texel::Float)),
-            ScalarKind::Uint => Some(Role::Read(Texel::Uint)),
-            _ => None,
-        },
+        ImageClass::Sampled { kind, multi: false } => {
+            let is_known = matches!(kind, ScalarKind::Float | ScalarKind::Uint);
+            is_known.then_some(Role::Read(kind))
+        }
         ImageClass::Storage { format, access } if access == StorageAccess::STORE => {
             let mut known = Format::ALL.into_iter();
             known

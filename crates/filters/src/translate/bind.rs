@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Arc;
 
 use wgpu::naga::compact::{KeepUnused, compact};
 use wgpu::naga::{AddressSpace, GlobalVariable, Handle, Module, ResourceBinding, TypeInner};
@@ -12,7 +13,7 @@ use super::module::{OpenModule, PUSH_CONSTANTS};
 use super::textures::{check_texture, describe_image};
 use crate::filter::{Binding, BindingPlace, PassShader, Stage};
 use crate::shader::{
-    Code, Role, Shader, UniformBlock, Variable, find_entry_points, find_image_role, written_texture,
+    Role, Shader, UniformBlock, Variable, find_entry_points, find_image_role, written_texture,
 };
 use crate::{Filter, FilterError};
 
@@ -65,7 +66,7 @@ pub(super) fn bind(
     }
     Ok(Shader {
         path: path.to_owned(),
-        code: Code::Module(Box::new(module)),
+        module: Arc::new(module),
         variables: binder.variables,
         blocks: binder.blocks,
         entry_points,

@@ -212,25 +212,17 @@ fn find_error(said: &str, input: &Path, copies: &Path, folder: &Path) -> (Option
 
 /// Joins what a compiler said. If that is too long, lines with errors come first, and the number of lines that are left out last.
 fn shorten(mut lines: Vec<String>) -> String {
-    let whole = lines.join("\n");
-    if whole.len() <= MAX_MESSAGE_BYTES {
-        return whole;
+    let mut said = lines.join("\n");
+    if said.len() <= MAX_MESSAGE_BYTES {
+        return said;
     }
     lines.sort_by_key(|line| !line.to_lowercase().contains("error"));
-    let mut shown = String::new();
-    let mut rest = lines.iter();
-    for line in rest.by_ref() {
-        let room = MAX_MESSAGE_BYTES.saturating_sub(shown.len());
-        if line.len() > room {
-            let ends = line.char_indices().map(|(end, _)| end);
-            let end = ends.take_while(|end| *end <= room).last().unwrap_or(0);
-            shown += &line[..end];
-            break;
-        }
-        shown += line;
-        shown.push('\n');
-    }
-    format!("{}\n... {} more lines", shown.trim_end(), rest.len())
+    said = lines.join("\n");
+    let mut ends = (0..=MAX_MESSAGE_BYTES).rev();
+    let end = ends.find(|end| said.is_char_boundary(*end));
+    said.truncate(end.unwrap_or(0));
+    let left = lines.len() - said.lines().count();
+    format!("{}\n... {left} more lines", said.trim_end())
 }
 
 #[cfg(test)]

@@ -50,7 +50,9 @@ pub(super) fn set_constants(
     let names: BTreeSet<&String> = names.collect();
     let missing = given.iter().find(|(name, _)| !names.contains(name));
     if let Some((missing, _)) = missing.filter(|_| !may_miss) {
-        return Err(constants.refuse_missing(missing));
+        let known = (constants.called.values())
+            .filter_map(|[name, number]| name.clone().or(number.clone()));
+        return Err(refuse_missing(missing, &known.collect::<Vec<_>>()));
     }
     for instruction in &mut words.instructions {
         if let Some(replaced) = constants.replace(instruction)? {
@@ -111,13 +113,6 @@ fn size_workgroups(words: &mut Words, values: &BTreeMap<u32, Value>) {
 }
 
 impl Constants<'_> {
-    fn refuse_missing(&self, missing: &str) -> String {
-        let known: Vec<String> = (self.called.values())
-            .filter_map(|[name, number]| name.clone().or(number.clone()))
-            .collect();
-        refuse_missing(missing, &known)
-    }
-
     /// Remembers a constant, and returns what a specialisation constant is replaced by.
     fn replace(&mut self, instruction: &Instruction) -> Result<Option<Instruction>, String> {
         let (op, operands) = (instruction.op, &instruction.operands[..]);
@@ -131,8 +126,12 @@ impl Constants<'_> {
             (Op::Constant | Op::SpecConstant, [bits]) if scalar.is_some() => Value::Scalar(*bits),
             // A number of another width keeps its value.
             (Op::SpecConstant, _) => {
-                self.refuse_given(*id)?;
-                return Ok(Some(Instruction::new(Op::Constant, operands)));
+                return match self.find_given(*id) {
+                    None => Ok(Some(Instruction::new(Op::Constant, operands))),
+                    Some((name, _)) => Err(format!(
+                        "specialisation constant \"{name}\" has not 32 bits; allowed: bool, int, uint and float"
+                    )),
+                };
             }
             (Op::ConstantComposite | Op::SpecConstantComposite, parts) => {
                 Value::Composite(parts.to_vec())
@@ -170,15 +169,6 @@ impl Constants<'_> {
         let is_own = |name: &str| names.iter().flatten().any(|own| own == name);
         let given = self.given.iter().find(|(name, _)| is_own(name));
         given.map(|(name, value)| (&name[..], *value))
-    }
-
-    fn refuse_given(&self, id: u32) -> Result<(), String> {
-        match self.find_given(id) {
-            None => Ok(()),
-            Some((name, _)) => Err(format!(
-                "specialisation constant \"{name}\" has not 32 bits; allowed: bool, int, uint and float"
-            )),
-        }
     }
 
     /// Computes what is made of other constants.

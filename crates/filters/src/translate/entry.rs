@@ -4,7 +4,7 @@ use std::path::Path;
 
 use wgpu::naga::back::PipelineConstants;
 use wgpu::naga::back::pipeline_constants::process_overrides;
-use wgpu::naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use wgpu::naga::valid::ModuleInfo;
 use wgpu::naga::{Module, ScalarKind, ShaderStage};
 
 use super::constants::refuse_missing;
@@ -13,21 +13,15 @@ use super::module::find_language;
 use crate::FilterError;
 use crate::filter::{PassShader, Stage};
 use crate::printable::explain;
-use crate::shader::CAPABILITIES;
+use crate::shader::engine_validator;
 
 /// Validates a module.
 pub(super) fn validate(path: &Path, module: &Module) -> Result<ModuleInfo, FilterError> {
-    let capabilities = CAPABILITIES | Capabilities::FLOAT64;
-    Validator::new(ValidationFlags::all(), capabilities)
-        .validate(module)
-        .map_err(|error| {
-            let reason = explain(error.as_inner());
-            FilterError::in_file(
-                path,
-                None,
-                format!("is not valid once translated: {reason}"),
-            )
-        })
+    engine_validator().validate(module).map_err(|error| {
+        let reason = explain(error.as_inner());
+        let reason = format!("is not valid once translated: {reason}");
+        FilterError::in_file(path, None, reason)
+    })
 }
 
 /// Removes all entry points but the one of the pass.
@@ -113,24 +107,16 @@ pub(super) fn set_constants(
     let info = validate(path, module)?;
     let set = process_overrides(module, &info, None, &set);
     let set = set.map_err(|error| {
-        FilterError::in_file(
-            path,
-            None,
-            format!(
-                "specialisation constants: {}; `constants` of the pass sets them",
-                explain(&error)
-            ),
-        )
+        let reason = format!(
+            "specialisation constants: {}; `constants` of the pass sets them",
+            explain(&error)
+        );
+        FilterError::in_file(path, None, reason)
     })?;
     *module = set.0.into_owned();
     Ok(())
 }
 
-fn name_stage(stage: ShaderStage) -> &'static str {
-    match stage {
-        ShaderStage::Compute => "compute",
-        ShaderStage::Fragment => "fragment",
-        ShaderStage::Vertex => "vertex",
-        _ => "other",
-    }
+fn name_stage(stage: ShaderStage) -> String {
+    format!("{stage:?}").to_lowercase()
 }

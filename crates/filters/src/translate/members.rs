@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use wgpu::naga::{Handle, Module, Type};
 
-use crate::filter::{Binding, MATRIX_NUMBERS, list_values};
+use crate::filter::{Binding, MATRIX_NUMBERS};
 use crate::shader::{BlockNumber, Member, NumberKind, UniformBlock, list_members, name_element};
 use crate::{Expression, Filter};
 
@@ -41,7 +41,7 @@ pub(super) fn fill_block(
                     member.name,
                     describe(&member.numbers),
                     member.offset,
-                    list_values(&filter.parameters, &filter.convention)
+                    filter.list_values()
                 )
             })?;
         let is_by_rows = by_rows.contains(&(member.name.clone(), member.offset));
@@ -58,7 +58,7 @@ pub(super) fn fill_block(
         let placed = member.numbers.iter().zip(values);
         numbers.extend(placed.map(|((offset, kind), value)| BlockNumber {
             offset: *offset,
-            kind: *kind,
+            kind,
             value: value.clone(),
         }));
     }
@@ -94,7 +94,7 @@ fn spell_out(filter: &Filter, values: &[Expression], is_by_rows: bool) -> Vec<Ex
 }
 
 fn describe(numbers: &[(u32, NumberKind)]) -> String {
-    let kind = numbers.first().map_or("nothing", |(_, kind)| kind.name());
+    let kind = numbers.first().map_or("nothing", |(_, kind)| kind);
     match numbers.len() {
         1 => kind.to_owned(),
         count => format!("{count} x {kind}"),

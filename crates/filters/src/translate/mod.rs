@@ -27,8 +27,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::filter::PassShader;
-use crate::printable::escape_controls;
-use crate::shader::{Shader, run_on_large_stack, try_each};
+use crate::shader::{Shader, guard, try_each};
 use crate::{Filter, FilterError, Settings};
 use bind::{bind, check_places};
 use compile::list_installed;
@@ -54,7 +53,8 @@ pub(crate) fn translate(
     });
     let stages = stages.collect::<Result<Vec<_>, FilterError>>()?;
     let path = &stages[0].path;
-    let attempt = |compiler| guard(path, || translate_with(filter, &stages, compiler));
+    let task = "translates it";
+    let attempt = |compiler| guard(path, task, || translate_with(filter, &stages, compiler));
     let language = find_language(shader, path)?;
     if language.compilers().is_empty() {
         return attempt(None);
@@ -110,7 +110,7 @@ pub(crate) fn specialise(
     let Some(compiled) = &made.compiled else {
         return Ok(made.clone());
     };
-    let specialised = guard(&made.path, || {
+    let specialised = guard(&made.path, "translates it", || {
         let constants = list_constants(filter, shader, settings);
         let open = read(filter, shader, &made.path, compiled, &constants)?;
         let bound = bind(filter, shader, &made.path, open, &constants)?;
@@ -137,21 +137,4 @@ pub(crate) fn list_constants(
     constants
         .map(|(name, value)| (name.clone(), value.evaluate(&|name| numbers[name])))
         .collect()
-}
-
-/// Does work of naga, whose panics become errors.
-fn guard<T: Send>(
-    path: &Path,
-    work: impl FnOnce() -> Result<T, FilterError> + Send,
-) -> Result<T, FilterError> {
-    run_on_large_stack(work).unwrap_or_else(|panic| {
-        let panic = escape_controls(&panic);
-        Err(FilterError::in_file(
-            path,
-            None,
-            format!(
-                "naga, which translates it, fails on it: {panic}; write it otherwise, or make it smaller"
-            ),
-        ))
-    })
 }

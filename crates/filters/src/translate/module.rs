@@ -19,22 +19,13 @@ use crate::shader::{parse_wgsl, tidy, written_texture};
 use crate::{Filter, FilterError, Format};
 
 /// A module that is not validated yet.
+#[derive(Default)]
 pub(super) struct OpenModule {
     pub module: Module,
     /// Places of variables that were split from others, each with the place of the other.
     pub owners: BTreeMap<BindingPlace, BindingPlace>,
     /// Names and offsets of members that hold the rows of a matrix one after the other.
     pub by_rows: BTreeSet<(String, u32)>,
-}
-
-impl From<Module> for OpenModule {
-    fn from(module: Module) -> Self {
-        Self {
-            module,
-            owners: BTreeMap::new(),
-            by_rows: BTreeSet::new(),
-        }
-    }
 }
 
 /// Place of the block of push constants. It is a uniform block here, and naga knows push constants only up to 256 bytes.
@@ -87,10 +78,15 @@ pub(super) fn read(
     compiled: &[u8],
     constants: &[(String, f64)],
 ) -> Result<OpenModule, FilterError> {
-    let wgsl = || parse_wgsl(path, &String::from_utf8_lossy(compiled));
+    let wgsl = || {
+        Ok::<_, FilterError>(OpenModule {
+            module: parse_wgsl(path, &String::from_utf8_lossy(compiled))?,
+            ..OpenModule::default()
+        })
+    };
     let mut open = match find_language(shader, path)? {
-        Language::Wgsl => OpenModule::from(wgsl()?),
-        Language::Wesl => OpenModule::from(wgsl().map_err(|error| in_compiled(path, &error))?),
+        Language::Wgsl => wgsl()?,
+        Language::Wesl => wgsl().map_err(|error| in_compiled(path, &error))?,
         language => {
             let choose = |place, name: &str| find_stored_format(filter, shader, place, name);
             let is_vertex = shader.stage == Stage::Vertex;

@@ -1,8 +1,8 @@
 //! Textures that fit the variables of a shader.
 
-use wgpu::naga::{ImageClass, StorageAccess, TypeInner};
+use wgpu::naga::{ImageClass, ScalarKind, StorageAccess, TypeInner};
 
-use crate::shader::{Role, Texel};
+use crate::shader::Role;
 use crate::{Filter, Format};
 
 /// Refuses a texture that does not fit its variable.
@@ -17,8 +17,8 @@ pub(crate) fn check_texture(filter: &Filter, role: Role, texture: &str) -> Resul
         (Role::Read(_), None) if texture == "output" => {
             Err("reads \"output\"; a pass reads what an earlier one wrote to a [[texture]]".into())
         }
-        (Role::Read(Texel::Uint), None) => Err("holds floats: texture_2d<f32>".into()),
-        (Role::Read(texel), Some(format)) if Texel::of(format) != texel => Err(format!(
+        (Role::Read(ScalarKind::Uint), None) => Err("holds floats: texture_2d<f32>".into()),
+        (Role::Read(kind), Some(format)) if format.kind() != kind => Err(format!(
             "does not fit the declared format {}: r32uint is read as texture_2d<u32>, every other as texture_2d<f32>",
             format.name()
         )),

@@ -16,35 +16,18 @@ pub struct Panels {
     pub camera: Camera,
 }
 
-/// A panel of the frame.
-struct Panel {
-    /// Centre, in parts of the image's width and height.
-    center: [f32; 2],
-    /// Half sides, in parts of the image's height.
-    half: [f32; 2],
-    /// Direction of its motion, of length 1.
-    direction: [f32; 2],
-    /// Depth in metres.
-    depth: f32,
-}
+/// A panel of the frame: its centre, in parts of the image's width and height; half its sides, in parts of the height; the direction of
+/// its motion, of length 1; and its depth in metres.
+type Panel = ([f32; 2], [f32; 2], [f32; 2], f32);
 
 /// Panels from front to back. They cover about a quarter of the image, overlap, and leave it at no border.
 const PANELS: [Panel; 5] = [
-    panel([0.30, 0.35], [0.20, 0.15], [1.0, 0.0], 2.0),
-    panel([0.40, 0.50], [0.12, 0.22], [0.0, -1.0], 4.0),
-    panel([0.70, 0.30], [0.18, 0.18], [-0.8, 0.6], 5.0),
-    panel([0.75, 0.75], [0.30, 0.05], [0.6, 0.8], 8.0),
-    panel([0.20, 0.80], [0.03, 0.12], [0.96, -0.28], 12.0),
+    ([0.30, 0.35], [0.20, 0.15], [1.0, 0.0], 2.0),
+    ([0.40, 0.50], [0.12, 0.22], [0.0, -1.0], 4.0),
+    ([0.70, 0.30], [0.18, 0.18], [-0.8, 0.6], 5.0),
+    ([0.75, 0.75], [0.30, 0.05], [0.6, 0.8], 8.0),
+    ([0.20, 0.80], [0.03, 0.12], [0.96, -0.28], 12.0),
 ];
-
-const fn panel(center: [f32; 2], half: [f32; 2], direction: [f32; 2], depth: f32) -> Panel {
-    Panel {
-        center,
-        half,
-        direction,
-        depth,
-    }
-}
 
 /// Change of a panel's speed at the ends of its long side, as a turning one has it: no two of its pixels move alike.
 const SPREAD: f32 = 0.1;
@@ -55,19 +38,22 @@ impl Panels {
         let at = |x, y| panel_at(width, height, x, y);
         Self {
             color: Raster::from_fn(width, height, |x, y| {
-                let tint = at(x, y).map_or([0.3, 0.35, 0.4], |(panel, _)| {
-                    [0.9, 0.1 * panel.depth, 0.5 * panel.direction[0].abs()]
-                });
+                let tint = match at(x, y) {
+                    None => [0.3, 0.35, 0.4],
+                    Some(((.., direction, depth), _)) => {
+                        [0.9, 0.1 * depth, 0.5 * direction[0].abs()]
+                    }
+                };
                 tint.map(|value| value * texture(x, y))
             }),
             velocity: Raster::from_fn(width, height, |x, y| {
-                at(x, y).map_or([0.0; 2], |(panel, along)| {
+                at(x, y).map_or([0.0; 2], |((.., direction, _), along)| {
                     let pixels = speed * (1.0 + SPREAD * along);
-                    panel.direction.map(|component| component * pixels)
+                    direction.map(|component| component * pixels)
                 })
             }),
             depth: Raster::from_fn(width, height, |x, y| {
-                at(x, y).map_or(FAR_DEPTH, |(panel, _)| panel.depth)
+                at(x, y).map_or(FAR_DEPTH, |((.., depth), _)| depth)
             }),
             reprojection: Reprojection {
                 rows: [
@@ -82,15 +68,16 @@ impl Panels {
 }
 
 /// Finds the panel that a pixel shows, and the pixel's place along its sides: -1 to 1.
-fn panel_at(width: u32, height: u32, x: u32, y: u32) -> Option<(&'static Panel, f32)> {
+fn panel_at(width: u32, height: u32, x: u32, y: u32) -> Option<(Panel, f32)> {
     let point = [x as f32 + 0.5, y as f32 + 0.5];
     let size = [width as f32, height as f32];
-    PANELS.iter().find_map(|panel| {
-        let offset: [f32; 2] = std::array::from_fn(|axis| {
-            (point[axis] - panel.center[axis] * size[axis]) / (panel.half[axis] * size[1])
-        });
-        let inside = offset.iter().all(|part| part.abs() <= 1.0);
-        inside.then_some((panel, 0.5 * (offset[0] + offset[1])))
+    PANELS.into_iter().find_map(|panel| {
+        let (center, half, ..) = panel;
+        let place =
+            |axis: usize| (point[axis] - center[axis] * size[axis]) / (half[axis] * size[1]);
+        let offset = [0, 1].map(place);
+        let is_inside = offset.iter().all(|part| part.abs() <= 1.0);
+        is_inside.then_some((panel, 0.5 * (offset[0] + offset[1])))
     })
 }
 

@@ -8,7 +8,7 @@ use crate::named;
 const WIDEST: u32 = 256;
 
 named! {
-    /// A policy for what lies beyond the border of what a filter reads.
+    /// Content beyond the border of the picture.
     pub enum Border {
         /// The filter's own choice.
         Leave = "leave",

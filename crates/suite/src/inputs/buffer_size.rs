@@ -5,7 +5,7 @@ use frame::{Frame, Plane, Raster};
 use crate::named;
 
 named! {
-    /// A size of the velocity and depth buffers, and the choice of the pixel that each texel stores.
+    /// Size of the velocity and depth buffers, and the pixel that each texel stores.
     pub enum BufferSize {
         /// A texel for every pixel.
         Full = "full",

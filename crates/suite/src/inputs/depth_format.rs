@@ -9,7 +9,7 @@ use crate::named;
 const NEAR: f64 = 0.1;
 
 named! {
-    /// A format of the depth buffer.
+    /// Format of the depth buffer.
     pub enum DepthFormat {
         /// Metres as 32-bit floats.
         Float32 = "float32",
@@ -56,25 +56,20 @@ mod tests {
 
     #[test]
     fn reversed_depth_is_finest_near_and_background_stays_far() {
-        let depths = Raster {
-            width: 4,
-            height: 1,
-            pixels: vec![0.5_f32, 30.0, 900.0, FAR_DEPTH],
-        };
-        let errors = |format: DepthFormat| -> Vec<f32> {
-            let stored = format.apply(&depths);
-            assert_eq!(stored.pixels[3], FAR_DEPTH);
-            let pairs = stored.pixels.iter().zip(&depths.pixels);
-            pairs.map(|(a, b)| (a - b).abs()).collect()
+        let errors = |format: DepthFormat| {
+            let error =
+                |depth| (format.apply(&Raster::filled(1, 1, depth)).pixels[0] - depth).abs();
+            assert_eq!(error(FAR_DEPTH), 0.0);
+            [0.5_f32, 30.0, 900.0].map(error)
         };
         // z^2 / near steps of 2^-24, half of one at most.
         let reversed = errors(DepthFormat::Reversed24);
-        for (error, depth) in reversed.iter().zip(&depths.pixels).take(3) {
+        for (error, depth) in reversed.iter().zip([0.5, 30.0, 900.0]) {
             assert!(*error <= depth * depth / 0.1 * 0.51 / 16_777_215.0 + depth * 1e-7);
         }
         assert!(reversed[2] > 0.01);
         // Ten bits after the leading one.
-        let half = errors(DepthFormat::Float16);
-        assert!(half[2] <= 900.0 / 2048.0 && errors(DepthFormat::Reversed32)[2] < 1e-3);
+        assert!(errors(DepthFormat::Float16)[2] <= 900.0 / 2048.0);
+        assert!(errors(DepthFormat::Reversed32)[2] < 1e-3);
     }
 }

@@ -5,11 +5,12 @@ use std::borrow::Cow;
 use frame::Frame;
 use tracer::{Defocus, PixelGrid, Scene, trace_defocus};
 
-use super::renderer::{Renderer, settings_of};
+use super::renderer::Renderer;
+use crate::render::settings::settings_of;
 use crate::{Error, Monitor, named};
 
 named! {
-    /// A place of depth of field among an engine's passes, in scenes whose camera has a lens.
+    /// Place of depth of field among the passes, in scenes whose camera has a lens.
     pub enum DepthOfField {
         /// Before motion blur: a filter gets colour out of focus, as the lens shows the instant; velocity and depth are a pinhole's.
         Before = "before",
@@ -32,9 +33,6 @@ impl DepthOfField {
     }
 
     /// Returns the frame that a filter gets, and the scene as it shows it.
-    ///
-    /// # Errors
-    /// The scene cannot be rendered, or the monitor interrupts.
     pub(crate) fn apply<'s>(
         self,
         frame: Frame,
@@ -58,9 +56,6 @@ impl DepthOfField {
     }
 
     /// Prepares the pass behind a filter; none where the filter comes last. [`DepthOfField::check`] has passed the scene.
-    ///
-    /// # Errors
-    /// The scene cannot be rendered, or the monitor interrupts.
     pub(crate) fn prepare_pass(
         self,
         frame: &Frame,

@@ -1,9 +1,10 @@
-//! Frames with several samples per pixel (MSAA).
+//! Frames with several samples per pixel (MSAA): colour is their mean, velocity and depth are of one of them.
 
 use frame::{ColorSampling, Frame, Raster};
 use tracer::{PixelGrid, RenderSettings};
 
-use super::renderer::{Renderer, settings_of};
+use super::renderer::Renderer;
+use crate::render::settings::settings_of;
 use crate::{Error, named};
 
 /// Places of the four samples from the pixel's top left corner, in pixels: the standard pattern of Direct3D and Vulkan.
@@ -15,7 +16,7 @@ const SAMPLES: [[f64; 2]; 4] = [
 ];
 
 named! {
-    /// A choice of the sample whose velocity and depth a filter gets, of four per pixel. Colour is their mean.
+    /// Sample, of four per pixel, that velocity and depth are taken from.
     pub enum Multisampling {
         /// No samples: colour over the whole pixel, velocity and depth at its centre.
         None = "none",
@@ -101,29 +102,20 @@ mod tests {
 
     #[test]
     fn colour_is_the_mean_and_depth_is_that_of_the_chosen_sample() {
-        let samples: Vec<Frame> = [(5.0, 0.0), (2.0, 4.0), (9.0, 0.0), (2.0, 8.0)]
-            .into_iter()
-            .enumerate()
-            .map(|(index, (depth, red))| {
-                let mut sample = test_frame(1, 1);
-                sample.depth.pixels = vec![depth];
-                sample.color.pixels = vec![[red, 0.0, 1.0]];
-                sample.velocity.pixels = vec![[index as f32, 0.0]];
-                sample.coverage = vec![Raster::filled(1, 1, f32::from(depth > 4.0))];
-                sample
-            })
-            .collect();
-        let full = Frame {
-            coverage: samples[0].coverage.clone(),
+        let samples = [(5.0, 0.0), (2.0, 4.0), (9.0, 0.0), (2.0, 8.0)].map(|(depth, red)| Frame {
+            color: Raster::filled(1, 1, [red, 0.0, 1.0]),
+            velocity: Raster::filled(1, 1, [depth, red]),
+            depth: Raster::filled(1, 1, depth),
+            coverage: vec![Raster::filled(1, 1, f32::from(depth > 4.0))],
             ..test_frame(1, 1)
-        };
-        for (choice, index, depth) in [
-            (Multisampling::First, 0.0, 5.0),
-            (Multisampling::Nearest, 1.0, 2.0),
-            (Multisampling::Farthest, 2.0, 9.0),
+        });
+        for (choice, depth, red) in [
+            (Multisampling::First, 5.0, 0.0),
+            (Multisampling::Nearest, 2.0, 4.0),
+            (Multisampling::Farthest, 9.0, 0.0),
         ] {
-            let resolved = choice.resolve(full.clone(), &samples);
-            assert_eq!(resolved.velocity.pixels, [[index, 0.0]]);
+            let resolved = choice.resolve(test_frame(1, 1), &samples);
+            assert_eq!(resolved.velocity.pixels, [[depth, red]]);
             assert_eq!(resolved.depth.pixels, [depth]);
             assert_eq!(resolved.color.pixels, [[3.0, 0.0, 1.0]]);
             assert_eq!(resolved.coverage[0].pixels, [0.5]);
@@ -133,15 +125,12 @@ mod tests {
     #[test]
     fn samples_share_the_rays_of_a_pixel_and_no_random_numbers() {
         let mut frame = test_frame(4, 3);
-        frame.provenance.samples_per_pixel = 64;
         frame.provenance.seed = u64::MAX;
-        let settings = sample_settings(&frame);
-        assert!(settings.iter().all(|own| own.samples_per_pixel == 16));
-        let mut seeds = settings.map(|own| own.seed).to_vec();
-        seeds.sort_unstable();
-        seeds.dedup();
-        assert_eq!(seeds.len(), 4);
-        frame.provenance.samples_per_pixel = 2;
-        assert_eq!(sample_settings(&frame)[0].samples_per_pixel, 1);
+        for (samples_per_pixel, share) in [(64, 16), (2, 1)] {
+            frame.provenance.samples_per_pixel = samples_per_pixel;
+            let settings = sample_settings(&frame);
+            assert!(settings.iter().all(|own| own.samples_per_pixel == share));
+            assert_eq!(settings.map(|own| own.seed), [0, 1, 2, 3]);
+        }
     }
 }

@@ -3,12 +3,13 @@
 use frame::{Frame, Image};
 use tracer::{PixelGrid, RenderSettings};
 
-use super::renderer::{Renderer, settings_of};
+use super::renderer::Renderer;
 use super::resample::{Extent, mix, read_bilinear, read_nearest};
+use crate::render::settings::settings_of;
 use crate::{Error, named};
 
 named! {
-    /// A scale at which a frame is rendered, and whether it is blurred before or after upscaling.
+    /// Scale at which the frame is rendered, and the order of blurring and upscaling.
     pub enum RenderScale {
         /// The picture's own size.
         Full = "full",
@@ -28,7 +29,8 @@ named! {
 }
 
 impl RenderScale {
-    /// Returns the part of the picture's width and height, in percent, and true if a filter gets the small frame and its output is upscaled.
+    /// Returns the part of the picture's width and height, in percent, and true if a filter gets the small frame and its output is
+    /// upscaled.
     fn parts(self) -> (u32, bool) {
         match self {
             Self::Full => (100, false),

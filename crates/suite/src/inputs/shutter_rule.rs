@@ -6,7 +6,7 @@ use tracer::Scene;
 use crate::named;
 
 named! {
-    /// A rule by which a filter sets its exposure where a scene is taken at another frame rate than that of its file.
+    /// Rule by which the filter sets its exposure at another frame rate than that of the scene's file.
     pub enum ShutterRule {
         /// The exposure of the truth.
         Right = "right",

@@ -4,11 +4,11 @@ use frame::{Frame, Vectors, VelocityKind};
 use tracer::{PointMotion, Scene, trace_motion};
 
 use super::camera_jitter::jitter_motion;
-use super::renderer::settings_of;
+use crate::render::settings::settings_of;
 use crate::{Error, named};
 
 named! {
-    /// A defect of the velocity buffer.
+    /// Defect of the velocity buffer, as engines have had them.
     pub enum VelocityDefect {
         /// The right buffer.
         None = "none",
@@ -39,9 +39,6 @@ named! {
 
 impl VelocityDefect {
     /// Returns the velocity of a frame with this defect. [`VelocityDefect::check`] has passed the frame and the scene.
-    ///
-    /// # Errors
-    /// The motion cannot be traced.
     pub(crate) fn apply(self, frame: &Frame, scene: Option<&Scene>) -> Result<Vectors, Error> {
         let each = |change: fn([f32; 2]) -> [f32; 2]| Ok(frame.velocity.map(|it| change(*it)));
         if let (Some(motion), Some(scene)) = (self.motion(), scene) {

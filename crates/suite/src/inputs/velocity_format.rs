@@ -12,7 +12,7 @@ const TILE: f64 = 20.0;
 const KINO_RADIUS: f64 = 0.05;
 
 named! {
-    /// A format of the velocity buffer.
+    /// Format of the velocity buffer.
     pub enum VelocityFormat {
         /// 32-bit floats of pixels.
         Float32 = "float32",

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use filters::{Command, Convention, FilterError};
+use filters::{Convention, FilterError};
 use frame::{Frame, Ladder, Picture, Vectors};
 use metrics::{
     ColorReference, ImageScores, Jitter, MeasureError, Measurement, Metric, ProbeScores, Reference,
@@ -262,7 +262,7 @@ impl CaseContext<'_> {
             exposure: self.frame.exposure,
             parameters: choice.map_or_else(BTreeMap::new, |choice| choice.settings.values.clone()),
             reference_width: choice.and_then(|choice| choice.settings.reference_width),
-            command: command.map(Command::words),
+            command: command.map(|command| command.words.clone()),
             convention: convention.map(Convention::resolved),
             nonlinearity: measured.nonlinearity,
             truth_hash: truth.provenance.content_hash.clone(),

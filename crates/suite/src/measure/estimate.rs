@@ -5,7 +5,7 @@ use std::convert::Infallible;
 
 use filters::Gpu;
 use frame::Alignment;
-use store::{LADDER, look_up_alone};
+use store::{LADDER, RenderFile, look_up_alone};
 use tracer::RenderSettings;
 
 use super::frames::visit_frames;
@@ -21,7 +21,8 @@ const SCENE: f64 = 0.2;
 const SAMPLE: f64 = 0.9e-6;
 /// Samples of a whole ladder, relative to its truth: it is about the pixels near motion alone.
 const WHOLE_LADDER: f64 = 0.4;
-/// Time in seconds to run a filter and measure its picture, whatever its size, and per pixel; and per pixel to write its part of the report.
+/// Time in seconds to run a filter and measure its picture, whatever its size, and per pixel; and per pixel to write its part of the
+/// report.
 const CASE: f64 = 0.035;
 const CASE_PIXEL: f64 = 6e-6;
 const REPORT_PIXEL: f64 = 0.45e-6;
@@ -98,8 +99,10 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
         if cases == 0 {
             return Ok::<(), Infallible>(());
         }
-        let (frame, truths) = scene.find_missing();
-        let ladders = count_ladders(plan, truths.iter().copied());
+        let missing = scene.find_missing();
+        let frame = missing.contains(&RenderFile::Frame);
+        let truths: Vec<Alignment> = missing.iter().filter_map(|own| own.alignment()).collect();
+        let ladders = count_ladders(plan, &truths);
         let rendering = render_cpu_seconds(&plan.render, frame, truths.len(), ladders);
         estimate.seconds += rendering / threads() + cases as f64 * case_seconds(plan);
         let of_truth = PICTURES_OF_TRUTH + u64::from(plan.render.replicates);
@@ -119,7 +122,7 @@ pub fn estimate_run(plan: &RunPlan, gpu: Option<&Gpu>) -> RunEstimate {
 pub fn estimate_jobs(plan: &RunPlan) -> Vec<SceneJobs> {
     let frames = f64::from(plan.frames.count);
     let alignments = plan.alignments();
-    let ladders = count_ladders(plan, alignments.iter().copied());
+    let ladders = count_ladders(plan, &alignments);
     let truths = alignments.len();
     let cpu_seconds = frames * render_cpu_seconds(&plan.render, true, truths, ladders);
     let all = plan.all_scenes().into_iter();
@@ -167,8 +170,9 @@ fn case_seconds(plan: &RunPlan) -> f64 {
 }
 
 /// Counts the ladders that measuring against some truths needs, in parts of whole ones.
-fn count_ladders(plan: &RunPlan, truths: impl Iterator<Item = Alignment>) -> f64 {
-    let rungs = truths.map(|alignment| needed_rungs(alignment, plan.ladders).len());
+fn count_ladders(plan: &RunPlan, truths: &[Alignment]) -> f64 {
+    let rungs = truths.iter();
+    let rungs = rungs.map(|alignment| needed_rungs(*alignment, plan.ladders).len());
     rungs.sum::<usize>() as f64 / LADDER.len() as f64
 }
 

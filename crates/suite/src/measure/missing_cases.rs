@@ -6,10 +6,9 @@ use filters::FilterError;
 use frame::{Alignment, Frame, Ladder, Truth};
 use metrics::{ColorReference, Reference};
 use store::put;
-use tracer::{Defocus, Progress, Scene, TraceError, Watch};
+use tracer::{Defocus, Progress, TraceError, Watch};
 
 use super::case::{CaseContext, CommonTruth};
-use super::plan::RunPlan;
 use super::planned_case::PlannedCase;
 use super::references::TruthReferences;
 use super::run_scene::RunScene;
@@ -18,9 +17,7 @@ use super::stored_frames::store_frames;
 use crate::Error;
 use crate::inputs::depth_of_field::DepthOfField;
 use crate::inputs::input_format::InputFormat;
-use crate::render::ladders::{LadderFiles, SHARP, needed_rungs};
-use crate::render::replicates::TruthFiles;
-use crate::render::truths::render_truth;
+use crate::render::ladders::{SHARP, needed_rungs};
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 use crate::stats::intervals::truths_without_pairs;
@@ -148,11 +145,8 @@ impl SceneContext<'_> {
 
     /// Reads a truth, or renders it; copies that which an engine drew.
     pub(super) fn read_truth(&self, alignment: Alignment) -> Result<Truth, Error> {
-        let RunPlan { render, out, .. } = self.plan;
         match self.scene {
-            RunScene::Traced(scene) => {
-                render_truth(scene, render, alignment, out, self.plan.monitor)
-            }
+            RunScene::Traced(scene) => self.plan.rendering(scene).truth(alignment),
             RunScene::Drawn(scene) => scene.copy_truth(&self.folder()),
         }
     }
@@ -162,7 +156,7 @@ impl SceneContext<'_> {
         match self.scene {
             RunScene::Traced(scene) => {
                 let rungs = needed_rungs(truth.alignment, self.plan.ladders);
-                self.ladder(scene, truth).ensure(rungs, self.plan.monitor)
+                self.plan.rendering(scene).ladder(truth).ensure(rungs)
             }
             RunScene::Drawn(_) => Ok(()),
         }
@@ -172,15 +166,11 @@ impl SceneContext<'_> {
     fn read_rung(&self, truth: &Truth, subframes: u32) -> Result<Ladder, Error> {
         match self.scene {
             RunScene::Traced(scene) => {
-                let ladder = self.ladder(scene, truth);
-                ladder.read_or_render(subframes, self.plan.monitor)
+                let ladder = self.plan.rendering(scene).ladder(truth);
+                ladder.read_or_render(subframes)
             }
             RunScene::Drawn(scene) => scene.read_rung(&self.folder(), subframes),
         }
-    }
-
-    fn ladder<'s>(&self, scene: &'s Scene, truth: &'s Truth) -> LadderFiles<'s> {
-        LadderFiles::new(scene, &self.plan.render, truth, &self.plan.out)
     }
 
     /// Makes the truths of an alignment without one pair of replicates each, where cases of filters get intervals. None of what an engine
@@ -197,9 +187,8 @@ impl SceneContext<'_> {
         if !has_filters || !self.plan.intervals {
             return Ok(Vec::new());
         }
-        let RunPlan { render, out, .. } = self.plan;
-        let files = TruthFiles::new(scene, render, alignment, out, self.plan.monitor);
-        let replicates = files.replicates(0..render.replicates)?;
+        let files = self.plan.rendering(scene).files(alignment);
+        let replicates = files.replicates(0..self.plan.render.replicates)?;
         Ok(truths_without_pairs(&replicates)?)
     }
 }

@@ -11,6 +11,7 @@ use super::run_scene::RunScene;
 use crate::engine_scene::EngineScene;
 use crate::filter_choice::FilterChoice;
 use crate::inputs::input_format::InputFormat;
+use crate::render::rendering::Rendering;
 use crate::run::sequence::Frames;
 use crate::run::{FORMAT, Run};
 use crate::{Monitor, PROGRAM};
@@ -92,6 +93,16 @@ impl RunPlan {
             failures: Vec::new(),
             overall: Vec::new(),
             read_back: 0,
+        }
+    }
+
+    /// Returns how a scene of the plan is rendered.
+    pub(crate) fn rendering<'a>(&'a self, scene: &'a Scene) -> Rendering<'a> {
+        Rendering {
+            scene,
+            settings: self.render,
+            out: &self.out,
+            monitor: self.monitor,
         }
     }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use filters::Gpu;
-use frame::{Alignment, Frame};
+use frame::Frame;
 use store::{
     CASE_RECORD, RenderFile, clear_scene, look_up, put, refuse_scene, remove_altered_files, take,
 };
@@ -14,9 +14,6 @@ use super::planned_case::PlannedCase;
 use super::run_scene::RunScene;
 use crate::Error;
 use crate::measure::scene_keys::SceneKeys;
-use crate::render::files::{find_missing, list_wanted};
-use crate::render::frames::render_frame;
-use crate::render::replicates::render_shared;
 use crate::run::case::Case;
 use crate::run::failure::Failure;
 
@@ -113,38 +110,26 @@ impl SceneContext<'_> {
 
     /// Takes what the plan's folder of truths holds.
     fn take_renders(&self) -> Result<(), Error> {
-        let RunPlan {
-            render,
-            out,
-            truths,
-            ..
-        } = self.plan;
-        if let (Some(truths), RunScene::Traced(scene)) = (truths, self.scene) {
-            let alignments = self.plan.alignments();
-            let files = list_wanted(scene, render, &alignments, self.plan.ladders);
+        let plan = self.plan;
+        if let (Some(truths), RunScene::Traced(scene)) = (&plan.truths, self.scene) {
+            let files = plan
+                .rendering(scene)
+                .list_wanted(&plan.alignments(), plan.ladders);
             refuse_scene(&self.folder())?;
-            take(&files, truths, out)?;
+            take(&files, truths, &plan.out)?;
         }
         Ok(())
     }
 
     /// Renders the frame, and what its truths have in common; copies the frame that an engine drew.
     fn render_first(&self, advance: &dyn Fn(u64)) -> Result<Frame, Error> {
-        let RunPlan {
-            render,
-            out,
-            monitor,
-            ..
-        } = self.plan;
-        let scene = match self.scene {
-            RunScene::Traced(scene) => scene,
+        let rendering = match self.scene {
+            RunScene::Traced(scene) => self.plan.rendering(scene),
             RunScene::Drawn(scene) => return scene.copy_frame(&self.folder()),
         };
-        let frame = render_frame(scene, render, out, *monitor)?;
+        let frame = rendering.frame()?;
         advance(1);
-        let alignments = self.plan.alignments();
-        let replicates = 0..render.replicates;
-        render_shared(scene, render, &alignments, replicates, out, *monitor)?;
+        rendering.shared(&self.plan.alignments(), 0..self.plan.render.replicates)?;
         Ok(frame)
     }
 
@@ -186,26 +171,19 @@ impl SceneContext<'_> {
         (has_intervals || case.is_reference || case.drawn.is_some()).then_some(case)
     }
 
-    /// Tells whether the frame is to be rendered, and lists the truths that are, by the headers of files.
-    pub fn find_missing(&self) -> (bool, Vec<Alignment>) {
-        let RunPlan {
-            render,
-            out,
-            truths,
-            ..
-        } = self.plan;
-        let alignments = self.plan.alignments();
-        let folders: Vec<&Path> = (truths.iter().chain([out]))
-            .map(|folder| &**folder)
-            .collect();
-        match self.scene {
-            // What an engine drew is copied in no time.
-            RunScene::Drawn(_) => (false, Vec::new()),
-            RunScene::Traced(_) if self.plan.no_cache => (true, alignments),
-            RunScene::Traced(scene) => {
-                find_missing(scene, render, &alignments, self.plan.ladders, &folders)
-            }
-        }
+    /// Lists the frame and the truths that are to be rendered, by the headers of files. What an engine drew is copied in no time.
+    pub fn find_missing(&self) -> Vec<RenderFile> {
+        let plan = self.plan;
+        let folders = plan
+            .truths
+            .iter()
+            .chain([&plan.out])
+            .filter(|_| !plan.no_cache);
+        let folders: Vec<&Path> = folders.map(|folder| &**folder).collect();
+        let alignments = plan.alignments();
+        (self.scene.traced()).map_or(Vec::new(), |scene| {
+            (plan.rendering(scene)).find_missing(&alignments, plan.ladders, &folders)
+        })
     }
 
     /// Lists the keys of cases that the plan may take, at first the one that it records by: where it asks for no ladder, it takes those that

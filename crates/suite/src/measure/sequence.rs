@@ -9,7 +9,6 @@ use super::plan::RunPlan;
 use super::points_of_frame::{make_instant, trace_points};
 use crate::Error;
 use crate::colors::magma;
-use crate::render::replicates::TruthFiles;
 use crate::run::case::{Case, Intervals};
 use crate::run::sequence::{Sequence, SequenceFrame, worst_frames};
 use crate::stats::intervals::{count_pairs, sequence_intervals, truth_without_pair};
@@ -119,15 +118,9 @@ impl SequenceTruths<'_> {
 
     /// Makes the truths of all frames without one pair of replicates.
     fn without_pair(&self, pair: usize) -> Result<SequenceReference, Error> {
-        let RunPlan {
-            render,
-            out,
-            monitor,
-            ..
-        } = self.plan;
         self.reference(|scene| {
-            let files = TruthFiles::new(scene, render, self.alignment, out, *monitor);
-            let replicates = files.replicates(0..render.replicates)?;
+            let files = self.plan.rendering(scene).files(self.alignment);
+            let replicates = files.replicates(0..self.plan.render.replicates)?;
             Ok(truth_without_pair(&replicates, pair)?)
         })
     }

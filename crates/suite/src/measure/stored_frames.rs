@@ -7,7 +7,6 @@ use super::plan::RunPlan;
 use super::run_scene::RunScene;
 use crate::Error;
 use crate::inputs::input_format::InputFormat;
-use crate::render::frames::render_frame;
 
 /// A frame in one of the forms in which filters get it.
 pub(crate) struct StoredFrame {
@@ -54,6 +53,6 @@ fn read_frame_before(plan: &RunPlan, scene: RunScene) -> Result<Option<(Scene, F
     let is_own = |scene: &&Scene| scene.id == later.id.at_frame(0);
     let first = plan.scenes.iter().find(is_own).expect("it is in the plan");
     let before = first.at_frame(later.id.frame - 1);
-    let frame = render_frame(&before, &plan.render, &plan.out, plan.monitor)?;
+    let frame = plan.rendering(&before).frame()?;
     Ok(Some((before, frame)))
 }

@@ -12,14 +12,20 @@ use crate::render::files::truth_files;
 use crate::run::Run;
 use crate::run::case::{ACCUMULATE, Case};
 
-/// The truths of each scene, by their alignments, with the `truth_hash` of the cases that were measured against them; none if no case was.
-type Truths<'a> = BTreeMap<&'a SceneId, BTreeMap<Alignment, Option<&'a str>>>;
+/// What the cases of a run say of a truth.
+#[derive(Default)]
+struct CasesOfTruth<'a> {
+    /// The `truth_hash` that they were measured against; none if no case was.
+    hash: Option<&'a str>,
+    /// True if the run compares with accumulations of several sub-frames: the whole ladder was rendered.
+    has_ladder: bool,
+}
+
+/// The truths of each scene, by their alignments.
+type Truths<'a> = BTreeMap<&'a SceneId, BTreeMap<Alignment, CasesOfTruth<'a>>>;
 
 /// Lists frames, truths, replicates and ladders of a finished run, in the order of their paths. A check has the sharp rungs of ladders
 /// alone. Sizes and hashes of bytes are not known yet.
-///
-/// # Errors
-/// A file is missing, or is another one than the run was measured with.
 pub(super) fn list_contents(
     run: &Run,
     folder: &Path,
@@ -33,13 +39,13 @@ pub(super) fn list_contents(
                 file,
             };
             files.push(read_header(folder, &path(RenderFile::Frame))?);
-            for (&alignment, hash) in &truths {
-                let has_ladder = has_accumulation(run, scene, alignment);
-                let own = truth_files(alignment, run.render.replicates, has_ladder);
-                let own = own.map(|file| Ok((file, read_header(folder, &path(file))?)));
-                let own = own.collect::<Result<Vec<_>, Error>>()?;
+            for (&alignment, cases) in &truths {
+                let own = truth_files(alignment, run.render.replicates, cases.has_ladder)
+                    .map(|file| Ok((file, read_header(folder, &path(file))?)))
+                    .collect::<Result<Vec<_>, Error>>()?;
                 // Cases of later frames are not in run.json.
-                check_truth(folder, &own, hash.filter(|_| frame == 0))?;
+                let measured = cases.hash.filter(|_| frame == 0);
+                check_truth(run, folder, &own, measured)?;
                 files.extend(own.into_iter().map(|(_, file)| file));
             }
         }
@@ -53,9 +59,11 @@ fn list_truths<'a>(run: &'a Run, chosen: &[String]) -> Result<Truths<'a>, Error>
     let mut truths = Truths::new();
     let is_chosen = |case: &&Case| case.drawn.is_none() && chosen.contains(&case.scene.to_string());
     for case in run.cases.iter().filter(is_chosen) {
-        let common = BTreeMap::from([(run.common_alignment, None)]);
-        let own = truths.entry(&case.scene).or_insert(common);
-        let other = own.insert(case.alignment, Some(&case.truth_hash)).flatten();
+        let common = (run.common_alignment, CasesOfTruth::default());
+        let own = (truths.entry(&case.scene)).or_insert_with(|| BTreeMap::from([common]));
+        let own = own.entry(case.alignment).or_default();
+        own.has_ladder |= case.is_reference && case.filter == ACCUMULATE && !case.is_sharp();
+        let other = own.hash.replace(&case.truth_hash);
         if other.is_some_and(|other| other != case.truth_hash) {
             return Err(Error::Usage(format!(
                 "{}: cases were measured against different {} truths, and the folder has only the last; run it again",
@@ -72,47 +80,44 @@ fn list_truths<'a>(run: &'a Run, chosen: &[String]) -> Result<Truths<'a>, Error>
     }
 }
 
-/// Tells whether a run compares with accumulations of several sub-frames in a scene, for one alignment: its whole ladder was rendered.
-fn has_accumulation(run: &Run, scene: &SceneId, alignment: Alignment) -> bool {
-    (run.cases.iter()).any(|case| {
-        case.is_reference
-            && case.filter == ACCUMULATE
-            && !case.is_sharp()
-            && case.scene == *scene
-            && case.alignment == alignment
-    })
-}
-
 /// Refuses a truth that the cases were not measured against, replicates of another truth, and rungs of several ladders.
 fn check_truth(
+    run: &Run,
     root: &Path,
     files: &[(RenderFile, PackedFile)],
     measured: Option<&str>,
 ) -> Result<(), Error> {
     let truth = &files[0].1.content_hash;
-    let is_replicate = |file: &RenderFile| matches!(file, RenderFile::Replicate(..));
-    let replicates = files.iter().filter(|(file, _)| is_replicate(file)).count() as u32;
-    let is_rung = |file: &RenderFile| matches!(file, RenderFile::Rung(..));
-    let ladder = files.iter().find(|(file, _)| is_rung(file));
-    for (file, found) in files {
-        let hash = &found.content_hash;
-        let (found_hash, expected) = match file {
-            RenderFile::Replicate(..) => (truth_hash(hash, replicates), Some(&**truth)),
-            RenderFile::Rung(..) => (hash.clone(), ladder.map(|(_, rung)| &*rung.content_hash)),
-            RenderFile::Frame | RenderFile::Truth(_) => (hash.clone(), measured),
+    let ladder = &files[files.len() - 1].1.content_hash;
+    for (
+        file,
+        PackedFile {
+            path, content_hash, ..
+        },
+    ) in files
+    {
+        let (found, expected) = match file {
+            RenderFile::Replicate(..) => (
+                truth_hash(content_hash, run.render.replicates),
+                truth.as_str(),
+            ),
+            RenderFile::Rung(..) => (content_hash.clone(), ladder.as_str()),
+            RenderFile::Frame | RenderFile::Truth(_) => {
+                (content_hash.clone(), measured.unwrap_or(content_hash))
+            }
         };
-        if let Some(expected) = expected.filter(|expected| **expected != found_hash) {
+        if found != expected {
             return Err(Error::Usage(format!(
-                "{}: its header has the hash {hash}, and the run was measured with {expected}; something was rendered into this folder \
-                 since: run it again",
-                root.join(&found.path).display()
+                "{}: its header has the hash {content_hash}, and the run was measured with {expected}; something was rendered into this \
+                 folder since: run it again",
+                root.join(path).display()
             )));
         }
     }
     Ok(())
 }
 
-/// Reads the header of a rendered file.
+/// Describes a rendered file by its header.
 fn read_header(root: &Path, file: &RenderPath) -> Result<PackedFile, Error> {
     let path = root.join(file.path());
     if !path.symlink_metadata().is_ok_and(|found| found.is_file()) {
@@ -122,25 +127,22 @@ fn read_header(root: &Path, file: &RenderPath) -> Result<PackedFile, Error> {
             path.display()
         )));
     }
-    let found = read_exr_header(&path).and_then(|found| describe(&found, file));
-    found.ok_or_else(|| {
+    let describe = |found: ExrFile| {
+        Some(PackedFile {
+            path: file.to_string(),
+            bytes: 0,
+            blake3: String::new(),
+            content_hash: found.get("content_hash").ok()?,
+            scene: found.get("scene").ok()?,
+            width: found.width,
+            height: found.height,
+            samples_per_pixel: found.get("samples_per_pixel").ok()?,
+        })
+    };
+    read_exr_header(&path).and_then(describe).ok_or_else(|| {
         Error::Usage(format!(
             "{}: not a complete file of this program; delete it and run again into this folder",
             path.display()
         ))
-    })
-}
-
-/// Describes a file by its header; none where that lacks what the files of this program have.
-fn describe(file: &ExrFile, path: &RenderPath) -> Option<PackedFile> {
-    Some(PackedFile {
-        path: path.to_string(),
-        bytes: 0,
-        blake3: String::new(),
-        content_hash: file.get("content_hash").ok()?,
-        scene: file.get("scene").ok()?,
-        width: file.width,
-        height: file.height,
-        samples_per_pixel: file.get("samples_per_pixel").ok()?,
     })
 }

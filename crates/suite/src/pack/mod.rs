@@ -13,9 +13,6 @@ use crate::{Error, Monitor, PROGRAM};
 
 /// Packs the frames, truths and ladders of the chosen scenes of a finished run in `folder` into the archive `pack`. The same files
 /// give the same bytes.
-///
-/// # Errors
-/// A file is missing, cannot be read or written, or is another one than the run was measured with.
 pub fn write_pack(
     run: &Run,
     folder: &Path,

@@ -9,7 +9,6 @@ use tracer::Scene;
 
 use crate::Error;
 use crate::measure::plan::RunPlan;
-use crate::render::files::{find_missing, list_wanted};
 use crate::verify::scene::{Verified, verify_scene};
 use crate::verify::scene_renders::list_scene_renders;
 use crate::verify::tiles::Verification;
@@ -50,9 +49,15 @@ pub fn take_pack(
         remove_folder(&unpacked)?;
         (taken.files, taken.verified) = found?;
     }
-    taken.missing = (list_scenes(plan).iter())
-        .flat_map(|scene| name_missing(plan, scene, &alignments))
-        .collect();
+    for scene in list_scenes(plan) {
+        let rendering = plan.rendering(&scene);
+        let missing = rendering.find_missing(&alignments, plan.ladders, &[&plan.out]);
+        let names = missing.into_iter().map(|file| match file.alignment() {
+            None => format!("frame of {}", scene.id),
+            Some(alignment) => format!("{alignment} truth of {}", scene.id),
+        });
+        taken.missing.extend(names);
+    }
     Ok(taken)
 }
 
@@ -89,7 +94,7 @@ fn find_wanted(
     let mut wanted = Vec::new();
     for scene in list_scenes(plan) {
         refuse_scene(&scene_folder(&plan.out, &scene))?;
-        let mut files = list_wanted(&scene, &plan.render, alignments, plan.ladders);
+        let mut files = (plan.rendering(&scene)).list_wanted(alignments, plan.ladders);
         files.retain(|file| packed.get(&*file.path.to_string()) == Some(&&*file.hash));
         if files.iter().any(|file| !file.is_in(&plan.out)) {
             wanted.push((scene, files));
@@ -125,22 +130,10 @@ fn verify_unpacked(
 
 /// Lists the scenes of a plan, and behind each its later frames.
 fn list_scenes(plan: &RunPlan) -> Vec<Scene> {
-    let frames = |scene: &Scene| -> Vec<Scene> {
-        let count = plan.frames.count;
-        (0..count).map(|frame| scene.at_frame(frame)).collect()
-    };
-    plan.scenes.iter().flat_map(frames).collect()
-}
-
-/// Lists what the plan's folder lacks of a scene's frame and truths.
-fn name_missing(plan: &RunPlan, scene: &Scene, alignments: &[Alignment]) -> Vec<String> {
-    let folders = [&*plan.out];
-    let (lacks_frame, truths) =
-        find_missing(scene, &plan.render, alignments, plan.ladders, &folders);
-    let frame = lacks_frame.then(|| format!("frame of {}", scene.id));
-    let truths = truths.iter();
-    let truths = truths.map(|alignment| format!("{alignment} truth of {}", scene.id));
-    frame.into_iter().chain(truths).collect()
+    let frames = 0..plan.frames.count;
+    (plan.scenes.iter())
+        .flat_map(|scene| frames.clone().map(|frame| scene.at_frame(frame)))
+        .collect()
 }
 
 /// Removes the folder of unpacked files; a link in its place is removed, and not followed.

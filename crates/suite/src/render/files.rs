@@ -4,9 +4,9 @@ use std::path::Path;
 
 use frame::Alignment;
 use store::{RenderFile, RenderPath, Wanted};
-use tracer::{RenderSettings, Scene};
 
 use super::ladders::{ladder_hash, needed_rungs};
+use super::rendering::Rendering;
 use super::settings::frame_settings;
 
 /// Lists a truth, its replicates, and the rungs of its ladder that measuring needs: all if ladders are asked for.
@@ -23,54 +23,46 @@ pub(crate) fn truth_files(
         .chain(rungs)
 }
 
-/// Lists the frame of a scene, and of each alignment the [`truth_files`], with the hashes of their inputs.
-pub(crate) fn list_wanted(
-    scene: &Scene,
-    settings: &RenderSettings,
-    alignments: &[Alignment],
-    ladders: bool,
-) -> Vec<Wanted> {
-    let wanted = |file, hash: &str| Wanted {
-        path: RenderPath {
-            scene: scene.id.clone(),
-            file,
-        },
-        hash: hash.to_owned(),
-    };
-    let frame = tracer::frame_hash(scene, &frame_settings(settings));
-    let mut files = vec![wanted(RenderFile::Frame, &frame)];
-    for &alignment in alignments {
-        let truth = tracer::truth_hash(scene, settings, alignment);
-        let replicate = tracer::replicate_hash(scene, settings, alignment);
-        let ladder = ladder_hash(scene, settings, alignment);
-        let own = truth_files(alignment, settings.replicates, ladders);
-        files.extend(own.map(|file| match file {
-            RenderFile::Replicate(..) => wanted(file, &replicate),
-            RenderFile::Rung(..) => wanted(file, &ladder),
-            RenderFile::Frame | RenderFile::Truth(_) => wanted(file, &truth),
-        }));
+impl Rendering<'_> {
+    /// Lists the frame of the scene, and of each alignment the [`truth_files`], with the hashes of their inputs.
+    pub(crate) fn list_wanted(&self, alignments: &[Alignment], ladders: bool) -> Vec<Wanted> {
+        let (scene, settings) = (self.scene, &self.settings);
+        let wanted = |file, hash: &str| Wanted {
+            path: RenderPath {
+                scene: scene.id.clone(),
+                file,
+            },
+            hash: hash.to_owned(),
+        };
+        let frame = tracer::frame_hash(scene, &frame_settings(settings));
+        let mut files = vec![wanted(RenderFile::Frame, &frame)];
+        for &alignment in alignments {
+            let truth = tracer::truth_hash(scene, settings, alignment);
+            let replicate = tracer::replicate_hash(scene, settings, alignment);
+            let ladder = ladder_hash(scene, settings, alignment);
+            let own = truth_files(alignment, settings.replicates, ladders);
+            files.extend(own.map(|file| match file {
+                RenderFile::Replicate(..) => wanted(file, &replicate),
+                RenderFile::Rung(..) => wanted(file, &ladder),
+                RenderFile::Frame | RenderFile::Truth(_) => wanted(file, &truth),
+            }));
+        }
+        files
     }
-    files
-}
 
-/// Tells whether all of some folders lack the frame of a scene, and lists the truths that they lack, by the headers of files: of each truth
-/// its own and the last of its replicates and rungs.
-pub(crate) fn find_missing(
-    scene: &Scene,
-    settings: &RenderSettings,
-    alignments: &[Alignment],
-    ladders: bool,
-    folders: &[&Path],
-) -> (bool, Vec<Alignment>) {
-    let has = |file: &Wanted| folders.iter().any(|folder| file.is_in(folder));
-    let lacks = |alignment: &Alignment| {
-        let files = list_wanted(scene, settings, &[*alignment], ladders);
-        // The first is the frame.
-        !has(&files[1]) || !files.last().is_some_and(has)
-    };
-    let frame = &list_wanted(scene, settings, &[], ladders)[0];
-    (
-        !has(frame),
-        alignments.iter().copied().filter(lacks).collect(),
-    )
+    /// Lists the frame and the truths that all of some folders lack, by the headers of files: of each truth its own and the last of its
+    /// replicates and rungs.
+    pub(crate) fn find_missing(
+        &self,
+        alignments: &[Alignment],
+        ladders: bool,
+        folders: &[&Path],
+    ) -> Vec<RenderFile> {
+        let lacks = |file: &Wanted| !folders.iter().any(|folder| file.is_in(folder));
+        self.list_wanted(alignments, ladders)
+            .chunk_by(|one, next| one.path.file.alignment() == next.path.file.alignment())
+            .filter(|own| lacks(&own[0]) || own.last().is_some_and(lacks))
+            .map(|own| own[0].path.file)
+            .collect()
+    }
 }

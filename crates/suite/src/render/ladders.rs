@@ -1,13 +1,14 @@
 //! Ladders of sub-frame accumulations.
 
 use std::cell::OnceCell;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use frame::{Accumulation, Alignment, Frame, Ladder, Picture, Truth, read_attribute};
-use store::{LADDER, RenderFile, scene_folder};
+use store::{LADDER, RenderFile};
 use tracer::{LadderTracer, RenderSettings, Scene};
 
-use crate::{Error, Monitor};
+use super::rendering::Rendering;
+use crate::Error;
 
 /// The rung that is the sharp picture of a shutter's middle.
 pub const SHARP: u32 = LADDER[0];
@@ -38,60 +39,59 @@ pub fn sharp_picture<E>(
 /// The ladder of one truth, with a file for each rung: all of them together would take more memory than all else that measuring
 /// holds.
 pub struct LadderFiles<'a> {
-    scene: &'a Scene,
-    settings: RenderSettings,
+    rendering: Rendering<'a>,
     truth: &'a Truth,
-    folder: PathBuf,
     /// Hash of the inputs.
     hash: String,
     /// Made for the first rung that is rendered.
     tracer: OnceCell<LadderTracer<'a>>,
 }
 
-impl<'a> LadderFiles<'a> {
-    /// Names the ladder that goes with a truth, which was rendered with these settings, in `out`.
-    pub fn new(scene: &'a Scene, settings: &RenderSettings, truth: &'a Truth, out: &Path) -> Self {
-        Self {
-            scene,
-            folder: scene_folder(out, scene),
-            hash: ladder_hash(scene, settings, truth.alignment),
-            settings: *settings,
+impl<'a> Rendering<'a> {
+    /// Names the ladder that goes with a truth, which was rendered with these settings.
+    pub fn ladder(&self, truth: &'a Truth) -> LadderFiles<'a> {
+        LadderFiles {
+            rendering: *self,
+            hash: ladder_hash(self.scene, &self.settings, truth.alignment),
             truth,
             tracer: OnceCell::new(),
         }
     }
+}
 
+impl<'a> LadderFiles<'a> {
     /// Renders some of the rungs and writes them, but for those whose files of the same inputs are there.
-    pub fn ensure(&self, rungs: &[u32], monitor: Monitor) -> Result<(), Error> {
+    pub fn ensure(&self, rungs: &[u32]) -> Result<(), Error> {
         for subframes in rungs {
             let found = read_attribute(&self.path(*subframes), "content_hash");
             if found.as_ref() != Some(&self.hash) {
-                self.render(*subframes, monitor)?;
+                self.render(*subframes)?;
             }
         }
         Ok(())
     }
 
     /// Reads one rung; renders it if it is missing, broken or made from other inputs.
-    pub fn read_or_render(&self, subframes: u32, monitor: Monitor) -> Result<Ladder, Error> {
+    pub fn read_or_render(&self, subframes: u32) -> Result<Ladder, Error> {
         let path = self.path(subframes);
         if let Ok(found) = Ladder::read_rung(&path, subframes)
             && found.provenance.is_rendered_of(&self.hash)
         {
             return Ok(found);
         }
-        self.render(subframes, monitor)?;
+        self.render(subframes)?;
         Ok(Ladder::read_rung(&path, subframes)?)
     }
 
     fn path(&self, subframes: u32) -> PathBuf {
-        (self.folder).join(RenderFile::Rung(self.truth.alignment, subframes).path())
+        (self.rendering).path(RenderFile::Rung(self.truth.alignment, subframes))
     }
 
-    fn render(&self, subframes: u32, monitor: Monitor) -> Result<(), Error> {
+    fn render(&self, subframes: u32) -> Result<(), Error> {
+        let Rendering { scene, monitor, .. } = self.rendering;
         let label = format!(
             "{} {subframes} sub-frames, {}",
-            self.scene.id, self.truth.alignment
+            scene.id, self.truth.alignment
         );
         let rung = monitor.watch(&label, |watch| self.tracer()?.trace(subframes, watch))?;
         assert_eq!(
@@ -103,7 +103,10 @@ impl<'a> LadderFiles<'a> {
 
     fn tracer(&self) -> Result<&LadderTracer<'a>, tracer::TraceError> {
         if self.tracer.get().is_none() {
-            let made = LadderTracer::new(self.scene, &self.settings, self.truth, &LADDER)?;
+            let Rendering {
+                scene, settings, ..
+            } = self.rendering;
+            let made = LadderTracer::new(scene, &settings, self.truth, &LADDER)?;
             // It was empty, and no other thread can see it.
             let _ = self.tracer.set(made);
         }

@@ -4,10 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::{Replicate, Truth};
-use store::{
-    Files, MAX_REPLICATES, RenderFile, RenderPath, Sharing, claim, gather, list_renders,
-    place_files,
-};
+use store::{Files, RenderFile, RenderPath, Sharing, claim, gather, list_renders, place_files};
 
 use crate::Error;
 
@@ -67,62 +64,33 @@ fn gather_renders(parts: &[PathBuf]) -> Result<Files, Error> {
     Ok(gather(lists)?)
 }
 
+/// The files of the replicates of each truth, by their indices.
+type Replicates<'a> = BTreeMap<RenderPath, BTreeMap<u32, &'a Path>>;
+
 /// Groups replicates by their truths.
-fn replicates_by_truth(files: &Files) -> BTreeMap<RenderPath, Vec<&Path>> {
-    let mut truths: BTreeMap<RenderPath, Vec<&Path>> = BTreeMap::new();
+fn replicates_by_truth(files: &Files) -> Replicates<'_> {
+    let mut truths = Replicates::new();
     for (below, file) in files {
         if let Some(render) = RenderPath::parse(below)
-            && let RenderFile::Replicate(alignment, _) = render.file
+            && let RenderFile::Replicate(alignment, index) = render.file
         {
             let truth = RenderPath {
                 file: RenderFile::Truth(alignment),
                 ..render
             };
-            truths.entry(truth).or_default().push(file);
+            truths.entry(truth).or_default().insert(index, file);
         }
     }
     truths
 }
 
-/// Makes a truth of its replicates.
-fn merge_replicates(truth: &RenderPath, files: &[&Path]) -> Result<Truth, Error> {
+/// Makes a truth of its replicates; refuses those that leave a gap, or are odd in number.
+fn merge_replicates(truth: &RenderPath, files: &BTreeMap<u32, &Path>) -> Result<Truth, Error> {
     let folder = truth.path().with_extension("");
-    let mut replicates = Vec::new();
-    for file in files {
-        let replicate = Replicate::read(file)?;
-        if replicate.index >= MAX_REPLICATES {
-            return Err(Error::Usage(format!(
-                "{} is replicate {}; allowed: 0 to {}",
-                file.display(),
-                replicate.index,
-                MAX_REPLICATES - 1
-            )));
-        }
-        replicates.push(replicate);
-    }
-    // By name, replicate_1000 stands before replicate_999.
-    replicates.sort_by_key(|replicate| replicate.index);
-    check_replicates(truth, &replicates)?;
-    Truth::of(&replicates).map_err(|error| Error::Usage(format!("{}: {error}", folder.display())))
-}
-
-/// Refuses replicates that leave a gap, are odd in number or belong into another folder.
-fn check_replicates(truth: &RenderPath, replicates: &[Replicate]) -> Result<(), Error> {
-    let folder = truth.path().with_extension("");
-    if let Some(pair) = (replicates.windows(2)).find(|pair| pair[0].index == pair[1].index) {
-        return Err(Error::Usage(format!(
-            "{}: two files hold replicate {}; leave names as `shuttertruth truths render` made them",
-            folder.display(),
-            pair[0].index
-        )));
-    }
-    let last = replicates.last().map_or(0, |replicate| replicate.index);
+    let last = files.last_key_value().map_or(0, |(index, _)| *index);
     let count = (last + 1).next_multiple_of(2);
     let missing: Vec<u32> = (0..count)
-        .filter(|index| {
-            let found = replicates.binary_search_by_key(index, |replicate| replicate.index);
-            found.is_err()
-        })
+        .filter(|index| !files.contains_key(index))
         .collect();
     if let [first, ..] = missing.as_slice() {
         let words: Vec<String> = missing.iter().map(u32::to_string).collect();
@@ -134,17 +102,25 @@ fn check_replicates(truth: &RenderPath, replicates: &[Replicate]) -> Result<(), 
             first + 1
         )));
     }
-    let one = &replicates[0];
-    let home = RenderPath {
-        scene: one.provenance.scene.parse().map_err(Error::Usage)?,
-        file: RenderFile::Truth(one.alignment),
-    };
-    if *truth != home {
-        return Err(Error::Usage(format!(
-            "{} holds replicates that belong into {}; leave folders as `shuttertruth truths render` made them",
-            folder.display(),
-            home.path().with_extension("").display()
-        )));
+    let replicates = (files.values()).map(|file| read_replicate(truth, file));
+    Truth::of(&replicates.collect::<Result<Vec<_>, _>>()?)
+        .map_err(|error| Error::Usage(format!("{}: {error}", folder.display())))
+}
+
+/// Reads a replicate, and refuses one that belongs elsewhere.
+fn read_replicate(truth: &RenderPath, path: &Path) -> Result<Replicate, Error> {
+    let replicate = Replicate::read(path)?;
+    let file = RenderFile::Replicate(replicate.alignment, replicate.index).path();
+    let belongs = truth.scene == replicate.provenance.scene.as_str()
+        && truth.file.alignment() == Some(replicate.alignment)
+        && path.file_name() == file.file_name();
+    match belongs {
+        true => Ok(replicate),
+        false => Err(Error::Usage(format!(
+            "{} holds {}/{}; leave folders and names as `shuttertruth truths render` made them",
+            path.display(),
+            replicate.provenance.scene,
+            file.display()
+        ))),
     }
-    Ok(())
 }

@@ -1,10 +1,10 @@
 //! Frames, truths and ladders of scenes, each rendered once and read back from its file.
 
 pub mod files;
-pub mod frames;
 pub mod ladders;
 pub mod memory;
 pub mod merge;
+pub mod rendering;
 pub mod replicates;
 pub mod scatter_oracle;
 pub mod settings;

@@ -1,69 +1,87 @@
 //! Files of a truth and of its replicates.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
 
 use frame::{Alignment, Replicate, Truth, read_attribute, truth_hash};
-use store::{RenderFile, scene_folder};
-use tracer::{RenderSettings, Scene, TruthTracer};
+use store::RenderFile;
+use tracer::TruthTracer;
 
-use super::memory::check_memory;
-use crate::{Error, Monitor};
+use super::rendering::Rendering;
+use crate::Error;
 
-/// The files of one truth below an output folder, and the hash of their inputs.
+/// The files of one truth, and the hash of their inputs.
 pub(crate) struct TruthFiles<'a> {
-    scene: &'a Scene,
-    settings: RenderSettings,
+    rendering: Rendering<'a>,
     alignment: Alignment,
-    /// Folder of the scene's files.
-    folder: PathBuf,
     /// Content hash that every replicate must have.
     hash: String,
-    monitor: Monitor,
 }
 
-impl<'a> TruthFiles<'a> {
-    /// Names the files of the truth that `settings` ask for, below `out`.
-    pub fn new(
-        scene: &'a Scene,
-        settings: &RenderSettings,
-        alignment: Alignment,
-        out: &Path,
-        monitor: Monitor,
-    ) -> Self {
-        Self {
-            scene,
-            settings: *settings,
+impl<'a> Rendering<'a> {
+    /// Names the files of a truth.
+    pub(crate) fn files(&self, alignment: Alignment) -> TruthFiles<'a> {
+        TruthFiles {
+            rendering: *self,
             alignment,
-            folder: scene_folder(out, scene),
-            hash: tracer::replicate_hash(scene, settings, alignment),
-            monitor,
+            hash: tracer::replicate_hash(self.scene, &self.settings, alignment),
         }
     }
 
-    /// Names the file of the truth that is made of the replicates.
-    pub fn truth_path(&self) -> PathBuf {
-        self.folder.join(RenderFile::Truth(self.alignment).path())
+    /// Renders those replicates that a trailing and a centred truth both lack, and writes them; does nothing unless `alignments` holds
+    /// both.
+    ///
+    /// Where the two shutters overlap their samples are traced once. Both truths together take three quarters of the time of one
+    /// after the other, and have the same bytes.
+    pub fn shared(&self, alignments: &[Alignment], indices: Range<u32>) -> Result<(), Error> {
+        const SHARED: [Alignment; 2] = [Alignment::Trailing, Alignment::Centred];
+        if !SHARED.iter().all(|shared| alignments.contains(shared)) {
+            return Ok(());
+        }
+        let files = SHARED.map(|alignment| self.files(alignment));
+        if files.iter().any(|files| files.has_truth(indices.end)) {
+            return Ok(());
+        }
+        for alignment in SHARED {
+            self.check_truth(alignment)?;
+        }
+        // Each pair is written before the next is traced.
+        self.check_memory(SHARED.len() as u32)?;
+        let mut tracer = None;
+        for index in indices {
+            if files.iter().all(|files| files.read(index).is_none()) {
+                render_replicate(&files, index, &mut tracer)?;
+            }
+        }
+        Ok(())
     }
+}
 
+impl<'a> TruthFiles<'a> {
     /// Reads the truth; none where the file is missing, broken or made from other inputs.
     pub fn read_truth(&self) -> Option<Truth> {
-        let count = self.settings.replicates;
-        let found = (self.has_truth(count)).then(|| Truth::read(&self.truth_path()))?;
+        let count = self.rendering.settings.replicates;
+        let path = self.rendering.path(RenderFile::Truth(self.alignment));
+        let found = (self.has_truth(count)).then(|| Truth::read(&path))?;
         let hash = truth_hash(&self.hash, count);
         (found.ok()).filter(|found| found.provenance.is_rendered_of(&hash))
     }
 
     /// Averages the replicates, and renders those that are missing.
     pub fn average(&self) -> Result<Truth, Error> {
-        check_memory(self.scene, &self.settings, self.settings.replicates)?;
-        Ok(Truth::of(&self.replicates(0..self.settings.replicates)?)?)
+        let count = self.rendering.settings.replicates;
+        self.rendering.check_memory(count)?;
+        Ok(Truth::of(&self.replicates(0..count)?)?)
+    }
+
+    /// Writes the truth.
+    pub fn write(&self, truth: &Truth) -> Result<(), Error> {
+        Ok(truth.write(&self.rendering.path(RenderFile::Truth(self.alignment)))?)
     }
 
     /// Returns replicates by their indices. Reads those that are there; renders the others and writes each as soon as it is
     /// whole. Replaces a file that is broken or was made from other inputs.
     pub fn replicates(&self, indices: Range<u32>) -> Result<Vec<Replicate>, Error> {
-        self.settings.check_truth(self.scene, self.alignment)?;
+        self.rendering.check_truth(self.alignment)?;
         let mut tracer = None;
         let own = std::slice::from_ref(self);
         let each = indices.map(|index| match self.read(index) {
@@ -75,19 +93,16 @@ impl<'a> TruthFiles<'a> {
 
     /// Tells whether the header of the truth's file names this many of these replicates.
     fn has_truth(&self, replicates: u32) -> bool {
-        let found = read_attribute(&self.truth_path(), "content_hash");
-        found == Some(truth_hash(&self.hash, replicates))
+        let path = self.rendering.path(RenderFile::Truth(self.alignment));
+        read_attribute(&path, "content_hash") == Some(truth_hash(&self.hash, replicates))
     }
 
     /// Reads a replicate; none where it is missing, broken or made from other inputs.
     fn read(&self, index: u32) -> Option<Replicate> {
-        let found = Replicate::read(&self.path(index)).ok()?;
+        let file = RenderFile::Replicate(self.alignment, index);
+        let found = Replicate::read(&self.rendering.path(file)).ok()?;
         let is_own = found.provenance.is_rendered_of(&self.hash) && found.index == index;
         is_own.then_some(found)
-    }
-
-    fn path(&self, index: u32) -> PathBuf {
-        (self.folder).join(RenderFile::Replicate(self.alignment, index).path())
     }
 }
 
@@ -100,56 +115,17 @@ fn render_replicate<'a>(
 ) -> Result<Vec<Replicate>, Error> {
     let alignments: Vec<Alignment> = files.iter().map(|files| files.alignment).collect();
     let names: Vec<&str> = alignments.iter().map(|own| own.name()).collect();
-    let TruthFiles {
-        scene,
-        settings,
-        monitor,
-        ..
-    } = &files[0];
+    let own = files[0].rendering;
     let tracer = match tracer {
         Some(tracer) => tracer,
-        none => none.insert(TruthTracer::new(scene, settings, &alignments)?),
+        none => none.insert(TruthTracer::new(own.scene, &own.settings, &alignments)?),
     };
-    let label = format!("{} {}, replicate {index}", scene.id, names.join(" and "));
-    let replicates = monitor.watch(&label, |watch| tracer.trace(index, watch))?;
-    for (files, replicate) in files.iter().zip(&replicates) {
-        replicate.write(&files.path(index))?;
+    let names = names.join(" and ");
+    let label = format!("{} {names}, replicate {index}", own.scene.id);
+    let replicates = (own.monitor).watch(&label, |watch| tracer.trace(index, watch))?;
+    for replicate in &replicates {
+        let file = RenderFile::Replicate(replicate.alignment, index);
+        replicate.write(&own.path(file))?;
     }
     Ok(replicates)
-}
-
-const SHARED: [Alignment; 2] = [Alignment::Trailing, Alignment::Centred];
-
-/// Renders those replicates that a trailing and a centred truth both lack, and writes them to `out`; does nothing unless
-/// `alignments` holds both.
-///
-/// Where the two shutters overlap their samples are traced once. Both truths together take three quarters of the time of one
-/// after the other, and have the same bytes.
-pub fn render_shared(
-    scene: &Scene,
-    settings: &RenderSettings,
-    alignments: &[Alignment],
-    indices: Range<u32>,
-    out: &Path,
-    monitor: Monitor,
-) -> Result<(), Error> {
-    if !SHARED.iter().all(|shared| alignments.contains(shared)) {
-        return Ok(());
-    }
-    let files = SHARED.map(|own| TruthFiles::new(scene, settings, own, out, monitor));
-    if files.iter().any(|files| files.has_truth(indices.end)) {
-        return Ok(());
-    }
-    for alignment in SHARED {
-        settings.check_truth(scene, alignment)?;
-    }
-    // Each pair is written before the next is traced.
-    check_memory(scene, settings, SHARED.len() as u32)?;
-    let mut tracer = None;
-    for index in indices {
-        if files.iter().all(|files| files.read(index).is_none()) {
-            render_replicate(&files, index, &mut tracer)?;
-        }
-    }
-    Ok(())
 }

@@ -13,27 +13,40 @@ const MAX_INSTANTS: u32 = 1024;
 const TOGETHER: usize = 16;
 
 /// Moves every pixel of the frame along its velocity for many instants of the shutter, lets the nearer hide the farther,
-/// fills each hole with the farthest of the pixels that are nearest to it in the four directions, and averages. The picture is as large as the frame, guard band included.
+/// fills each hole with the farthest of the pixels that are nearest to it in the four directions, and averages. The picture is as large as
+/// the frame, guard band included.
 pub fn scatter_oracle(frame: &Frame, shutter: Shutter, profile: &ShutterProfile) -> Picture {
-    let instants = place_instants(frame, shutter, &profile.efficiency);
     let height = frame.color.height - 2 * frame.guard_band;
-    let mut sums = Sums::new(frame);
-    for together in instants.chunks(TOGETHER) {
-        let seen: Vec<Vec<u32>> = together
+    let row_delay = |row: u32| {
+        let row = row.saturating_sub(frame.guard_band).min(height - 1);
+        profile.row_offset(row, height)
+    };
+    let mut color = frame.color.map(|_| [0.0_f64; 3]);
+    let mut coverage: Vec<Raster<f64>> = (frame.coverage.iter())
+        .map(|plane| plane.map(|_| 0.0))
+        .collect();
+    for together in place_instants(frame, shutter, &profile.efficiency).chunks(TOGETHER) {
+        let seen = together
             .par_iter()
-            .map(|instant| {
-                let row_delay = |row: u32| {
-                    let row = row.saturating_sub(frame.guard_band).min(height - 1);
-                    profile.row_offset(row, height)
-                };
-                fill_holes(frame, scatter(frame, instant.time, row_delay))
-            })
-            .collect();
-        for (instant, seen) in together.iter().zip(&seen) {
-            sums.add(frame, seen, instant.weight);
+            .map(|(time, _)| fill_holes(frame, scatter(frame, *time, row_delay)));
+        for ((_, weight), seen) in together.iter().zip(seen.collect::<Vec<_>>()) {
+            for (sum, &source) in color.pixels.iter_mut().zip(&seen) {
+                let color = frame.color.pixels[source as usize];
+                *sum = [0, 1, 2].map(|c| sum[c] + weight * f64::from(color[c]));
+            }
+            for (sums, plane) in coverage.iter_mut().zip(&frame.coverage) {
+                for (sum, &source) in sums.pixels.iter_mut().zip(&seen) {
+                    *sum += weight * f64::from(plane.pixels[source as usize]);
+                }
+            }
         }
     }
-    sums.picture(frame)
+    Picture {
+        color: color.map(|sum| sum.map(|component| component as f32)),
+        coverage: (coverage.iter())
+            .map(|plane| plane.map(|sum| *sum as f32))
+            .collect(),
+    }
 }
 
 /// Makes the oracle's picture through the shutter of a truth, without the frame's guard band.
@@ -41,27 +54,17 @@ pub fn make_oracle(frame: &Frame, truth: &Truth) -> Picture {
     scatter_oracle(frame, truth.shutter, &truth.shutter_profile).cropped(frame.guard_band)
 }
 
-/// A time of the shutter, and its share of the light.
-struct Instant {
-    time: f64,
-    weight: f64,
-}
-
-fn place_instants(frame: &Frame, shutter: Shutter, efficiency: &Efficiency) -> Vec<Instant> {
+/// Lists times of the shutter, each with its share of the light.
+fn place_instants(frame: &Frame, shutter: Shutter, efficiency: &Efficiency) -> Vec<(f64, f64)> {
     let speeds = frame.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
     let distance = f64::from(speeds.fold(0.0, f32::max)) * shutter.exposure();
     let wanted = (INSTANTS_PER_PIXEL * distance).ceil() as u32;
     let count = wanted.clamp(MIN_INSTANTS, MAX_INSTANTS);
     let knots = efficiency.knots();
     let middles = (0..count).map(|index| (f64::from(index) + 0.5) / f64::from(count));
-    let passing: Vec<(f64, f64)> = middles.map(|part| (part, light_at(&knots, part))).collect();
-    let total: f64 = passing.iter().map(|(_, light)| light).sum();
-    passing
-        .into_iter()
-        .map(|(part, light)| Instant {
-            time: shutter.at(part),
-            weight: light / total,
-        })
+    let total: f64 = middles.clone().map(|part| light_at(&knots, part)).sum();
+    middles
+        .map(|part| (shutter.at(part), light_at(&knots, part) / total))
         .collect()
 }
 
@@ -105,9 +108,8 @@ fn scatter(frame: &Frame, time: f64, row_delay: impl Fn(u32) -> f64) -> Vec<u32>
 }
 
 /// Fills the places that nothing came to.
-fn fill_holes(frame: &Frame, seen: Vec<u32>) -> Vec<u32> {
-    let (width, height) = frame.size();
-    let [width, height] = [width as usize, height as usize];
+fn fill_holes(frame: &Frame, mut seen: Vec<u32>) -> Vec<u32> {
+    let [width, height] = [frame.color.width, frame.color.height].map(|side| side as usize);
     let mut fills: Vec<Option<Fill>> = vec![None; seen.len()];
     let rows = (0..height).map(|row| (row * width, width, 1));
     let columns = (0..width).map(|column| (column, height, width));
@@ -116,15 +118,13 @@ fn fill_holes(frame: &Frame, seen: Vec<u32>) -> Vec<u32> {
         offer_fills(frame, &seen, along(), &mut fills);
         offer_fills(frame, &seen, along().rev(), &mut fills);
     }
-    seen.iter()
-        .enumerate()
-        .map(|(place, source)| match (*source, &fills[place]) {
-            (HOLE, Some(fill)) => fill.source,
-            // All of the frame has left it.
-            (HOLE, None) => place as u32,
-            (source, _) => source,
-        })
-        .collect()
+    for (place, source) in seen.iter_mut().enumerate() {
+        if *source == HOLE {
+            // All of the frame may have left it.
+            *source = fills[place].map_or(place as u32, |fill| fill.source);
+        }
+    }
+    seen
 }
 
 /// A pixel that may fill a hole.
@@ -160,53 +160,6 @@ fn offer_fills(
         });
         if better {
             fills[place] = Some(*offered);
-        }
-    }
-}
-
-/// Weighted sums of colours and coverages.
-struct Sums {
-    color: Vec<[f64; 3]>,
-    coverage: Vec<Vec<f64>>,
-}
-
-impl Sums {
-    fn new(frame: &Frame) -> Self {
-        let pixels = frame.color.pixels.len();
-        Self {
-            color: vec![[0.0; 3]; pixels],
-            coverage: vec![vec![0.0; pixels]; frame.coverage.len()],
-        }
-    }
-
-    fn add(&mut self, frame: &Frame, seen: &[u32], weight: f64) {
-        for (sum, source) in self.color.iter_mut().zip(seen) {
-            let color = frame.color.pixels[*source as usize];
-            *sum = [0, 1, 2].map(|c| sum[c] + weight * f64::from(color[c]));
-        }
-        for (sums, plane) in self.coverage.iter_mut().zip(&frame.coverage) {
-            for (sum, source) in sums.iter_mut().zip(seen) {
-                *sum += weight * f64::from(plane.pixels[*source as usize]);
-            }
-        }
-    }
-
-    fn picture(&self, frame: &Frame) -> Picture {
-        let (width, height) = frame.size();
-        let plane = |sums: &Vec<f64>| Raster {
-            width,
-            height,
-            pixels: sums.iter().map(|sum| *sum as f32).collect(),
-        };
-        Picture {
-            color: Raster {
-                width,
-                height,
-                pixels: (self.color.iter())
-                    .map(|sum| sum.map(|component| component as f32))
-                    .collect(),
-            },
-            coverage: self.coverage.iter().map(plane).collect(),
         }
     }
 }

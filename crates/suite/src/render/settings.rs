@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use frame::Frame;
 use tracer::RenderSettings;
 
 /// Columns and rows that a picture may have.
@@ -36,5 +37,21 @@ pub(crate) fn frame_settings(settings: &RenderSettings) -> RenderSettings {
     RenderSettings {
         samples_per_pixel: FRAME_REPLICATES * settings.samples_per_pixel / settings.replicates,
         ..*settings
+    }
+}
+
+/// Reads the settings of a frame that was rendered here.
+pub(crate) fn settings_of(frame: &Frame) -> RenderSettings {
+    let (width, height) = frame.size();
+    let band = frame.guard_band;
+    RenderSettings {
+        width: width - 2 * band,
+        height: height - 2 * band,
+        guard_band: band,
+        options: frame.options,
+        samples_per_pixel: frame.provenance.samples_per_pixel,
+        seed: frame.provenance.seed,
+        exposure: Some(frame.exposure),
+        ..RenderSettings::default()
     }
 }

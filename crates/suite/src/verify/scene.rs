@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use frame::{Alignment, Frame, Replicate, Shutter, Tile, Truth, read_attribute, read_exr};
+use frame::{
+    Alignment, Frame, Provenance, Replicate, Shutter, Tile, Truth, read_attribute, read_exr,
+};
 use store::{LADDER, RenderFile};
 use tracer::{LadderTracer, PixelGrid, RenderSettings, Scene, TruthTracer, trace_frame_part};
 
@@ -11,6 +13,7 @@ use super::difference::find_difference;
 use super::scene_renders::SceneRenders;
 use super::tiles::{Verification, Work};
 use crate::render::memory::check_memory;
+use crate::render::settings::settings_of;
 use crate::{Error, Monitor};
 
 /// The outcome of a verification.
@@ -85,20 +88,9 @@ impl Verified {
 /// Verifies a frame.
 fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let frame = Frame::read(&work.path(RenderFile::Frame))?;
-    let (width, height) = frame.size();
-    let provenance = &frame.provenance;
-    let settings = RenderSettings {
-        width: width - 2 * frame.guard_band,
-        height: height - 2 * frame.guard_band,
-        samples_per_pixel: provenance.samples_per_pixel,
-        replicates: 1,
-        seed: provenance.seed,
-        options: frame.options,
-        guard_band: frame.guard_band,
-        exposure: Some(frame.exposure),
-    };
+    let settings = settings_of(&frame);
     let own = tracer::frame_hash(work.scene, &settings);
-    work.expect_hash(RenderFile::Frame, &provenance.content_hash, &own)?;
+    work.expect_hash(RenderFile::Frame, &frame.provenance.content_hash, &own)?;
     let grid = PixelGrid::of_picture(settings.width, settings.height);
     work.trace_tiles(&[RenderFile::Frame], frame.size(), |_, tile, watch| {
         Ok(trace_frame_part(work.scene, &settings, &grid, Some(tile), watch)?.to_exr())
@@ -109,18 +101,12 @@ fn verify_frame(work: &Work) -> Result<Vec<(PathBuf, Tile)>, Error> {
 fn verify_truth(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>, Error> {
     let file = RenderFile::Truth(alignment);
     let truth = Truth::read(&work.path(file))?;
-    let provenance = &truth.provenance;
-    let settings = RenderSettings {
-        samples_per_pixel: provenance.samples_per_pixel,
-        replicates: provenance.replicates,
-        ..picture_settings(provenance.seed, truth.size(), truth.shutter)
-    };
-    settings.check_truth(work.scene, alignment)?;
+    let replicates = truth.provenance.replicates;
+    let settings = truth_settings(&truth.provenance, truth.size(), truth.shutter);
     let own = tracer::truth_hash(work.scene, &settings, alignment);
-    work.expect_hash(file, &provenance.content_hash, &own)?;
-    check_memory(work.scene, &settings, settings.replicates)?;
+    check_truth(work, file, &settings, &truth.provenance, &own)?;
     expect_mean(work, &truth)?;
-    let mut tiles = trace_replicates(work, &settings, alignment, settings.replicates)?;
+    let mut tiles = trace_replicates(work, &settings, alignment, replicates)?;
     let (_, rungs) = work.renders.of_truth(alignment);
     if !rungs.is_empty() {
         let tracer = LadderTracer::new(work.scene, &settings, &truth, &LADDER)?;
@@ -177,25 +163,43 @@ fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>
         // Those of the smallest truth that it can be a part of.
         samples_per_pixel: provenance.samples_per_pixel.saturating_mul(2),
         replicates: 2,
-        ..picture_settings(provenance.seed, size, replicate.shutter)
+        ..truth_settings(provenance, size, replicate.shutter)
     };
-    settings.check_truth(work.scene, alignment)?;
-    check_memory(work.scene, &settings, settings.replicates)?;
     let own = tracer::replicate_hash(work.scene, &settings, alignment);
-    work.expect_hash(first, &provenance.content_hash, &own)?;
+    check_truth(work, first, &settings, provenance, &own)?;
     trace_replicates(work, &settings, alignment, 0)
 }
 
-/// Returns the settings of a truth of this size and shutter, but for its samples.
-fn picture_settings(seed: u64, (width, height): (u32, u32), shutter: Shutter) -> RenderSettings {
+/// Reads the settings of a truth or a replicate of this size and shutter.
+fn truth_settings(
+    provenance: &Provenance,
+    (width, height): (u32, u32),
+    shutter: Shutter,
+) -> RenderSettings {
     RenderSettings {
         width,
         height,
-        seed,
+        samples_per_pixel: provenance.samples_per_pixel,
+        replicates: provenance.replicates,
+        seed: provenance.seed,
         // That of the shutter, bit for bit: an interval has it whole or in halves.
         exposure: Some(shutter.close - shutter.open),
         ..RenderSettings::default()
     }
+}
+
+/// Refuses settings that a truth of the scene cannot have, a file of another hash than `own`, and too little memory.
+fn check_truth(
+    work: &Work,
+    file: RenderFile,
+    settings: &RenderSettings,
+    provenance: &Provenance,
+    own: &str,
+) -> Result<(), Error> {
+    let alignment = file.alignment().expect("it is of a truth");
+    settings.check_truth(work.scene, alignment)?;
+    work.expect_hash(file, &provenance.content_hash, own)?;
+    check_memory(work.scene, settings, settings.replicates)
 }
 
 /// Refuses a truth that is not the mean of its replicates.

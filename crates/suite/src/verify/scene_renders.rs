@@ -23,9 +23,6 @@ pub struct SceneRenders {
 }
 
 /// Lists the rendered files below a folder, which has the layout of a run's. Messages name files below `shown`.
-///
-/// # Errors
-/// The folder cannot be read, or holds no frame and no truth.
 pub fn list_scene_renders(root: &Path, shown: &Path) -> Result<Vec<SceneRenders>, Error> {
     let mut scenes: BTreeMap<SceneId, BTreeSet<RenderFile>> = BTreeMap::new();
     for RenderPath { scene, file } in list_renders(root)? {

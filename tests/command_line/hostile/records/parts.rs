@@ -91,12 +91,15 @@ fn replicates_of_different_truths_are_refused() {
     refused(&more, &["another number of samples"]);
 
     let mut far = whole.clone();
-    far.index = u32::MAX - 1;
-    refused(&far, &["is replicate 4294967294", "0 to 4095"]);
-    far.index = 4000;
-    refused(&far, &["1, 2, 3, 4", "are missing for a truth of 4002"]);
-    far.index = 0;
-    refused(&far, &["two files hold replicate 0"]);
+    for (index, name) in [
+        (u32::MAX - 1, "replicate_4294967294.exr"),
+        (4000, "replicate_4000.exr"),
+        (0, "replicate_000.exr"),
+    ] {
+        far.index = index;
+        let held = format!("replicate_001.exr holds plate/truth_trailing/{name}");
+        refused(&far, &[&held, "leave folders and names"]);
+    }
 
     let mut foreign = whole.clone();
     foreign.provenance.content_hash = "00".repeat(32);
@@ -104,11 +107,10 @@ fn replicates_of_different_truths_are_refused() {
 
     let mut stray = whole.clone();
     stray.provenance.scene = "../../etc".to_owned();
-    stray.index = 0;
-    fs::rename(bench.path("a"), bench.path("c")).unwrap();
-    stray.write(&path).unwrap();
-    assert_refused(&merge(&bench, &["b"]), 2, &["missing"]);
-    fs::rename(bench.path("c"), bench.path("a")).unwrap();
+    refused(
+        &stray,
+        &["replicate_001.exr holds ../../etc/truth_trailing"],
+    );
 
     let mut nan = whole.clone();
     nan.at_instant.spread = Raster::filled(64, 32, [f32::NAN; 3]);

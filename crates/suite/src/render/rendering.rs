@@ -1,0 +1,65 @@
+//! The rendering of one scene: each of its files is rendered once, and read back from then on.
+
+use std::path::{Path, PathBuf};
+
+use frame::{Alignment, Frame};
+use store::{RenderFile, refuse_scene, scene_folder};
+use tracer::{RenderSettings, Scene};
+
+use super::memory::check_memory;
+use super::settings::frame_settings;
+use crate::{Error, Monitor};
+
+/// A scene, the settings that it is rendered with, and the folder of the run that its files are written to.
+#[derive(Clone, Copy)]
+pub struct Rendering<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Settings of its truths.
+    pub settings: RenderSettings,
+    /// Folder of the run.
+    pub out: &'a Path,
+    /// Shows progress.
+    pub monitor: Monitor,
+}
+
+impl Rendering<'_> {
+    /// Renders the frame; reads it from its file if its inputs are the same.
+    pub fn frame(&self) -> Result<Frame, Error> {
+        refuse_scene(&scene_folder(self.out, self.scene))?;
+        let own = frame_settings(&self.settings);
+        let path = self.path(RenderFile::Frame);
+        let hash = tracer::frame_hash(self.scene, &own);
+        if let Ok(found) = Frame::read(&path)
+            && found.provenance.is_rendered_of(&hash)
+        {
+            return Ok(found);
+        }
+        own.check_frame(self.scene)?;
+        self.check_memory(self.settings.replicates)?;
+        let label = format!("{} frame", self.scene.id);
+        let frame =
+            (self.monitor).watch(&label, |watch| tracer::trace_frame(self.scene, &own, watch))?;
+        assert_eq!(
+            frame.provenance.content_hash, hash,
+            "{label}: the hash must not depend on the render"
+        );
+        frame.write(&path)?;
+        Ok(frame)
+    }
+
+    /// Names a file of the scene.
+    pub(super) fn path(&self, file: RenderFile) -> PathBuf {
+        scene_folder(self.out, self.scene).join(file.path())
+    }
+
+    /// Refuses a truth of the settings that the scene cannot have.
+    pub(super) fn check_truth(&self, alignment: Alignment) -> Result<(), Error> {
+        Ok(self.settings.check_truth(self.scene, alignment).map(drop)?)
+    }
+
+    /// Refuses to hold a number of replicates together if memory does not suffice.
+    pub(super) fn check_memory(&self, replicates: u32) -> Result<(), Error> {
+        check_memory(self.scene, &self.settings, replicates)
+    }
+}
