@@ -4,7 +4,7 @@ use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
 
 use crate::label::average_on_object;
 use crate::object::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
-use crate::object::bleed::{Bleed, measure_bleed};
+use crate::object::bleed::measure_bleed;
 use crate::object::gradient::{gradient_error, gradient_magnitude};
 use crate::object::mass::{Mass, measure_mass};
 use crate::object::misplacement::{Misplacement, measure_misplacement};
@@ -34,8 +34,8 @@ pub struct ObjectReference {
 struct Moving {
     mover: Mover,
     sides: Option<Raster<Side>>,
-    /// Bleed of the truth's first half.
-    bleed_noise: Option<Bleed>,
+    /// Bleed of the truth's first half: lateral, leading and trailing.
+    bleed_noise: Option<[f64; 3]>,
     rows: Result<AlongMotion, String>,
     /// Gradient magnitude of the true matte; none where that is zero.
     gradient: Option<Patch>,
@@ -180,13 +180,14 @@ impl ObjectReference {
             .as_ref()
             .and_then(|sides| measure_bleed(matte, sides, &moving.mover.silhouette));
         let noise = moving.bleed_noise;
-        let pick = |metric, part: fn(Bleed) -> f64| {
-            score(metric, found.map(part), noise.map(part), NO_SILHOUETTE)
+        let pick = |metric, side: usize| {
+            let [found, noise] = [found, noise].map(|bleed| Some(bleed?[side]));
+            score(metric, found, noise, NO_SILHOUETTE)
         };
         [
-            pick(ObjectMetric::BleedLateral, |bleed| bleed.lateral),
-            pick(ObjectMetric::BleedLeading, |bleed| bleed.leading),
-            pick(ObjectMetric::BleedTrailing, |bleed| bleed.trailing),
+            pick(ObjectMetric::BleedLateral, 0),
+            pick(ObjectMetric::BleedLeading, 1),
+            pick(ObjectMetric::BleedTrailing, 2),
         ]
     }
 
@@ -240,35 +241,20 @@ impl ObjectReference {
         if let Err(reason) = self.moving() {
             return [(); 3].map(|()| Measured::not_applicable(reason));
         }
-        let (found, noise) = (
-            measure_mass(matte, &self.truth, &self.core),
-            self.mass_noise,
-        );
-        let unseen = "is not seen while the shutter is open";
-        let energy = if self.is_at_border {
-            Measured::not_applicable(BORDER)
-        } else {
-            score(
-                ObjectMetric::Energy,
-                found.map(|mass| mass.energy),
-                noise.map(|mass| mass.energy),
-                unseen,
-            )
+        let found = measure_mass(matte, &self.truth, &self.core);
+        let pick = |metric, part: fn(Mass) -> Option<f64>, reason| {
+            let [found, noise] = [found, self.mass_noise].map(|mass| mass.and_then(part));
+            score(metric, found, noise, reason)
         };
+        let unseen = "is not seen while the shutter is open";
+        let uncovered = "covers no pixel throughout the shutter";
         [
-            score(
-                ObjectMetric::Hole,
-                found.and_then(|mass| mass.hole),
-                noise.and_then(|mass| mass.hole),
-                "covers no pixel throughout the shutter",
-            ),
-            score(
-                ObjectMetric::Deficit,
-                found.map(|mass| mass.deficit),
-                noise.map(|mass| mass.deficit),
-                unseen,
-            ),
-            energy,
+            pick(ObjectMetric::Hole, |mass| mass.hole, uncovered),
+            pick(ObjectMetric::Deficit, |mass| Some(mass.deficit), unseen),
+            match self.is_at_border {
+                true => Measured::not_applicable(BORDER),
+                false => pick(ObjectMetric::Energy, |mass| Some(mass.energy), unseen),
+            },
         ]
     }
 
