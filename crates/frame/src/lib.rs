@@ -43,6 +43,7 @@ mod shutter;
 mod support;
 mod tile;
 mod truth;
+mod words;
 
 pub use accumulation::{Accumulation, Ladder, rung_file};
 pub use at_instant::AtInstant;
