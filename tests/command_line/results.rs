@@ -1,16 +1,22 @@
 //! Kept results: files of scores, and the page that is made from them.
 
+#[path = "../../examples/results/filter_page.rs"]
+mod filter_page;
+#[path = "../../examples/results/page.rs"]
+mod page;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use cli::{main_results, picture_name, results_filter_pages, results_page};
 use judge::Results;
 use metrics::Metric;
 use suite::Run;
 use tests::filter_folder::copy_changed_filter;
 use tracer::{SceneId, Seal};
 
+use self::filter_page::{picture_name, results_filter_pages};
+use self::page::{main_results, results_page};
 use crate::bench::{Bench, assert_done};
 
 fn folder() -> PathBuf {

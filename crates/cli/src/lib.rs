@@ -35,9 +35,8 @@ use tracer::TraceError;
 pub use output::terminal_text;
 pub use selection::{Programs, SceneChoice, select_filters, select_scenes};
 pub use tables::{
-    annotations, check_text, compare_table, junit, main_results, paired_table, picture_name,
-    preferences_table, ranking_text, results_filter_pages, results_page, run_table, score_table,
-    summary,
+    annotations, check_text, compare_table, junit, list_once, markdown_table, paired_table,
+    preferences_table, range_text, ranking_text, run_table, score_table, summary,
 };
 
 /// Runs the command of the command line and returns its exit code.
@@ -97,8 +96,6 @@ fn refuse_arguments(error: &clap::Error) -> ! {
     }
     // Words may be names of files with control codes, which the message is to show as escapes.
     let words = std::env::args_os().map(|word| printable(&word.to_string_lossy()).into_owned());
-    match Cli::parse_words(words) {
-        Err(error) => error.exit(),
-        Ok(_) => error.exit(),
-    }
+    let shown = Cli::parse_words(words).err();
+    shown.as_ref().unwrap_or(error).exit()
 }

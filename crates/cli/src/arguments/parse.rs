@@ -158,30 +158,26 @@ pub fn parse_ratio(text: &str) -> Result<f64, String> {
     })
 }
 
-/// Parses `20deg/frame`.
-pub fn parse_degrees_per_frame(text: &str) -> Result<f64, String> {
-    parse_speed(text, "deg/frame", "20deg/frame")
-}
-
-/// Parses `40px/frame`.
-pub fn parse_pixels_per_frame(text: &str) -> Result<f64, String> {
-    parse_speed(text, "px/frame", "40px/frame")
-}
-
 /// Upper limit on the speed of an imported model, in its unit.
 const FASTEST: f64 = 1e5;
 
-fn parse_speed(text: &str, unit: &str, example: &str) -> Result<f64, String> {
+/// Parses a speed with its unit, such as `20deg/frame`.
+pub fn parse_speed(
+    unit: &'static str,
+    example: &'static str,
+) -> impl Fn(&str) -> Result<f64, String> + Clone {
     let is_allowed = |speed: f64| speed.abs() <= FASTEST && speed != 0.0;
-    parse_number(
-        text.strip_suffix(unit).unwrap_or_default(),
-        is_allowed,
-        || {
-            format!(
-                "a speed other than 0, from -{FASTEST} to {FASTEST}, with its unit, such as {example}"
-            )
-        },
-    )
+    move |text| {
+        parse_number(
+            text.strip_suffix(unit).unwrap_or_default(),
+            is_allowed,
+            || {
+                format!(
+                    "a speed other than 0, from -{FASTEST} to {FASTEST}, with its unit, such as {example}"
+                )
+            },
+        )
+    }
 }
 
 /// Parses an objective of a search.
@@ -202,7 +198,8 @@ mod tests {
         assert_eq!(parse_replicates("3..6"), Ok(Replicates::Part(3..6)));
         assert_eq!(above_zero(1.0)("0.002"), Ok(0.002));
         assert_eq!(parse_ratio("1.25x"), Ok(1.25));
-        assert_eq!(parse_degrees_per_frame("-7.5deg/frame"), Ok(-7.5));
+        let speed = parse_speed("deg/frame", "20deg/frame");
+        assert_eq!(speed("-7.5deg/frame"), Ok(-7.5));
         for wrong in "640 640x x360 0x360 640x99999 640_x_360 -1x5".split(' ') {
             assert!(parse_size(wrong).is_err(), "{wrong}");
         }
@@ -216,7 +213,7 @@ mod tests {
             assert!(parse_ratio(wrong).is_err(), "{wrong}");
         }
         for wrong in "20 20deg deg/frame nandeg/frame 20px/frame".split(' ') {
-            assert!(parse_degrees_per_frame(wrong).is_err(), "{wrong}");
+            assert!(speed(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -14,13 +14,8 @@ const DEFAULT: &str = "scenes";
 pub struct RootArgs {
     /// Folder that holds the scenes, and bounds.toml with limits and margins; built-in names the program's own [default: scenes, or
     /// built-in where there is no such folder].
-    #[arg(long, value_name = "FOLDER", value_parser = scenes_root_parser(), default_value_t = default_scenes_root(), hide_default_value = true)]
+    #[arg(long, value_name = "FOLDER", value_parser = PathBufValueParser::new().map(scenes_root), default_value_t = default_scenes_root(), hide_default_value = true)]
     pub scenes_dir: Location,
-}
-
-/// Makes the parser of `--scenes-dir`: the name of the program's own scenes, or the path of any folder.
-fn scenes_root_parser() -> impl TypedValueParser<Value = Location> {
-    PathBufValueParser::new().map(scenes_root)
 }
 
 /// Finds the folder of scenes where none is named: `scenes`, or the program's own where there is no such folder.
@@ -32,6 +27,7 @@ fn default_scenes_root() -> Location {
     }
 }
 
+/// Finds the folder that `--scenes-dir` names: the program's own scenes, or any folder by its path.
 fn scenes_root(path: PathBuf) -> Location {
     match path.to_str() == Some(catalogue::SCENES.name) {
         true => Location::of_bundle(&catalogue::SCENES),

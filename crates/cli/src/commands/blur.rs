@@ -10,7 +10,7 @@ use frame::{
 use store::printable_path;
 use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu};
 
-use super::convention::read_convention;
+use super::capture::read_convention;
 use crate::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
 use crate::output::{make_silent_monitor, print};
 use crate::selection::select_filters;

@@ -1,7 +1,9 @@
-//! Folder and scene of a capture, for `engine ingest` and `engine audit`.
+//! What an engine made: the folder and the scene of a capture, and the convention of its files.
 
 use std::path::{Path, PathBuf};
 
+use filters::Convention;
+use store::read_text;
 use suite::Error;
 use tracer::{Location, Scene};
 
@@ -23,5 +25,13 @@ pub fn load_drawn_scene(scenes: &Location, name: &str) -> Result<Scene, Error> {
     match choices.len() {
         1 => Ok(choices.remove(0).scene),
         count => refuse!("scene {name}: matches {count} scenes; a capture shows one"),
+    }
+}
+
+/// Reads the convention of an engine; that of frames if no file is named.
+pub fn read_convention(path: Option<&Path>) -> Result<Convention, Error> {
+    match path {
+        None => Ok(Convention::default()),
+        Some(path) => Ok(Convention::parse(path, &read_text(path)?)?),
     }
 }

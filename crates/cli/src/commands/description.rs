@@ -1,6 +1,5 @@
 //! The commands `completions` and `man`, which describe the program.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -9,7 +8,7 @@ use frame::FileError;
 use store::printable_path;
 use suite::Error;
 
-use crate::output::print;
+use crate::output::{print, write_out};
 
 #[derive(Debug, Args)]
 pub struct CompletionsArgs {
@@ -23,12 +22,7 @@ pub fn print_completions(args: &CompletionsArgs, mut program: clap::Command) -> 
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut program, "shuttertruth", &mut text);
     // As it is: a script is no table, and goes to a file.
-    match std::io::stdout().write_all(&text) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            refuse!("standard output: cannot write: {error}")
-        }
-        _ => Ok(()),
-    }
+    write_out(std::io::stdout(), &text)
 }
 
 #[derive(Debug, Args)]

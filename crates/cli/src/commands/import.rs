@@ -7,9 +7,7 @@ use engine::{ImportPlan, Imported, Motions, Up, import};
 use store::printable_path;
 use suite::Error;
 
-use crate::arguments::{
-    parse_degrees_per_frame, parse_exposure, parse_named, parse_pixels_per_frame,
-};
+use crate::arguments::{parse_exposure, parse_named, parse_speed};
 use crate::output::print;
 
 #[derive(Debug, Args)]
@@ -21,13 +19,13 @@ pub struct ImportArgs {
     #[arg(short, long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Turn the model around its vertical axis.
-    #[arg(long, value_name = "SPEED", value_parser = parse_degrees_per_frame, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SPEED", value_parser = parse_speed("deg/frame", "20deg/frame"), allow_hyphen_values = true)]
     pub spin: Option<f64>,
     /// Slide the model to the right, in pixels at 640x360.
-    #[arg(long, value_name = "SPEED", value_parser = parse_pixels_per_frame, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SPEED", value_parser = parse_speed("px/frame", "40px/frame"), allow_hyphen_values = true)]
     pub slide: Option<f64>,
     /// Move the camera around the model.
-    #[arg(long, value_name = "SPEED", value_parser = parse_degrees_per_frame, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SPEED", value_parser = parse_speed("deg/frame", "20deg/frame"), allow_hyphen_values = true)]
     pub orbit: Option<f64>,
     /// Axis of the model that points up.
     #[arg(long, value_parser = parse_named(Up::ALL, Up::name, Up::help), value_name = "AXIS", default_value = "y")]

@@ -11,7 +11,6 @@ mod capture;
 pub mod check;
 pub mod compare;
 pub mod compare_presets;
-mod convention;
 pub mod description;
 pub mod evaluate;
 mod expected;

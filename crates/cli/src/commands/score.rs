@@ -8,7 +8,7 @@ use metrics::Metric;
 use store::printable;
 use suite::{Error, Frames, Scored, engine_name, missing_scores, read_finished_picture, score};
 
-use super::convention::read_convention;
+use super::capture::read_convention;
 use crate::arguments::{RootArgs, above_zero, frame_count};
 use crate::output::{print, print_json};
 use crate::tables::score_table;

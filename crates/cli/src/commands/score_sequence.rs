@@ -9,7 +9,7 @@ use suite::{
 };
 use tracer::Scene;
 
-use super::convention::read_convention;
+use super::capture::read_convention;
 use super::score::{ScoreArgs, check_scene, scored_json, truth_text};
 use crate::output::{print, print_json};
 use crate::selection::select_scenes;

@@ -9,12 +9,14 @@ use tracer::Scene;
 
 use super::{terminal_text, wrap_lines};
 
-/// Prints to standard output, in colours where that is a terminal that shows them. A reader that has read enough, such as `head`, is
-/// no error.
+/// Prints to standard output, in colours where that is a terminal that shows them.
 pub fn print(text: &str) -> Result<(), Error> {
-    let mut out = anstream::stdout();
-    let text = terminal_text(text);
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    write_out(anstream::stdout(), terminal_text(text).as_bytes())
+}
+
+/// Writes to standard output as `out` does. A reader that has read enough, such as `head`, is no error.
+pub fn write_out(mut out: impl Write, bytes: &[u8]) -> Result<(), Error> {
+    match out.write_all(bytes).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             refuse!("standard output: cannot write: {error}")
         }

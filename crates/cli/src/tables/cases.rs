@@ -1,11 +1,12 @@
-//! Table of a run: one row per case.
+//! Table of a run: one row per case, and its failed cases.
 
 use judge::lag_text;
 use metrics::{Metric, Scores};
-use suite::{Case, Run};
+use store::printable_lines;
+use suite::{Case, Failure, Run};
 
 use super::{Column, Missing, Table, bracket_name, legend_text, list_once, means_table};
-use crate::output::heading;
+use crate::output::{bad, heading, wrap_lines};
 
 const CASE_COLUMNS: [Column; 7] = [
     ("FLIP", Metric::FLIP),
@@ -81,4 +82,19 @@ fn case_cells(scores: &Scores) -> impl Iterator<Item = String> {
 fn noise_cell(case: &Case) -> String {
     let share = case.jitter.map(|jitter| 100.0 * jitter.noise_share());
     share.map_or("-".to_owned(), |share| format!("{share:.0}%"))
+}
+
+/// Lists every failure with its reason; empty where there is none.
+pub fn failures_text(failures: &[Failure]) -> String {
+    let mut text = String::new();
+    for failure in failures {
+        let title = format!("{} / {}", failure.scene, failure.filter);
+        let reason = format!("  {} {}", bad("FAILED"), failure.reason);
+        text += &format!(
+            "{}\n{}",
+            heading(&title),
+            wrap_lines(&printable_lines(&reason))
+        );
+    }
+    text
 }

@@ -1,6 +1,5 @@
 //! Tables of results, in 80 columns.
 
-mod adapter;
 mod annotations;
 mod audit;
 mod bench;
@@ -8,7 +7,6 @@ mod cases;
 mod check;
 mod columns;
 mod comparison;
-mod failures;
 mod frame_rates;
 mod input_forms;
 mod jobs;
@@ -18,14 +16,10 @@ mod listing;
 mod missing;
 mod preferences;
 mod ranking;
-mod results_filter_page;
-mod results_page;
 mod scene_means;
-mod sensitivity;
 mod sequence;
 mod tuning;
 
-pub use self::adapter::*;
 pub use self::annotations::*;
 pub use self::audit::*;
 pub use self::bench::*;
@@ -33,7 +27,6 @@ pub use self::cases::*;
 pub use self::check::*;
 pub use self::columns::*;
 pub use self::comparison::*;
-pub use self::failures::*;
 pub use self::frame_rates::*;
 pub use self::input_forms::*;
 pub use self::jobs::*;
@@ -43,9 +36,6 @@ pub use self::listing::*;
 pub use self::missing::*;
 pub use self::preferences::*;
 pub use self::ranking::*;
-pub use self::results_filter_page::*;
-pub use self::results_page::*;
 pub use self::scene_means::*;
-pub use self::sensitivity::*;
 pub use self::sequence::*;
 pub use self::tuning::*;

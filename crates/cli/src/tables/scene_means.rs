@@ -7,20 +7,23 @@ use suite::{Overall, rank_filters};
 use super::{Column, Table, bracket_name, cell, legend_text, list_once, range_text, shutter_text};
 use crate::output::heading;
 
-/// Columns behind FLIP, which ranks filters of one alignment.
-const MEAN_COLUMNS: [Column; 5] = [
+/// FLIP, which ranks filters of one alignment, and the columns behind it.
+const BY_FLIP: [Column; 6] = [
+    ("FLIP", Metric::FLIP),
     ("PSNR", Metric::PSNR),
     ("grow", Metric::GROWTH),
     ("loss", Metric::LOSS),
     ("bleed", Metric::Bleed),
     ("TV", Metric::LABEL),
 ];
-/// Columns behind skill, which ranks filters of all alignments.
-const SKILL_COLUMNS: [Column; 3] = [
+/// Skill, which ranks filters of all alignments, and the columns behind it.
+const BY_SKILL: [Column; 4] = [
+    ("skill", Metric::SKILL),
     ("MSE", Metric::Skill(SkillMetric::Mse)),
     ("TV", Metric::Skill(SkillMetric::LabelTotalVariation)),
     ("FLIP*", Metric::CommonFlip),
 ];
+
 /// Makes the tables of means, best first: by FLIP among filters of one shutter alignment, by skill among all. Empty for a single
 /// scene.
 pub fn means_table(overall: &[Overall]) -> String {
@@ -28,35 +31,23 @@ pub fn means_table(overall: &[Overall]) -> String {
     if groups.is_empty() {
         return String::new();
     }
-    let mut by_flip = begin_means(overall, "FLIP", &MEAN_COLUMNS, None);
+    let mut by_flip = begin_means(overall, &BY_FLIP, None);
     for group in groups {
         let shutter = shutter_text(group[0].alignment, group[0].rate);
         by_flip.push_text(heading(&shutter));
         for row in group {
-            push_mean(
-                &mut by_flip,
-                overall,
-                row,
-                (Metric::FLIP, &MEAN_COLUMNS),
-                None,
-            );
+            push_mean(&mut by_flip, overall, row, &BY_FLIP, None);
         }
     }
     let mut text = format!("\n{}", by_flip.text());
     for group in rank_filters(overall, Metric::SKILL) {
-        let mut by_skill = begin_means(overall, "skill", &SKILL_COLUMNS, Some("shutter"));
+        let mut by_skill = begin_means(overall, &BY_SKILL, Some("shutter"));
         if let Some(rate) = group[0].rate {
             by_skill.push_text(heading(&rate.text()));
         }
         for row in group {
             let last = Some(row.alignment.name());
-            push_mean(
-                &mut by_skill,
-                overall,
-                row,
-                (Metric::SKILL, &SKILL_COLUMNS),
-                last,
-            );
+            push_mean(&mut by_skill, overall, row, &BY_SKILL, last);
         }
         text += &format!("\n{}", by_skill.text());
         text += &legend_text(
@@ -90,10 +81,11 @@ fn fewer_scenes_note(overall: &[Overall]) -> String {
     }
 }
 
-fn begin_means(overall: &[Overall], by: &str, others: &[Column], last: Option<&str>) -> Table {
+fn begin_means(overall: &[Overall], columns: &[Column], last: Option<&str>) -> Table {
     let scenes = overall.iter().map(|mean| mean.scenes).max().unwrap_or(0);
-    let others = others.iter().map(|(title, _)| *title);
-    let titles = [by, "95 % CI"].into_iter().chain(others).chain(last);
+    let mut titles: Vec<&str> = columns.iter().map(|(title, _)| *title).collect();
+    titles.insert(1, "95 % CI");
+    titles.extend(last);
     Table::new(format!("mean over {scenes} scenes"), titles)
 }
 
@@ -102,12 +94,13 @@ fn push_mean(
     table: &mut Table,
     overall: &[Overall],
     row: &Overall,
-    (by, others): (Metric, &[Column]),
+    columns: &[Column],
     last: Option<&str>,
 ) {
+    let (_, by) = columns[0];
     let number = |value| by.number(value);
     let mut cells = vec![number(row.mean), range_text(row.interval, number)];
-    for (_, metric) in others {
+    for (_, metric) in &columns[1..] {
         let mut own = overall.iter().filter(|mean| mean.is_of_same(row));
         let mean = own.find(|mean| mean.metric == *metric);
         cells.push(cell(mean, |mean| metric.number(mean.mean)));

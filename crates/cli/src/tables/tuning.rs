@@ -1,7 +1,10 @@
-//! Tables of a finished tuning, and of two presets.
+//! Tables of a finished tuning, of two presets, and of a sensitivity study.
 
 use suite::MIN_SCENES;
-use tune::{Advice, Difference, LEAST_BLEED, PairedComparison, Preference, Trial, Tuning};
+use tune::{
+    Advice, Difference, LEAST_BLEED, PairedComparison, ParameterSensitivity, Preference,
+    Sensitivity, SobolIndices, Trial, Tuning,
+};
 
 use super::{Table, cell};
 use crate::output::{count_text, heading, push_wrapped};
@@ -167,6 +170,28 @@ pub fn paired_table(paired: &PairedComparison, names: [&str; 2]) -> String {
         push("lateral bleed", numbers, &verdict);
     }
     text
+}
+
+/// Makes the table of parameters, those that matter most first.
+pub fn sensitivity_table(found: &Sensitivity) -> String {
+    let mut rows: Vec<(&String, &ParameterSensitivity)> = found.parameters.iter().collect();
+    rows.sort_by(|(_, a), (_, b)| b.indices.total.value.total_cmp(&a.indices.total.value));
+    let mut table = Table::new(
+        "parameter",
+        ["first order", "total", "95 % CI", "constant?"],
+    );
+    for (name, own) in rows {
+        let SobolIndices { first, total } = own.indices;
+        let constant = if own.constant { "yes" } else { "no" };
+        let cells = [
+            format!("{:.3}", first.value),
+            format!("{:.3}", total.value),
+            format!("{:.3} to {:.3}", total.low, total.high),
+            constant.to_owned(),
+        ];
+        table.push(name, cells);
+    }
+    table.text() + &format!("{} candidates, {} failed\n", found.candidates, found.failed)
 }
 
 /// Formats a mean of logs as a change of the error.

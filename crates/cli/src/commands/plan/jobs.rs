@@ -16,7 +16,7 @@ use crate::commands::render::RenderArgs;
 use crate::commands::run::RunArgs;
 
 /// A process of this program: a line of a plan.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Job {
     /// Name, which no other job has.
     pub job: String,
@@ -37,12 +37,10 @@ impl Job {
     fn new(job: &str, cost: JobCost) -> Self {
         Self {
             job: job.to_owned(),
-            arguments: Vec::new(),
-            inputs: Vec::new(),
-            outputs: Vec::new(),
             // Estimates are not known to more.
             cpu_seconds: (cost.cpu_seconds * 10.0).ceil() / 10.0,
             memory: cost.memory,
+            ..Self::default()
         }
     }
 

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use cli::markdown_table;
 use filters::Filter;
 use judge::{RankedFilter, ResultScores, Results};
 use metrics::Metric;
 use tracer::{Location, SceneId, SceneListing, list_scenes};
 
-use super::{cost_text, list_filters, main_results, markdown_table, mean, or_dash, sealed_of};
+use super::page::{cost_text, list_filters, main_results, mean, or_dash, sealed_of};
 
 /// Number of scenes that a page names for each preset, the worst first.
 const WORST: usize = 3;

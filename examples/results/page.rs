@@ -2,13 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use cli::{list_once, markdown_table, range_text};
 use frame::Alignment;
 use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
 use suite::{Error, MIN_SCENES};
 use tracer::{Family, Location, SceneId, SceneListing, list_scenes};
-
-use super::{list_once, markdown_table, range_text};
 
 const FAMILIES: [Family; 7] = [
     Family::Translation,
@@ -42,12 +41,12 @@ fn sort_catalogues(all: &[Results]) -> Vec<&Results> {
 }
 
 /// Lists the filters of results.
-pub(super) fn list_filters(results: &Results) -> Vec<&str> {
+pub fn list_filters(results: &Results) -> Vec<&str> {
     list_once(results.scores.iter().map(|own| own.filter.as_str()))
 }
 
 /// Finds the sealed variants of results.
-pub(super) fn sealed_of<'a>(all: &'a [Results], catalogue: &Results) -> Option<&'a Results> {
+pub fn sealed_of<'a>(all: &'a [Results], catalogue: &Results) -> Option<&'a Results> {
     (all.iter()).find(|own| {
         own.seal.is_some() && own.size == catalogue.size && own.adapter == catalogue.adapter
     })
@@ -167,12 +166,12 @@ fn ranking(
 }
 
 /// Fills a cell; a dash where there is nothing.
-pub(super) fn or_dash<T>(value: Option<T>, text: impl FnOnce(T) -> String) -> String {
+pub fn or_dash<T>(value: Option<T>, text: impl FnOnce(T) -> String) -> String {
     value.map_or("-".to_owned(), text)
 }
 
 /// `0.47 (0.40 to 0.53)`: median and quartiles.
-pub(super) fn cost_text(cost: &ResultCost) -> String {
+pub fn cost_text(cost: &ResultCost) -> String {
     let ResultCost { median, low, high } = cost;
     match low == high {
         true => format!("{median:.2}"),
@@ -180,7 +179,7 @@ pub(super) fn cost_text(cost: &ResultCost) -> String {
     }
 }
 
-pub(super) fn mean(ranked: &RankedFilter) -> String {
+pub fn mean(ranked: &RankedFilter) -> String {
     let number = |value| Metric::FLIP.number(value);
     let interval = ranked
         .interval

@@ -2,14 +2,19 @@
 //! there: `cargo run -p cli --example results -- out/run.json`. A bench.json beside a run.json says what filters cost. Without a run
 //! it writes the pages alone.
 
+mod filter_page;
+mod page;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use cli::{main_results, picture_name, results_filter_pages, results_page};
 use judge::Results;
 use report::{read_bench, write_case_strip};
 use suite::{Case, Error, Run};
+
+use crate::filter_page::{picture_name, results_filter_pages};
+use crate::page::{main_results, results_page};
 
 const FOLDER: &str = "results";
 
