@@ -4,12 +4,14 @@ use std::path::Path;
 
 use frame::{FileError, write_atomically};
 use serde::Serialize;
-use suite::Error;
 
-/// Refuses a file or a folder; the reason says what was found, and what is allowed.
-pub fn refuse<T>(path: &Path, reason: &str) -> Result<T, Error> {
-    Err(Error::Usage(format!("{}: {reason}", path.display())))
+/// Refuses a file or a folder; the reason, a format and its values, says what was found, and what is allowed.
+macro_rules! refuse {
+    ($path:expr, $($reason:tt)*) => {
+        Err(Error::Usage(format!("{}: {}", $path.display(), format_args!($($reason)*))))
+    };
 }
+pub(crate) use refuse;
 
 /// Writes plain data as JSON.
 pub fn write_json(path: &Path, content: &impl Serialize) -> Result<(), FileError> {

@@ -155,10 +155,9 @@ impl Frame {
 /// Reads an exposure; refuses one that no shutter has.
 fn read_exposure(file: &ExrFile) -> Result<f64, FileError> {
     let exposure = file.get("exposure")?;
-    match Alignment::Trailing.shutter(exposure) {
-        Ok(_) => Ok(exposure),
-        Err(error) => Err(file.foreign(error.to_string())),
-    }
+    let checked = Alignment::Trailing.shutter(exposure);
+    checked.map_err(|error| file.foreign(error.to_string()))?;
+    Ok(exposure)
 }
 
 /// Reads a frame rate; none where the file has none. Refuses one that is no rate.

@@ -1,10 +1,8 @@
 //! Choice of what a frame holds.
 
-use std::fmt;
-use std::str::FromStr;
-
 use serde::{Deserialize, Serialize};
 
+use crate::words::words;
 use crate::{ExrFile, FileError};
 
 /// Choice of what a frame holds. Files name its parts as the fields are named.
@@ -71,64 +69,17 @@ pub enum ColorSampling {
     Point,
 }
 
-impl VelocityKind {
-    /// Every kind.
-    pub const ALL: [VelocityKind; 3] = [
-        VelocityKind::Instantaneous,
-        VelocityKind::PreviousFrame,
-        VelocityKind::CameraOnly,
-    ];
-}
-
-/// The word used in files and on the command line.
-impl fmt::Display for VelocityKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            VelocityKind::Instantaneous => "instantaneous",
-            VelocityKind::PreviousFrame => "previous_frame",
-            VelocityKind::CameraOnly => "camera_only",
-        })
+words! {
+    VelocityKind read as "velocity" {
+        Instantaneous => "instantaneous",
+        PreviousFrame => "previous_frame",
+        CameraOnly => "camera_only",
     }
 }
 
-impl FromStr for VelocityKind {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        parse_word("velocity", &Self::ALL, text)
+words! {
+    ColorSampling read as "color" {
+        Antialiased => "antialiased",
+        Point => "point",
     }
-}
-
-/// The word used in files and on the command line.
-impl fmt::Display for ColorSampling {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            ColorSampling::Antialiased => "antialiased",
-            ColorSampling::Point => "point",
-        })
-    }
-}
-
-impl FromStr for ColorSampling {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        parse_word("color", &[Self::Antialiased, Self::Point], text)
-    }
-}
-
-/// Finds the value of a word.
-pub(crate) fn parse_word<T: Copy + fmt::Display>(
-    what: &str,
-    all: &[T],
-    word: &str,
-) -> Result<T, String> {
-    let found = all.iter().find(|value| value.to_string() == word);
-    found.copied().ok_or_else(|| {
-        let words: Vec<String> = all.iter().map(T::to_string).collect();
-        format!(
-            "{what} \"{word}\" is unknown; allowed: {}",
-            words.join(", ")
-        )
-    })
 }

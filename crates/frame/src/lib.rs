@@ -38,10 +38,12 @@ mod raster;
 mod region;
 mod replicate;
 mod reprojection;
+mod sheet;
 mod shutter;
 mod support;
 mod tile;
 mod truth;
+mod words;
 
 pub use accumulation::{Accumulation, Ladder, rung_file};
 pub use at_instant::AtInstant;
@@ -64,6 +66,7 @@ pub use raster::{Image, Plane, Raster, Vectors};
 pub use region::{Region, Regions};
 pub use replicate::Replicate;
 pub use reprojection::Reprojection;
+pub use sheet::tile_pictures;
 pub use shutter::{
     Alignment, Efficiency, LONGEST_EXPOSURE, SHORTEST_EXPOSURE, Shutter, ShutterError,
     ShutterProfile,

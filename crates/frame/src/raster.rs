@@ -45,6 +45,14 @@ impl<T: Clone> Raster<T> {
         })
     }
 
+    /// Makes squares of `factor` pixels a side out of the pixels.
+    pub fn enlarged(&self, factor: u32) -> Raster<T> {
+        let (width, height) = (self.width * factor, self.height * factor);
+        Raster::from_fn(width, height, |x, y| {
+            self.at(x / factor, y / factor).clone()
+        })
+    }
+
     /// Copies the pixels of a tile. Panics if it leaves the raster.
     pub fn part(&self, tile: Tile) -> Raster<T> {
         let [x, y, width, height] =

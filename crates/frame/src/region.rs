@@ -1,7 +1,6 @@
 //! Regions of pixels that scores are pooled over, defined by the truth and never by the picture.
 
-use std::fmt;
-
+use crate::words::words;
 use crate::{Image, Raster, Support};
 
 /// A set of pixels that the truth defines.
@@ -36,33 +35,14 @@ pub struct Regions {
     pub unknowable: Raster<bool>,
 }
 
-impl Region {
-    /// Every region.
-    pub const ALL: [Region; 6] = [
-        Region::Moving,
-        Region::Support,
-        Region::Still,
-        Region::Full,
-        Region::Knowable,
-        Region::Unknowable,
-    ];
-
-    /// Returns the word used in metric names and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Region::Moving => "moving",
-            Region::Support => "support",
-            Region::Still => "static",
-            Region::Full => "full",
-            Region::Knowable => "knowable",
-            Region::Unknowable => "unknowable",
-        }
-    }
-}
-
-impl fmt::Display for Region {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+words! {
+    Region {
+        Moving => "moving",
+        Support => "support",
+        Still => "static",
+        Full => "full",
+        Knowable => "knowable",
+        Unknowable => "unknowable",
     }
 }
 

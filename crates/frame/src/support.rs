@@ -79,25 +79,3 @@ impl Support {
 fn channel(name: &str) -> String {
     format!("support.{name}")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_object_is_seen_throughout_where_nothing_else_is_seen() {
-        let mask = |holds: [bool; 4]| Raster::from_fn(4, 1, |x, _| holds[x as usize]);
-        let support = Support {
-            seen: vec![
-                mask([true, true, false, false]),
-                mask([false, true, true, true]),
-                mask([false, false, false, true]),
-            ],
-            moving: mask([false; 4]),
-            unknowable: mask([false; 4]),
-        };
-        assert_eq!(support.throughout(0), mask([true, false, false, false]));
-        assert_eq!(support.throughout(1), mask([false, false, true, false]));
-        assert_eq!(support.throughout(2), mask([false; 4]));
-    }
-}

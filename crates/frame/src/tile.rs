@@ -24,6 +24,20 @@ impl Tile {
         }
     }
 
+    /// Makes a square tile around a place, moved and cut where a picture of `size` ends.
+    pub fn around(place: [u32; 2], side: u32, size: (u32, u32)) -> Self {
+        let whole = [size.0, size.1];
+        let [width, height] = whole.map(|whole| whole.min(side));
+        let start =
+            |middle: u32, size: u32, whole: u32| middle.saturating_sub(size / 2).min(whole - size);
+        Self {
+            x: start(place[0], width, whole[0]),
+            y: start(place[1], height, whole[1]),
+            width,
+            height,
+        }
+    }
+
     /// Lists the row-major indices of its pixels in a picture with this many columns, row by row.
     pub fn pixels(&self, columns: u32) -> Vec<u32> {
         let rows = self.y..self.y + self.height;

@@ -135,12 +135,6 @@ impl Truth {
         (self.motion.width, self.motion.height)
     }
 
-    /// Returns the margin around motion in which blur is looked for, in pixels: a fifteenth of the height, because bleed leaves the
-    /// support. The moving region and accumulations include it.
-    pub fn motion_margin(&self) -> u32 {
-        motion_margin(self.motion.height)
-    }
-
     /// Averages over all replicates what was seen, as it was at the instant.
     pub fn at_instant_mean(&self) -> AtInstant {
         AtInstant::mean(&self.at_instant)
@@ -228,13 +222,14 @@ impl Truth {
 
 /// Derives the regions from the truth's [`Support`], which its noise does not change.
 ///
-/// Support: where anything moves. Moving: that dilated by [`Truth::motion_margin`]. Static: the rest. Moving pixels are knowable
+/// Support: where anything moves. Moving: that dilated by [`motion_margin`]. Static: the rest. Moving pixels are knowable
 /// where the support saw nothing that the frame does not show.
 pub fn regions(truth: &Truth) -> Regions {
-    Regions::new(&truth.support, truth.motion_margin())
+    Regions::new(&truth.support, motion_margin(truth.motion.height))
 }
 
-/// Returns the margin of [`Truth::motion_margin`] for a picture of `height` rows.
+/// Returns the margin around motion in which blur is looked for, in pixels: a fifteenth of a picture's height, because bleed leaves the
+/// support. The moving region and accumulations include it.
 pub fn motion_margin(height: u32) -> u32 {
     (f64::from(height) / 15.0).round() as u32
 }

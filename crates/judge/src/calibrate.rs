@@ -39,32 +39,22 @@ const LEAST_LIMITS: [(&str, f64); 2] = [("px", 0.1), ("", 0.005)];
 const JOD: Metric = Metric::Sequence(SequenceMetric::Jod);
 
 /// Scores of several runs, per scene and filter.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub struct Calibration {
     /// Score in every run to which it applies, per scene, `filter:preset` and metric.
-    pub scores: BTreeMap<SceneId, BTreeMap<String, BTreeMap<Metric, Vec<Sample>>>>,
+    scores: BTreeMap<SceneId, BTreeMap<String, BTreeMap<Metric, Vec<Sample>>>>,
     /// Columns and rows of the pictures.
-    pub size: (u32, u32),
+    size: (u32, u32),
     /// Frames of the sequences.
-    pub frames: Frames,
+    frames: Frames,
 }
 
 /// A score of one run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Score.
-    pub score: Score,
-    /// Its interval, if the truth can tell.
-    pub interval: Option<Interval>,
-}
-
-/// Limit that a filter keeps on a scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Proposal {
-    /// Proposed limit.
-    pub limit: f64,
-    /// Reason for it, in one line.
-    pub why: String,
+#[derive(Clone, Copy)]
+struct Sample {
+    score: Score,
+    /// Its interval, if the truth has one.
+    interval: Option<Interval>,
 }
 
 /// Gathers scores from several runs of the same scenes, size, frames and filters: those of `metrics`, or [`default_metrics`] and all
@@ -122,11 +112,11 @@ pub fn default_metrics(bounds: &SceneBounds, filter: &str, preset: &str) -> Vec<
     metrics.into_iter().collect()
 }
 
-/// Proposes the limit that follows from the scores of one metric. It is the worst value that any interval reaches, since a check
-/// asks that of a score, plus a margin: three standard deviations between runs, or a twentieth of the worst score if that is more.
-/// It is at least 1.2 times as far from perfect as the strictest limit that the truth's noise carries, and at least a tenth of a
+/// Proposes the limit that follows from the scores of one metric, and says why in one line. It is the worst value that any interval
+/// reaches, since a check asks that of a score, plus a margin: three standard deviations between runs, or a twentieth of the worst
+/// score if that is more. It is at least 1.2 times as far from perfect as the strictest limit that the truth's noise carries, and at least a tenth of a
 /// pixel or half a hundredth. It is rounded to two digits, away from perfect. Parts of JOD are parts of its distance from 10.
-pub fn propose(metric: Metric, samples: &[Sample]) -> Proposal {
+fn propose(metric: Metric, samples: &[Sample]) -> (f64, String) {
     let ideal = metric.ideal();
     let worst_of = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let badness: Vec<f64> = (samples.iter())
@@ -174,7 +164,7 @@ pub fn propose(metric: Metric, samples: &[Sample]) -> Proposal {
         number(deviation),
         samples.len()
     );
-    Proposal { limit, why }
+    (limit, why)
 }
 
 /// Returns the standard deviation of at least one value; 0 for one value.
@@ -197,6 +187,11 @@ fn round_away(value: f64, rounding: fn(f64) -> f64) -> f64 {
 }
 
 impl Calibration {
+    /// Lists the scenes that have scores.
+    pub fn scenes(&self) -> impl Iterator<Item = &SceneId> {
+        self.scores.keys()
+    }
+
     /// Formats the proposed bounds of one scene as its bounds.toml.
     pub fn toml(&self, scene: &SceneId) -> String {
         let (width, height) = self.size;
@@ -205,7 +200,7 @@ impl Calibration {
             let _ = writeln!(text, "[filter.\"{filter}\"]");
             for (metric, samples) in metrics {
                 let length = self.length(*metric);
-                let Proposal { limit, why } = propose(*metric, samples);
+                let (limit, why) = propose(*metric, samples);
                 let _ = writeln!(
                     text,
                     "{metric} = {{ limit = {limit:?}, {length}size = [{width}, {height}], why = \"{why}\" }}"
@@ -242,7 +237,7 @@ mod tests {
             interval: None,
         };
         let samples: Vec<Sample> = values.iter().map(sample).collect();
-        propose(metric.parse().unwrap(), &samples).limit
+        propose(metric.parse().unwrap(), &samples).0
     }
 
     #[test]
@@ -285,8 +280,8 @@ mod tests {
             }),
         };
         // 0.25 from 1, and a twentieth of 0.2.
-        let proposal = propose("extent".parse().unwrap(), &[sample, sample]);
-        assert_eq!(proposal.limit, 0.26);
+        let (limit, _) = propose("extent".parse().unwrap(), &[sample, sample]);
+        assert_eq!(limit, 0.26);
     }
 
     #[test]

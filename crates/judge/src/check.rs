@@ -7,8 +7,7 @@ use suite::{Case, Error, Failure, Run, refuse_failures};
 use tracer::SceneId;
 
 use crate::baseline::BaselineComparison;
-use crate::decision::Decision;
-use crate::{Finding, Outcome};
+use crate::{Decision, Finding, Outcome};
 
 /// Version of the layout of a check as JSON.
 pub const CHECK_FORMAT: u32 = 1;

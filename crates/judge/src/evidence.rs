@@ -11,8 +11,8 @@ use crate::decoys::{Decoys, FEW_SUBFRAMES};
 use crate::finding::Finding;
 use crate::worst::{Worst, worst_block, write_crop};
 
-/// Adds evidence to every notable finding about a single frame of a run, from the run's files below `folder`, and writes a picture of each worst place
-/// into its case's folder.
+/// Adds evidence to every notable finding about a single frame of a run, from the run's files below `folder`, and writes a picture of
+/// each worst place into its case's folder.
 pub fn add_evidence(run: &Run, findings: &mut [Finding], folder: &Path) -> Result<(), Error> {
     let is_of_one = |a: &Finding, b: &Finding| a.scene == b.scene && a.filter == b.filter;
     let cases = findings.chunk_by_mut(is_of_one).filter_map(|own| {

@@ -8,11 +8,10 @@ use suite::{Case, Run, Sequence};
 use tracer::SceneId;
 
 use crate::bounds::Level;
-use crate::decision::Decision;
 use crate::decoys::Resemblance;
 use crate::judged_score::JudgedScore;
 use crate::numbers::number;
-use crate::outcome::{Outcome, limit_as_badness};
+use crate::outcome::{Decision, Outcome, limit_as_badness};
 use crate::worst::Worst;
 
 /// A score, its bound, and how they stand to each other.

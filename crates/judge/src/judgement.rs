@@ -56,29 +56,27 @@ impl Judgement {
         }
         let text = read_text_within(&path, MAX_RUN_BYTES)?;
         let refuse = |reason: String| {
-            Err(Error::Usage(format!(
+            Error::Usage(format!(
                 "{}: {reason}; judge the run again: shuttertruth check {}",
                 path.display(),
                 folder.join("run.json").display()
-            )))
+            ))
         };
-        let judgement: Self = match serde_json::from_str(&text) {
-            Ok(judgement) => judgement,
-            Err(error) => return refuse(format!("is no judgement: {error}")),
-        };
+        let judgement: Self = serde_json::from_str(&text)
+            .map_err(|error| refuse(format!("is no judgement: {error}")))?;
         if judgement.format != JUDGEMENT_FORMAT {
             let found = judgement.format;
-            return refuse(format!("has format {found}; allowed: {JUDGEMENT_FORMAT}"));
+            let reason = format!("has format {found}; allowed: {JUDGEMENT_FORMAT}");
+            return Err(refuse(reason));
         }
         if judgement.run != hash_of_run(folder)? {
-            return refuse("is about another run.json".to_owned());
+            return Err(refuse("is about another run.json".to_owned()));
         }
-        let broken =
-            (judgement.findings.iter()).find_map(|finding| check_finding(finding, run).err());
-        match broken {
-            Some(error) => refuse(error),
-            None => Ok(Some(judgement)),
-        }
+        let mut findings = judgement.findings.iter();
+        findings
+            .try_for_each(|finding| check_finding(finding, run))
+            .map_err(refuse)?;
+        Ok(Some(judgement))
     }
 }
 

@@ -5,7 +5,6 @@ mod bounds;
 mod calibrate;
 mod check;
 mod compare;
-mod decision;
 mod decoys;
 mod evidence;
 mod finding;
@@ -26,24 +25,23 @@ pub use baseline::{
 pub use bounds::{
     BOUNDS_FILE, Bound, Bounds, BoundsFile, FilterBounds, Length, Level, Margin, SceneBounds,
     bound_subframes, check_lengths, check_names, read_bounds, read_bounds_beside_scenes,
-    read_bounds_file, require_bounds, size_for_bounds, sized_bounds_file,
+    read_bounds_file, require_bounds, size_for_bounds,
 };
-pub use calibrate::{Calibration, Proposal, Sample, calibrate, default_metrics};
+pub use calibrate::{Calibration, calibrate, default_metrics};
 pub use check::{CHECK_FORMAT, Check, check};
 pub use compare::{
     Agreement, Basis, Change, ChangeKind, FilterAtSizes, MeanChange, Pair, Reversal, RunComparison,
     SettingChange, SizeComparison, compare_runs, compare_sizes, pair_cases, rank_changes,
     score_change,
 };
-pub use decision::Decision;
-pub use decoys::{Decoys, FEW_SUBFRAMES, Resemblance, make_wrong_pictures};
+pub use decoys::{Resemblance, make_wrong_pictures};
 pub use evidence::add_evidence;
 pub use finding::{Finding, MAX_SAMPLES};
 use judged_score::judge_sequence;
 pub use judged_score::{JudgedScore, judge_scores};
 pub use judgement::{JUDGEMENT_FILE, Judgement};
 pub use numbers::{number, round_to_digits};
-pub use outcome::{Outcome, badness_within};
+pub use outcome::{Decision, Outcome, badness_within};
 pub use ranking::filters::{
     MAX_RANKED, RANK_RULE, RankedFilter, list_summarized, rank_for_summary,
 };

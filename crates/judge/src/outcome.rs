@@ -1,4 +1,4 @@
-//! Outcome of one bound.
+//! Outcome of one bound, and decision of a check.
 
 use metrics::{Ideal, Interval, Measured, Metric};
 use serde::{Deserialize, Serialize};
@@ -29,6 +29,20 @@ impl Outcome {
             Outcome::Kept | Outcome::NotApplicable | Outcome::NotJudged => false,
         }
     }
+}
+
+/// Result of a check; a later one outweighs an earlier one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Decision {
+    /// Every required bound is met.
+    Pass,
+    /// For some the truth is too noisy to decide.
+    Inconclusive,
+    /// A bound is stricter than the truth's noise can carry, or no bound applies to a case.
+    Misconfigured,
+    /// A required bound is broken, or a case failed. The noise of another bound does not undo it.
+    Broken,
 }
 
 /// Compares a score with a limit: by its interval if `interval` is given, by its value otherwise. `Some(None)` is a score whose
@@ -86,6 +100,15 @@ mod tests {
 
     use super::*;
 
+    fn interval(low: f64, high: f64) -> Interval {
+        Interval {
+            low,
+            high,
+            center: f64::midpoint(low, high),
+            standard_error: 0.01,
+        }
+    }
+
     #[test]
     fn the_whole_interval_decides_and_the_value_does_not() {
         let measured = Measured::Score(Score {
@@ -93,14 +116,8 @@ mod tests {
             floor: 0.01,
         });
         let judge = |low, high| {
-            let interval = Interval {
-                low,
-                high,
-                center: f64::midpoint(low, high),
-                standard_error: 0.01,
-            };
-            let metric = "flip_moving".parse().unwrap();
-            judge_score(metric, &measured, Some(Some(&interval)), 0.1)
+            let interval = interval(low, high);
+            judge_score(Metric::FLIP, &measured, Some(Some(&interval)), 0.1)
         };
         // The value is above the limit each time: noise raises it.
         assert_eq!(judge(0.08, 0.1), Outcome::Kept);
@@ -110,12 +127,6 @@ mod tests {
 
     #[test]
     fn an_interval_is_as_bad_as_its_ends() {
-        let interval = Interval {
-            low: 0.75,
-            high: 1.5,
-            center: 1.1,
-            standard_error: 0.1,
-        };
         for (ideal, expected) in [
             (Ideal::Lowest, (0.75, 1.5)),
             (Ideal::Highest, (-1.5, -0.75)),
@@ -123,7 +134,8 @@ mod tests {
             (Ideal::Target(2.0), (0.5, 1.25)),
             (Ideal::Target(0.5), (0.25, 1.0)),
         ] {
-            assert_eq!(badness_within(ideal, &interval), expected, "{ideal:?}");
+            let found = badness_within(ideal, &interval(0.75, 1.5));
+            assert_eq!(found, expected, "{ideal:?}");
         }
     }
 }

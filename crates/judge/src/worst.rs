@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frame::{FileError, Image, Plane, Raster, display_srgb, write_png};
+use frame::{FileError, Image, Plane, Raster, Tile, display_srgb, tile_pictures, write_png};
 use metrics::{Metric, Regions};
 use serde::{Deserialize, Serialize};
 use suite::magma;
@@ -65,37 +65,20 @@ pub fn write_crop(
     map: &Plane,
     stops: f32,
 ) -> Result<(), FileError> {
-    let size = [CROP.min(map.width), CROP.min(map.height)];
-    let start = |middle: u32, size: u32, all: u32| middle.saturating_sub(size / 2).min(all - size);
-    let [left, top] = [start(x, size[0], map.width), start(y, size[1], map.height)];
-    let error = crop(map, [left, top], size);
+    let tile = Tile::around([x, y], CROP, (map.width, map.height));
+    let error = map.part(tile);
     let largest = error
         .pixels
         .iter()
         .copied()
         .fold(f32::MIN_POSITIVE, f32::max);
     let panels = [
-        display_srgb(&crop(truth, [left, top], size), stops),
-        display_srgb(&crop(output, [left, top], size), stops),
+        display_srgb(&truth.part(tile), stops),
+        display_srgb(&output.part(tile), stops),
         magma(&error.map(|error| error / largest)),
     ];
-    let shown = size.map(|size| size * ENLARGED);
-    let width = 3 * shown[0] + 2 * GAP;
-    let sheet = Raster::from_fn(width, shown[1], |x, y| {
-        let panel = &panels[(x / (shown[0] + GAP)) as usize];
-        let column = x % (shown[0] + GAP);
-        match column < shown[0] {
-            true => *panel.at(column / ENLARGED, y / ENLARGED),
-            false => [0.5; 3],
-        }
-    });
-    write_png(path, &sheet)
-}
-
-fn crop<T: Clone>(raster: &Raster<T>, [left, top]: [u32; 2], size: [u32; 2]) -> Raster<T> {
-    Raster::from_fn(size[0], size[1], |x, y| {
-        raster.at(left + x, top + y).clone()
-    })
+    let panels = panels.map(|panel| panel.enlarged(ENLARGED));
+    write_png(path, &tile_pictures(&panels, 3, GAP, [0.5; 3]))
 }
 
 #[cfg(test)]

@@ -41,9 +41,7 @@ macro_rules! maps {
                     $(ErrorMap::$Probe => $channel,)*
                 }
             }
-        }
 
-        impl ErrorMap {
             /// Finds this map; `None` for one of probes if none were run.
             pub(crate) fn find<'a>(
                 self,

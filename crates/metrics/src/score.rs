@@ -47,6 +47,14 @@ impl Measured {
         Self::Score(Score { value, floor })
     }
 
+    /// Makes a score of a value and its floor, if there are both; `reason` says why one may be missing.
+    pub(crate) fn of(value: Option<f64>, floor: Option<f64>, reason: impl Into<String>) -> Self {
+        match value.zip(floor) {
+            Some((value, floor)) => Self::score(value, floor),
+            None => Self::not_applicable(reason),
+        }
+    }
+
     /// Makes a score that does not apply, because of `reason`.
     pub fn not_applicable(reason: impl Into<String>) -> Self {
         Self::NotApplicable {

@@ -3,9 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Equivalent, EquivalentMetric, EquivalentScores, FrozenScores, ImageScores, LabelMetric,
-    LabelScores, Measured, Metric, ObjectMetric, ObjectScores, ProbeScores, Region, Score,
-    SkillMetric, SkillScores,
+    Equivalent, EquivalentScores, FrozenScores, ImageScores, LabelScores, Measured, Metric,
+    ObjectMetric, ObjectScores, ProbeScores, Region, Score, SkillScores,
 };
 
 /// All scores of one picture against one truth.
@@ -131,30 +130,21 @@ impl Scores {
 
     /// Replaces every score that depends on mattes by the reason why it means nothing.
     pub fn take_out_mattes(&mut self, reason: &str) {
-        let none = || Measured::not_applicable(reason);
-        for metric in LabelMetric::ALL {
-            *self.label_total_variation.get_mut(metric) = none();
-        }
-        *self.skill.get_mut(SkillMetric::LabelTotalVariation) = none();
-        let equivalent = EquivalentMetric::LabelTotalVariation;
-        *self.equivalent_subframes.get_mut(equivalent) = Equivalent::not_applicable(reason);
+        self.label_total_variation = LabelScores::not_applicable(reason);
+        self.skill.label_total_variation = Measured::not_applicable(reason);
+        self.equivalent_subframes.label_total_variation = Equivalent::not_applicable(reason);
         for scores in &mut self.objects {
             for metric in ObjectMetric::ALL {
-                *scores.get_mut(metric) = none();
+                *scores.get_mut(metric) = Measured::not_applicable(reason);
             }
         }
     }
 
     /// Replaces every score that depends on what was seen at the instant by the reason why that is not known.
     pub(crate) fn take_out_instant(&mut self, reason: &'static str) {
-        let none = Measured::not_applicable(reason);
         self.knowable = ImageScores::not_applicable(reason);
         self.unknowable = ImageScores::not_applicable(reason);
-        self.frozen = FrozenScores {
-            mse: none.clone(),
-            flip: none.clone(),
-            shading: none,
-        };
+        self.frozen = FrozenScores::not_applicable(reason);
     }
 
     fn of_region(&self, region: Region) -> &ImageScores {

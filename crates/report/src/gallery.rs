@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use frame::{Raster, read_png, write_atomically, write_png};
+use frame::{Image, read_png, tile_pictures, write_atomically, write_png};
 use metrics::Metric;
 use store::RenderFile;
 use suite::{Case, Error, IDENTITY, Run};
@@ -18,9 +18,6 @@ const COLUMNS: u32 = 6;
 
 /// Pixels between two pictures.
 const GAP: u32 = 2;
-
-/// Display values in [0, 1].
-type Picture = Raster<[f32; 3]>;
 
 /// Writes `README.md`, the contact sheet and a strip of pictures per scene below `out`, from the files of a run in `folder`. Returns
 /// the path of the page.
@@ -44,11 +41,13 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
             read_truth(folder, worst)?,
             read_output(folder, worst)?,
         ];
-        write_png(&out.join(strip_name(&best.scene)), &tile(&strip, 5))?;
+        let strip = tile_pictures(&strip, 5, GAP, [1.0; 3]);
+        write_png(&out.join(strip_name(&best.scene)), &strip)?;
         truths.push(truth);
         page += &section(best, worst);
     }
-    write_png(&out.join(SHEET), &tile(&truths, COLUMNS))?;
+    let sheet = tile_pictures(&truths, COLUMNS, GAP, [1.0; 3]);
+    write_png(&out.join(SHEET), &sheet)?;
     let path = out.join("README.md");
     write_atomically(&path, page.as_bytes())?;
     Ok(path)
@@ -122,48 +121,16 @@ fn strip_name(scene: &SceneId) -> String {
 pub fn write_case_strip(case: &Case, folder: &Path, out: &Path) -> Result<(), Error> {
     let flip = read_png(&folder.join(&case.folder).join("flip.png"))?;
     let strip = [read_truth(folder, case)?, read_output(folder, case)?, flip];
-    Ok(write_png(out, &tile(&strip, 3))?)
+    Ok(write_png(out, &tile_pictures(&strip, 3, GAP, [1.0; 3]))?)
 }
 
 /// Reads the truth that a case is scored against.
-fn read_truth(folder: &Path, case: &Case) -> Result<Picture, Error> {
+fn read_truth(folder: &Path, case: &Case) -> Result<Image, Error> {
     let name = RenderFile::Truth(case.alignment).picture();
     Ok(read_png(&folder.join(case.scene.folder()).join(name))?)
 }
 
 /// Reads the output of a case.
-fn read_output(folder: &Path, case: &Case) -> Result<Picture, Error> {
+fn read_output(folder: &Path, case: &Case) -> Result<Image, Error> {
     Ok(read_png(&folder.join(&case.folder).join("output.png"))?)
-}
-
-/// Places pictures of one size side by side, `columns` in a row, on white.
-fn tile(pictures: &[Picture], columns: u32) -> Picture {
-    let (width, height) = (pictures[0].width + GAP, pictures[0].height + GAP);
-    let columns = columns.min(pictures.len() as u32);
-    let rows = (pictures.len() as u32).div_ceil(columns);
-    Raster::from_fn(columns * width - GAP, rows * height - GAP, |x, y| {
-        let index = (y / height) * columns + x / width;
-        let picture = pictures.get(index as usize);
-        let inside = picture.filter(|it| x % width < it.width && y % height < it.height);
-        inside.map_or([1.0; 3], |picture| *picture.at(x % width, y % height))
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tiles_stand_in_rows_with_gaps_between() {
-        let pictures: Vec<Picture> = (0..3)
-            .map(|index| Raster::filled(2, 1, [0.25 * index as f32; 3]))
-            .collect();
-        let sheet = tile(&pictures, 2);
-        assert_eq!((sheet.width, sheet.height), (2 * 4 - 2, 2 * 3 - 2));
-        assert_eq!(*sheet.at(0, 0), [0.0; 3]);
-        assert_eq!(*sheet.at(2, 0), [1.0; 3]);
-        assert_eq!(*sheet.at(4, 0), [0.25; 3]);
-        assert_eq!(*sheet.at(1, 3), [0.5; 3]);
-        assert_eq!(*sheet.at(5, 3), [1.0; 3], "no third column");
-    }
 }

@@ -2,6 +2,7 @@
 
 use frame::{
     Accumulation, Alignment, ColorSampling, Ladder, Picture, Plane, Raster, Shutter, Tile, Truth,
+    motion_margin,
 };
 
 use crate::content_hash::{ladder_hash, provenance};
@@ -62,7 +63,7 @@ impl<'a> LadderTracer<'a> {
             "the truth was rendered with the ladder's settings"
         );
         let whole = scene.shutter_profile.whole(shutter);
-        let pixels = pixels_near_motion(&truth.support.moving, truth.motion_margin());
+        let pixels = pixels_near_motion(&truth.support.moving, motion_margin(settings.height));
         let mean = truth.mean();
         Ok(Self {
             stage: Stage::try_new(scene, whole.open, whole.close)?,

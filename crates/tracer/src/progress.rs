@@ -14,6 +14,17 @@ pub struct Progress {
     pub total: u64,
 }
 
+impl Progress {
+    /// Reports how many pieces of work are done; an error if the watcher asks to stop.
+    pub fn report(watch: Watch, done: usize, total: usize) -> Result<(), TraceError> {
+        let [done, total] = [done, total].map(|count| count as u64);
+        match watch(Self { done, total }).is_break() {
+            true => Err(TraceError::Cancelled),
+            false => Ok(()),
+        }
+    }
+}
+
 /// A function that any thread calls after every piece of work; `Break` cancels the render.
 pub type Watch<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 

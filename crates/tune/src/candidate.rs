@@ -4,37 +4,41 @@ use filters::{Blur, Filter, FilterError, Kernels, Settings};
 use frame::{Frame, Image, Plane};
 use suite::{Monitor, Runner, filter_input, pack_planes, unpack_planes};
 
-/// A filter with the settings to try.
-pub struct Candidate<'e, 'a> {
-    /// The filter.
-    pub filter: &'e Filter,
-    /// Its settings.
-    pub settings: &'e Settings,
-    /// The filter's kernels; none if it is a program.
-    pub kernels: Option<&'e Kernels<'a>>,
-    /// Monitor that can end a program.
-    pub monitor: Monitor,
-    /// The filter, ready for pictures of one size; none before the first picture.
-    pub runner: Option<((u32, u32), Runner<'a>)>,
+/// A filter with settings to try, ready for pictures of one size.
+pub struct Candidate<'a> {
+    runner: Runner<'a>,
 }
 
 /// The blurred colour, and the blurred coverage of each object if it was asked for.
 pub type Blurred = (Image, Option<Vec<Plane>>);
 
-impl<'a> Candidate<'_, 'a> {
+impl<'a> Candidate<'a> {
+    /// Makes a candidate for pictures of one size. `kernels` are the filter's, none if it is a program, which the monitor can end.
+    pub fn new(
+        filter: &Filter,
+        settings: &Settings,
+        kernels: Option<&Kernels<'a>>,
+        size: (u32, u32),
+        monitor: Monitor,
+    ) -> Result<Self, FilterError> {
+        let runner = match kernels {
+            Some(kernels) => {
+                let blur = Blur::with_kernels(kernels, settings, size.0, size.1)?;
+                Runner::Kernels(Box::new(blur))
+            }
+            None => Runner::command(filter, settings, size, monitor)?,
+        };
+        Ok(Self { runner })
+    }
+
     /// Blurs the frame of a scene; its mattes too if `bleed` is to be measured.
     pub fn blur(&mut self, frame: &Frame, bleed: bool) -> Result<Blurred, FilterError> {
-        let size = frame.size();
-        if self.runner.as_ref().is_none_or(|(made, _)| *made != size) {
-            self.runner = Some((size, self.make_runner(size)?));
-        }
-        let (_, runner) = self.runner.as_mut().expect("it was just made");
         let mattes = match bleed {
             true => pack_planes(&frame.coverage),
             false => Vec::new(),
         };
         let color: Vec<&Image> = std::iter::once(&frame.color).chain(&mattes).collect();
-        let outputs = runner.run(&filter_input(frame, &color))?;
+        let outputs = self.runner.run(&filter_input(frame, &color))?;
         let mut outputs = outputs
             .iter()
             .map(|output| output.cropped(frame.guard_band));
@@ -42,15 +46,5 @@ impl<'a> Candidate<'_, 'a> {
         let mattes: Vec<Image> = outputs.collect();
         let coverage = bleed.then(|| unpack_planes(&mattes, frame.coverage.len()));
         Ok((color, coverage))
-    }
-
-    fn make_runner(&self, size: (u32, u32)) -> Result<Runner<'a>, FilterError> {
-        match self.kernels {
-            Some(kernels) => {
-                let blur = Blur::with_kernels(kernels, self.settings, size.0, size.1)?;
-                Ok(Runner::Kernels(Box::new(blur)))
-            }
-            None => Runner::command(self.filter, self.settings, size, self.monitor),
-        }
     }
 }

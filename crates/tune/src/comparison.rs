@@ -10,7 +10,7 @@ use tracer::Progress;
 
 use crate::evaluator::Evaluator;
 use crate::loss::log_ratio;
-use crate::target::SceneScore;
+use crate::target::{SceneScore, SceneScores};
 
 /// Scores of two candidates, scene by scene, and their mean differences.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -88,14 +88,13 @@ pub fn compare_candidates(
     second: &Settings,
 ) -> Result<PairedComparison, Error> {
     let all = evaluator.all_scenes();
-    let total = 2 * all.len() as u64;
     let monitor = evaluator.monitor;
     let [first, second] = monitor.watch("both sets of parameters", |watch| {
         let mut done = 0;
         let mut score = |settings: &Settings| {
             evaluator.score(settings, &all, |_, _| {
                 done += 1;
-                watch(Progress { done, total }).is_continue()
+                Progress::report(watch, done, 2 * all.len()).is_ok()
             })
         };
         Ok::<_, Error>([score(first)?, score(second)?])
@@ -104,10 +103,7 @@ pub fn compare_candidates(
 }
 
 /// Pairs the scores of two candidates on the scenes that both have.
-pub fn pair_scores(
-    first: &BTreeMap<String, SceneScore>,
-    second: &BTreeMap<String, SceneScore>,
-) -> BTreeMap<String, [SceneScore; 2]> {
+pub fn pair_scores(first: &SceneScores, second: &SceneScores) -> BTreeMap<String, [SceneScore; 2]> {
     (first.iter())
         .filter_map(|(scene, score)| Some((scene.clone(), [*score, *second.get(scene)?])))
         .collect()

@@ -3,14 +3,15 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::mpsc;
 
-use filters::{Blur, FilterError, Gpu, Kernels, Settings};
+use filters::{Blur, FilterError, Gpu, Kernels, Settings, Value};
 use frame::{Image, Plane};
+use serde::{Deserialize, Serialize};
 use suite::{Error, FilterChoice, Monitor, filter_input};
 use tracer::TraceError;
 
 use crate::candidate::Candidate;
-use crate::rendered_scene::RenderedScene;
-use crate::target::{SceneScore, Target};
+use crate::loss::{mean_log_ratio, worst_bleed};
+use crate::target::{RenderedScene, SceneScore, SceneScores, Target};
 
 /// Rounds of one candidate and the start in turn; odd, so that the median is one of them.
 const ROUNDS: usize = 5;
@@ -30,7 +31,7 @@ pub struct Evaluator<'a> {
     /// The filter's kernels; none if it is a program.
     kernels: Option<Kernels<'a>>,
     /// Scores by scene, of each candidate.
-    memory: HashMap<String, BTreeMap<String, SceneScore>>,
+    memory: HashMap<String, SceneScores>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -69,7 +70,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Takes over scores that were measured before.
-    pub(crate) fn remember(&mut self, settings: &Settings, scores: &BTreeMap<String, SceneScore>) {
+    pub(crate) fn remember(&mut self, settings: &Settings, scores: &SceneScores) {
         let known = self.memory.entry(memory_key(settings)).or_default();
         known.extend(scores.clone());
     }
@@ -83,7 +84,7 @@ impl<'a> Evaluator<'a> {
         settings: &Settings,
         scenes: &[usize],
         mut on_score: impl FnMut(usize, &SceneScore) -> bool,
-    ) -> Result<BTreeMap<String, SceneScore>, Error> {
+    ) -> Result<SceneScores, Error> {
         let name = |scene: usize| &self.targets[scene].scene.name;
         let key = memory_key(settings);
         let mut scores = self.memory.get(&key).cloned().unwrap_or_default();
@@ -99,7 +100,7 @@ impl<'a> Evaluator<'a> {
             let name = name(*scene);
             Some((name.clone(), *scores.get(name)?))
         });
-        let found: Option<BTreeMap<String, SceneScore>> = found.collect();
+        let found: Option<SceneScores> = found.collect();
         self.memory.insert(key, scores);
         found.ok_or(TraceError::Cancelled.into())
     }
@@ -113,14 +114,12 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Vec<(usize, SceneScore)>, Error> {
         let (sender, receiver) = mpsc::channel();
         let mut found = Vec::new();
+        // Scenes are rendered at one size.
+        let size = self.targets[scenes[0]].scene.frame.size();
+        let kernels = self.kernels.as_ref();
+        let mut candidate =
+            Candidate::new(&self.choice.filter, settings, kernels, size, self.monitor)?;
         rayon::in_place_scope(|scope| {
-            let mut candidate = Candidate {
-                filter: &self.choice.filter,
-                settings,
-                kernels: self.kernels.as_ref(),
-                monitor: self.monitor,
-                runner: None,
-            };
             for scene in scenes {
                 let target = &self.targets[*scene];
                 let (color, mattes) = candidate.blur(&target.scene.frame, self.bleed)?;
@@ -177,6 +176,46 @@ impl<'a> Evaluator<'a> {
         ratios.sort_by(f64::total_cmp);
         Ok(Some(ratios[ROUNDS / 2]))
     }
+}
+
+/// Scores of one candidate relative to the start, on the same scenes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Evaluation {
+    /// Value of every parameter.
+    pub values: BTreeMap<String, Value>,
+    /// Mean over scenes of log(error / error of the start): below 0 is better.
+    pub error: f64,
+    /// Lateral bleed of the worst scene, in pixels.
+    pub bleed: Option<f64>,
+    /// GPU time relative to that of the start.
+    pub cost: Option<f64>,
+    /// Scores per scene.
+    pub scenes: SceneScores,
+}
+
+/// Evaluates a candidate on scenes by their indices. Calls `on_score` with each score as soon as it is known; an evaluation that it
+/// ends early, by returning false, is an error.
+pub fn evaluate_candidate(
+    evaluator: &mut Evaluator,
+    settings: &Settings,
+    scenes: &[usize],
+    cost: bool,
+    on_score: impl FnMut(usize, &SceneScore) -> bool,
+) -> Result<Evaluation, Error> {
+    let start = evaluator.choice.settings.clone();
+    let start = evaluator.score(&start, scenes, |_, _| true)?;
+    let scores = evaluator.score(settings, scenes, on_score)?;
+    Ok(Evaluation {
+        values: settings.values.clone(),
+        error: mean_log_ratio(&scores, &start, |_| true)
+            .ok_or_else(|| Error::Usage("scenes: none is named; name at least one".to_owned()))?,
+        bleed: worst_bleed(&scores),
+        cost: match scenes.first() {
+            Some(first) if cost => evaluator.measure_cost(settings, *first)?,
+            _ => None,
+        },
+        scenes: scores,
+    })
 }
 
 fn memory_key(settings: &Settings) -> String {

@@ -10,6 +10,7 @@ use store::read_text;
 use suite::Error;
 
 use crate::comparison::PairedComparison;
+use crate::journal::line_of;
 
 /// One comparison of start and choice on the held-out scenes: a line of `openings.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,10 +62,8 @@ pub fn record_held_out_result(
             render,
             paired,
         });
-        let lines = all
-            .iter()
-            .map(|it| serde_json::to_string(it).expect("a result is plain data") + "\n");
-        write_atomically(path, lines.collect::<String>().as_bytes())?;
+        let lines: String = all.iter().map(line_of).collect();
+        write_atomically(path, lines.as_bytes())?;
     }
     Ok(all)
 }

@@ -10,8 +10,7 @@ use serde_json::Value;
 use store::read_text;
 use suite::Error;
 
-use crate::header::{JOURNAL_FORMAT, JournalHeader};
-use crate::trial::Trial;
+use crate::trial::{JOURNAL_FORMAT, JournalHeader, Trial};
 
 /// Characters of a setting that an error shows.
 const MAX_SHOWN: usize = 80;
@@ -121,8 +120,8 @@ fn parse_trials<'a>(
     lines.enumerate().map(parse).collect()
 }
 
-/// Returns a line of the journal with its end.
-fn line_of(content: &impl Serialize) -> String {
+/// Returns a line of a journal, or of the results on held-out scenes, with its end.
+pub fn line_of(content: &impl Serialize) -> String {
     serde_json::to_string(content).expect("a line is plain data") + "\n"
 }
 

@@ -1,8 +1,6 @@
 //! Loss of a candidate, which the search minimises.
 
-use std::collections::BTreeMap;
-
-use crate::target::SceneScore;
+use crate::target::{SceneScore, SceneScores};
 
 /// Loss of a candidate that does not run: as bad as an error e^3 = 20 times the start's.
 pub const FAILED: f64 = 3.0;
@@ -22,8 +20,8 @@ pub fn log_ratio(score: &SceneScore, start: &SceneScore) -> f64 {
 
 /// Lists [`log_ratio`] of the scenes of `scores` that `counts` takes.
 pub fn log_ratios(
-    scores: &BTreeMap<String, SceneScore>,
-    start: &BTreeMap<String, SceneScore>,
+    scores: &SceneScores,
+    start: &SceneScores,
     counts: impl Fn(&str) -> bool,
 ) -> Vec<f64> {
     (scores.iter())
@@ -34,8 +32,8 @@ pub fn log_ratios(
 
 /// Averages [`log_ratios`]; none if `counts` takes no scene.
 pub fn mean_log_ratio(
-    scores: &BTreeMap<String, SceneScore>,
-    start: &BTreeMap<String, SceneScore>,
+    scores: &SceneScores,
+    start: &SceneScores,
     counts: impl Fn(&str) -> bool,
 ) -> Option<f64> {
     let ratios = log_ratios(scores, start, counts);
@@ -43,7 +41,7 @@ pub fn mean_log_ratio(
 }
 
 /// Returns the lateral bleed of the worst scene, in pixels.
-pub fn worst_bleed(scores: &BTreeMap<String, SceneScore>) -> Option<f64> {
+pub fn worst_bleed(scores: &SceneScores) -> Option<f64> {
     let bleeds = scores.values().filter_map(|score| score.bleed);
     bleeds.max_by(f64::total_cmp)
 }

@@ -7,12 +7,11 @@ use suite::Error;
 
 use crate::evaluator::Evaluator;
 use crate::loss::{FAILED, bounds_penalty, log_ratios, mean_log_ratio, penalty, worst_bleed};
-use crate::objective::Objective;
 use crate::options::TuneOptions;
 use crate::search::Search;
 use crate::selection::ChoiceLimits;
 use crate::target::SceneScore;
-use crate::trial::{Trial, TrialOutcome};
+use crate::trial::{Objective, Trial, TrialOutcome};
 use crate::wilcoxon::signed_rank_p_value;
 
 /// Scenes that a candidate runs on before it can be dropped.

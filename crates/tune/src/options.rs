@@ -9,10 +9,9 @@ use suite::{Error, FilterChoice, Monitor};
 use tracer::{RenderSettings, Scene};
 
 use crate::loss::LEAST_BLEED;
-use crate::objective::Objective;
 use crate::selection::ChoiceLimits;
 use crate::space::Space;
-use crate::trial::Trial;
+use crate::trial::{Objective, Trial};
 
 /// Filter, scenes, limits and effort of a tuning.
 pub struct TuneOptions {

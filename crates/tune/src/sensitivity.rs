@@ -6,7 +6,7 @@ use filters::Value;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use suite::Error;
-use tracer::{Progress, TraceError, Watch};
+use tracer::{Progress, Watch};
 
 use crate::evaluator::Evaluator;
 use crate::loss::{FAILED, mean_log_ratio};
@@ -71,13 +71,7 @@ pub fn analyze_sensitivity(
     let (mut candidates, mut failed) = (0, 0);
     let interrupted = evaluator.monitor.interrupted;
     let mut error = |point: &[f64]| -> Result<f64, Error> {
-        let progress = Progress {
-            done: candidates as u64,
-            total: planned as u64,
-        };
-        if watch(progress).is_break() {
-            return Err(TraceError::Cancelled.into());
-        }
+        Progress::report(watch, candidates, planned)?;
         candidates += 1;
         match evaluator.score(&space.settings(point), &all, |_, _| !interrupted()) {
             Ok(scores) => Ok(mean_log_ratio(&scores, &start, |_| true).expect("there are scenes")),

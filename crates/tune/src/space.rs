@@ -1,6 +1,7 @@
 //! Parameters that a tuning may change, and their mapping to the unit cube.
 
 use filters::{Filter, Kind, Parameter, Scale, Settings, Value};
+use judge::round_to_digits;
 use suite::Error;
 
 /// Some parameters of a filter with their ranges, around a set of values.
@@ -153,7 +154,8 @@ fn value_at(kind: &Kind, coordinate: f64) -> Value {
     };
     match kind {
         Kind::Integer { min, max, .. } => Value::Integer((number.round() as i32).clamp(*min, *max)),
-        Kind::Real { min, max, .. } => Value::Real(round_to_four_digits(number).clamp(*min, *max)),
+        // As a person would write it into a file; equal digits make equal candidates.
+        Kind::Real { min, max, .. } => Value::Real(round_to_digits(number, 4).clamp(*min, *max)),
         Kind::Choice { choices } => {
             let index = (number.round().max(0.0) as usize).min(choices.len() - 1);
             Value::Choice(choices[index].clone())
@@ -177,11 +179,4 @@ fn coordinate_of(kind: &Kind, value: &Value) -> f64 {
         Scale::Linear => (number - low) / (high - low),
         Scale::Log => (number.ln() - low.ln()) / (high.ln() - low.ln()),
     }
-}
-
-/// Rounds to four significant digits, as a person would write the value into a file; equal digits make equal candidates.
-fn round_to_four_digits(number: f64) -> f64 {
-    format!("{number:.3e}")
-        .parse()
-        .expect("a number was written")
 }

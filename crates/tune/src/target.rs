@@ -1,12 +1,54 @@
-//! Scene that candidates are scored on.
+//! Scenes that candidates are scored on.
 
-use frame::{Image, Plane, Region};
-use judge::Bounds;
-use metrics::{ImageMetric, Metric, ObjectMetric, Reference, flip_ldr};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use frame::{Alignment, Frame, Image, Plane, Truth};
+use judge::{Bounds, SceneBounds};
+use metrics::{Metric, ObjectMetric, Reference, Viewing, flip_ldr};
 use serde::{Deserialize, Serialize};
-use suite::Error;
+use suite::{Error, Monitor, Rendering};
+use tracer::{RenderSettings, Scene};
 
-use crate::rendered_scene::RenderedScene;
+/// A scene, rendered once and measured against hundreds of times.
+pub struct RenderedScene {
+    /// The scene's name, with its variant.
+    pub name: String,
+    /// Input of the filter.
+    pub frame: Frame,
+    /// Reference that pictures are compared with.
+    pub truth: Truth,
+    /// The scene's bounds for pictures of this size, for every filter.
+    pub bounds: SceneBounds,
+    /// Display that errors are seen on.
+    pub viewing: Viewing,
+}
+
+/// Reads frames and truths of scenes from `out`, or renders and keeps them there.
+pub fn render_scenes(
+    scenes: &[(Scene, SceneBounds)],
+    alignment: Alignment,
+    render: &RenderSettings,
+    out: &Path,
+    monitor: Monitor,
+) -> Result<Vec<RenderedScene>, Error> {
+    let render_scene = |(scene, bounds): &(Scene, SceneBounds)| {
+        let rendering = Rendering {
+            scene,
+            settings: *render,
+            out,
+            monitor,
+        };
+        Ok(RenderedScene {
+            name: scene.id.to_string(),
+            frame: rendering.frame()?,
+            truth: rendering.truth(alignment)?,
+            viewing: scene.display.into(),
+            bounds: bounds.clone().at((render.width, render.height)),
+        })
+    };
+    scenes.iter().map(render_scene).collect()
+}
 
 /// Scores of one candidate on one scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,6 +59,9 @@ pub struct SceneScore {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bleed: Option<f64>,
 }
+
+/// Scores of one candidate by scene.
+pub type SceneScores = BTreeMap<String, SceneScore>;
 
 /// A rendered scene with everything that does not depend on the picture.
 pub struct Target<'a> {
@@ -63,10 +108,9 @@ impl<'a> Target<'a> {
     /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they keep all of them. A bound
     /// that the start breaks is relaxed to the start's score.
     pub fn excess(&self, score: &SceneScore, start: &SceneScore) -> f64 {
-        let flip = Metric::Image(ImageMetric::Flip, Region::Moving);
         let bleed = Metric::Object(ObjectMetric::BleedLateral);
         let measured = [
-            (flip, Some(score.flip), Some(start.flip)),
+            (Metric::FLIP, Some(score.flip), Some(start.flip)),
             (bleed, score.bleed, start.bleed),
         ];
         let excess = measured.into_iter().filter_map(|(metric, value, start)| {

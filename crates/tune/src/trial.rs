@@ -1,12 +1,58 @@
-//! Trial of a tuning: one candidate and its scores.
+//! Lines of a tuning's journal: what all trials depend on, then one trial each.
 
 use std::collections::BTreeMap;
 
 use filters::Value;
 use serde::{Deserialize, Serialize};
+use suite::named;
 
-use crate::header::JournalHeader;
-use crate::target::SceneScore;
+use crate::target::SceneScores;
+
+named! {
+    /// A score that trials are judged by, apart from the others.
+    pub enum Objective {
+        /// `flip_moving`; always measured.
+        Flip = "flip",
+        /// `bleed_lateral` of the worst scene.
+        Bleed = "bleed",
+        /// GPU time.
+        Cost = "cost",
+    }
+}
+
+/// Version of the layout of a journal.
+pub const JOURNAL_FORMAT: u32 = 1;
+
+/// Everything that trials depend on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JournalHeader {
+    /// Version of the layout.
+    pub format: u32,
+    /// Program name and version.
+    pub program: String,
+    /// Filter name.
+    pub filter: String,
+    /// Preset that tuning started from.
+    pub start: String,
+    /// The preset's value of every parameter.
+    pub values: BTreeMap<String, Value>,
+    /// Parameters that may change, each with its range in words.
+    pub vary: BTreeMap<String, String>,
+    /// Points that the search begins with, one coordinate per line of `vary` in the order of the filter's parameters.
+    pub design: Vec<Vec<f64>>,
+    /// Scene names in the order in which candidates meet them, each with the content hash of its truth.
+    pub scenes: Vec<(String, String)>,
+    /// Scores that are measured.
+    pub objectives: Vec<Objective>,
+    /// Upper limit on the cost, as a ratio to the start's.
+    pub cost_at_most: Option<f64>,
+    /// Upper limit on the lateral bleed of the worst scene, as a ratio to the start's.
+    pub bleed_at_most: Option<f64>,
+    /// True if candidates that are clearly worse are dropped.
+    pub race: bool,
+    /// Seed of the search.
+    pub seed: u64,
+}
 
 /// One line of the journal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,7 +75,7 @@ pub struct Trial {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cost: Option<f64>,
     /// Scores on each scene that it ran on.
-    pub scenes: BTreeMap<String, SceneScore>,
+    pub scenes: SceneScores,
 }
 
 /// Outcome of a trial.

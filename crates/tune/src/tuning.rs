@@ -10,18 +10,15 @@ use tracer::TraceError;
 
 use crate::comparison::compare_candidates;
 use crate::evaluator::Evaluator;
-use crate::header::{JOURNAL_FORMAT, JournalHeader};
 use crate::held_out::{HeldOutResult, record_held_out_result};
 use crate::journal::{Journal, journal_error};
 use crate::next_trial::run_next_trial;
-use crate::objective::Objective;
 use crate::options::TuneOptions;
 use crate::pareto::{pareto_front, round_bleed};
-use crate::rendered_scene::render_scenes;
 use crate::search::Search;
 use crate::selection::{Choice, Fold, choose_trial, cross_validate, trial_settings};
-use crate::target::Target;
-use crate::trial::{Trial, TrialOutcome};
+use crate::target::{Target, render_scenes};
+use crate::trial::{JOURNAL_FORMAT, JournalHeader, Objective, Trial, TrialOutcome};
 
 /// Version of the layout of `tune.json`.
 pub const TUNE_FORMAT: u32 = 1;

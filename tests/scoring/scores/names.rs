@@ -1,6 +1,6 @@
 //! Names, meanings and groups of metrics, scores as JSON, and the strictest bounds.
 
-use metrics::{Group, Ideal, ImageMetric, Metric, ObjectMetric, Region, Scores};
+use metrics::{Group, Ideal, ImageMetric, Metric, ObjectMetric, Region, Scores, SequenceMetric};
 use tests::synthetic::Blur;
 
 use super::{BEFORE, small_scene};
@@ -9,8 +9,9 @@ use crate::measure_blur;
 #[test]
 fn every_metric_is_found_by_its_one_name() {
     let all = Metric::all();
-    for metric in &all {
-        assert_eq!(metric.name().parse(), Ok(*metric));
+    let more = SequenceMetric::ALL.into_iter().map(Metric::Sequence);
+    for metric in all.iter().copied().chain(more).chain(Metric::OF_MEANS) {
+        assert_eq!(metric.name().parse(), Ok(metric));
     }
     let names: std::collections::BTreeSet<String> =
         all.iter().map(|metric| metric.name()).collect();
@@ -80,6 +81,9 @@ fn the_strictest_bound_lies_three_floors_from_perfect() {
     assert_eq!(bound("flip_moving", 0.01), 0.03);
     assert!((bound("psnr_moving", 50.0) - 45.2288).abs() < 1e-4);
     assert_eq!(bound("n_eq", 48.0), 16.0);
+    assert_eq!(bound("flicker", 0.5), 1.5);
+    // Half a JOD below the perfect 10.
+    assert_eq!(bound("jod", 9.5), 8.5);
     assert_eq!(
         Metric::Object(ObjectMetric::Extent).ideal(),
         Ideal::Target(1.0)

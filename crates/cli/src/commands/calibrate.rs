@@ -80,7 +80,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         run_all(args, &mut plan, &adapters, watch)
     })?;
     let calibration = calibrate(&runs, |case| &bounds[&case.scene], &args.metrics);
-    for scene in calibration.scores.keys() {
+    for scene in calibration.scenes() {
         let path = out.join(format!("{scene}.bounds.toml"));
         let text = calibration.toml(scene);
         frame::write_atomically(&path, text.as_bytes())?;

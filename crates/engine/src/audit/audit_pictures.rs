@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use frame::{FileError, Raster, Vectors, write_png};
+use frame::{FileError, Tile, Vectors, tile_pictures, write_png};
 
 /// Columns and rows around the worst place.
 const SIDE: u32 = 48;
@@ -17,28 +17,18 @@ pub fn write_audit_picture(
     path: &Path,
     found: &Vectors,
     right: &Vectors,
-    [x, y]: [u32; 2],
+    place: [u32; 2],
 ) -> Result<(), FileError> {
     let speeds = right.pixels.iter().map(|[x, y]| x.hypot(*y));
     let fastest = speeds.fold(1.0, f32::max);
     let error = found.zip(right, |found, right| {
         [found[0] - right[0], found[1] - right[1]]
     });
-    let parts = [found, right, &error];
-    let [columns, rows] = [right.width, right.height].map(|side| side.min(SIDE));
-    let left = x.saturating_sub(columns / 2).min(right.width - columns);
-    let top = y.saturating_sub(rows / 2).min(right.height - rows);
-    let part_width = columns * ENLARGED;
-    let width = 3 * part_width + 2 * GAP;
-    let picture = Raster::from_fn(width, rows * ENLARGED, |x, y| {
-        let (part, inside) = (x / (part_width + GAP), x % (part_width + GAP));
-        if inside >= part_width {
-            return [1.0; 3];
-        }
-        let place = (left + inside / ENLARGED, top + y / ENLARGED);
-        let [x, y] = *parts[part as usize].at(place.0, place.1);
-        let shown = |part: f32| (0.5 + 0.5 * part / fastest).clamp(0.0, 1.0);
-        [shown(x), shown(y), 0.5]
+    let tile = Tile::around(place, SIDE, (right.width, right.height));
+    let shade = |part: f32| (0.5 + 0.5 * part / fastest).clamp(0.0, 1.0);
+    let parts = [found, right, &error].map(|vectors| {
+        let shown = vectors.part(tile).map(|[x, y]| [shade(*x), shade(*y), 0.5]);
+        shown.enlarged(ENLARGED)
     });
-    write_png(path, &picture)
+    write_png(path, &tile_pictures(&parts, 3, GAP, [1.0; 3]))
 }

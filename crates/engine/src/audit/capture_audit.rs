@@ -117,10 +117,10 @@ fn check_instant(capture: &Capture) -> Result<(), Error> {
     if instant == 0.0 {
         return Ok(());
     }
-    let reason = format!(
+    refuse!(
+        capture.folder.join(CAPTURE_FILE),
         "instant = {instant}; allowed for an audit: 0, the `instant` of the exported manifest"
-    );
-    refuse(&capture.folder.join(CAPTURE_FILE), &reason)
+    )
 }
 
 /// Words wrong depth; none of an object that the engine does not show. Without ids nobody knows whether it draws the others there.

@@ -79,46 +79,36 @@ fn count_shown(
     names: &[String],
     shows: &dyn Fn(usize, usize) -> bool,
 ) -> Vec<ObjectShown> {
-    let mut counts = vec![Count::default(); names.len()];
+    let share = |[same, all]: [usize; 2]| same as f64 / all.max(1) as f64;
+    let add = |count: &mut [usize; 2], is_same: bool| {
+        count[0] += usize::from(is_same);
+        count[1] += 1;
+    };
+    // Pixels of each object that agree, and all.
+    let mut counts = vec![[0; 2]; names.len()];
     for (at, object) in right.pixels.iter().enumerate() {
-        counts[*object as usize].add(match is_inside(right, at) {
+        let is_shown = match is_inside(right, at) {
             true => shows(at, at),
             false => neighbours(right, at).any(|from| shows(from, at)),
-        });
+        };
+        add(&mut counts[*object as usize], is_shown);
     }
     let in_scene = counts.clone();
     for (at, object) in ids.iter().flat_map(|ids| ids.pixels.iter().enumerate()) {
         // The place of an object that is missing shows what is behind it.
-        let is_laid_bare = in_scene[right.pixels[at] as usize].share() < LEAST_SHOWN;
+        let is_laid_bare = share(in_scene[right.pixels[at] as usize]) < LEAST_SHOWN;
         if let Some(count) = counts.get_mut(*object as usize)
             && !is_laid_bare
         {
-            count.add(neighbours(right, at).any(|place| right.pixels[place] == *object));
+            let is_near = neighbours(right, at).any(|place| right.pixels[place] == *object);
+            add(count, is_near);
         }
     }
     let objects = names.iter().zip(in_scene.iter().zip(&counts));
     let shown = objects.map(|(name, (in_scene, count))| ObjectShown {
         object: name.clone(),
-        pixels: in_scene.all,
-        shown: count.share(),
+        pixels: in_scene[1],
+        shown: share(*count),
     });
     shown.filter(|object| object.pixels > 0).collect()
-}
-
-/// Number of pixels of an object, and of those that agree.
-#[derive(Clone, Default)]
-struct Count {
-    same: usize,
-    all: usize,
-}
-
-impl Count {
-    fn add(&mut self, is_same: bool) {
-        self.same += usize::from(is_same);
-        self.all += 1;
-    }
-
-    fn share(&self) -> f64 {
-        self.same as f64 / self.all.max(1) as f64
-    }
 }

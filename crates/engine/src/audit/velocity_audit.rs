@@ -1,7 +1,5 @@
 //! Audit of velocity: the end-point error per object, and the cause of what is wrong.
 
-use std::borrow::Cow;
-
 use frame::Vectors;
 use serde::Serialize;
 
@@ -129,11 +127,8 @@ fn explain_object(
 }
 
 /// Undoes a wrong sign or axis.
-fn turn_back(found: &Vectors, turn: Option<Cause>) -> Cow<'_, Vectors> {
-    match turn {
-        None => Cow::Borrowed(found),
-        Some(turn) => Cow::Owned(found.map(|it| turn.turn(*it))),
-    }
+fn turn_back(found: &Vectors, turn: Option<Cause>) -> Vectors {
+    found.map(|it| turn.map_or(*it, |turn| turn.turn(*it)))
 }
 
 fn audit_object(

@@ -22,9 +22,9 @@ const LARGEST_ID: f32 = 65535.0;
 pub fn find_picture(folder: &Path, stem: &str) -> Result<Option<PathBuf>, Error> {
     let [exr, png] = ["exr", "png"].map(|ending| folder.join(format!("{stem}.{ending}")));
     match (exr.is_file(), png.is_file()) {
-        (true, true) => refuse(
-            &png,
-            "is in one folder with an OpenEXR file of the same name; remove one of them",
+        (true, true) => refuse!(
+            png,
+            "is in one folder with an OpenEXR file of the same name; remove one of them"
         ),
         (true, false) => Ok(Some(exr)),
         (false, true) => Ok(Some(png)),
@@ -132,13 +132,14 @@ fn take_objects(file: &ExrFile, name: &str) -> Result<Raster<u32>, Error> {
 pub fn check_size<T>(path: &Path, raster: &Raster<T>, color: &Image) -> Result<(), Error> {
     match raster.same_size(color) {
         true => Ok(()),
-        false => refuse(
+        false => refuse!(
             path,
-            &format!(
-                "has {}x{} pixels, the colour {}x{}; all pictures of a capture have one size: save them from one camera, \
+            "has {}x{} pixels, the colour {}x{}; all pictures of a capture have one size: save them from one camera, \
                  without scaling",
-                raster.width, raster.height, color.width, color.height
-            ),
+            raster.width,
+            raster.height,
+            color.width,
+            color.height
         ),
     }
 }
@@ -152,13 +153,11 @@ fn open(path: &Path) -> Result<ExrFile, Error> {
 fn check_sides(path: &Path, (width, height): (u32, u32)) -> Result<(), Error> {
     match SIDES.contains(&width) && SIDES.contains(&height) {
         true => Ok(()),
-        false => refuse(
+        false => refuse!(
             path,
-            &format!(
-                "has {width}x{height} pixels; allowed: {} to {} columns and rows",
-                SIDES.start(),
-                SIDES.end()
-            ),
+            "has {width}x{height} pixels; allowed: {} to {} columns and rows",
+            SIDES.start(),
+            SIDES.end()
         ),
     }
 }
@@ -175,12 +174,10 @@ fn refuse_channels<T>(file: &ExrFile, allowed: &str) -> Result<T, Error> {
     let names: Vec<&str> = (file.channels.iter())
         .map(|channel| channel.name.as_str())
         .collect();
-    refuse(
-        &file.path,
-        &format!(
-            "has the channels {}; needed: {allowed}",
-            printable(&names.join(", "))
-        ),
+    refuse!(
+        file.path,
+        "has the channels {}; needed: {allowed}",
+        printable(&names.join(", "))
     )
 }
 
@@ -207,5 +204,5 @@ fn check_values(
     let (value, width) = (plane.pixels[at], plane.width as usize);
     let (x, y) = (at % width, at / width);
     let found = format!("channel \"{name}\" holds {value} at pixel ({x}, {y})");
-    refuse(&file.path, &format!("{found}; {allowed}"))
+    refuse!(file.path, "{found}; {allowed}")
 }

@@ -43,9 +43,9 @@ impl CaptureDescription {
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(CAPTURE_FILE);
         if !path.is_file() {
-            return refuse(
-                &path,
-                "there is no such file; a capture has one that names its engine: engine = \"my engine 1.0\"",
+            return refuse!(
+                path,
+                "there is no such file; a capture has one that names its engine: engine = \"my engine 1.0\""
             );
         }
         let text = read_text(&path)?;
@@ -57,7 +57,7 @@ impl CaptureDescription {
         })?;
         match description.check() {
             Ok(()) => Ok(description),
-            Err(reason) => refuse(&path, &reason),
+            Err(reason) => refuse!(path, "{}", reason),
         }
     }
 

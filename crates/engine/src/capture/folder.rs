@@ -51,9 +51,9 @@ impl Capture {
     /// named.
     pub fn read(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
         if !folder.is_dir() {
-            return refuse(
+            return refuse!(
                 folder,
-                "there is no such folder; name one that holds an engine's capture.toml, color.exr, velocity.exr and depth.exr",
+                "there is no such folder; name one that holds an engine's capture.toml, color.exr, velocity.exr and depth.exr"
             );
         }
         let description = CaptureDescription::read(folder)?;
@@ -128,13 +128,8 @@ impl Capture {
     /// # Errors
     /// `capture.toml` does not say them.
     pub fn shutter(&self) -> Result<(f64, Alignment), Error> {
-        let CaptureDescription {
-            exposure,
-            alignment,
-            ..
-        } = &self.description;
-        match (exposure, alignment) {
-            (Some(exposure), Some(alignment)) => Ok((*exposure, *alignment)),
+        match (self.description.exposure, self.description.alignment) {
+            (Some(exposure), Some(alignment)) => Ok((exposure, alignment)),
             (None, _) => refuse_key(&self.folder, "exposure = 0.5", "in frames"),
             (_, None) => refuse_key(
                 &self.folder,
@@ -148,10 +143,10 @@ impl Capture {
 fn read_convention(folder: &Path, path: Option<&Path>) -> Result<Convention, Error> {
     let default = folder.join(CONVENTION_FILE);
     if path.is_none() && !default.is_file() {
-        return refuse(
-            &default,
+        return refuse!(
+            default,
             "there is no such file; it says in a table [convention] which velocity and depth the engine has; write one, or name \
-             another file",
+             another file"
         );
     }
     let path = path.unwrap_or(&default);
@@ -184,20 +179,16 @@ fn require(folder: &Path, name: &str, holds: &str) -> Result<PathBuf, Error> {
 }
 
 fn refuse_missing<T>(path: &Path, holds: &str) -> Result<T, Error> {
-    refuse(
+    refuse!(
         path,
-        &format!(
-            "there is no such file; it holds {holds}, without which no filter can blur: save that buffer from the engine"
-        ),
+        "there is no such file; it holds {holds}, without which no filter can blur: save that buffer from the engine"
     )
 }
 
 fn refuse_key<T>(folder: &Path, key: &str, about: &str) -> Result<T, Error> {
-    refuse(
-        &folder.join(CAPTURE_FILE),
-        &format!(
-            "lacks a line such as `{key}` ({about}); sub-frames and blurred pictures are of a shutter: add it"
-        ),
+    refuse!(
+        folder.join(CAPTURE_FILE),
+        "lacks a line such as `{key}` ({about}); sub-frames and blurred pictures are of a shutter: add it"
     )
 }
 
@@ -214,38 +205,35 @@ fn list_subframes(
         let fail = |source| FileError::io(&own, "read", source);
         for entry in fs::read_dir(&own).map_err(fail)? {
             let path = entry.map_err(fail)?.path();
-            match path.extension().and_then(|found| found.to_str()) {
-                Some(found) if found == ending => paths.push(path),
-                Some(found @ ("exr" | "png")) => {
-                    let reason = format!(
-                        "is a .{found}, the colour a .{ending}; allowed: sub-frames in the form of the colour"
-                    );
-                    return refuse(&path, &reason);
-                }
-                _ => {}
+            let found = path.extension().and_then(|found| found.to_str());
+            if let Some(found) = found.filter(|own| *own != ending && ["exr", "png"].contains(own))
+            {
+                return refuse!(
+                    path,
+                    "is a .{found}, the colour a .{ending}; allowed: sub-frames in the form of the colour"
+                );
             }
+            paths.extend((found == Some(ending)).then_some(path));
         }
     }
     paths.sort();
     for (index, path) in paths.iter().enumerate() {
         let expected = format!("{index:04}.{ending}");
         if !path.ends_with(&expected) {
-            return refuse(
+            return refuse!(
                 path,
-                &format!(
-                    "is in the place of {expected}; allowed: sub-frames numbered from 0000 without a gap"
-                ),
+                "is in the place of {expected}; allowed: sub-frames numbered from 0000 without a gap"
             );
         }
     }
     match description.subframes {
-        Some(expected) if expected != paths.len() => refuse(
-            &own,
-            &format!(
+        Some(expected) if expected != paths.len() => {
+            refuse!(
+                own,
                 "holds {} sub-frames, {CAPTURE_FILE} says {expected}; capture all of them, or correct subframes = {expected}",
                 paths.len()
-            ),
-        ),
+            )
+        }
         _ => Ok(paths),
     }
 }

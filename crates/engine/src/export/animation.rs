@@ -1,12 +1,11 @@
 //! Animation channels of nodes.
 
-use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 use tracer::{Motion, Shape};
 
 use crate::export::document::{Document, widen};
 use crate::export::motion::{Track, Tracks};
-use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
+use crate::export::timeline::Timeline;
 
 /// Nodes that move, and the channels of their animation.
 pub struct Channels<'a> {
@@ -34,13 +33,13 @@ impl<'a> Channels<'a> {
             rotation,
             scale,
         } = Tracks::of(motion, self.timeline);
-        node["translation"] = json!(floats(first_of(&translation)).map(widen));
-        node["rotation"] = json!(turn(first_of(&rotation)).map(widen));
-        node["scale"] = json!(floats(first_of(&scale)).map(widen));
+        node["translation"] = json!(translation.first.map(widen));
+        node["rotation"] = json!(rotation.first.map(widen));
+        node["scale"] = json!(scale.first.map(widen));
         let node = self.document.push("nodes", node);
-        self.add_track(node, "translation", &translation, floats);
-        self.add_track(node, "rotation", &rotation, turn);
-        self.add_track(node, "scale", &scale, floats);
+        self.add_track(node, "translation", &translation);
+        self.add_track(node, "rotation", &rotation);
+        self.add_track(node, "scale", &scale);
         node
     }
 
@@ -68,32 +67,11 @@ impl<'a> Channels<'a> {
         }
     }
 
-    fn add_track<T: Copy, const N: usize>(
-        &mut self,
-        node: usize,
-        path: &str,
-        track: &Track<T>,
-        value: fn(T) -> [f32; N],
-    ) {
-        let (times, values, interpolation): (Vec<f64>, Vec<[f32; N]>, &str) = match track {
-            Track::Still(_) => return,
-            Track::Linear(keys) => {
-                let (times, values) = keys.iter().map(|(time, own)| (*time, value(*own))).unzip();
-                (times, values, "LINEAR")
-            }
-            Track::Cubic(keys) => {
-                // Slopes are per second there.
-                let slope =
-                    |own: T| value(own).map(|part| (f64::from(part) * FRAMES_PER_SECOND) as f32);
-                let times = keys.iter().map(|(time, _)| *time).collect();
-                let triples = keys.iter().flat_map(|(_, [before, own, after])| {
-                    [slope(*before), value(*own), slope(*after)]
-                });
-                (times, triples.collect(), "CUBICSPLINE")
-            }
-        };
-        let output = self.document.push_floats(&values, None);
-        self.add(node, path, interpolation, &times, output);
+    fn add_track<const N: usize>(&mut self, node: usize, path: &str, track: &Track<N>) {
+        if !track.is_still {
+            let output = self.document.push_floats(&track.values, None);
+            self.add(node, path, track.interpolation, &track.times, output);
+        }
     }
 
     /// Adds a channel whose values are in the accessor `output`.
@@ -124,20 +102,4 @@ fn weigh_shapes(shapes: &[Shape], time: f64) -> Vec<f64> {
     weights[after - 1] = 1.0 - part;
     weights[after] = part;
     weights
-}
-
-fn first_of<T: Copy>(track: &Track<T>) -> T {
-    match track {
-        Track::Still(value) => *value,
-        Track::Linear(keys) => keys[0].1,
-        Track::Cubic(keys) => keys[0].1[1],
-    }
-}
-
-fn floats(vector: DVec3) -> [f32; 3] {
-    vector.as_vec3().to_array()
-}
-
-fn turn(rotation: DQuat) -> [f32; 4] {
-    rotation.as_quat().normalize().to_array()
 }

@@ -37,7 +37,6 @@ impl Document {
         entries.len() - 1
     }
 
-    /// Returns the entries of a list.
     pub fn list(&self, list: &str) -> &[Value] {
         self.lists.get(list).map_or(&[], Vec::as_slice)
     }
@@ -50,9 +49,8 @@ impl Document {
     ) -> usize {
         let limit = |pick: fn(f32, f32) -> f32| -> Vec<f32> {
             let part = |part: usize| values.iter().map(move |value| value[part]);
-            (0..N)
-                .map(|at| part(at).reduce(pick).unwrap_or(0.0))
-                .collect()
+            let limits = (0..N).map(|at| part(at).reduce(pick).unwrap_or(0.0));
+            limits.collect()
         };
         let index = self.push_floats(values, target);
         let accessor = &mut self.lists.get_mut(ACCESSORS).expect("one was just added")[index];
@@ -68,10 +66,8 @@ impl Document {
         target: Option<u32>,
     ) -> usize {
         let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1];
-        let bytes = values
-            .iter()
-            .flatten()
-            .flat_map(|value| value.to_le_bytes());
+        let numbers = values.as_flattened().iter();
+        let bytes = numbers.flat_map(|value| value.to_le_bytes());
         let float = 5126;
         let accessor = json!({ "componentType": float, "count": values.len(), "type": kind });
         self.push_accessor(bytes, target, accessor)

@@ -13,22 +13,15 @@ pub fn push_mesh(document: &mut Document, name: &str, mesh: &Mesh, materials: &[
     let mut groups: BTreeMap<(u32, bool), Vec<[u32; 3]>> = BTreeMap::new();
     for (triangle, slot) in mesh.triangles.iter().zip(&mesh.slots) {
         let is_smooth = triangle.iter().all(|corner| has_normal(mesh, *corner));
-        groups
-            .entry((*slot, is_smooth))
-            .or_default()
-            .push(*triangle);
+        let group = groups.entry((*slot, is_smooth)).or_default();
+        group.push(*triangle);
     }
-    let primitives: Vec<Value> = (groups.into_iter())
-        .map(|((slot, is_smooth), triangles)| {
-            push_primitive(
-                document,
-                mesh,
-                &triangles,
-                is_smooth,
-                materials[slot as usize],
-            )
-        })
-        .collect();
+    let mut primitives = Vec::new();
+    for ((slot, is_smooth), triangles) in groups {
+        let material = materials[slot as usize];
+        let primitive = push_primitive(document, mesh, &triangles, is_smooth, material);
+        primitives.push(primitive);
+    }
     let targets = mesh.shapes.len().saturating_sub(1);
     let weights = (targets > 0).then(|| vec![0.0; targets]);
     let mesh = json!({ "name": name, "primitives": primitives, "weights": weights });
@@ -62,9 +55,8 @@ fn push_primitive(
         })
         .collect();
     let pick = |values: &[Vec3]| -> Vec<[f32; 3]> {
-        (vertices.iter())
-            .map(|vertex| values[*vertex as usize].to_array())
-            .collect()
+        let picked = vertices.iter().map(|vertex| values[*vertex as usize]);
+        picked.map(|value| value.to_array()).collect()
     };
     let positions = document.push_limited(&pick(&mesh.positions), VERTICES);
     let normals = is_smooth.then(|| document.push_floats(&pick(&mesh.normals), VERTICES));
@@ -101,16 +93,14 @@ fn push_target(
     is_smooth: bool,
     pick: &impl Fn(&[Vec3]) -> Vec<[f32; 3]>,
 ) -> Value {
-    let difference = |own: &[Vec3], first: &[Vec3]| -> Vec<Vec3> {
-        own.iter()
-            .zip(first)
-            .map(|(own, first)| own - first)
-            .collect()
+    let difference = |own: &[Vec3], first: &[Vec3]| {
+        let pairs = own.iter().zip(first);
+        pick(&pairs.map(|(own, first)| own - first).collect::<Vec<_>>())
     };
     let normals = is_smooth.then(|| {
-        let normals = pick(&difference(&shape.normals, &mesh.normals));
+        let normals = difference(&shape.normals, &mesh.normals);
         document.push_floats(&normals, VERTICES)
     });
-    let positions = pick(&difference(&shape.positions, &mesh.positions));
+    let positions = difference(&shape.positions, &mesh.positions);
     json!({ "POSITION": document.push_limited(&positions, VERTICES), "NORMAL": normals })
 }

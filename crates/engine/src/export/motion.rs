@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use tracer::{Interpolation, Motion};
 
-use crate::export::timeline::Timeline;
+use crate::export::timeline::{FRAMES_PER_SECOND, Timeline};
 
 /// Largest turn between two keys, in radians: from half a turn on, the shorter way is the wrong one.
 const WIDEST_TURN: f64 = 75.0 * std::f64::consts::PI / 180.0;
@@ -15,26 +15,28 @@ const MAX_HALVINGS: u32 = 12;
 /// chords, or at an end twice a chord less such a mean.
 const OVER_CHORD: f64 = 6.0;
 
-/// Values of one quantity at the times of keys, in frames relative to the instant.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Track<T> {
-    /// The quantity never changes.
-    Still(T),
-    /// Linear between keys.
-    Linear(Vec<(f64, T)>),
-    /// Cubic Hermite curves between keys: slope before the key, per frame, value, and slope after it.
-    Cubic(Vec<(f64, [T; 3])>),
+/// One quantity of a node on its timeline, as glTF has it.
+pub struct Track<const N: usize> {
+    /// Value at the start.
+    pub first: [f32; N],
+    /// True if it never changes.
+    pub is_still: bool,
+    /// Times of keys, in frames relative to the instant.
+    pub times: Vec<f64>,
+    /// Values at the keys; of cubic curves slope before the key, per second, value, and slope after it.
+    pub values: Vec<[f32; N]>,
+    /// Word for the curves between keys.
+    pub interpolation: &'static str,
 }
 
 /// Place, turn and scale of a node.
-#[derive(Clone, Debug, PartialEq)]
 pub struct Tracks {
     /// Metres.
-    pub translation: Track<DVec3>,
+    pub translation: Track<3>,
     /// Unit quaternions, each on the same side as the one before.
-    pub rotation: Track<DQuat>,
+    pub rotation: Track<4>,
     /// Factors per axis.
-    pub scale: Track<DVec3>,
+    pub scale: Track<3>,
 }
 
 impl Tracks {
@@ -55,39 +57,49 @@ impl Tracks {
     }
 }
 
-fn follow_linear(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<DVec3> {
-    let keys: Vec<(f64, DVec3)> = times.iter().map(|time| (*time, value(*time))).collect();
-    match keys.iter().all(|(_, own)| is_close(*own, keys[0].1)) {
-        true => Track::Still(keys[0].1),
-        false => Track::Linear(keys),
+fn follow_linear(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
+    let values: Vec<DVec3> = times.iter().map(|time| value(*time)).collect();
+    Track {
+        first: floats(values[0]),
+        is_still: values.iter().all(|own| is_close(*own, values[0])),
+        times: times.to_vec(),
+        values: values.into_iter().map(floats).collect(),
+        interpolation: "LINEAR",
     }
 }
 
 /// Follows a curve that is a cubic polynomial between each two times: its value at four times gives the slopes at both ends.
-fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<DVec3> {
-    let mut keys: Vec<(f64, [DVec3; 3])> = (times.iter())
-        .map(|time| (*time, [DVec3::ZERO, value(*time), DVec3::ZERO]))
+fn follow_cubic(times: &[f64], value: &dyn Fn(f64) -> DVec3) -> Track<3> {
+    let mut values: Vec<[f32; 3]> = (times.iter())
+        .flat_map(|time| [[0.0; 3], floats(value(*time)), [0.0; 3]])
         .collect();
+    let per_second = |slope| floats(slope).map(|part| (f64::from(part) * FRAMES_PER_SECOND) as f32);
     let mut is_still = true;
-    for next in 1..keys.len() {
+    for next in 1..times.len() {
         let [from, to] = [times[next - 1], times[next]];
         let duration = to - from;
         // The value at a key may belong to the piece after it, which has the same value there.
         let [a, b, c, d] = [0.0, 1.0, 2.0, 3.0].map(|third| value(from + duration * third / 3.0));
         is_still &= [b, c, d].iter().all(|own| is_close(*own, a));
         let per_frame = 1.0 / (2.0 * duration);
-        keys[next - 1].1[2] = (-11.0 * a + 18.0 * b - 9.0 * c + 2.0 * d) * per_frame;
-        keys[next].1[0] = (-2.0 * a + 9.0 * b - 18.0 * c + 11.0 * d) * per_frame;
+        let slopes = [
+            (-11.0 * a + 18.0 * b - 9.0 * c + 2.0 * d) * per_frame,
+            (-2.0 * a + 9.0 * b - 18.0 * c + 11.0 * d) * per_frame,
+        ];
+        [values[3 * next - 1], values[3 * next]] = slopes.map(per_second);
     }
-    match is_still {
-        true => Track::Still(value(times[0])),
-        false => Track::Cubic(keys),
+    Track {
+        first: values[1],
+        is_still,
+        times: times.to_vec(),
+        values,
+        interpolation: "CUBICSPLINE",
     }
 }
 
 /// Follows a turn by keys between which the shorter way at a constant angular velocity is the turn's own. The turn is at most as fast
 /// as `fastest`, in radians per frame.
-fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) -> Track<DQuat> {
+fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) -> Track<4> {
     let mut keys = vec![(times[0], rotation(times[0]))];
     for span in times.windows(2) {
         let steps = ((span[1] - span[0]) * fastest / WIDEST_TURN)
@@ -108,11 +120,15 @@ fn follow_turns(times: &[f64], rotation: &dyn Fn(f64) -> DQuat, fastest: f64) ->
             keys[index].1 = -keys[index].1;
         }
     }
+    let turn = |turn: DQuat| turn.as_quat().normalize().to_array();
     let first = keys[0].1;
     let is_first = |(_, own): &(f64, DQuat)| own.angle_between(first) < TOLERANCE;
-    match keys.iter().all(is_first) {
-        true => Track::Still(first),
-        false => Track::Linear(keys),
+    Track {
+        first: turn(first),
+        is_still: keys.iter().all(is_first),
+        times: keys.iter().map(|(time, _)| *time).collect(),
+        values: keys.iter().map(|(_, own)| turn(*own)).collect(),
+        interpolation: "LINEAR",
     }
 }
 
@@ -149,6 +165,10 @@ fn fastest_turn(motion: &Motion) -> f64 {
         Interpolation::Linear => fastest,
         Interpolation::Cubic => OVER_CHORD * fastest,
     }
+}
+
+fn floats(vector: DVec3) -> [f32; 3] {
+    vector.as_vec3().to_array()
 }
 
 fn is_close(a: DVec3, b: DVec3) -> bool {

@@ -116,9 +116,7 @@ fn push_texture(document: &mut Document, name: &str) -> usize {
 /// Replaces what needs an escape in a URI.
 fn plain_name(name: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "._-".contains(letter);
-    (name.chars())
-        .map(|letter| if is_plain(letter) { letter } else { '_' })
-        .collect()
+    name.replace(|letter| !is_plain(letter), "_")
 }
 
 fn nearest(texture: &Texture, place: [f64; 2]) -> [f32; 4] {

@@ -55,15 +55,15 @@ pub fn import(plan: &ImportPlan) -> Result<Imported, Error> {
 /// Refuses a folder that exists, or whose name no scene may have.
 fn check_new(out: &Path) -> Result<(), Error> {
     if out.exists() {
-        return refuse(out, "exists already; name a folder that is new");
+        return refuse!(out, "exists already; name a folder that is new");
     }
     let name = out.file_name().unwrap_or_default().to_string_lossy();
-    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    match !name.is_empty() && name.chars().all(allowed) {
+    let is_allowed = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
+    match !name.is_empty() && name.chars().all(is_allowed) {
         true => Ok(()),
-        false => refuse(
+        false => refuse!(
             out,
-            "the folder's name becomes the scene's name; allowed are letters, digits, _ and -",
+            "the folder's name becomes the scene's name; allowed are letters, digits, _ and -"
         ),
     }
 }

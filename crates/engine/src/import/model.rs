@@ -60,7 +60,7 @@ impl Model {
             copy_all(&files, &path, &folder)?;
         }
         let Some(name) = name.to_str() else {
-            return refuse(&path, "the name is not Unicode; rename the file");
+            return refuse!(path, "the name is not Unicode; rename the file");
         };
         let upright = |p: DVec3| match up {
             Up::Y => p,
@@ -87,11 +87,9 @@ impl Model {
             return Ok(());
         }
         let [least, greatest] = [RADII.start(), RADII.end()];
-        refuse(
+        refuse!(
             path,
-            &format!(
-                "the model's radius is {radius:e} m; allowed: {least:e} to {greatest:e}; scale it"
-            ),
+            "the model's radius is {radius:e} m; allowed: {least:e} to {greatest:e}; scale it"
         )
     }
 
@@ -156,14 +154,13 @@ fn suggest_plain(error: SceneError, path: &Path, scene: &Path) -> SceneError {
 /// Copies an OBJ file line by line, without its materials.
 fn write_plain(path: &Path, copy: &Path) -> Result<(), FileError> {
     let bytes = read_bounded(path, LARGEST_MESH_FILE)?;
-    let text = String::from_utf8_lossy(&bytes);
-    let plain = text
-        .lines()
-        .map(|line| match line.split_whitespace().next() {
-            Some("mtllib" | "usemtl") => "\n".to_owned(),
-            _ => format!("{line}\n"),
-        });
-    write_atomically(copy, plain.collect::<String>().as_bytes())
+    let mut plain = String::new();
+    for line in String::from_utf8_lossy(&bytes).lines() {
+        let is_left_out = matches!(line.split_whitespace().next(), Some("mtllib" | "usemtl"));
+        plain += if is_left_out { "" } else { line };
+        plain += "\n";
+    }
+    write_atomically(copy, plain.as_bytes())
 }
 
 /// Copies files to the same places below `folder` that they have below the model's folder.
@@ -175,13 +172,11 @@ fn copy_all(files: &[PathBuf], model: &Path, folder: &Path) -> Result<(), Error>
             parts.all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
         });
         let Some(below) = below else {
-            return refuse(
+            return refuse!(
                 model,
-                &format!(
-                    "{} lies outside of the model's folder; move it there and mend the file that names it, or import the model \
+                "{} lies outside of the model's folder; move it there and mend the file that names it, or import the model \
                      plain: the shape alone, in grey",
-                    file.display()
-                ),
+                file.display()
             );
         };
         let bytes = fs::read(file).map_err(|source| FileError::io(file, "read", source))?;

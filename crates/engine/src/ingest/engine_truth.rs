@@ -6,7 +6,7 @@ use frame::{
 };
 use store::LADDER;
 use suite::Error;
-use tracer::{Progress, TraceError, Watch};
+use tracer::{Progress, Watch};
 
 use crate::capture::description::CAPTURE_FILE;
 use crate::capture::folder::{Capture, SUBFRAMES};
@@ -22,7 +22,7 @@ const MAX_SUBFRAMES: usize = 4096;
 const HALVES: usize = 2;
 /// Number of sub-frames of the truth for each of an accumulation that is compared with it: a mean of nearly as many as the truth
 /// has would share its errors.
-const TRUTH_PER_RUNG: usize = 4;
+const TRUTH_PER_MEAN: usize = 4;
 /// Word of provenance for pictures that no ray was traced for.
 pub(super) const NOT_TRACED: &str = "none";
 
@@ -46,9 +46,9 @@ pub fn average_subframes(
         return Ok(None);
     }
     check_count(capture)?;
-    let averages = Averages::read(capture, objects.len(), watch)?;
-    let halves = averages.whole.halves.each_ref().map(Sum::mean);
-    let changed = averages.range.mark_changed();
+    let (mut means, range) = read_subframes(capture, objects.len(), watch)?;
+    let halves = means.remove(0).halves;
+    let changed = range.mark_changed();
     let reached = mark_reached(&capture.velocity, shutter);
     let restless = changed.zip(&reached, |changed, reached| *changed && !reached);
     let moving = changed.zip(&reached, |changed, reached| *changed || *reached);
@@ -90,7 +90,7 @@ pub fn average_subframes(
             shutter_profile: ShutterProfile::default(),
             alignment,
             objects: objects.to_owned(),
-            rungs: averages.rungs.iter().map(Rung::average).collect(),
+            rungs: means,
         },
     }))
 }
@@ -100,26 +100,23 @@ fn check_count(capture: &Capture) -> Result<(), Error> {
     let count = capture.subframes.len();
     match count.is_multiple_of(2) && (MIN_SUBFRAMES..=MAX_SUBFRAMES).contains(&count) {
         true => Ok(()),
-        false => refuse(
-            &capture.folder.join(SUBFRAMES),
-            &format!(
-                "holds {count} sub-frames; allowed: even numbers from {MIN_SUBFRAMES} to {MAX_SUBFRAMES}, at the midpoints of \
+        false => refuse!(
+            capture.folder.join(SUBFRAMES),
+            "holds {count} sub-frames; allowed: even numbers from {MIN_SUBFRAMES} to {MAX_SUBFRAMES}, at the midpoints of \
                  equal parts of the shutter that {CAPTURE_FILE} names: half of them show the noise of the others; capture 32, for \
                  instance"
-            ),
         ),
     }
 }
 
-/// Picks the sub-frames that stand for the midpoints of `rung` equal parts of the shutter. A midpoint lies between two of them: one
+/// Picks the sub-frames that stand for the midpoints of `parts` equal parts of the shutter. A midpoint lies between two of them: one
 /// half takes the earlier, the other the later.
-fn pick_subframes(rung: u32, count: usize, half: usize) -> Vec<usize> {
-    let rung = rung as usize;
-    let picks = (0..rung).map(|part| {
+fn pick_subframes(parts: u32, count: usize, half: usize) -> Vec<usize> {
+    let doubled_parts = 2 * parts as usize;
+    let picks = (0..parts as usize).map(|part| {
         let doubled = (2 * part + 1) * count;
-        let later = doubled / (2 * rung);
-        let is_between = doubled.is_multiple_of(2 * rung);
-        later - usize::from(half == 0 && is_between)
+        let is_between = doubled.is_multiple_of(doubled_parts);
+        doubled / doubled_parts - usize::from(half == 0 && is_between)
     });
     picks.collect()
 }
@@ -139,79 +136,55 @@ fn find_movers(support: &Support) -> Vec<bool> {
     support.seen.iter().map(moves).collect()
 }
 
-/// All means that are made of the sub-frames, each of which is read once.
-struct Averages {
-    /// The mean of all sub-frames.
-    whole: Rung,
-    rungs: Vec<Rung>,
-    range: ColorRange,
-}
-
-impl Averages {
-    /// Reads every sub-frame, with the shares of the objects.
-    fn read(capture: &Capture, objects: usize, watch: Watch) -> Result<Self, Error> {
-        let count = capture.subframes.len();
-        let size = (capture.color.width, capture.color.height);
-        let make_rung = |subframes: u32, picks: [Vec<usize>; HALVES]| Rung {
-            subframes,
-            picks,
-            halves: [0, 1].map(|_| Sum::new(size, objects)),
-        };
-        let every_other = |half: usize| (half..count).step_by(HALVES).collect();
-        let rungs = LADDER.into_iter();
-        let mut averages = Self {
-            whole: make_rung(count as u32, [0, 1].map(every_other)),
-            rungs: (rungs.filter(|rung| *rung as usize * TRUTH_PER_RUNG <= count))
-                .map(|rung| make_rung(rung, [0, 1].map(|half| pick_subframes(rung, count, half))))
-                .collect(),
-            range: ColorRange::new(size, capture.description.stops.unwrap_or(0.0)),
-        };
-        for index in 0..count {
-            let progress = Progress {
-                done: index as u64,
-                total: count as u64,
-            };
-            if watch(progress).is_break() {
-                return Err(TraceError::Cancelled.into());
-            }
-            let color = capture.read_subframe(index)?;
-            let ids = match objects {
-                1 => None,
-                _ => capture.read_subframe_objects(index)?,
-            };
-            let coverage = draw_coverage(ids.as_ref(), size, objects);
-            averages.add(index, &Picture { color, coverage });
-        }
-        Ok(averages)
-    }
-
-    fn add(&mut self, index: usize, picture: &Picture) {
-        self.range.add(&picture.color);
-        for rung in std::iter::once(&mut self.whole).chain(&mut self.rungs) {
-            for (picks, half) in rung.picks.iter().zip(&mut rung.halves) {
-                if picks.contains(&index) {
-                    half.add(picture);
-                }
-            }
-        }
-    }
-}
-
 /// The mean of some of the sub-frames.
-struct Rung {
+struct Mean {
     subframes: u32,
     /// Indices of the sub-frames, per half.
     picks: [Vec<usize>; HALVES],
     halves: [Sum; HALVES],
 }
 
-impl Rung {
-    fn average(&self) -> Accumulation {
-        Accumulation {
-            subframes: self.subframes,
-            halves: self.halves.each_ref().map(Sum::mean),
+/// Reads every sub-frame once, with the shares of the objects. Returns the mean of all, then those of fewer, and the range of colours.
+fn read_subframes(
+    capture: &Capture,
+    objects: usize,
+    watch: Watch,
+) -> Result<(Vec<Accumulation>, ColorRange), Error> {
+    let count = capture.subframes.len();
+    let size = (capture.color.width, capture.color.height);
+    let mean = |subframes: u32, pick: &dyn Fn(usize) -> Vec<usize>| Mean {
+        subframes,
+        picks: [0, 1].map(pick),
+        halves: [0, 1].map(|_| Sum::new(size, objects)),
+    };
+    let every_other = |half| (half..count).step_by(HALVES).collect();
+    let mut means = vec![mean(count as u32, &every_other)];
+    let ladder = (LADDER.into_iter()).filter(|own| *own as usize * TRUTH_PER_MEAN <= count);
+    means.extend(ladder.map(|own| mean(own, &|half| pick_subframes(own, count, half))));
+    let mut range = ColorRange::new(size, capture.description.stops.unwrap_or(0.0));
+    for index in 0..count {
+        Progress::report(watch, index, count)?;
+        let color = capture.read_subframe(index)?;
+        let ids = match objects {
+            1 => None,
+            _ => capture.read_subframe_objects(index)?,
+        };
+        let coverage = draw_coverage(ids.as_ref(), size, objects);
+        let picture = Picture { color, coverage };
+        range.add(&picture.color);
+        for mean in &mut means {
+            for (picks, half) in mean.picks.iter().zip(&mut mean.halves) {
+                if picks.contains(&index) {
+                    half.add(&picture);
+                }
+            }
         }
     }
+    let means = means.iter().map(|mean| Accumulation {
+        subframes: mean.subframes,
+        halves: mean.halves.each_ref().map(Sum::mean),
+    });
+    Ok((means.collect(), range))
 }
 
 /// A sum of pictures.
@@ -260,16 +233,16 @@ mod tests {
 
     #[test]
     fn both_halves_together_lie_at_the_midpoints() {
-        for (rung, count) in [(1, 4), (2, 8), (4, 32), (1, 6), (4, 18)] {
-            let halves = [0, 1].map(|half| pick_subframes(rung, count, half));
-            for part in 0..rung as usize {
+        for (parts, count) in [(1, 4), (2, 8), (4, 32), (1, 6), (4, 18)] {
+            let halves = [0, 1].map(|half| pick_subframes(parts, count, half));
+            for part in 0..parts as usize {
                 let places = halves.each_ref().map(|picks| picks[part] as f64 + 0.5);
                 let middle = 0.5 * (places[0] + places[1]) / count as f64;
-                let expected = (part as f64 + 0.5) / f64::from(rung);
+                let expected = (part as f64 + 0.5) / f64::from(parts);
                 // Where the parts are no whole number of sub-frames, the nearest is at most half of one away.
                 assert!(
                     (middle - expected).abs() <= 0.5 / count as f64 + 1e-12,
-                    "{rung} of {count}: {halves:?}"
+                    "{parts} of {count}: {halves:?}"
                 );
             }
         }

@@ -28,7 +28,6 @@ impl ColorRange {
         }
     }
 
-    /// Adds a sub-frame.
     pub fn add(&mut self, color: &Image) {
         let ranges = self.least.pixels.iter_mut().zip(&mut self.greatest.pixels);
         for ((least, greatest), color) in ranges.zip(&color.pixels) {
@@ -83,9 +82,8 @@ pub fn usual_top_speed(velocity: &Vectors) -> f64 {
     let mut moving: Vec<f32> = speeds.filter(|speed| *speed >= LEAST_MOTION).collect();
     moving.sort_by(f32::total_cmp);
     let at = (moving.len() as f64 * TOP_SHARE).ceil() as usize;
-    moving
-        .get(at.saturating_sub(1))
-        .map_or(0.0, |speed| f64::from(*speed))
+    let top = moving.get(at.saturating_sub(1));
+    top.map_or(0.0, |speed| f64::from(*speed))
 }
 
 #[cfg(test)]

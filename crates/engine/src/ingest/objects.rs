@@ -23,9 +23,9 @@ pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec
             Some(ids) => largest = largest.max(largest_id(&ids)),
             None if index == 0 => return Ok(vec![BACKGROUND.to_owned()]),
             None => {
-                return refuse(
-                    &capture.subframes[index],
-                    "has no channel \"object\", which the sub-frames before it have; allowed: ids in all of them, or in none",
+                return refuse!(
+                    capture.subframes[index],
+                    "has no channel \"object\", which the sub-frames before it have; allowed: ids in all of them, or in none"
                 );
             }
         }
@@ -41,13 +41,11 @@ pub fn name_objects(capture: &Capture, known: Option<Vec<String>>) -> Result<Vec
     };
     match largest < named.len() && named.len() <= MAX_OBJECTS + 1 {
         true => Ok(named),
-        false => refuse(
-            &capture.folder,
-            &format!(
-                "object.exr and {SUBFRAMES} hold ids up to {largest}; allowed: up to {}, as the scene's manifest.json numbers its \
+        false => refuse!(
+            capture.folder,
+            "object.exr and {SUBFRAMES} hold ids up to {largest}; allowed: up to {}, as the scene's manifest.json numbers its \
                  objects; draw these ids, or leave object.exr out",
-                named.len().min(MAX_OBJECTS + 1) - 1
-            ),
+            named.len().min(MAX_OBJECTS + 1) - 1
         ),
     }
 }

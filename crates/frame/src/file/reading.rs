@@ -104,15 +104,4 @@ mod tests {
             "{refusal}"
         );
     }
-
-    #[test]
-    fn a_folder_and_a_missing_file_are_refused_by_name() {
-        let folder = tempfile::tempdir().unwrap();
-        let refusal = read_bounded(folder.path(), 10).unwrap_err().to_string();
-        assert!(refusal.contains("is a folder"), "{refusal}");
-        let refusal = read_bounded(&folder.path().join("none"), 10)
-            .unwrap_err()
-            .to_string();
-        assert!(refusal.contains("none: cannot read"), "{refusal}");
-    }
 }

@@ -1,14 +1,11 @@
 //! Interval during which a shutter is open, and its alignment to the instant.
 
-use std::fmt;
-use std::str::FromStr;
-
 use serde::{Deserialize, Serialize};
 
 use super::error::{LONGEST_EXPOSURE, SHORTEST_EXPOSURE, ShutterError};
 use crate::FileError;
 use crate::exr::ExrFile;
-use crate::frame_options::parse_word;
+use crate::words::words;
 
 /// The interval during which the shutter is open, in frames relative to the frame's instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,18 +50,6 @@ pub enum Alignment {
 }
 
 impl Alignment {
-    /// Every alignment.
-    pub const ALL: [Alignment; 3] = [Alignment::Trailing, Alignment::Centred, Alignment::Leading];
-
-    /// Returns the word used in files, file names and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Alignment::Trailing => "trailing",
-            Alignment::Centred => "centred",
-            Alignment::Leading => "leading",
-        }
-    }
-
     /// Makes a shutter of `exposure` frames with this alignment.
     pub fn shutter(self, exposure: f64) -> Result<Shutter, ShutterError> {
         if !exposure.is_finite() || exposure <= 0.0 {
@@ -81,17 +66,11 @@ impl Alignment {
     }
 }
 
-impl fmt::Display for Alignment {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Alignment {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        parse_word("shutter alignment", &Self::ALL, text)
+words! {
+    Alignment read as "shutter alignment" {
+        Trailing => "trailing",
+        Centred => "centred",
+        Leading => "leading",
     }
 }
 

@@ -9,7 +9,7 @@ use suite::{Case, Error, ONE_SIDED, Run, plain_mean};
 
 use crate::baseline::Baseline;
 use crate::bounds::Margin;
-use crate::decision::Decision;
+use crate::outcome::Decision;
 
 /// Change of one metric of one filter since the baseline, over all scenes that it applies to.
 #[derive(Clone, Debug, PartialEq, Serialize)]

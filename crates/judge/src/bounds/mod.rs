@@ -129,15 +129,10 @@ pub fn read_bounds_beside_scenes(
 /// Reads the files of bounds in one folder.
 fn read_folder(folder: &Location, size: Option<(u32, u32)>) -> Result<Vec<BoundsFile>, Error> {
     let any = folder.join(BOUNDS_FILE);
-    let mut files = Vec::new();
-    if any.exists() {
-        files.push(read_bounds_file(&any)?);
-    }
-    if let Some(size) = size {
-        let sized = folder.join(sized_bounds_file(size));
-        if sized.exists() {
-            files.push(sized::read_sized_bounds(&sized, size)?);
-        }
-    }
-    Ok(files)
+    let any = any.exists().then(|| read_bounds_file(&any));
+    let sized = size.and_then(|size| {
+        let file = folder.join(sized_bounds_file(size));
+        file.exists().then(|| sized::read_sized_bounds(&file, size))
+    });
+    any.into_iter().chain(sized).collect()
 }

@@ -142,11 +142,4 @@ mod tests {
         assert_eq!(found, [("one:paper", 2), ("one:paper 24fps", 2)]);
         assert!((means[1].worse - 0.3).abs() < 1e-12);
     }
-
-    #[test]
-    fn references_have_no_means() {
-        let mut all = changes(&[0.1; 5]);
-        all[0].filter.is_reference = true;
-        assert_eq!(average_changes(&all)[0].scenes, 4);
-    }
 }

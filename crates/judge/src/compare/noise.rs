@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use frame::{FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr};
 use metrics::{
-    ImageMetric, Interval, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores,
-    SkillMetric, jackknife,
+    ImageMetric, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores, SkillMetric,
+    jackknife,
 };
 use store::RenderFile;
 use suite::{
     Error, MIN_REPLICATES, SHARP, StoredRun, make_oracle, sharp_picture, truths_without_pairs,
 };
-use tracer::{Progress, TraceError, Watch};
+use tracer::{Progress, Watch};
 
 use crate::compare::change::{Change, Uncertainty};
 use crate::compare::pairing::Pair;
@@ -38,16 +38,10 @@ pub fn measure_changes(
     let mut changes = Vec::new();
     let mut shared: Option<(String, Option<TruthParts>)> = None;
     for (done, pair) in pairs.iter().enumerate() {
-        let progress = Progress {
-            done: done as u64,
-            total: pairs.len() as u64,
-        };
-        if watch(progress).is_break() {
-            return Err(TraceError::Cancelled.into());
-        }
+        Progress::report(watch, done, pairs.len())?;
         let differs = (METRICS.iter())
             .any(|metric| pair.first.scores.get(*metric) != pair.second.scores.get(*metric));
-        let mut measured = None;
+        let mut scores = Vec::new();
         if differs {
             let hash = &pair.first.truth_hash;
             // Pairs of one truth follow one another.
@@ -55,13 +49,12 @@ pub fn measure_changes(
                 shared = Some((hash.clone(), TruthParts::read(sides, pair)?));
             }
             if let Some((_, Some(parts))) = &shared {
-                measured = parts.compare(sides, pair)?;
+                scores = parts.compare(sides, pair)?;
             }
         }
         changes.extend(METRICS.iter().filter_map(|metric| {
-            let uncertainty = measured.as_ref().and_then(|own| own.uncertainty(*metric));
             let weight = pair.first.weight(*metric, &sides[0].run.cases)?;
-            Change::new(pair, *metric, weight, uncertainty)
+            Change::new(pair, *metric, weight, find_uncertainty(&scores, *metric))
         }));
     }
     Ok(changes)
@@ -74,8 +67,8 @@ struct TruthParts {
     sharp: Option<Picture>,
     /// Picture that the one-frame oracle makes of the frame.
     oracle: Picture,
-    whole: Truth,
-    without: Vec<Truth>,
+    /// The whole truth, then that without each pair.
+    truths: Vec<Truth>,
 }
 
 impl TruthParts {
@@ -113,25 +106,27 @@ impl TruthParts {
         let frame = frame.cropped();
         let rung = path(RenderFile::Rung(alignment, SHARP));
         let read = || Ok::<_, FileError>(Ladder::read_rung(&rung, SHARP)?.rungs.remove(0));
+        let sharp = sharp_picture(&frame, &whole, read).ok();
+        let mut truths = vec![whole];
+        truths.extend(truths_without_pairs(&replicates)?);
         Ok(Some(Self {
-            sharp: sharp_picture(&frame, &whole, read).ok(),
+            sharp,
             oracle,
             frame,
-            without: truths_without_pairs(&replicates)?,
-            whole,
+            truths,
         }))
     }
 
-    /// Scores both pictures; none if one is missing.
-    fn compare(&self, sides: [&StoredRun; 2], pair: &Pair) -> Result<Option<PairedScores>, Error> {
+    /// Scores both pictures against each of the truths; against none if one picture is missing.
+    fn compare(&self, sides: [&StoredRun; 2], pair: &Pair) -> Result<Vec<[Scores; 2]>, Error> {
         let files = pair.files(sides, "output.exr");
         if !files.iter().all(|file| file.is_file()) {
-            return Ok(None);
+            return Ok(Vec::new());
         }
-        let [first, second] = files.map(|file| read_picture(&file, &self.whole.objects));
+        let [first, second] = files.map(|file| read_picture(&file, &self.truths[0].objects));
         let (first, second) = (first?, second?);
         let viewing = self.frame.display.into();
-        let scores = |truth: &Truth| -> Result<[Scores; 2], Error> {
+        let scores = |truth| {
             let mut reference = Reference::new(&self.frame, truth, None, &viewing)?;
             if let Some(sharp) = &self.sharp {
                 reference = reference.with_ends(sharp, &self.oracle)?;
@@ -139,10 +134,7 @@ impl TruthParts {
             let [first, second] = [&first, &second].map(|own| reference.measure(own));
             Ok([first?.scores, second?.scores])
         };
-        Ok(Some(PairedScores {
-            whole: scores(&self.whole)?,
-            without: (self.without.iter().map(scores)).collect::<Result<_, Error>>()?,
-        }))
+        self.truths.iter().map(scores).collect()
     }
 }
 
@@ -153,32 +145,22 @@ fn read_picture(path: &Path, objects: &[String]) -> Result<Picture, Error> {
     Ok(Picture::take_from(&mut file, "", objects)?)
 }
 
-/// Both pictures' scores against the whole truth, and against it without each pair of replicates.
-struct PairedScores {
-    whole: [Scores; 2],
-    without: Vec<[Scores; 2]>,
-}
-
-impl PairedScores {
-    /// Returns the uncertainty of the score's change; none if the score does not apply to a part of the truth.
-    fn uncertainty(&self, metric: Metric) -> Option<Uncertainty> {
-        let score = |side: usize| move |scores: &[Scores; 2]| scores[side].get(metric).value();
-        let worse = |scores: &[Scores; 2]| {
-            let badness = |side| Some(metric.ideal().badness(score(side)(scores)?));
-            Some(badness(1)? - badness(0)?)
-        };
-        let change = self.interval(worse)?;
-        let [first, second] = [0, 1].map(|side| self.interval(score(side)));
-        Some(Uncertainty {
-            interval: [change.low, change.high],
-            standard_error: change.standard_error,
-            estimates: [first?.center, second?.center],
-        })
-    }
-
-    /// Estimates a value of both scores against a truth without noise.
-    fn interval(&self, value: impl Fn(&[Scores; 2]) -> Option<f64>) -> Option<Interval> {
-        let without: Option<Vec<f64>> = self.without.iter().map(&value).collect();
-        jackknife(value(&self.whole)?, &without?)
-    }
+/// Returns the uncertainty of a score's change, from both pictures' scores against a truth and against its parts; none if the score
+/// does not apply to one of them.
+fn find_uncertainty(scores: &[[Scores; 2]], metric: Metric) -> Option<Uncertainty> {
+    let interval = |value: &dyn Fn(&[Scores; 2]) -> Option<f64>| {
+        let values: Vec<f64> = scores.iter().map(value).collect::<Option<_>>()?;
+        let (whole, without) = values.split_first()?;
+        jackknife(*whole, without)
+    };
+    let score = |side: usize| move |scores: &[Scores; 2]| scores[side].get(metric).value();
+    let change = interval(&|scores| {
+        let badness = |side| Some(metric.ideal().badness(score(side)(scores)?));
+        Some(badness(1)? - badness(0)?)
+    })?;
+    Some(Uncertainty {
+        interval: [change.low, change.high],
+        standard_error: change.standard_error,
+        estimates: [interval(&score(0))?.center, interval(&score(1))?.center],
+    })
 }

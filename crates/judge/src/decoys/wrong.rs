@@ -74,21 +74,15 @@ fn widen(frame: &Frame) -> Frame {
 /// Fills a picture with its mean.
 fn one_color(picture: &Picture) -> Picture {
     let count = picture.color.pixels.len() as f64;
-    let color: [f32; 3] = std::array::from_fn(|c| {
-        let sum: f64 = (picture.color.pixels.iter()).map(|p| f64::from(p[c])).sum();
-        (sum / count) as f32
-    });
-    let average = |plane: &Plane| {
-        let sum: f64 = plane.pixels.iter().map(|value| f64::from(*value)).sum();
-        (sum / count) as f32
+    let mean =
+        |values: &mut dyn Iterator<Item = f32>| (values.map(f64::from).sum::<f64>() / count) as f32;
+    let color = [0, 1, 2].map(|channel| mean(&mut picture.color.pixels.iter().map(|p| p[channel])));
+    let fill = |plane: &Plane| {
+        let mean = mean(&mut plane.pixels.iter().copied());
+        plane.map(|_| mean)
     };
     Picture {
         color: picture.color.map(|_| color),
-        coverage: (picture.coverage.iter())
-            .map(|plane| {
-                let mean = average(plane);
-                plane.map(|_| mean)
-            })
-            .collect(),
+        coverage: picture.coverage.iter().map(fill).collect(),
     }
 }

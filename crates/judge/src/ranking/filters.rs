@@ -102,8 +102,8 @@ impl RankedScore {
     }
 }
 
-/// Ranks filters of one shutter and frame rate among each other, the best first: one group per shutter and rate. With `best_presets`, the best preset stands
-/// for its filter.
+/// Ranks filters of one shutter and frame rate among each other, the best first: one group per shutter and rate. With `best_presets`,
+/// the best preset stands for its filter.
 ///
 /// One filter is better than another if its mean is lower and the 95 % CI of the mean difference over their common scenes excludes 0;
 /// on a single scene, if the difference exceeds the noise floor. A filter's ranks leave room for all filters that cannot be told from

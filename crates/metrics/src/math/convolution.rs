@@ -141,21 +141,4 @@ mod tests {
         let places: Vec<usize> = (0..11).map(|at| mirror_index(at, 4, 3)).collect();
         assert_eq!(places, [2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0]);
     }
-
-    #[test]
-    fn a_gaussian_keeps_what_is_even_and_its_derivative_tells_the_slope() {
-        let slope = Raster::from_fn(40, 30, |x, y| 3.0 * f64::from(x) - 2.0 * f64::from(y));
-        let (bell, derivative) = (gaussian(1.4, 4.0, false), gaussian(1.4, 4.0, true));
-        let smooth = filter_separably(&slope, &bell, &bell);
-        assert!((smooth.at(20, 15) - slope.at(20, 15)).abs() < 1e-12);
-        let across = filter_separably(&slope, &derivative, &bell);
-        let down = filter_separably(&slope, &bell, &derivative);
-        // The sampled derivative is that of the Gaussian to a thousandth.
-        assert!(
-            (across.at(20, 15) / 3.0 - 1.0).abs() < 1e-3,
-            "{}",
-            across.at(20, 15)
-        );
-        assert!((down.at(20, 15) / -2.0 - 1.0).abs() < 1e-3);
-    }
 }

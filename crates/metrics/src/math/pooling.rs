@@ -3,8 +3,13 @@
 use frame::{Raster, Region, Regions};
 
 /// Averages values; `None` if there are none.
-pub(crate) fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let (mut sum, mut count) = (0.0, 0_u32);
+    for value in values {
+        sum += value;
+        count += 1;
+    }
+    (count > 0).then(|| sum / f64::from(count))
 }
 
 /// Averages the values of a map over a region; `None` if that is empty.
@@ -13,12 +18,7 @@ pub(crate) fn mean_over<T: Copy + Into<f64>>(
     regions: &Regions,
     region: Region,
 ) -> Option<f64> {
-    let (mut sum, mut count) = (0.0, 0_u32);
-    for at in regions.indices(region) {
-        sum += map.pixels[at].into();
-        count += 1;
-    }
-    (count > 0).then(|| sum / f64::from(count))
+    mean(regions.indices(region).map(|at| map.pixels[at].into()))
 }
 
 /// Finds the value that at least this part of the sorted values does not exceed (nearest rank); `None` if there are none.
@@ -68,7 +68,7 @@ mod tests {
         assert_eq!(percentile(&[3.0], 0.95), Some(3.0));
         assert_eq!(percentile(&[], 0.95), None);
         assert_eq!(percentile_of(Vec::new(), 0.95), None);
-        assert_eq!(mean(&[]), None);
+        assert_eq!(mean([]), None);
     }
 
     #[test]

@@ -42,3 +42,17 @@ pub fn index_pixels<T, U: Send>(
             .collect(),
     }
 }
+
+/// Lists the indices of the pixels of a raster in the square around one, row by row.
+pub fn around<T>(
+    raster: &Raster<T>,
+    at: usize,
+    radius: usize,
+) -> impl Iterator<Item = usize> + use<T> {
+    let [width, height] = [raster.width as usize, raster.height as usize];
+    let [x, y] = [at % width, at / width];
+    let reach =
+        |middle: usize, end: usize| middle.saturating_sub(radius)..=(middle + radius).min(end - 1);
+    let (rows, columns) = (reach(y, height), reach(x, width));
+    rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+}

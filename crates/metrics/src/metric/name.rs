@@ -271,12 +271,4 @@ mod tests {
             assert_eq!(metric.number(value), expected);
         }
     }
-
-    #[test]
-    fn a_truth_carries_no_limit_within_three_floors() {
-        let strictest = |metric, floor| Metric::Sequence(metric).strictest_bound(floor);
-        assert_eq!(strictest(SequenceMetric::Flicker, 0.5), 1.5);
-        // Half a JOD below the perfect 10.
-        assert_eq!(strictest(SequenceMetric::Jod, 9.5), 8.5);
-    }
 }

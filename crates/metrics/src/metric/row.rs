@@ -130,14 +130,17 @@ macro_rules! metrics {
                     },)*
                 }
             }
-
-            /// Returns its ideal value.
-            pub fn ideal(self) -> Ideal {
-                self.row().ideal
-            }
         }
 
         impl $Scores {
+            /// Makes scores that do not apply, because of `reason`, of nothing in particular.
+            pub fn not_applicable(reason: &str) -> Self {
+                Self {
+                    $($fact: Default::default(),)*
+                    $($field: $Score::not_applicable(reason),)*
+                }
+            }
+
             /// Returns the score of a metric.
             pub fn get(&self, metric: $Metric) -> &$Score {
                 match metric {

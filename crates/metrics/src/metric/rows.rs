@@ -8,6 +8,10 @@ use super::row::{Group, Row, metrics};
 use crate::subframes::Equivalent;
 use crate::{ErrorMap, Ideal, Measured};
 
+/// Reason why no bound may name a skill.
+const GHOSTS_HAVE_SKILL: &str =
+    "a grey ghost over everything has skill; bound the error itself, or n_eq";
+
 metrics! {
     /// An error of colour.
     enum ImageMetric;
@@ -276,27 +280,21 @@ metrics! {
     Mse => mse {
         name: "skill_mse", unit: "", ideal: Ideal::Highest, group: Group::Proportion, map: ErrorMap::SquaredError,
         meaning: "share of the way from a sharp picture of the shutter's middle, 0, to the one-frame oracle, 1, by squared error",
-        report_only: Some(
-            "a grey ghost over everything has skill; bound the error itself, or n_eq",
-        ),
+        report_only: Some(GHOSTS_HAVE_SKILL),
     }
 
     /// By mean LDR-FLIP.
     Flip => flip {
         name: "skill_flip", unit: "", ideal: Ideal::Highest, group: Group::Proportion, map: ErrorMap::Flip,
         meaning: "share of the way from a sharp picture of the shutter's middle, 0, to the one-frame oracle, 1, by visible difference",
-        report_only: Some(
-            "a grey ghost over everything has skill; bound the error itself, or n_eq",
-        ),
+        report_only: Some(GHOSTS_HAVE_SKILL),
     }
 
     /// By mean label total variation.
     LabelTotalVariation => label_total_variation {
         name: "skill_label_tv", unit: "", ideal: Ideal::Highest, group: Group::Proportion, map: ErrorMap::LabelTotalVariation,
         meaning: "share of the way from a sharp picture of the shutter's middle, 0, to the one-frame oracle, 1, by share given to the wrong object",
-        report_only: Some(
-            "a grey ghost over everything has skill; bound the error itself, or n_eq",
-        ),
+        report_only: Some(GHOSTS_HAVE_SKILL),
     }
 }
 

@@ -63,17 +63,3 @@ impl PartialOrd for Metric {
         Some(self.cmp(other))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_name_stands_for_one_metric() {
-        let sequences = SequenceMetric::ALL.map(Metric::Sequence);
-        let named = Metric::all().into_iter().chain(sequences);
-        for metric in named.chain(Metric::OF_MEANS) {
-            assert_eq!(metric.name().parse(), Ok(metric));
-        }
-    }
-}

@@ -5,35 +5,21 @@ use frame::{Plane, Raster};
 use crate::object::mover::Silhouette;
 use crate::object::sides::Side;
 
-/// Bleed in pixels of silhouette growth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bleed {
-    /// Bleed beside the support, over the length of both lateral silhouettes.
-    pub lateral: f64,
-    /// Bleed ahead of it, over the width across the motion.
-    pub leading: f64,
-    /// Bleed behind it, over the same width.
-    pub trailing: f64,
-}
-
-/// Pools the matte outside the support by side. `None` if the object shows no silhouette in the picture.
+/// Pools the matte outside the support by side, in pixels of silhouette growth: beside it over the length of both lateral silhouettes,
+/// ahead of it and behind it over the width across the motion. `None` if the object shows no silhouette in the picture.
 pub fn measure_bleed(
     output: &Plane,
     sides: &Raster<Side>,
     silhouette: &Silhouette,
-) -> Option<Bleed> {
-    let (mut lateral, mut leading, mut trailing) = (0.0, 0.0, 0.0);
+) -> Option<[f64; 3]> {
+    let mut masses = [0.0; 4];
     for (matte, side) in output.pixels.iter().zip(&sides.pixels) {
-        match side {
-            Side::Inside => (),
-            Side::Lateral => lateral += f64::from(*matte),
-            Side::Leading => leading += f64::from(*matte),
-            Side::Trailing => trailing += f64::from(*matte),
-        }
+        masses[*side as usize] += f64::from(*matte);
     }
-    (silhouette.lateral > 0.0 && silhouette.across > 0.0).then(|| Bleed {
-        lateral: lateral / silhouette.lateral,
-        leading: leading / silhouette.across,
-        trailing: trailing / silhouette.across,
-    })
+    let [_inside, lateral, leading, trailing] = masses;
+    let Silhouette {
+        lateral: length,
+        across,
+    } = *silhouette;
+    (length > 0.0 && across > 0.0).then(|| [lateral / length, leading / across, trailing / across])
 }

@@ -35,21 +35,12 @@ pub struct Silhouette {
     pub across: f64,
 }
 
-/// Reason why an object has no matte scores.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stillness {
-    /// It is seen at no pixel centre.
-    Invisible,
-    /// Every pixel moves by less than [`LEAST_DISPLACEMENT`].
-    Still,
-}
-
 impl Mover {
     /// Measures object `id` of the frame, moving for the frame's exposure. Returns the directions beside it: they take more memory
-    /// than all else of an object, and nothing but its sides depends on them.
-    pub fn new(frame: &Frame, id: u32) -> Result<(Self, Directions), Stillness> {
+    /// than all else of an object, and nothing but its sides depends on them. The error is the reason why it has no matte scores.
+    pub fn new(frame: &Frame, id: u32) -> Result<(Self, Directions), &'static str> {
         let seen = frame.object_id.map(|object| *object == id);
-        let sources = find_nearest(&seen).ok_or(Stillness::Invisible)?;
+        let sources = find_nearest(&seen).ok_or("is not visible at the instant")?;
         let displacements = frame
             .velocity
             .map(|v| v.map(|component| f64::from(component) * frame.exposure));
@@ -60,7 +51,7 @@ impl Mover {
             .filter_map(|(seen, displacement)| seen.then_some(*displacement))
             .collect();
         if own.iter().all(|d| length(*d) < LEAST_DISPLACEMENT) {
-            return Err(Stillness::Still);
+            return Err("does not move");
         }
         let displacement = mean(&own);
         let squares = own

@@ -188,9 +188,4 @@ mod tests {
         assert_eq!(at([0, 0], 25).len(), 4);
         assert_eq!(at([20, 20], 3), Vec::<[u32; 2]>::new());
     }
-
-    #[test]
-    fn an_empty_set_is_near_to_nothing() {
-        assert_eq!(find_nearest(&Raster::filled(4, 3, false)), None);
-    }
 }

@@ -81,21 +81,3 @@ impl Patch {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_patch_holds_all_that_is_not_zero_and_its_margin_within_the_picture() {
-        let matte = Raster::from_fn(9, 7, |x, y| if (x, y) == (2, 4) { 0.5 } else { 0.0 });
-        let patch = Patch::cut(&matte, 3).expect("one pixel is not zero");
-        assert_eq!((patch.left, patch.top), (0, 1));
-        assert_eq!((patch.raster.width, patch.raster.height), (6, 6));
-        let sum: Vec<_> = patch.pixels(9).filter(|(_, value)| *value > 0.0).collect();
-        assert_eq!(sum, [(4 * 9 + 2, 0.5)]);
-        assert_eq!(Patch::cut(&matte.map(|_| 0.0), 3), None);
-        let both = Patch::zip(Some(&patch), None, |a, b| a - b);
-        assert_eq!(both, Some(patch));
-    }
-}

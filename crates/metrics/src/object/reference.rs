@@ -2,13 +2,13 @@
 
 use frame::{Frame, Picture, Plane, Raster, Region, Regions, Truth};
 
-use crate::label::total_variation::average_on_object;
+use crate::label::average_on_object;
 use crate::object::along_motion::{AlongMotion, BORDER, NO_SILHOUETTE, touches_border};
-use crate::object::bleed::{Bleed, measure_bleed};
+use crate::object::bleed::measure_bleed;
 use crate::object::gradient::{gradient_error, gradient_magnitude};
 use crate::object::mass::{Mass, measure_mass};
 use crate::object::misplacement::{Misplacement, measure_misplacement};
-use crate::object::mover::{Directions, Mover, Stillness};
+use crate::object::mover::{Directions, Mover};
 use crate::object::patch::Patch;
 use crate::object::row_mass::RowMass;
 use crate::object::sides::{Side, find_sides};
@@ -20,7 +20,8 @@ pub struct ObjectReference {
     truth: Plane,
     /// Pixels where the object is seen throughout the shutter.
     core: Raster<bool>,
-    mover: Result<Moving, Stillness>,
+    /// Its motion, or the reason why it has no matte scores.
+    mover: Result<Moving, &'static str>,
     /// Mass scores of the truth's first half.
     mass_noise: Option<Mass>,
     /// Mean error of the first half's labels on the object.
@@ -33,8 +34,8 @@ pub struct ObjectReference {
 struct Moving {
     mover: Mover,
     sides: Option<Raster<Side>>,
-    /// Bleed of the truth's first half.
-    bleed_noise: Option<Bleed>,
+    /// Bleed of the truth's first half: lateral, leading and trailing.
+    bleed_noise: Option<[f64; 3]>,
     rows: Result<AlongMotion, String>,
     /// Gradient magnitude of the true matte; none where that is zero.
     gradient: Option<Patch>,
@@ -172,20 +173,21 @@ impl ObjectReference {
     pub(crate) fn score_bleed(&self, matte: &Plane) -> [Measured; 3] {
         let moving = match self.moving() {
             Ok(moving) => moving,
-            Err(reason) => return [(); 3].map(|()| Measured::not_applicable(&reason)),
+            Err(reason) => return [(); 3].map(|()| Measured::not_applicable(reason)),
         };
         let found = moving
             .sides
             .as_ref()
             .and_then(|sides| measure_bleed(matte, sides, &moving.mover.silhouette));
         let noise = moving.bleed_noise;
-        let pick = |metric, part: fn(Bleed) -> f64| {
-            score(metric, found.map(part), noise.map(part), NO_SILHOUETTE)
+        let pick = |metric, side: usize| {
+            let [found, noise] = [found, noise].map(|bleed| Some(bleed?[side]));
+            score(metric, found, noise, NO_SILHOUETTE)
         };
         [
-            pick(ObjectMetric::BleedLateral, |bleed| bleed.lateral),
-            pick(ObjectMetric::BleedLeading, |bleed| bleed.leading),
-            pick(ObjectMetric::BleedTrailing, |bleed| bleed.trailing),
+            pick(ObjectMetric::BleedLateral, 0),
+            pick(ObjectMetric::BleedLeading, 1),
+            pick(ObjectMetric::BleedTrailing, 2),
         ]
     }
 
@@ -227,52 +229,37 @@ impl ObjectReference {
             pick(ObjectMetric::Extent, |found| found.extent),
             Measured::score(
                 grid.total_variation() / rows.truth.total_variation() - 1.0,
-                ObjectMetric::TvExcess.ideal().floor(rows.variation_noise),
+                ObjectMetric::TvExcess
+                    .row()
+                    .ideal
+                    .floor(rows.variation_noise),
             ),
         ]
     }
 
     fn score_mass(&self, matte: &Plane) -> [Measured; 3] {
         if let Err(reason) = self.moving() {
-            return [(); 3].map(|()| Measured::not_applicable(&reason));
+            return [(); 3].map(|()| Measured::not_applicable(reason));
         }
-        let (found, noise) = (
-            measure_mass(matte, &self.truth, &self.core),
-            self.mass_noise,
-        );
-        let unseen = "is not seen while the shutter is open";
-        let energy = if self.is_at_border {
-            Measured::not_applicable(BORDER)
-        } else {
-            score(
-                ObjectMetric::Energy,
-                found.map(|mass| mass.energy),
-                noise.map(|mass| mass.energy),
-                unseen,
-            )
+        let found = measure_mass(matte, &self.truth, &self.core);
+        let pick = |metric, part: fn(Mass) -> Option<f64>, reason| {
+            let [found, noise] = [found, self.mass_noise].map(|mass| mass.and_then(part));
+            score(metric, found, noise, reason)
         };
+        let unseen = "is not seen while the shutter is open";
+        let uncovered = "covers no pixel throughout the shutter";
         [
-            score(
-                ObjectMetric::Hole,
-                found.and_then(|mass| mass.hole),
-                noise.and_then(|mass| mass.hole),
-                "covers no pixel throughout the shutter",
-            ),
-            score(
-                ObjectMetric::Deficit,
-                found.map(|mass| mass.deficit),
-                noise.map(|mass| mass.deficit),
-                unseen,
-            ),
-            energy,
+            pick(ObjectMetric::Hole, |mass| mass.hole, uncovered),
+            pick(ObjectMetric::Deficit, |mass| Some(mass.deficit), unseen),
+            match self.is_at_border {
+                true => Measured::not_applicable(BORDER),
+                false => pick(ObjectMetric::Energy, |mass| Some(mass.energy), unseen),
+            },
         ]
     }
 
-    fn moving(&self) -> Result<&Moving, String> {
-        self.mover.as_ref().map_err(|stillness| match stillness {
-            Stillness::Invisible => "is not visible at the instant".to_owned(),
-            Stillness::Still => "does not move".to_owned(),
-        })
+    fn moving(&self) -> Result<&Moving, &'static str> {
+        self.mover.as_ref().map_err(|reason| *reason)
     }
 
     fn along_motion(&self) -> Result<(&AlongMotion, &Mover), String> {
@@ -296,8 +283,6 @@ fn average_patch(patch: Option<&Patch>, regions: &Regions) -> Option<f64> {
 
 /// Makes a score of a value and its noise, with the metric's floor, or gives the reason for their absence.
 fn score(metric: ObjectMetric, value: Option<f64>, noise: Option<f64>, reason: &str) -> Measured {
-    match (value, noise) {
-        (Some(value), Some(noise)) => Measured::score(value, metric.ideal().floor(noise)),
-        _ => Measured::not_applicable(reason),
-    }
+    let floor = noise.map(|noise| metric.row().ideal.floor(noise));
+    Measured::of(value, floor, reason)
 }

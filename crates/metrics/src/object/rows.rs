@@ -191,13 +191,6 @@ mod tests {
     }
 
     #[test]
-    fn motion_along_a_pixel_row_puts_each_pixel_into_one_cell() {
-        let matte = Raster::from_fn(5, 4, |x, y| if (x, y) == (3, 2) { 1.0 } else { 0.0 });
-        let grid = Rows::new([1.0, 0.0], 5, 4).spread(&matte);
-        assert_eq!(grid.masses.iter().filter(|mass| **mass != 0.0).count(), 1);
-    }
-
-    #[test]
     fn a_uniform_picture_fills_slanted_rows_evenly() {
         let rows = Rows::new(unit(30.0), 60, 60);
         let grid = rows.spread(&Raster::filled(60, 60, 1.0));

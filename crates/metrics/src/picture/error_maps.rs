@@ -7,7 +7,7 @@ use crate::color::absolute_error::{absolute, symmetric};
 use crate::color::cross_error::{relative_squared, squared};
 use crate::color::flip::Displayed;
 use crate::color::ssim::map_ssim;
-use crate::label::total_variation::label_variation;
+use crate::label::label_variation;
 use crate::math::raster::{index_pixels, map_pixels, zip_pixels};
 use crate::picture::seen_truth::SeenTruth;
 
@@ -46,7 +46,7 @@ impl ErrorMaps {
         mean: &Picture,
         seen: &SeenTruth,
     ) -> Self {
-        let flip = seen.display.map_errors(displayed);
+        let flip = seen.display.map_errors(&displayed.linear);
         let flip_hdr = seen.exposures.map_errors(&output.color);
         let ssim = map_ssim(&displayed.srgb, &seen.srgb);
         Self {

@@ -80,7 +80,7 @@ impl Pooled {
             flip.push(found);
             label.push(errors.label.pixels[at]);
         }
-        let label_mean = mean(&label)?;
+        let label_mean = mean(label.iter().copied())?;
         // None is negative, and so their bits are in their order.
         flip.sort_unstable_by_key(|error| error.to_bits());
         let [mse, relmse, mae, smape, flip_mean, flip_hdr] =
@@ -95,7 +95,7 @@ impl Pooled {
             flip_p95: percentile(&flip, 0.95)?,
             flip_p99: percentile(&flip, 0.99)?,
             flip_hdr,
-            ssim: mean(&ssim),
+            ssim: mean(ssim),
             label: label_mean,
             label_p95: percentile_of(label, 0.95)?,
         })

@@ -16,9 +16,11 @@ fn score(found: &Found, error: impl Fn(&Pooled) -> f64) -> Measured {
 
 /// Scores the errors of colour.
 pub fn score_image(found: &Found) -> ImageScores {
+    // An error below its noise counts as the noise.
+    let noise = found.map_or(0.0, |(_, noise)| noise.mse);
     ImageScores {
         mse: score(found, |pooled| pooled.mse),
-        psnr: score_psnr(found),
+        psnr: score(found, |pooled| psnr(pooled.mse, noise)),
         relmse: score(found, |pooled| pooled.relmse),
         mae: score(found, |pooled| pooled.mae),
         smape: score(found, |pooled| pooled.smape),
@@ -31,27 +33,11 @@ pub fn score_image(found: &Found) -> ImageScores {
     }
 }
 
-impl ImageScores {
-    /// Makes scores that do not apply, because of `reason`.
-    pub fn not_applicable(reason: &'static str) -> Self {
-        score_image(&Err(reason))
-    }
-}
-
-/// Scores PSNR; an error below its noise counts as the noise.
-fn score_psnr(found: &Found) -> Measured {
-    match found {
-        Ok((own, noise)) => Measured::score(psnr(own.mse, noise.mse), psnr(noise.mse, noise.mse)),
-        Err(reason) => Measured::not_applicable(*reason),
-    }
-}
-
 /// Scores SSIM, without windows that extend beyond the picture.
 fn score_ssim(found: &Found) -> Measured {
-    let windows = |(own, noise): &(Pooled, Pooled)| Some((own.ssim?, noise.ssim?));
-    match found.as_ref().map(windows) {
-        Ok(Some((own, noise))) => Measured::score(own, noise),
-        Ok(None) => Measured::not_applicable("no window of the region lies within the picture"),
+    let reason = "no window of the region lies within the picture";
+    match found {
+        Ok((own, noise)) => Measured::of(own.ssim, noise.ssim, reason),
         Err(reason) => Measured::not_applicable(*reason),
     }
 }

@@ -3,14 +3,14 @@
 use frame::Image;
 
 use crate::Viewing;
-use crate::color::flip::{Displayed, SeenDisplay, SeenExposures};
+use crate::color::flip::{Displayed, SeenExposures};
 
 /// The truth's mean as a display shows it and as FLIP sees it.
 pub struct SeenTruth {
     /// The truth in sRGB.
     pub srgb: Image,
     /// The truth as LDR-FLIP sees it.
-    pub display: SeenDisplay,
+    pub display: SeenExposures,
     /// The truth as HDR-FLIP sees it.
     pub exposures: SeenExposures,
     /// Factor from radiance to display.
@@ -22,7 +22,7 @@ impl SeenTruth {
     pub fn new(mean: &Image, viewing: &Viewing) -> Self {
         let displayed = Displayed::new(mean, viewing);
         Self {
-            display: SeenDisplay::new(&displayed),
+            display: SeenExposures::of_display(&displayed),
             srgb: displayed.srgb,
             exposures: SeenExposures::new(mean, viewing),
             scale: viewing.scale(),

@@ -45,11 +45,13 @@ impl OriginReference {
         });
         let inside = regions.indices(Region::Knowable);
         let found = average(inside.filter_map(|at| errors.pixels[at]));
-        let score = |part: fn(&Difference) -> f64| match (&found, &self.noise) {
-            (Some(found), Some(noise)) => Measured::score(part(found), part(noise)),
-            _ => Measured::not_applicable(
+        let score = |part: fn(&Difference) -> f64| {
+            let [found, noise] = [&found, &self.noise].map(|it| it.as_ref().map(part));
+            Measured::of(
+                found,
+                noise,
                 "no moving pixel is seen whole in the frame of the instant",
-            ),
+            )
         };
         let plane = |part: fn(&Difference) -> f64| {
             map_pixels(&errors, |difference| {
@@ -100,16 +102,4 @@ fn average(differences: impl Iterator<Item = Difference>) -> Option<Difference> 
     }
     let [offset, spread] = sum.map(|sum| sum / f64::from(count));
     (count > 0).then_some(Difference { offset, spread })
-}
-
-impl ProbeScores {
-    /// Makes scores that do not apply, because of `reason`.
-    pub fn not_applicable(reason: &str) -> Self {
-        let none = || Measured::not_applicable(reason);
-        Self {
-            unity: none(),
-            gather_offset: none(),
-            gather_spread: none(),
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use frame::{Image, Raster, Region, Regions, Truth};
 
 use crate::color::cross_error::{cross, scatter, squared_error};
-use crate::color::flip::{Displayed, SeenDisplay};
+use crate::color::flip::{Displayed, SeenExposures};
 use crate::math::pooling::mean_over;
 use crate::math::raster::zip_pixels;
 use crate::{FrozenScores, Measured, Viewing};
@@ -11,7 +11,7 @@ use crate::{FrozenScores, Measured, Viewing};
 /// The frozen-shading truth, ready to score any number of pictures.
 pub struct FrozenReference {
     /// The mean as FLIP sees it.
-    seen: SeenDisplay,
+    seen: SeenExposures,
     halves: [Image; 2],
     /// Scores of its own noise over the moving region.
     noise: Option<[f64; 2]>,
@@ -23,9 +23,9 @@ impl FrozenReference {
     /// Prepares the frozen-shading truth, whose mean this is.
     pub fn new(truth: &Truth, mean: &Image, regions: &Regions, viewing: &Viewing) -> Self {
         let halves = truth.at_instant.each_ref().map(|half| half.frozen.clone());
-        let seen = SeenDisplay::new(&Displayed::new(mean, viewing));
+        let seen = SeenExposures::of_display(&Displayed::new(mean, viewing));
         let squared = squared_error(&halves[0], [mean; 2], viewing.scale());
-        let flip = seen.map_errors(&Displayed::new(&halves[0], viewing));
+        let flip = seen.map_errors(&Displayed::new(&halves[0], viewing).linear);
         Self {
             noise: pool_scatter(&squared, regions)
                 .zip(pool(&flip, regions))
@@ -45,11 +45,11 @@ impl FrozenReference {
     ) -> (FrozenScores, Raster<f64>) {
         let halves = self.halves.each_ref();
         let squared = squared_error(output, halves, viewing.scale());
-        let flip = self.seen.map_errors(displayed);
+        let flip = self.seen.map_errors(&displayed.linear);
         let found = [pool(&squared, regions), pool(&flip, regions)];
-        let score = |which: usize| match (found[which], self.noise) {
-            (Some(value), Some(noise)) => Measured::score(value, noise[which]),
-            _ => Measured::not_applicable(NOTHING_MOVES),
+        let score = |which: usize| {
+            let noise = self.noise.map(|noise| noise[which]);
+            Measured::of(found[which], noise, NOTHING_MOVES)
         };
         let scores = FrozenScores {
             mse: score(0),
@@ -78,10 +78,8 @@ fn measure_shading(
         })
     });
     let noise = squared_error(&differences[0], [&differences[1]; 2], 0.5 * scale);
-    match (pool(&product, regions), pool_scatter(&noise, regions)) {
-        (Some(value), Some(noise)) => Measured::score(value, noise),
-        _ => Measured::not_applicable(NOTHING_MOVES),
-    }
+    let (value, floor) = (pool(&product, regions), pool_scatter(&noise, regions));
+    Measured::of(value, floor, NOTHING_MOVES)
 }
 
 fn pool_scatter(noise: &Raster<f64>, regions: &Regions) -> Option<f64> {

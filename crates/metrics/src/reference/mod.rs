@@ -177,12 +177,12 @@ impl<'a> Reference<'a> {
                 knowable: score_image(knowable),
                 unknowable: score_image(unknowable),
                 frozen,
-                static_contamination: match mean_over(&static_change, &self.regions, Region::Still)
-                {
+                static_contamination: Measured::of(
+                    mean_over(&static_change, &self.regions, Region::Still),
                     // The instant is exact there: the picture is compared with what the filter was given.
-                    Some(change) => Measured::score(change, 0.0),
-                    None => Measured::not_applicable(explain_empty(Region::Still)),
-                },
+                    Some(0.0),
+                    explain_empty(Region::Still),
+                ),
                 label_total_variation: score_labels(moving),
                 objects,
                 probes: ProbeScores::not_applicable("no probes were run through the filter"),

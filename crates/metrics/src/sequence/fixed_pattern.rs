@@ -4,10 +4,11 @@ use frame::{Image, Raster};
 
 use super::pairs::{mean_in, subtract};
 use crate::color::cross_error::multiply;
-use crate::math::raster::index_pixels;
+use crate::math::pooling::mean;
+use crate::math::raster::{around, index_pixels};
 
 /// Pixels from the middle of the square whose mean is taken away, which leaves fine patterns alone.
-const RADIUS: u32 = 2;
+const RADIUS: usize = 2;
 
 /// Fine parts of one frame's error.
 pub struct FineError {
@@ -47,26 +48,16 @@ pub fn correlate(frames: &[FineError], scale: f64) -> Option<f64> {
             products.extend(mean_in(&map, &mask));
         }
     }
-    let count = products.len() as f64;
-    (count > 0.0).then(|| products.iter().sum::<f64>() / count)
+    mean(products)
 }
 
 /// Takes the mean of the square around each pixel away, as far as that lies in the picture.
 pub fn fine(image: &Image) -> Image {
-    let [width, height] = [image.width as usize, image.height as usize];
     index_pixels(image, |at| {
-        let [x, y] = [at % width, at / width];
-        let reach = |middle: usize, end: usize| {
-            let radius = RADIUS as usize;
-            middle.saturating_sub(radius)..=(middle + radius).min(end - 1)
-        };
         let (mut sum, mut count) = ([0.0_f64; 3], 0.0);
-        for row in reach(y, height) {
-            for column in reach(x, width) {
-                let near = image.pixels[row * width + column];
-                sum = std::array::from_fn(|c| sum[c] + f64::from(near[c]));
-                count += 1.0;
-            }
+        for near in around(image, at, RADIUS) {
+            sum = std::array::from_fn(|c| sum[c] + f64::from(image.pixels[near][c]));
+            count += 1.0;
         }
         std::array::from_fn(|c| (f64::from(image.pixels[at][c]) - sum[c] / count) as f32)
     })

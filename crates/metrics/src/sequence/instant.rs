@@ -1,13 +1,13 @@
 //! One frame of a sequence, as its pictures are measured against it.
 
-use frame::{Image, Plane, Raster, Region, Truth, Vectors};
+use frame::{Image, Plane, Raster, Truth, Vectors};
 
 /// The truth of one frame of a sequence, and the motion since the frame before. All rasters have the truth's size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
     /// Colours of the truth's halves.
     pub halves: [Image; 2],
-    /// Pixels of [`Region::Moving`].
+    /// Pixels of [`Region::Moving`](frame::Region::Moving).
     pub moving: Raster<bool>,
     /// Pixels where each object was seen while the shutter was open, the background first.
     pub seen: Vec<Raster<bool>>,
@@ -23,11 +23,9 @@ impl Instant {
     /// Takes what sequences need from a truth. `velocity` is the motion since the frame before at the pixels' centres, whatever
     /// kind of velocity the filter got.
     pub fn new(truth: &Truth, velocity: Vectors, depth: Plane, object_id: Raster<u32>) -> Self {
-        let regions = frame::regions(truth);
-        let moving = regions.mask(Region::Moving).expect("it is a mask").clone();
         Self {
             halves: truth.halves.each_ref().map(|half| half.color.clone()),
-            moving,
+            moving: frame::regions(truth).moving,
             seen: truth.support.seen.clone(),
             velocity,
             depth,

@@ -5,6 +5,7 @@ use frame::{Image, Raster};
 use super::along::Before;
 use super::instant::Instant;
 use crate::color::cross_error::{scatter, squared_error};
+use crate::math::pooling::mean;
 use crate::math::raster::{index_pixels, zip_pixels};
 
 /// Differences of one frame of the truth from the frame before.
@@ -63,17 +64,8 @@ impl Pair {
 
 /// Averages a map where a mask holds; none where it holds nowhere.
 pub fn mean_in(map: &Raster<f64>, mask: &Raster<bool>) -> Option<f64> {
-    let (mut sum, mut count) = (0.0, 0_u32);
-    for (value, _) in map
-        .pixels
-        .iter()
-        .zip(&mask.pixels)
-        .filter(|(_, holds)| **holds)
-    {
-        sum += value;
-        count += 1;
-    }
-    (count > 0).then(|| sum / f64::from(count))
+    let values = map.pixels.iter().zip(&mask.pixels);
+    mean(values.filter(|(_, holds)| **holds).map(|(value, _)| *value))
 }
 
 /// Estimates the scatter of the mean of products of two halves' noises where a mask holds.

@@ -181,14 +181,8 @@ impl SequenceReference {
 
     /// Averages values and floors over the frames that have them.
     fn combine(&self, values: &[Option<f64>], floors: &[Option<f64>], none: &str) -> Measured {
-        let all = |numbers: &[Option<f64>]| {
-            let numbers: Vec<f64> = numbers.iter().flatten().copied().collect();
-            mean(&numbers)
-        };
-        match (all(values), all(floors)) {
-            (Some(value), Some(floor)) => Measured::score(value, floor),
-            _ => Measured::not_applicable(none),
-        }
+        let all = |numbers: &[Option<f64>]| mean(numbers.iter().flatten().copied());
+        Measured::of(all(values), all(floors), none)
     }
 
     /// Averages the error of a change over all pairs.
@@ -216,10 +210,7 @@ impl SequenceReference {
             largest_floor(instant.halves.each_ref(), &instant.seen, self.scale)
         });
         let largest = jumps.iter().flatten().copied().reduce(f64::max);
-        match (largest, floors.reduce(f64::max)) {
-            (Some(value), Some(floor)) => Measured::score(value, floor),
-            _ => Measured::not_applicable(NO_OBJECT),
-        }
+        Measured::of(largest, floors.reduce(f64::max), NO_OBJECT)
     }
 
     /// Computes the quality as a display shows it; that of one half of the truth is the most that can be vouched for.

@@ -4,7 +4,7 @@ use frame::Image;
 
 use super::along::{bilinear, inside};
 use super::instant::Instant;
-use crate::math::raster::index_pixels;
+use crate::math::raster::{around, index_pixels};
 
 /// Share of the new picture in the mean.
 pub const NEW_SHARE: f32 = 0.1;
@@ -38,7 +38,7 @@ fn blend(history: &Image, new: &Image, instant: &Instant, at: usize) -> [f32; 3]
     };
     let history = bilinear(history, place);
     let (mut least, mut greatest) = (own, own);
-    for near in around(new.width, new.height, at) {
+    for near in around(new, at, 1) {
         for c in 0..3 {
             least[c] = least[c].min(new.pixels[near][c]);
             greatest[c] = greatest[c].max(new.pixels[near][c]);
@@ -53,19 +53,10 @@ fn blend(history: &Image, new: &Image, instant: &Instant, at: usize) -> [f32; 3]
 /// The pixel with the least depth among the nine around one; itself among equals.
 fn nearest_around(instant: &Instant, at: usize) -> usize {
     let depth = &instant.depth;
-    around(depth.width, depth.height, at).fold(at, |nearest, other| {
+    around(depth, at, 1).fold(at, |nearest, other| {
         match depth.pixels[other] < depth.pixels[nearest] {
             true => other,
             false => nearest,
         }
     })
-}
-
-/// Indices of the pixels of the picture among the nine around one.
-fn around(width: u32, height: u32, at: usize) -> impl Iterator<Item = usize> {
-    let [width, height] = [width as usize, height as usize];
-    let [x, y] = [at % width, at / width];
-    let rows = y.saturating_sub(1)..=(y + 1).min(height - 1);
-    let columns = x.saturating_sub(1)..=(x + 1).min(width - 1);
-    rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
 }

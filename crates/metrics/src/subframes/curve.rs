@@ -83,16 +83,9 @@ mod tests {
     }
 
     #[test]
-    fn errors_beyond_the_ends_say_so() {
-        assert_eq!(halving().find_subframes(1.1), (1.0, LadderRange::Below));
-        assert_eq!(halving().find_subframes(0.1), (8.0, LadderRange::Above));
-        assert_eq!(halving().find_subframes(-0.1), (8.0, LadderRange::Above));
-        assert_eq!(halving().find_subframes(1.0), (1.0, LadderRange::Within));
-    }
-
-    #[test]
     fn a_rungs_own_error_is_its_own_count_and_the_last_rungs_the_end() {
         let curve = Curve::new(&[(1, 0.3), (2, 0.17), (4, 0.071), (16, 0.0123)]).expect("a curve");
+        assert_eq!(curve.find_subframes(0.3), (1.0, LadderRange::Within));
         assert_eq!(curve.find_subframes(0.17), (2.0, LadderRange::Within));
         assert_eq!(curve.find_subframes(0.071), (4.0, LadderRange::Within));
         assert_eq!(curve.find_subframes(0.0123), (16.0, LadderRange::Above));

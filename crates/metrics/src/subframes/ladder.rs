@@ -4,8 +4,8 @@ use frame::{Accumulation, Image, Picture, Raster};
 
 use super::curve::Curve;
 use crate::color::cross_error::cross;
-use crate::color::flip::{Displayed, SeenDisplay};
-use crate::label::total_variation::label_variation;
+use crate::color::flip::{Displayed, SeenExposures};
+use crate::label::label_variation;
 use crate::math::pooling::mean_over;
 use crate::{Region, Regions, Viewing};
 
@@ -34,7 +34,7 @@ impl Curves {
         &mut self,
         rung: &Accumulation,
         (mean, truths): (&Picture, [&Image; 2]),
-        seen: &SeenDisplay,
+        seen: &SeenExposures,
         regions: &Regions,
         viewing: &Viewing,
     ) {
@@ -45,7 +45,7 @@ impl Curves {
         let pool = |map: &Raster<f64>| mean_over(map, regions, Region::Moving).unwrap_or(0.0);
         let picture = Picture::mean(&rung.halves);
         let halves = rung.halves.each_ref().map(|half| &half.color);
-        let flip = seen.map_errors(&Displayed::new(&picture.color, viewing));
+        let flip = seen.map_errors(&Displayed::new(&picture.color, viewing).linear);
         let errors = [
             pool(&cross(halves, truths, viewing.scale())),
             mean_over(&flip, regions, Region::Moving).unwrap_or(0.0),

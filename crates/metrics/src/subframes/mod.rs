@@ -78,23 +78,3 @@ impl fmt::Display for Equivalent {
         f.pad(&text)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn counts_print_as_people_say_them() {
-        let print = |value, range| {
-            Equivalent::Subframes(Subframes {
-                value,
-                floor: 64.0,
-                range,
-            })
-            .to_string()
-        };
-        assert_eq!(print(1.0, LadderRange::Below), "<1");
-        assert_eq!(print(3.74, LadderRange::Within), "3.7");
-        assert_eq!(print(64.0, LadderRange::Above), ">64");
-    }
-}

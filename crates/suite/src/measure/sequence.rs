@@ -1,6 +1,8 @@
 //! Scores of sequences, from the pictures that the frames' cases left.
 
-use frame::{Alignment, Image, Raster, Truth, read_exr, read_png, write_animated_png, write_png};
+use frame::{
+    Alignment, Image, Truth, read_exr, read_png, tile_pictures, write_animated_png, write_png,
+};
 use metrics::{Instant, SequenceReference, SequenceScores};
 use store::{RenderFile, RenderPath};
 use tracer::{PointLayers, Scene};
@@ -203,18 +205,10 @@ fn write_animation(
             own.join("flip.png"),
         ];
         let pictures = pictures.iter().map(|path| read_png(path));
-        Ok(beside(&pictures.collect::<Result<Vec<Image>, _>>()?))
+        let pictures = pictures.collect::<Result<Vec<Image>, _>>()?;
+        Ok(tile_pictures(&pictures, pictures.len() as u32, 0, [0.0; 3]))
     });
     let strips = strips.collect::<Result<Vec<Image>, Error>>()?;
     let path = plan.out.join(&first.folder).join(SEQUENCE_PICTURE);
     Ok(write_animated_png(&path, &strips, per_second)?)
-}
-
-/// Places pictures of one size side by side.
-fn beside(pictures: &[Image]) -> Image {
-    let width = pictures[0].width;
-    let all = width * pictures.len() as u32;
-    Raster::from_fn(all, pictures[0].height, |x, y| {
-        *pictures[(x / width) as usize].at(x % width, y)
-    })
 }

@@ -19,13 +19,12 @@ mod seen;
 mod space;
 mod weights;
 
-use frame::{Image, Plane, Raster, display_srgb};
+use frame::{Image, Plane, Raster, decode_srgb, display_srgb};
 
 use crate::Viewing;
 use crate::math::raster::map_pixels;
 use filter::Exposure;
 use seen::{Seen, raise_to_errors};
-use space::decode_srgb;
 
 /// Upper limit on the exposures of HDR-FLIP.
 pub const MAX_EXPOSURES: u32 = 128;
@@ -34,7 +33,7 @@ pub const MAX_EXPOSURES: u32 = 128;
 /// 0.7 m wide with 3840 pixels, from 0.7 m away. The images are finite and of one size.
 pub fn flip_ldr(truth: &Image, output: &Image, viewing: &Viewing) -> Plane {
     let [truth, output] = [truth, output].map(|image| Displayed::new(image, viewing));
-    SeenDisplay::new(&truth).map_errors(&output)
+    SeenExposures::of_display(&truth).map_errors(&output.linear)
 }
 
 /// Maps HDR-FLIP: the largest LDR-FLIP over the viewing's exposures, ACES tone curve, seen as in [`flip_ldr`].
@@ -62,27 +61,16 @@ impl Displayed {
     }
 }
 
-/// A truth as the eye sees it on a display, for LDR-FLIP of any number of pictures.
-pub struct SeenDisplay(Seen);
-
-impl SeenDisplay {
-    /// Filters the truth.
-    pub fn new(truth: &Displayed) -> Self {
-        Self(Seen::new(&truth.linear, Exposure::Display))
-    }
-
-    /// Maps LDR-FLIP of a picture.
-    pub fn map_errors(&self, output: &Displayed) -> Plane {
-        let mut map = no_errors(&output.linear);
-        raise_to_errors(&mut map, &self.0, &output.linear, Exposure::Display);
-        map
-    }
-}
-
-/// A truth as the eye sees it at each exposure of HDR-FLIP.
+/// A truth as the eye sees it, for FLIP of any number of pictures: on a display, or at each exposure of HDR-FLIP.
 pub struct SeenExposures(Vec<(Exposure, Seen)>);
 
 impl SeenExposures {
+    /// Filters light of a display, for LDR-FLIP.
+    pub fn of_display(truth: &Displayed) -> Self {
+        let seen = Seen::new(&truth.linear, Exposure::Display);
+        Self(vec![(Exposure::Display, seen)])
+    }
+
     /// Filters scene-linear radiance at every exposure of the viewing.
     pub fn new(truth: &Image, viewing: &Viewing) -> Self {
         let exposures = list_exposures(viewing).into_iter();
@@ -93,18 +81,14 @@ impl SeenExposures {
         )
     }
 
-    /// Maps HDR-FLIP of a picture.
+    /// Maps FLIP of a picture: light of a display, or scene-linear radiance, as the truth is.
     pub fn map_errors(&self, output: &Image) -> Plane {
-        let mut map = no_errors(output);
+        let mut map = Raster::filled(output.width, output.height, 0.0);
         for (exposure, seen) in &self.0 {
             raise_to_errors(&mut map, seen, output, *exposure);
         }
         map
     }
-}
-
-fn no_errors(like: &Image) -> Plane {
-    Raster::filled(like.width, like.height, 0.0)
 }
 
 /// Lists all exposures; one if both ends are equal.

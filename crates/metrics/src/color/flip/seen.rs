@@ -62,7 +62,7 @@ impl WithSimd for FilterBand<'_> {
 /// Raises a map to the errors of a picture against a truth, where they are larger.
 pub fn raise_to_errors(map: &mut Plane, truth: &Seen, image: &Image, exposure: Exposure) {
     let weights = Weights::new();
-    let scale = ErrorScale::new();
+    let largest = largest_distance();
     let width = image.width as usize;
     let bands = map.pixels.par_chunks_mut(BAND * width).enumerate();
     bands.for_each(|(band, errors)| {
@@ -72,7 +72,7 @@ pub fn raise_to_errors(map: &mut Plane, truth: &Seen, image: &Image, exposure: E
             truth,
             errors,
             width,
-            scale,
+            largest,
         });
     });
 }
@@ -84,7 +84,8 @@ struct CompareBand<'a> {
     truth: &'a Seen,
     errors: &'a mut [f32],
     width: usize,
-    scale: ErrorScale,
+    /// Error of green against blue, the largest that colours make.
+    largest: f32,
 }
 
 impl WithSimd for CompareBand<'_> {
@@ -95,80 +96,64 @@ impl WithSimd for CompareBand<'_> {
         for (y, errors) in (self.first..).zip(self.errors.chunks_exact_mut(self.width)) {
             let seen = self.filter.filter_row(simd, y);
             let row = LINES * seen[0].len();
-            self.scale
-                .raise(errors, &self.truth.rows[y * row..][..row], seen);
+            let truth = &self.truth.rows[y * row..][..row];
+            raise(self.largest, errors, truth, seen);
         }
     }
 }
 
-/// Scale of FLIP's errors of colour.
-#[derive(Clone, Copy)]
-struct ErrorScale {
-    /// Error of green against blue, the largest.
+/// Raises a row of errors to those of `seen` against the truth's lines, where they are larger.
+#[inline(always)]
+fn raise(largest: f32, errors: &mut [f32], truth: &[f32], seen: &[Vec<f32>; LINES]) {
+    let stride = seen[0].len();
+    for (block, errors) in errors.chunks_mut(LANES).enumerate() {
+        let at = block * LANES;
+        let (mut one, mut other) = ([[0.0; LANES]; LINES], [[0.0; LANES]; LINES]);
+        for line in 0..LINES {
+            one[line].copy_from_slice(&truth[line * stride + at..][..LANES]);
+            other[line].copy_from_slice(&seen[line][at..][..LANES]);
+        }
+        let found = compare(largest, &one, &other);
+        for (error, found) in errors.iter_mut().zip(found) {
+            *error = error.max(found);
+        }
+    }
+}
+
+/// Computes the errors of a block, step by step: compilers turn each step into wide instructions.
+#[inline(always)]
+fn compare(
     largest: f32,
-}
-
-impl ErrorScale {
-    fn new() -> Self {
-        Self {
-            largest: largest_distance(),
-        }
+    [l, a, b, edges, points]: &[[f32; LANES]; LINES],
+    [seen_l, seen_a, seen_b, seen_edges, seen_points]: &[[f32; LANES]; LINES],
+) -> [f32; LANES] {
+    /// Part of the largest distance up to which errors are spread over all but a twentieth of the range.
+    const NEAR: f32 = 0.4;
+    const NEAR_RANGE: f32 = 0.95;
+    let near = NEAR * largest;
+    let (mut color, mut exponents) = ([0.0; LANES], [0.0; LANES]);
+    for lane in 0..LANES {
+        color[lane] = distance(
+            [l[lane], a[lane], b[lane]],
+            [seen_l[lane], seen_a[lane], seen_b[lane]],
+        );
     }
-
-    /// Raises a row of errors to those of `seen` against the truth's lines, where they are larger.
-    #[inline(always)]
-    fn raise(self, errors: &mut [f32], truth: &[f32], seen: &[Vec<f32>; LINES]) {
-        let stride = seen[0].len();
-        for (block, errors) in errors.chunks_mut(LANES).enumerate() {
-            let at = block * LANES;
-            let (mut one, mut other) = ([[0.0; LANES]; LINES], [[0.0; LANES]; LINES]);
-            for line in 0..LINES {
-                one[line].copy_from_slice(&truth[line * stride + at..][..LANES]);
-                other[line].copy_from_slice(&seen[line][at..][..LANES]);
-            }
-            let found = self.compare(&one, &other);
-            for (error, found) in errors.iter_mut().zip(found) {
-                *error = error.max(found);
-            }
-        }
+    for color in &mut color {
+        *color = power(*color, 0.7);
     }
-
-    /// Computes the errors of a block, step by step: compilers turn each step into wide instructions.
-    #[inline(always)]
-    fn compare(
-        self,
-        [l, a, b, edges, points]: &[[f32; LANES]; LINES],
-        [seen_l, seen_a, seen_b, seen_edges, seen_points]: &[[f32; LANES]; LINES],
-    ) -> [f32; LANES] {
-        /// Part of the largest distance up to which errors are spread over all but a twentieth of the range.
-        const NEAR: f32 = 0.4;
-        const NEAR_RANGE: f32 = 0.95;
-        let largest = self.largest;
-        let near = NEAR * largest;
-        let (mut color, mut exponents) = ([0.0; LANES], [0.0; LANES]);
-        for lane in 0..LANES {
-            color[lane] = distance(
-                [l[lane], a[lane], b[lane]],
-                [seen_l[lane], seen_a[lane], seen_b[lane]],
-            );
-        }
-        for color in &mut color {
-            *color = power(*color, 0.7);
-        }
-        for color in &mut color {
-            let small = *color * (NEAR_RANGE / near);
-            let large = NEAR_RANGE + ((*color - near) / (largest - near)) * (1.0 - NEAR_RANGE);
-            *color = if *color < near { small } else { large };
-        }
-        for lane in 0..LANES {
-            let edge = (edges[lane] - seen_edges[lane]).abs();
-            let point = (points[lane] - seen_points[lane]).abs();
-            let feature = std::f32::consts::FRAC_1_SQRT_2 * edge.max(point);
-            exponents[lane] = 1.0 - feature.sqrt();
-        }
-        for (color, exponent) in color.iter_mut().zip(&exponents) {
-            *color = power(*color, *exponent);
-        }
-        color
+    for color in &mut color {
+        let small = *color * (NEAR_RANGE / near);
+        let large = NEAR_RANGE + ((*color - near) / (largest - near)) * (1.0 - NEAR_RANGE);
+        *color = if *color < near { small } else { large };
     }
+    for lane in 0..LANES {
+        let edge = (edges[lane] - seen_edges[lane]).abs();
+        let point = (points[lane] - seen_points[lane]).abs();
+        let feature = std::f32::consts::FRAC_1_SQRT_2 * edge.max(point);
+        exponents[lane] = 1.0 - feature.sqrt();
+    }
+    for (color, exponent) in color.iter_mut().zip(&exponents) {
+        *color = power(*color, *exponent);
+    }
+    color
 }

@@ -33,14 +33,6 @@ const WHITE: [f32; 2] = [0.950_428_55, 1.088_900_3];
 /// Inverse of [`WHITE`].
 const PER_WHITE: [f32; 2] = [1.052_156_9, 0.918_357_7];
 
-/// Decodes an sRGB value in [0, 1].
-pub fn decode_srgb(value: f32) -> f32 {
-    match value <= 0.04045 {
-        true => value / 12.92,
-        false => ((value + 0.055) / 1.055).powf(2.4),
-    }
-}
-
 /// Exposes radiance by a factor, and maps it to [0, 1] by the ACES curve.
 #[inline(always)]
 pub fn tone_map(value: f32, factor: f32) -> f32 {
@@ -73,14 +65,10 @@ pub fn to_lab<const LANES: usize>([first, second, third]: &mut [[f32; LANES]; 3]
         second[lane] = y;
         third[lane] = z * PER_WHITE[1];
     }
-    for value in first.iter_mut() {
-        *value = bend(*value);
-    }
-    for value in second.iter_mut() {
-        *value = bend(*value);
-    }
-    for value in third.iter_mut() {
-        *value = bend(*value);
+    for line in [&mut *first, &mut *second, &mut *third] {
+        for value in line {
+            *value = bend(*value);
+        }
     }
     for lane in 0..LANES {
         let lab = adjust([first[lane], second[lane], third[lane]]);

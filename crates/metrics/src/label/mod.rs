@@ -1,3 +1,0 @@
-//! Errors of labels: which object the shutter's time was given to.
-
-pub mod total_variation;
