@@ -2,10 +2,10 @@
 //! that come from other folders and from archives.
 
 mod archive;
-mod claim;
 mod clear;
 mod error;
 mod folder;
+mod folder_lock;
 mod gather;
 mod json;
 mod json_lines;
@@ -15,10 +15,10 @@ mod render_file;
 mod tracked;
 
 pub use archive::{Manifest, PACK_FORMAT, Pack, PackedFile, write_archive};
-pub use claim::{Claim, Sharing, claim};
 pub use clear::clear_scene;
 pub use error::Error;
 pub use folder::{is_below, refuse_long_names, refuse_scene, scene_folder};
+pub use folder_lock::{FolderLock, Sharing, lock_folder};
 pub use gather::{Files, gather, place_files};
 pub use json::{MAX_JSON_BYTES, MAX_RUN_BYTES, read_text, read_text_within};
 pub use json_lines::to_lines;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use engine::{Capture, audit_capture, write_audit_picture};
-use store::{Sharing, claim, printable_path};
+use store::{Sharing, lock_folder, printable_path};
 use suite::Error;
 use tracer::SceneId;
 
@@ -51,7 +51,7 @@ pub fn execute(args: &AuditArgs) -> Result<Ending, Error> {
     let scene = load_drawn_scene(&args.root.scenes_dir, &name)?;
     let (audit, expected) = audit_capture(&capture, &scene)?;
     let out = name_folder(&args.capture, args.out.as_ref(), "out/audit")?;
-    let _claim = claim(&out, [], Sharing::Alone)?;
+    let _lock = lock_folder(&out, [], Sharing::Alone)?;
     let path = out.join("audit.json");
     let json = write_json(&path, &audit)?;
     let mut text = audit_table(&audit);

@@ -10,7 +10,7 @@ use tracer::{Progress, Watch};
 use super::expected::print_expected_time;
 use super::kept_truths::take_packed_truths;
 use super::pages::write_run;
-use super::run_plan::{claim_out, make_plan};
+use super::run_plan::{lock_out, make_plan};
 use crate::arguments::{MeasureArgs, SequenceArgs, within};
 use crate::output::print;
 
@@ -62,7 +62,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         bounds.values(),
         &plan.filters,
     )?;
-    let _claim = claim_out(&plan)?;
+    let _lock = lock_out(&plan)?;
     let adapters: Vec<Option<&str>> = match args.adapters.as_slice() {
         // The fastest.
         [] => vec![None],
@@ -123,7 +123,7 @@ fn run_all(
             plan.render.seed = seed;
             // The truths serve every adapter.
             plan.out = args.measure.scenes.out.join(format!("seed_{seed}"));
-            let _claim = claim_out(plan)?;
+            let _lock = lock_out(plan)?;
             plan.truths.clone_from(&truths);
             take_packed_truths(plan)?;
             let finished = measure_scenes(plan, gpu.as_ref(), std::env::args().collect())?;

@@ -2,7 +2,7 @@
 
 use filters::Gpu;
 use judge::SceneBounds;
-use store::{Sharing, claim};
+use store::{Sharing, lock_folder};
 use suite::{Error, FilterChoice, estimate_case_seconds, estimate_render_seconds, open_gpu};
 use tracer::{RenderSettings, Scene};
 use tune::{Evaluator, render_scenes};
@@ -61,11 +61,11 @@ impl CandidateArgs {
             None => Sharing::Together,
         };
         let SceneArgs { out, .. } = &self.scenes;
-        let claimed = claim(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
+        let locked = lock_folder(out, scenes.iter().map(|(scene, _)| scene), sharing)?;
         let alignment = choice.filter.alignment;
         let rendered = render_scenes(&scenes, alignment, &render, out, make_monitor())?;
         // Who shares the folder has read all of it.
-        let _claim = candidates.is_some().then_some(claimed);
+        let _lock = candidates.is_some().then_some(locked);
         let mut evaluator = Evaluator::new(gpu.as_ref(), choice, &rendered, bleed, make_monitor())?;
         work(&mut evaluator)
     }

@@ -170,7 +170,7 @@ fn run_and_judge(args: &CheckArgs, compared: bool, margins: &Margins) -> Result<
     let MeasuredRun {
         run,
         whole,
-        claim: _claim,
+        lock: _lock,
     } = measure(&mut plan, gpu.as_ref())?;
     let mut findings = judge(&whole, &bounds);
     add_evidence(&whole, &mut findings, &plan.out)?;

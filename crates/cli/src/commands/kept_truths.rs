@@ -29,7 +29,7 @@ pub fn check_truths(truths: &Path) -> Result<(), Error> {
     }
 }
 
-/// Takes what the plan needs from a pack into the claimed folder of the plan, and says so. A folder is left for the run to take from.
+/// Takes what the plan needs from a pack into the locked folder of the plan, and says so. A folder is left for the run to take from.
 pub fn take_packed_truths(plan: &mut RunPlan) -> Result<(), Error> {
     let Some(path) = plan.truths.as_ref().filter(|truths| truths.is_file()) else {
         return Ok(());

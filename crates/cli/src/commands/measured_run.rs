@@ -1,12 +1,12 @@
 //! A run that is measured now, beside the cases of an earlier run in the same folder.
 
 use filters::Gpu;
-use store::Claim;
+use store::FolderLock;
 use suite::{EarlierCases, Error, Run, RunPlan, estimate_run, folder_for_size, measure_scenes};
 
 use super::expected::print_expected;
 use super::kept_truths::take_packed_truths;
-use super::run_plan::claim_out;
+use super::run_plan::lock_out;
 use crate::output::{count_text, is_quiet, print_note};
 
 /// A finished run.
@@ -15,15 +15,15 @@ pub struct MeasuredRun {
     pub run: Run,
     /// These, and the cases of an earlier run that run.json keeps.
     pub whole: Run,
-    /// Claim on the folder, until all files are written.
-    pub claim: Claim,
+    /// Lock on the folder, until all files are written.
+    pub lock: FolderLock,
 }
 
 /// Runs every case of a plan. Cases of an earlier run in the same folder are kept beside them; a run of another picture size is
 /// left alone, and the plan gets a folder below it.
 pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Error> {
     choose_folder(plan)?;
-    let claim = claim_out(plan)?;
+    let lock = lock_out(plan)?;
     take_packed_truths(plan)?;
     let earlier = EarlierCases::find(plan, gpu.map(|gpu| &gpu.adapter)).map_err(name_options)?;
     if !is_quiet() {
@@ -40,7 +40,7 @@ pub fn measure(plan: &mut RunPlan, gpu: Option<&Gpu>) -> Result<MeasuredRun, Err
     Ok(MeasuredRun {
         run: finished,
         whole,
-        claim,
+        lock,
     })
 }
 

@@ -48,7 +48,7 @@ fn join_runs(args: &MergeArgs) -> Result<(), Error> {
         [] => std::env::args().collect(),
         words => words.to_vec(),
     };
-    let (run, _claim) = merge_runs(&args.parts, command, &args.out)?;
+    let (run, _lock) = merge_runs(&args.parts, command, &args.out)?;
     // It would be about another run.json.
     let _ = std::fs::remove_file(args.out.join(JUDGEMENT_FILE));
     write_run(&run, &args.out)?;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use clap::Args;
 use frame::{Alignment, Truth};
-use store::{LADDER, MAX_REPLICATES, Sharing, claim, printable_path, scene_folder};
+use store::{LADDER, MAX_REPLICATES, Sharing, lock_folder, printable_path, scene_folder};
 use suite::{Error, Rendering, deciding_floor, estimate_render_seconds};
 use tracer::{RenderSettings, Scene};
 
@@ -86,7 +86,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     for (scene, settings) in scenes.iter().zip(&settings) {
         for frame in 0..args.frames {
             let scene = scene.at_frame(frame);
-            let _claim = claim(&args.scenes.out, [&scene], Sharing::Together)?;
+            let _lock = lock_folder(&args.scenes.out, [&scene], Sharing::Together)?;
             let rendering = Rendering {
                 scene: &scene,
                 settings: *settings,

@@ -50,7 +50,7 @@ pub fn execute(args: &RunArgs) -> Result<(), Error> {
     let MeasuredRun {
         run,
         whole,
-        claim: _claim,
+        lock: _lock,
     } = measure(&mut plan, gpu.as_ref())?;
     let (scores, pages) = if plan.part == Part::Whole {
         // Cases of an earlier run keep their targets.

@@ -9,7 +9,7 @@ use judge::{
     read_bounds_beside_scenes, read_bounds_file,
 };
 use metrics::Metric;
-use store::{Claim, Sharing, claim};
+use store::{FolderLock, Sharing, lock_folder};
 use suite::{EngineScene, Error, FilterChoice, Run, RunPlan, engine_name};
 use tracer::{Location, RenderSettings, Scene, SceneId};
 
@@ -184,9 +184,9 @@ pub fn add_bounds(bounds: &mut RunBounds, run: &Run, root: &Location) -> Result<
     Ok(())
 }
 
-/// Claims the folder of a run for this process alone.
-pub fn claim_out(plan: &RunPlan) -> Result<Claim, Error> {
-    Ok(claim(&plan.out, &plan.scenes, Sharing::Alone)?)
+/// Locks the folder of a run for this process alone.
+pub fn lock_out(plan: &RunPlan) -> Result<FolderLock, Error> {
+    Ok(lock_folder(&plan.out, &plan.scenes, Sharing::Alone)?)
 }
 
 /// Loads the named scenes of the folder `root` with their bounds, those for pictures of `size` too; all of it where none is named.

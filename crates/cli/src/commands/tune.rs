@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use frame::FileError;
-use store::{Sharing, claim};
+use store::{Sharing, lock_folder};
 use suite::{Error, FilterChoice};
 use tracer::{Progress, RenderSettings};
 use tune::{Advice, Space, TuneOptions, Tuning, interleave_families, tune, tuned_preset_toml};
@@ -78,7 +78,7 @@ pub fn execute(args: &TuneArgs) -> Result<(), Error> {
     options.check()?;
     let gpu = args.candidate.open_gpu(&options.choice)?;
     let scenes = options.scenes.iter().chain(&options.held_out);
-    let _claim = claim(&options.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
+    let _lock = lock_folder(&options.out, scenes.map(|(scene, _)| scene), Sharing::Alone)?;
     // A race drops many candidates early.
     let limit = (options.time).map_or(f64::INFINITY, |time| time.as_secs_f64());
     print_expected_scoring(&options.scenes, &options.render, options.budget, limit);

@@ -6,7 +6,7 @@ use frame::{
     Display, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Provenance, Raster, Reprojection,
     Truth, VelocityKind, display_srgb, write_exr, write_png,
 };
-use store::{RenderFile, Sharing, claim, ladder_folder, refuse_long_names, refuse_scene};
+use store::{RenderFile, Sharing, ladder_folder, lock_folder, refuse_long_names, refuse_scene};
 use suite::{
     BLURRED, EngineScene, Error, INGESTED_FILE, INGESTED_FORMAT, PROGRAM, engine_name,
     name_in_one_word, velocity_wheel,
@@ -92,7 +92,7 @@ fn write_files(
     averaged: Option<EngineTruth>,
     out: &Path,
 ) -> Result<Option<Truth>, Error> {
-    let _claim = claim(out, [], Sharing::Alone)?;
+    let _lock = lock_folder(out, [], Sharing::Alone)?;
     let stops = frame.display.stops;
     let show = |name: &str, image: &Image| write_png(&out.join(name), &display_srgb(image, stops));
     frame.write(&out.join(RenderFile::Frame.path()))?;

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use frame::Alignment;
-use store::{Claim, Sharing, claim, place_files};
+use store::{FolderLock, Sharing, lock_folder, place_files};
 use tracer::SceneId;
 
 use self::files::gather_files;
@@ -26,7 +26,7 @@ pub fn holds_run(path: &Path) -> bool {
 
 /// Joins the runs of all `parts`, each a `run.json` or its folder, and takes their pictures into `out`. The run is the one that a
 /// single process measures: its cases in the same order, the same means, and `command` as the words of its command line. Scenes
-/// and filters are ordered as the parts name them first. Its `run.json` is not written yet, and the claim is on the folder until it is.
+/// and filters are ordered as the parts name them first. Its `run.json` is not written yet, and the folder is locked until it is.
 ///
 /// # Errors
 /// Nothing is written if the parts differ in their settings, adapters or truths, if two hold one case with other scores, or if
@@ -35,7 +35,7 @@ pub fn merge_runs(
     parts: &[PathBuf],
     command: Vec<String>,
     out: &Path,
-) -> Result<(Run, Claim), Error> {
+) -> Result<(Run, FolderLock), Error> {
     let parts: Vec<StoredRun> = (parts.iter())
         .map(|path| StoredRun::read(path))
         .collect::<Result<_, _>>()?;
@@ -45,9 +45,9 @@ pub fn merge_runs(
     };
     check_complete(&run)?;
     let files = gather_files(&parts)?;
-    let claim = claim(out, [], Sharing::Alone)?;
+    let lock = lock_folder(out, [], Sharing::Alone)?;
     place_files(&files, out)?;
-    Ok((run, claim))
+    Ok((run, lock))
 }
 
 /// Refuses cases that no process could have measured together: scenes with different filters, and shutters without references.

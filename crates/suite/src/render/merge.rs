@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use frame::{Replicate, Truth};
-use store::{Files, RenderFile, RenderPath, Sharing, claim, gather, list_renders, place_files};
+use store::{
+    Files, RenderFile, RenderPath, Sharing, gather, list_renders, lock_folder, place_files,
+};
 
 use crate::Error;
 
@@ -26,7 +28,7 @@ pub fn merge(parts: &[PathBuf], out: &Path) -> Result<Vec<Merged>, Error> {
     for (truth, files) in &truths {
         merge_replicates(truth, files)?;
     }
-    let _claim = claim(out, [], Sharing::Together)?;
+    let _lock = lock_folder(out, [], Sharing::Together)?;
     place_files(&files, out)?;
     (truths.iter())
         .map(|(truth, files)| {

@@ -1,4 +1,4 @@
-//! Claim of a process on the output folder that it writes to.
+//! Lock of a process on the output folder that it writes to.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::ErrorKind;
@@ -11,7 +11,7 @@ use walkdir::WalkDir;
 use crate::Error;
 use crate::folder::{refuse_long_names, refuse_scene, scene_folder};
 
-/// Name of the empty file that is locked; it stays in a folder that was claimed once.
+/// Name of the empty file that is locked; it stays in a folder that was locked once.
 const LOCK_FILE: &str = ".shuttertruth.lock";
 
 /// Other processes that may write to a folder.
@@ -23,20 +23,20 @@ pub enum Sharing {
     Together,
 }
 
-/// A claim on a folder. The system takes it back when the process ends, however it ends.
+/// A lock on a folder. The system takes it back when the process ends, however it ends.
 #[derive(Debug)]
 #[must_use]
-pub struct Claim {
+pub struct FolderLock {
     _lock: Option<File>,
 }
 
-/// Claims `out`, and makes it if it does not exist. Refuses a folder that holds one of the scenes, one that another
-/// process has claimed, and scenes whose names no folder can have. A process that is alone removes what killed ones left half written.
-pub fn claim<'a>(
+/// Locks `out`, and makes it if it does not exist. Refuses a folder that holds one of the scenes, one that another
+/// process has locked, and scenes whose names no folder can have. A process that is alone removes what killed ones left half written.
+pub fn lock_folder<'a>(
     out: &Path,
     scenes: impl IntoIterator<Item = &'a Scene>,
     sharing: Sharing,
-) -> Result<Claim, Error> {
+) -> Result<FolderLock, Error> {
     let folders = (scenes.into_iter())
         .map(|scene| refuse_long_names(&scene.id.folder()).map(|()| scene_folder(out, scene)))
         .collect::<Result<Vec<_>, _>>()?;
@@ -45,7 +45,7 @@ pub fn claim<'a>(
     }
     refuse_file(out)?;
     std::fs::create_dir_all(out).map_err(|source| FileError::io(out, "write", source))?;
-    let claim = Claim {
+    let lock = FolderLock {
         _lock: lock(out, sharing)?,
     };
     if sharing == Sharing::Alone {
@@ -54,7 +54,7 @@ pub fn claim<'a>(
             remove_all_leftovers(folder);
         }
     }
-    Ok(claim)
+    Ok(lock)
 }
 
 /// Refuses an output folder that is a file, or lies below one.
