@@ -1,11 +1,11 @@
 //! Arguments: patterns, misspelt and old words, and help.
 
-use crate::bench::{Bench, assert_done, assert_refused, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, stderr, stdout};
 
 #[test]
 fn patterns_select_and_misspelt_names_get_a_suggestion() {
-    let bench = Bench::two_scenes();
-    assert_done(&bench.run(&[
+    let sandbox = Sandbox::two_scenes();
+    assert_done(&sandbox.run(&[
         "--scenes",
         "sl*",
         "--filter",
@@ -14,7 +14,7 @@ fn patterns_select_and_misspelt_names_get_a_suggestion() {
         "ident*",
     ]));
     assert_eq!(
-        bench.read_case_names(),
+        sandbox.read_case_names(),
         ["slow velocity_gather:fine", "slow identity:default"]
     );
     for (words, parts) in [
@@ -31,10 +31,10 @@ fn patterns_select_and_misspelt_names_get_a_suggestion() {
             ["no scene \"x*\"", "allowed: plate, slow"],
         ),
     ] {
-        assert_refused(&bench.run(&words), 2, &parts);
+        assert_refused(&sandbox.run(&words), 2, &parts);
     }
     assert_refused(
-        &bench.shuttertruth(&["list", "mcgiure"]),
+        &sandbox.shuttertruth(&["list", "mcgiure"]),
         2,
         &["\"mcgiure\"", "did you mean mcguire?"],
     );
@@ -42,7 +42,7 @@ fn patterns_select_and_misspelt_names_get_a_suggestion() {
 
 #[test]
 fn a_moved_command_names_its_new_place() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for (words, place) in [
         (
             &["ingest", "capture"][..],
@@ -58,15 +58,15 @@ fn a_moved_command_names_its_new_place() {
             "tune: use shuttertruth tune search",
         ),
     ] {
-        assert_refused(&bench.shuttertruth(words), 2, &[place]);
+        assert_refused(&sandbox.shuttertruth(words), 2, &[place]);
     }
     assert_refused(
-        &bench.shuttertruth(&["reprot"]),
+        &sandbox.shuttertruth(&["reprot"]),
         2,
         &["'reprot'", "'report'"],
     );
     assert_refused(
-        &bench.run(&["--sceens", "plate"]),
+        &sandbox.run(&["--sceens", "plate"]),
         2,
         &["'--sceens'", "'--scenes'"],
     );
@@ -74,9 +74,9 @@ fn a_moved_command_names_its_new_place() {
 
 #[test]
 fn list_shows_only_the_requested_kinds() {
-    let bench = Bench::two_scenes();
+    let sandbox = Sandbox::two_scenes();
     let list = |words: &[&str]| {
-        let output = bench.shuttertruth(&[&["list"], words].concat());
+        let output = sandbox.shuttertruth(&[&["list"], words].concat());
         assert_done(&output);
         stdout(&output)
     };
@@ -96,10 +96,10 @@ fn list_shows_only_the_requested_kinds() {
     for what in ["filters", "bevy"] {
         assert!(list(&[&[what], &elsewhere[..]].concat()).contains("bevy"));
     }
-    let all = bench.shuttertruth(&[&["list"], &elsewhere[..]].concat());
+    let all = sandbox.shuttertruth(&[&["list"], &elsewhere[..]].concat());
     assert!(stdout(&all).contains("bevy"));
     assert!(stderr(&all).contains("no scenes: there is no folder nowhere"));
-    let misspelt = bench.shuttertruth(&[&["list", "mcgiure"], &elsewhere[..]].concat());
+    let misspelt = sandbox.shuttertruth(&[&["list", "mcgiure"], &elsewhere[..]].concat());
     assert_refused(&misspelt, 2, &["did you mean mcguire?"]);
     assert!(list(&["adapters"]).starts_with("0: "));
     assert!(list(&[]).lines().count() < 80);
@@ -107,11 +107,11 @@ fn list_shows_only_the_requested_kinds() {
 
 #[test]
 fn the_program_without_arguments_prints_its_help_and_fails() {
-    let bench = Bench::new();
-    let output = bench.shuttertruth(&[]);
+    let sandbox = Sandbox::new();
+    let output = sandbox.shuttertruth(&[]);
     assert_eq!(output.status.code(), Some(2));
     let help = stderr(&output);
-    assert_eq!(help, stdout(&bench.shuttertruth(&["--help"])));
+    assert_eq!(help, stdout(&sandbox.shuttertruth(&["--help"])));
     assert!(help.lines().count() <= 24, "{help}");
     assert!(
         help.lines().all(|line| line.chars().count() <= 80),

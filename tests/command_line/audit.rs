@@ -2,14 +2,14 @@
 
 use std::fs;
 
-use crate::bench::{Bench, assert_refused, split, stderr, stdout};
 use crate::ingest::capture::{CONVENTION, Capture, DESCRIPTION};
+use crate::sandbox::{Sandbox, assert_refused, split, stderr, stdout};
 
 #[test]
 fn a_right_capture_passes_and_is_listed_object_by_object() {
-    let bench = Bench::new();
-    Capture::new(&bench);
-    let output = bench.shuttertruth(&split("engine audit capture"));
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox);
+    let output = sandbox.shuttertruth(&split("engine audit capture"));
     let told = stdout(&output);
     assert_eq!(output.status.code(), Some(0), "{told}{}", stderr(&output));
     assert!(
@@ -23,7 +23,7 @@ fn a_right_capture_passes_and_is_listed_object_by_object() {
     ] {
         assert!(told.contains(name), "{told}");
     }
-    let json = fs::read_to_string(bench.path("out/audit/capture/audit.json")).unwrap();
+    let json = fs::read_to_string(sandbox.path("out/audit/capture/audit.json")).unwrap();
     let audit: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(audit["findings"].as_array().unwrap().len(), 0);
     assert_eq!(audit["velocity"][1]["is_right"], true);
@@ -31,13 +31,13 @@ fn a_right_capture_passes_and_is_listed_object_by_object() {
 
 #[test]
 fn a_wrong_convention_fails_with_the_one_that_would_fit() {
-    let bench = Bench::new();
-    let capture = Capture::new(&bench);
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox);
     capture.write(
         "engine.toml",
         &CONVENTION.replace("\"ndc\"\nvelocity_y", "\"uv\"\nvelocity_y"),
     );
-    let output = bench.shuttertruth(&split("engine audit capture -o out/told"));
+    let output = sandbox.shuttertruth(&split("engine audit capture -o out/told"));
     let told = stdout(&output);
     assert_eq!(output.status.code(), Some(1), "{told}{}", stderr(&output));
     let words: Vec<&str> = told.split_whitespace().collect();
@@ -56,12 +56,12 @@ fn a_wrong_convention_fails_with_the_one_that_would_fit() {
         ),
         "{told}"
     );
-    let picture = frame::read_png(&bench.path("out/told/worst_plate.png")).unwrap();
+    let picture = frame::read_png(&sandbox.path("out/told/worst_plate.png")).unwrap();
     assert_eq!(
         (picture.width, picture.height),
         (3 * 48 * 5 + 2 * 5, 48 * 5)
     );
-    let json = stdout(&bench.shuttertruth(&split("engine audit capture -o out/told --json")));
+    let json = stdout(&sandbox.shuttertruth(&split("engine audit capture -o out/told --json")));
     let audit: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(audit["findings"][0]["object"], "plate");
     let scale = audit["findings"][0]["cause"]["scale"].as_f64().unwrap();
@@ -70,10 +70,10 @@ fn a_wrong_convention_fails_with_the_one_that_would_fit() {
 
 #[test]
 fn an_audit_needs_the_scene_and_its_instant() {
-    let bench = Bench::new();
-    let capture = Capture::new(&bench);
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox);
     let refuse = |words: &[&str]| {
-        let output = bench.shuttertruth(&split("engine audit capture"));
+        let output = sandbox.shuttertruth(&split("engine audit capture"));
         assert_refused(&output, 2, words);
     };
     capture.write(
@@ -93,8 +93,8 @@ fn an_audit_needs_the_scene_and_its_instant() {
 }
 
 /// Audits a capture, and returns the exit code and the words of the output.
-fn audit(bench: &Bench) -> (Option<i32>, String) {
-    let output = bench.shuttertruth(&split("engine audit capture"));
+fn audit(sandbox: &Sandbox) -> (Option<i32>, String) {
+    let output = sandbox.shuttertruth(&split("engine audit capture"));
     let told = stdout(&output);
     let words: Vec<&str> = told.split_whitespace().collect();
     (output.status.code(), words.join(" "))
@@ -102,10 +102,10 @@ fn audit(bench: &Bench) -> (Option<i32>, String) {
 
 #[test]
 fn a_capture_of_another_frame_is_undecided_with_ids_and_without() {
-    let bench = Bench::new();
-    let capture = Capture::at(&bench, -1.0);
+    let sandbox = Sandbox::new();
+    let capture = Capture::at(&sandbox, -1.0);
     for by in ["by their ids", "by their depth"] {
-        let (code, told) = audit(&bench);
+        let (code, told) = audit(&sandbox);
         assert_eq!(code, Some(2), "{told}");
         for words in [
             by,
@@ -120,11 +120,11 @@ fn a_capture_of_another_frame_is_undecided_with_ids_and_without() {
 
 #[test]
 fn an_object_that_is_elsewhere_is_undecided_though_most_pixels_agree() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     // Between two frames, which no cause explains.
-    let capture = Capture::at(&bench, -0.37);
+    let capture = Capture::at(&sandbox, -0.37);
     for by in ["by its ids", "by its depth"] {
-        let (code, told) = audit(&bench);
+        let (code, told) = audit(&sandbox);
         assert_eq!(code, Some(2), "{told}");
         for words in [
             "- picture of `plate` shows other things",
@@ -136,7 +136,7 @@ fn an_object_that_is_elsewhere_is_undecided_though_most_pixels_agree() {
         }
         let _ = fs::remove_file(capture.path("object.exr"));
     }
-    let json = fs::read_to_string(bench.path("out/audit/capture/audit.json")).unwrap();
+    let json = fs::read_to_string(sandbox.path("out/audit/capture/audit.json")).unwrap();
     let audit: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(audit["shows_scene"], false);
     assert!(audit["alike"].as_f64().unwrap() > 0.9, "{json}");
@@ -148,14 +148,14 @@ fn an_object_that_is_elsewhere_is_undecided_though_most_pixels_agree() {
 
 #[test]
 fn a_black_object_of_an_unlit_scene_fails() {
-    let bench = Bench::new();
-    let capture = Capture::new(&bench);
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox);
     let color = (capture.frame.color).zip(&capture.frame.object_id, |color, id| match id {
         0 => *color,
         _ => [0.0; 3],
     });
     capture.write_color("color.exr", &color);
-    let (code, told) = audit(&bench);
+    let (code, told) = audit(&sandbox);
     assert_eq!(code, Some(1), "{told}");
     let words =
         "- colour of `plate` is (0.000, 0.000, 0.000) in the mean, not (0.700, 0.400, 0.200)";

@@ -7,17 +7,17 @@ use std::time::Duration;
 use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
 use tests::filter_folder::{write_manifest, write_program, write_script};
 
-use crate::bench::{Bench, assert_done, assert_refused, send, split, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, send, split, stderr, stdout};
 
-fn write_lines(bench: &Bench, name: &str, more: &str) {
-    write_manifest(&bench.path(name), name, more);
+fn write_lines(sandbox: &Sandbox, name: &str, more: &str) {
+    write_manifest(&sandbox.path(name), name, more);
 }
 
-fn write_blur(bench: &Bench, name: &str, lines: &str, more: &str) {
-    write_program(&bench.path(name), name, lines, more);
+fn write_blur(sandbox: &Sandbox, name: &str, lines: &str, more: &str) {
+    write_program(&sandbox.path(name), name, lines, more);
 }
 
-fn render(bench: &Bench) {
+fn render(sandbox: &Sandbox) {
     let words = [
         "truths",
         "render",
@@ -26,7 +26,7 @@ fn render(bench: &Bench) {
         "r",
         "--samples-per-pixel",
     ];
-    bench.execute(&[&words[..], &["16"]].concat());
+    sandbox.execute(&[&words[..], &["16"]].concat());
 }
 
 fn blur(filter: &str) -> [&str; 9] {
@@ -46,7 +46,7 @@ fn blur(filter: &str) -> [&str; 9] {
 
 #[test]
 fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let program = env!("CARGO_BIN_EXE_shuttertruth");
     let command = format!(
         "command = ['{program}', 'engine', 'blur', '--filter', 'velocity_gather', '--frame', '{{frame}}', '--out', '{{out}}', \
@@ -54,10 +54,10 @@ fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
          [[parameter]]\nname = 'samples'\nkind = 'integer'\nrange = [1, 64]\ndefault = 10\ndoc = 'Taps.'\n\
          [[preset]]\nname = 'coarse'\ndoc = 'Few.'\nvalues = {{ samples = 8 }}\n"
     );
-    write_lines(&bench, "outside", &command);
+    write_lines(&sandbox, "outside", &command);
     let filters = "velocity_gather:coarse,./outside:coarse";
-    assert_done(&bench.run(&["--filters", filters, "--allow-commands"]));
-    let cases = bench.read_filter_cases();
+    assert_done(&sandbox.run(&["--filters", filters, "--allow-commands"]));
+    let cases = sandbox.read_filter_cases();
     let [kernels, program] = &cases[..] else {
         panic!("two filters on one scene");
     };
@@ -70,9 +70,9 @@ fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
 
 #[test]
 fn a_program_needs_no_adapter() {
-    let bench = Bench::new();
-    write_blur(&bench, "copy", "cp $1 $2", "");
-    let mut command = bench.command(&split(
+    let sandbox = Sandbox::new();
+    write_blur(&sandbox, "copy", "cp $1 $2", "");
+    let mut command = sandbox.command(&split(
         "run --quiet --out out --filter copy --allow-commands",
     ));
     command.args(["--size", "64x32", "--samples-per-pixel", "16"]);
@@ -85,7 +85,7 @@ fn a_program_needs_no_adapter() {
         "{}",
         stdout(&output)
     );
-    assert_eq!(bench.read_run().adapter, None);
+    assert_eq!(sandbox.read_run().adapter, None);
     // An adapter that the user asked for must still be there.
     let output = command.args(["--adapter", "0"]).output().unwrap();
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
@@ -96,57 +96,57 @@ fn the_program_of_the_guide_runs() {
     let guide = include_str!("../../docs/add-a-filter.md");
     let start = guide.split("```toml\nname = \"my_engine\"").nth(1).unwrap();
     let manifest = format!("name = \"my_engine\"{}", start.split("```").next().unwrap());
-    let bench = Bench::new();
-    fs::create_dir_all(bench.path("my_engine")).unwrap();
-    fs::write(bench.path("my_engine/filter.toml"), manifest).unwrap();
-    fs::create_dir_all(bench.path("bin")).unwrap();
+    let sandbox = Sandbox::new();
+    fs::create_dir_all(sandbox.path("my_engine")).unwrap();
+    fs::write(sandbox.path("my_engine/filter.toml"), manifest).unwrap();
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
     let program = env!("CARGO_BIN_EXE_shuttertruth");
     let line = "engine blur --filter velocity_gather --frame $1 --out $2 --exposure $4";
     write_script(
-        &bench.path("bin/my_blur"),
+        &sandbox.path("bin/my_blur"),
         &format!("[ $3 = --shutter ] && {program} {line}"),
     );
     let path = format!(
         "{}:{}",
-        bench.path("bin").display(),
+        sandbox.path("bin").display(),
         std::env::var("PATH").unwrap()
     );
-    render(&bench);
-    let mut command = bench.command(&blur("./my_engine"));
+    render(&sandbox);
+    let mut command = sandbox.command(&blur("./my_engine"));
     assert_done(&command.env("PATH", path).output().unwrap());
-    let outside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
-    bench.execute(&blur("velocity_gather"));
-    let inside = read_exr(&bench.path("b.exr")).unwrap().color("").unwrap();
+    let outside = read_exr(&sandbox.path("b.exr")).unwrap().color("").unwrap();
+    sandbox.execute(&blur("velocity_gather"));
+    let inside = read_exr(&sandbox.path("b.exr")).unwrap().color("").unwrap();
     assert_eq!(outside, inside);
 }
 
 #[test]
 fn a_program_gets_the_same_inputs_as_a_kernel() {
-    let bench = Bench::new();
-    render(&bench);
+    let sandbox = Sandbox::new();
+    render(&sandbox);
     let more = "[[parameter]]\nname = \"gain\"\nkind = \"real\"\nrange = [0, 2]\ndefault = 0.25\ndoc = \"\"";
     let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\", \"{exposure},{frame_index},{gain},{{}}\"]";
-    write_lines(&bench, "told", &format!("{command}\n{more}"));
+    write_lines(&sandbox, "told", &format!("{command}\n{more}"));
     write_script(
-        &bench.path("told/blur.sh"),
+        &sandbox.path("told/blur.sh"),
         "pwd > where; echo $3 > words; cp $1 given.exr; cp $1 $2; echo chatter",
     );
-    let output = bench.shuttertruth(&[&blur("./told")[..], &["--frame-index", "7"]].concat());
+    let output = sandbox.shuttertruth(&[&blur("./told")[..], &["--frame-index", "7"]].concat());
     assert_done(&output);
     assert_eq!(
         stdout(&output),
         "b.exr\n",
         "what the program prints is kept aside"
     );
-    let read = |name: &str| fs::read_to_string(bench.path("told").join(name)).unwrap();
+    let read = |name: &str| fs::read_to_string(sandbox.path("told").join(name)).unwrap();
     assert_eq!(read("words"), "0.5,7,0.25,{}\n");
-    let here = fs::canonicalize(bench.path("told")).unwrap();
+    let here = fs::canonicalize(sandbox.path("told")).unwrap();
     assert_eq!(
         fs::canonicalize(read("where").trim_end()).unwrap(),
         here,
         "it runs in its folder"
     );
-    let given = read_exr(&bench.path("told/given.exr")).unwrap();
+    let given = read_exr(&sandbox.path("told/given.exr")).unwrap();
     let names: Vec<&str> = given.channels.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["B", "G", "R", "Z", "velocity.X", "velocity.Y"]);
     let attributes: Vec<&str> = given.attributes.keys().map(String::as_str).collect();
@@ -160,7 +160,7 @@ fn a_program_gets_the_same_inputs_as_a_kernel() {
         ]
     );
     assert_eq!(given.get::<f64>("frames_per_second").unwrap(), 60.0);
-    let frame = Frame::read(&bench.path("r/plate/frame.exr")).unwrap();
+    let frame = Frame::read(&sandbox.path("r/plate/frame.exr")).unwrap();
     let reprojection = Reprojection::from_exr(&given).unwrap();
     assert_eq!(reprojection, frame.reprojection);
     assert_eq!(given.get::<u32>("frame_index").unwrap(), 7);
@@ -168,19 +168,19 @@ fn a_program_gets_the_same_inputs_as_a_kernel() {
     assert_eq!(given.plane("Z").unwrap(), frame.depth);
     let x = given.plane("velocity.X").unwrap();
     assert_eq!(x, frame.velocity.map(|velocity| velocity[0]));
-    let blurred = read_exr(&bench.path("b.exr")).unwrap();
+    let blurred = read_exr(&sandbox.path("b.exr")).unwrap();
     assert_eq!(blurred.color("").unwrap(), frame.color);
 }
 
 #[test]
 fn an_edited_program_runs_again() {
-    let bench = Bench::new();
-    write_blur(&bench, "copy", "cp $1 $2", "");
-    assert_done(&bench.run(&["--filter", "copy", "--allow-commands"]));
-    write_script(&bench.path("copy/blur.sh"), "exit 3");
-    let failed = bench.run(&["--filter", "copy", "--allow-commands"]);
+    let sandbox = Sandbox::new();
+    write_blur(&sandbox, "copy", "cp $1 $2", "");
+    assert_done(&sandbox.run(&["--filter", "copy", "--allow-commands"]));
+    write_script(&sandbox.path("copy/blur.sh"), "exit 3");
+    let failed = sandbox.run(&["--filter", "copy", "--allow-commands"]);
     assert_eq!(failed.status.code(), Some(1));
-    let failures = bench.read_run().failures;
+    let failures = sandbox.read_run().failures;
     let reason = &failures[0].reason;
     for part in ["filter copy on plate: ", "ended with exit status: 3"] {
         assert!(reason.contains(part), "{reason}");
@@ -189,19 +189,19 @@ fn an_edited_program_runs_again() {
 
 #[test]
 fn failing_programs_name_their_error_and_leave_no_picture() {
-    let bench = Bench::new();
-    render(&bench);
+    let sandbox = Sandbox::new();
+    render(&sandbox);
     let mut odd = ExrFile::new(5, 4);
     odd.push_color("", &Raster::filled(5, 4, [0.5; 3]));
-    write_exr(&bench.path("odd.exr"), &odd).unwrap();
+    write_exr(&sandbox.path("odd.exr"), &odd).unwrap();
     let mut broken = ExrFile::new(64, 32);
     let pixels = Raster::from_fn(64, 32, |x, y| {
         [if (x, y) == (9, 3) { f32::NAN } else { 0.5 }; 3]
     });
     broken.push_color("", &pixels);
-    write_exr(&bench.path("nan.exr"), &broken).unwrap();
+    write_exr(&sandbox.path("nan.exr"), &broken).unwrap();
     broken.channels.retain(|channel| channel.name != "G");
-    write_exr(&bench.path("no_green.exr"), &broken).unwrap();
+    write_exr(&sandbox.path("no_green.exr"), &broken).unwrap();
     let rows: &[(&str, &[&str])] = &[
         (
             "for i in 1 2 3 4 5 6 7 8 9 10 11 12; do echo line $i >&2; done; exit 7",
@@ -237,10 +237,10 @@ fn failing_programs_name_their_error_and_leave_no_picture() {
         ),
     ];
     for (lines, parts) in rows {
-        write_blur(&bench, "mine", lines, "");
-        let output = bench.shuttertruth(&blur("./mine"));
+        write_blur(&sandbox, "mine", lines, "");
+        let output = sandbox.shuttertruth(&blur("./mine"));
         assert_refused(&output, 2, &[&["error: filter mine: "][..], parts].concat());
-        assert!(!bench.path("b.exr").exists(), "{lines}");
+        assert!(!sandbox.path("b.exr").exists(), "{lines}");
         assert!(!stderr(&output).contains("line 2\n"), "ten lines are shown");
     }
     for (program, parts) in [
@@ -252,8 +252,8 @@ fn failing_programs_name_their_error_and_leave_no_picture() {
         ("./filter.toml", ["cannot be run in", "Permission denied"]),
     ] {
         let command = format!("command = [\"{program}\", \"{{frame}}\", \"{{out}}\"]");
-        write_lines(&bench, "mine", &command);
-        assert_refused(&bench.shuttertruth(&blur("./mine")), 2, &parts);
+        write_lines(&sandbox, "mine", &command);
+        assert_refused(&sandbox.shuttertruth(&blur("./mine")), 2, &parts);
     }
 }
 
@@ -261,8 +261,8 @@ fn failing_programs_name_their_error_and_leave_no_picture() {
 const SLEEPERS: &str = "sleep 300 & echo $! > pid.new; mv pid.new pid; sleep 300";
 
 #[track_caller]
-fn assert_ended(bench: &Bench) {
-    let pid = fs::read_to_string(bench.path("slow/pid")).unwrap();
+fn assert_ended(sandbox: &Sandbox) {
+    let pid = fs::read_to_string(sandbox.path("slow/pid")).unwrap();
     let state = || {
         let mut ps = Command::new("ps");
         let output = ps.args(["-o", "stat=", "-p", pid.trim_end()]).output();
@@ -280,11 +280,11 @@ fn assert_ended(bench: &Bench) {
 
 #[test]
 fn a_program_past_its_time_limit_is_stopped_with_its_children() {
-    let bench = Bench::new();
-    render(&bench);
+    let sandbox = Sandbox::new();
+    render(&sandbox);
     // Enough time for a shell to write a line on a busy machine.
-    write_blur(&bench, "slow", SLEEPERS, "time_limit = 5");
-    let output = bench.shuttertruth(&blur("./slow"));
+    write_blur(&sandbox, "slow", SLEEPERS, "time_limit = 5");
+    let output = sandbox.shuttertruth(&blur("./slow"));
     assert_refused(
         &output,
         2,
@@ -294,45 +294,45 @@ fn a_program_past_its_time_limit_is_stopped_with_its_children() {
             "slow/filter.toml",
         ],
     );
-    assert_ended(&bench);
+    assert_ended(&sandbox);
 }
 
 #[test]
 fn a_signal_that_ends_the_program_ends_the_filter_too() {
-    let bench = Bench::new();
-    render(&bench);
-    write_blur(&bench, "slow", SLEEPERS, "");
+    let sandbox = Sandbox::new();
+    render(&sandbox);
+    write_blur(&sandbox, "slow", SLEEPERS, "");
     for (signal, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
-        let _ = fs::remove_file(bench.path("slow/pid"));
+        let _ = fs::remove_file(sandbox.path("slow/pid"));
         // The tests themselves may run under nohup.
-        let mut child = start_through(&bench, "env", &["--default-signal=HUP"]);
-        wait_for_pid(&bench, &mut child);
+        let mut child = start_through(&sandbox, "env", &["--default-signal=HUP"]);
+        wait_for_pid(&sandbox, &mut child);
         send(&child, signal);
         assert_eq!(child.wait().unwrap().code(), Some(code), "{signal}");
-        assert_ended(&bench);
-        assert!(!bench.path("b.exr").exists());
+        assert_ended(&sandbox);
+        assert!(!sandbox.path("b.exr").exists());
     }
 }
 
 #[test]
 fn a_closed_terminal_does_not_end_what_nohup_started() {
-    let bench = Bench::new();
-    render(&bench);
-    write_blur(&bench, "slow", SLEEPERS, "");
-    let mut child = start_through(&bench, "nohup", &[]);
-    wait_for_pid(&bench, &mut child);
+    let sandbox = Sandbox::new();
+    render(&sandbox);
+    write_blur(&sandbox, "slow", SLEEPERS, "");
+    let mut child = start_through(&sandbox, "nohup", &[]);
+    wait_for_pid(&sandbox, &mut child);
     send(&child, "HUP");
     // Longer than the work under way may take to end.
     std::thread::sleep(Duration::from_secs(2));
     assert!(child.try_wait().unwrap().is_none(), "SIGHUP ended it");
     send(&child, "TERM");
     assert_eq!(child.wait().unwrap().code(), Some(143));
-    assert_ended(&bench);
+    assert_ended(&sandbox);
 }
 
 /// Starts the program with the filter `slow` through another program that becomes it.
-fn start_through(bench: &Bench, program: &str, words: &[&str]) -> Child {
-    let command = bench.command(&blur("./slow"));
+fn start_through(sandbox: &Sandbox, program: &str, words: &[&str]) -> Child {
+    let command = sandbox.command(&blur("./slow"));
     let mut through = Command::new(program);
     (through.args(words).arg(command.get_program())).args(command.get_args());
     through.current_dir(command.get_current_dir().unwrap());
@@ -342,8 +342,8 @@ fn start_through(bench: &Bench, program: &str, words: &[&str]) -> Child {
 }
 
 /// Waits until the filter `slow` runs.
-fn wait_for_pid(bench: &Bench, child: &mut Child) {
-    while !bench.path("slow/pid").exists() {
+fn wait_for_pid(sandbox: &Sandbox, child: &mut Child) {
+    while !sandbox.path("slow/pid").exists() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         std::thread::sleep(Duration::from_millis(10));
     }
@@ -351,7 +351,7 @@ fn wait_for_pid(bench: &Bench, child: &mut Child) {
 
 #[test]
 fn bad_folders_of_programs_are_refused_with_the_line() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let parameter = |name: &str| {
         format!(
             "[[parameter]]\nname = \"{name}\"\nkind = \"integer\"\nrange = [1, 3]\ndefault = 2\ndoc = \"\""
@@ -413,8 +413,8 @@ fn bad_folders_of_programs_are_refused_with_the_line() {
         (String::new(), &["neither a [[pass]] nor a command"]),
     ];
     for (lines, parts) in rows {
-        write_lines(&bench, "mine", &lines);
-        assert_refused(&bench.run(&["--filter", "mine"]), 2, parts);
-        assert!(!bench.path("out").exists(), "{lines}");
+        write_lines(&sandbox, "mine", &lines);
+        assert_refused(&sandbox.run(&["--filter", "mine"]), 2, parts);
+        assert!(!sandbox.path("out").exists(), "{lines}");
     }
 }

@@ -4,38 +4,43 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::bench::{Bench, assert_done, assert_refused, quick_command, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, quick_command, stdout};
 
 const GATHER: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
 
-/// Makes a bench with a run in `out`, and the same run with `more` in `other`.
-fn two_runs(more: &[&str]) -> Bench {
-    let bench = Bench::new();
-    assert_done(&bench.run(&GATHER));
-    assert_done(&run_into(&bench, "other", "16", &[&GATHER, more].concat()));
-    bench
+/// Makes a sandbox with a run in `out`, and the same run with `more` in `other`.
+fn two_runs(more: &[&str]) -> Sandbox {
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&GATHER));
+    assert_done(&run_into(
+        &sandbox,
+        "other",
+        "16",
+        &[&GATHER, more].concat(),
+    ));
+    sandbox
 }
 
 fn run_into(
-    bench: &Bench,
+    sandbox: &Sandbox,
     out: &str,
     samples_per_pixel: &str,
     more: &[&str],
 ) -> std::process::Output {
     let mut words = quick_command("run", samples_per_pixel);
     words[3] = out;
-    bench.shuttertruth(&[&words, more].concat())
+    sandbox.shuttertruth(&[&words, more].concat())
 }
 
 /// Does the same at half the size.
-fn smaller_run_into(bench: &Bench, out: &str, more: &[&str]) -> std::process::Output {
+fn smaller_run_into(sandbox: &Sandbox, out: &str, more: &[&str]) -> std::process::Output {
     let mut words = quick_command("run", "16");
     (words[3], words[5]) = (out, "32x16");
-    bench.shuttertruth(&[&words, more].concat())
+    sandbox.shuttertruth(&[&words, more].concat())
 }
 
-fn compare(bench: &Bench) -> Value {
-    serde_json::from_str(&bench.execute(&["compare", "out/run.json", "other", "--json"])).unwrap()
+fn compare(sandbox: &Sandbox) -> Value {
+    serde_json::from_str(&sandbox.execute(&["compare", "out/run.json", "other", "--json"])).unwrap()
 }
 
 fn changes<'a>(compared: &'a Value, filter: &str) -> Vec<&'a Value> {
@@ -47,8 +52,8 @@ fn changes<'a>(compared: &'a Value, filter: &str) -> Vec<&'a Value> {
 
 #[test]
 fn a_run_compared_with_itself_shows_no_change() {
-    let bench = two_runs(&[]);
-    let compared = compare(&bench);
+    let sandbox = two_runs(&[]);
+    let compared = compare(&sandbox);
     let all = compared["changes"].as_array().unwrap();
     // Six references and two filters, each with at least FLIP, PSNR and label TV.
     assert!(all.len() >= 24, "{}", all.len());
@@ -59,7 +64,7 @@ fn a_run_compared_with_itself_shows_no_change() {
     for key in ["settings", "only_in_first", "only_in_second"] {
         assert_eq!(compared[key].as_array().unwrap().len(), 0, "{key}");
     }
-    let table = stdout(&bench.shuttertruth(&["compare", "out", "other"]));
+    let table = stdout(&sandbox.shuttertruth(&["compare", "out", "other"]));
     assert!(
         table.contains("nothing changed of: identity:default, velocity_gather:fine"),
         "{table}"
@@ -72,8 +77,8 @@ fn a_run_compared_with_itself_shows_no_change() {
 
 #[test]
 fn compare_names_a_changed_parameter_and_gives_intervals() {
-    let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
-    let compared = compare(&bench);
+    let sandbox = two_runs(&["--set", "velocity_gather.samples=2"]);
+    let compared = compare(&sandbox);
     let settings = compared["settings"].as_array().unwrap();
     assert_eq!(settings.len(), 1, "{settings:?}");
     assert_eq!(settings[0]["name"], "velocity_gather:fine.samples");
@@ -82,7 +87,7 @@ fn compare_names_a_changed_parameter_and_gives_intervals() {
         assert_eq!(change["kind"], "same", "{change}");
     }
     let run = |out: &str| -> suite::Run {
-        serde_json::from_slice(&fs::read(bench.path(out).join("run.json")).unwrap()).unwrap()
+        serde_json::from_slice(&fs::read(sandbox.path(out).join("run.json")).unwrap()).unwrap()
     };
     let score = |run: &suite::Run| {
         let case = run
@@ -131,13 +136,13 @@ fn compare_names_a_changed_parameter_and_gives_intervals() {
 
 #[test]
 fn terminal_and_page_show_the_same_numbers() {
-    let bench = Bench::two_scenes();
-    assert_done(&bench.run(&GATHER));
+    let sandbox = Sandbox::two_scenes();
+    assert_done(&sandbox.run(&GATHER));
     let more = [&GATHER[..], &["--set", "velocity_gather.samples=2"]].concat();
-    assert_done(&run_into(&bench, "other", "16", &more));
+    assert_done(&run_into(&sandbox, "other", "16", &more));
     let words = ["compare", "out", "other", "--html", "page.html"];
-    let table = bench.execute(&words);
-    let page = fs::read_to_string(bench.path("page.html")).unwrap();
+    let table = sandbox.execute(&words);
+    let page = fs::read_to_string(sandbox.path("page.html")).unwrap();
     // Cells of the page, between bars.
     let cells: Vec<&str> = (page.split('<'))
         .filter_map(|part| part.split_once('>'))
@@ -162,7 +167,7 @@ fn terminal_and_page_show_the_same_numbers() {
     }
     // Means, and the scores of two scenes, at least FLIP, skill and PSNR each.
     assert!(found >= 9, "{table}");
-    let compared = compare(&bench);
+    let compared = compare(&sandbox);
     for mean in compared["means"].as_array().unwrap() {
         let [first, second, worse] =
             ["first", "second", "worse"].map(|key| mean[key].as_f64().unwrap());
@@ -178,11 +183,11 @@ fn terminal_and_page_show_the_same_numbers() {
 
 #[test]
 fn floors_decide_if_replicates_are_missing_and_the_output_says_so() {
-    let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
+    let sandbox = two_runs(&["--set", "velocity_gather.samples=2"]);
     for out in ["out", "other"] {
-        fs::remove_dir_all(bench.path(out).join("plate/truth_trailing")).unwrap();
+        fs::remove_dir_all(sandbox.path(out).join("plate/truth_trailing")).unwrap();
     }
-    let compared = compare(&bench);
+    let compared = compare(&sandbox);
     let own = changes(&compared, "velocity_gather:fine");
     let flip = own
         .iter()
@@ -190,7 +195,7 @@ fn floors_decide_if_replicates_are_missing_and_the_output_says_so() {
         .unwrap();
     assert_eq!(flip["basis"], "floor");
     assert_eq!(flip["interval"], Value::Null);
-    let table = stdout(&bench.shuttertruth(&["compare", "out", "other"]));
+    let table = stdout(&sandbox.shuttertruth(&["compare", "out", "other"]));
     assert!(
         table.contains("told from noise by their floors alone"),
         "{table}"
@@ -199,16 +204,16 @@ fn floors_decide_if_replicates_are_missing_and_the_output_says_so() {
 
 #[test]
 fn cases_of_only_one_run_are_named() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    assert_done(&run_into(&bench, "other", "16", &GATHER));
-    let compared = compare(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    assert_done(&run_into(&sandbox, "other", "16", &GATHER));
+    let compared = compare(&sandbox);
     assert_eq!(compared["only_in_first"].as_array().unwrap().len(), 0);
     assert_eq!(
         compared["only_in_second"],
         serde_json::json!(["plate / velocity_gather:fine"])
     );
-    let table = stdout(&bench.shuttertruth(&["compare", "out", "other"]));
+    let table = stdout(&sandbox.shuttertruth(&["compare", "out", "other"]));
     assert!(
         table.contains("only in other/run.json:\n  plate / velocity_gather:fine\n"),
         "{table}"
@@ -217,46 +222,50 @@ fn cases_of_only_one_run_are_named() {
 
 #[test]
 fn runs_without_a_common_ground_are_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let identity = ["--filters", "identity"];
-    assert_done(&bench.run(&identity));
+    assert_done(&sandbox.run(&identity));
     let refused = |parts: &[&str]| {
-        assert_refused(&bench.shuttertruth(&["compare", "out", "other"]), 2, parts);
+        assert_refused(
+            &sandbox.shuttertruth(&["compare", "out", "other"]),
+            2,
+            parts,
+        );
     };
-    assert_done(&smaller_run_into(&bench, "other", &identity));
+    assert_done(&smaller_run_into(&sandbox, "other", &identity));
     refused(&["other/run.json", "32x16", "64x32", "at the other's size"]);
-    fs::remove_dir_all(bench.path("other")).unwrap();
-    assert_done(&run_into(&bench, "other", "32", &identity));
+    fs::remove_dir_all(sandbox.path("other")).unwrap();
+    assert_done(&run_into(&sandbox, "other", "32", &identity));
     refused(&[
         "other/run.json",
         "truth of plate (trailing)",
         "same samples per pixel",
     ]);
-    fs::remove_dir_all(bench.path("other")).unwrap();
-    bench.add_slow_scene();
+    fs::remove_dir_all(sandbox.path("other")).unwrap();
+    sandbox.add_slow_scene();
     assert_done(&run_into(
-        &bench,
+        &sandbox,
         "other",
         "16",
         &["--filters", "identity", "--scenes", "slow"],
     ));
     refused(&["no case in common", "plate there and slow here"]);
-    fs::write(bench.path("other/run.json"), "{}").unwrap();
+    fs::write(sandbox.path("other/run.json"), "{}").unwrap();
     refused(&["other/run.json", "no run of this program"]);
-    fs::remove_file(bench.path("other/run.json")).unwrap();
+    fs::remove_file(sandbox.path("other/run.json")).unwrap();
     refused(&["other/run.json", "cannot read"]);
 }
 
 #[test]
 fn the_page_shows_both_pictures_and_both_runs() {
-    let bench = two_runs(&["--set", "velocity_gather.samples=2"]);
-    let page = bench.path("page.html");
+    let sandbox = two_runs(&["--set", "velocity_gather.samples=2"]);
+    let page = sandbox.path("page.html");
     let words = ["compare", "out", "other", "--html", "page.html"];
-    assert!(stdout(&bench.shuttertruth(&words)).contains("written: page.html ("));
+    assert!(stdout(&sandbox.shuttertruth(&words)).contains("written: page.html ("));
     let text = fs::read_to_string(&page).unwrap();
     let address = |out: &str, name: &str| {
         use base64::Engine;
-        let bytes = fs::read(bench.path(out).join("plate").join(name)).unwrap();
+        let bytes = fs::read(sandbox.path(out).join("plate").join(name)).unwrap();
         let engine = base64::engine::general_purpose::STANDARD;
         format!("src=\"data:image/png;base64,{}\"", engine.encode(bytes))
     };
@@ -275,7 +284,7 @@ fn the_page_shows_both_pictures_and_both_runs() {
         "something is fetched"
     );
     assert!(text.contains("default-src 'none'"));
-    bench.execute(&words);
+    sandbox.execute(&words);
     assert_eq!(
         fs::read_to_string(&page).unwrap(),
         text,
@@ -285,13 +294,13 @@ fn the_page_shows_both_pictures_and_both_runs() {
 
 #[test]
 fn a_scene_name_with_a_script_is_shown_as_text() {
-    let bench = Bench::new();
-    bench.copy_scene("<script>alert(1)", |text| text.replace("-1.6", "-0.8"));
-    assert_done(&bench.run(&GATHER));
+    let sandbox = Sandbox::new();
+    sandbox.copy_scene("<script>alert(1)", |text| text.replace("-1.6", "-0.8"));
+    assert_done(&sandbox.run(&GATHER));
     let more = [&GATHER[..], &["--set", "velocity_gather.samples=2"]].concat();
-    assert_done(&run_into(&bench, "other", "16", &more));
-    bench.execute(&["compare", "out", "other", "--html", "page.html"]);
-    let page = fs::read_to_string(bench.path("page.html")).unwrap();
+    assert_done(&run_into(&sandbox, "other", "16", &more));
+    sandbox.execute(&["compare", "out", "other", "--html", "page.html"]);
+    let page = fs::read_to_string(sandbox.path("page.html")).unwrap();
     assert!(
         page.contains("&lt;script&gt;alert(1)"),
         "the scene is not shown"

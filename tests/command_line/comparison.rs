@@ -4,7 +4,7 @@ use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::Metric;
 use suite::{Case, DepthFormat, FinishedPicture, Overall, Run, VelocityFormat};
 
-use crate::bench::{Bench, SCENE, assert_done, assert_refused, quick_command, split, stdout};
+use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, quick_command, split, stdout};
 
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
@@ -20,9 +20,9 @@ fn flip(case: &Case) -> f64 {
 
 #[test]
 fn filters_of_two_alignments_share_a_common_shutter() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy"]));
-    let run = bench.read_run();
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine,bevy"]));
+    let run = sandbox.read_run();
     assert_eq!(run.common_alignment, Alignment::Centred);
     for case in &run.cases {
         let own = case.common == case.scores.moving;
@@ -36,19 +36,19 @@ fn filters_of_two_alignments_share_a_common_shutter() {
     let late = many[0].common.flip.value().unwrap();
     assert!(late > 4.0 * flip(many[0]), "{late}");
     // A narrower run keeps the cases of the wider one, and so their common shutter.
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    assert_eq!(bench.read_run().common_alignment, Alignment::Centred);
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine", "--no-cache"]));
-    assert_eq!(bench.read_run().common_alignment, Alignment::Trailing);
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
+    assert_eq!(sandbox.read_run().common_alignment, Alignment::Centred);
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine", "--no-cache"]));
+    assert_eq!(sandbox.read_run().common_alignment, Alignment::Trailing);
 }
 
 #[test]
 fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
-    let bench = Bench::new();
-    bench.write("scene.toml", &SCENE.replace("-1.6, 0, 0", "-3.2, 0, 0"));
+    let sandbox = Sandbox::new();
+    sandbox.write("scene.toml", &SCENE.replace("-1.6, 0, 0", "-3.2, 0, 0"));
     let filters = ["--filters", "velocity_gather:fine,bevy"];
-    let text = bench.execute(&[&quick_command("run", "64")[..], &filters].concat());
-    let run = bench.read_run();
+    let text = sandbox.execute(&[&quick_command("run", "64")[..], &filters].concat());
+    let run = sandbox.read_run();
     let find = |bar: &str, alignment: Alignment| {
         let mut found = run.cases.iter();
         found.find(|case| case.name() == bar && case.alignment == alignment)
@@ -75,9 +75,9 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
     let cells: Vec<&str> = row.expect(&text).split_whitespace().skip(4).collect();
     assert_eq!(cells, [format!("{lag:.3}").as_str(), "-"]);
 
-    let frame = Frame::read(&bench.path("out/plate/frame.exr")).unwrap();
+    let frame = Frame::read(&sandbox.path("out/plate/frame.exr")).unwrap();
     for alignment in ["trailing", "centred"] {
-        let path = |name: &str| bench.path(&format!("out/plate/{name}"));
+        let path = |name: &str| sandbox.path(&format!("out/plate/{name}"));
         let truth = Truth::read(&path(&format!("truth_{alignment}.exr"))).unwrap();
         let ladder = Ladder::read_rung(&path(&format!("ladder_{alignment}/n1.exr")), 1).unwrap();
         let sharp = Picture::mean(&ladder.rungs[0].halves);
@@ -98,10 +98,10 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
 
 #[test]
 fn references_beat_filters_and_have_no_bounds() {
-    let bench = Bench::new();
-    bench.write_bound(0.0001);
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let cases = bench.read_run().cases;
+    let sandbox = Sandbox::new();
+    sandbox.write_bound(0.0001);
+    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    let cases = sandbox.read_run().cases;
     let oracle = flip(find_case(&cases, "scatter_oracle"));
     let many = flip(find_case(&cases, "accumulate:64"));
     let gather = flip(find_case(&cases, "velocity_gather:fine"));
@@ -111,7 +111,7 @@ fn references_beat_filters_and_have_no_bounds() {
         many < oracle && oracle < 0.75 * gather,
         "{many} {oracle} {gather}"
     );
-    let findings = bench.read_findings();
+    let findings = sandbox.read_findings();
     for case in &cases {
         let judged = findings.iter().any(|finding| finding.is_of(case));
         assert_ne!(case.is_reference, judged, "{}", case.name());
@@ -120,11 +120,11 @@ fn references_beat_filters_and_have_no_bounds() {
 
 #[test]
 fn variance_is_measured_for_filters_with_noise() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let filters = "velocity_gather:fine,jump_flood:paper";
-    let output = bench.run(&["--filters", filters, "--jitter-frames", "4", "--table"]);
+    let output = sandbox.run(&["--filters", filters, "--jitter-frames", "4", "--table"]);
     assert_done(&output);
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     assert_eq!(find_case(&cases, "velocity_gather:fine").jitter, None);
     let jitter = find_case(&cases, "jump_flood:paper").jitter.unwrap();
     assert_eq!(jitter.frames, 4);
@@ -133,9 +133,9 @@ fn variance_is_measured_for_filters_with_noise() {
     let line = noisy.lines().find(|line| line.contains("jump_flood:paper"));
     assert!(line.unwrap().contains('%'), "{noisy}");
 
-    assert_done(&bench.run(&["--filters", filters, "--jitter-frames", "0"]));
+    assert_done(&sandbox.run(&["--filters", filters, "--jitter-frames", "0"]));
     assert!(
-        bench
+        sandbox
             .read_run()
             .cases
             .iter()
@@ -145,12 +145,12 @@ fn variance_is_measured_for_filters_with_noise() {
 
 #[test]
 fn defects_of_velocity_cost_what_they_take_away() {
-    let bench = Bench::new();
-    let output = bench.run(&split(
+    let sandbox = Sandbox::new();
+    let output = sandbox.run(&split(
         "--filters identity,velocity_gather:fine --input defect=zero,double,lag,no_object,jittered",
     ));
     assert_done(&output);
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 2 * 6);
     let identity = flip(find_case(&cases, "identity:default"));
     let right = flip(find_case(&cases, "velocity_gather:fine"));
@@ -176,19 +176,19 @@ fn defects_of_velocity_cost_what_they_take_away() {
     // The ranking is of the right buffer alone.
     assert!(!told.contains("velocity_gather:fine defect"), "{told}");
     let camera_only = split("--filters identity --velocity camera_only --input defect=lag");
-    let refused = bench.run(&camera_only);
+    let refused = sandbox.run(&camera_only);
     assert_refused(&refused, 2, &["defect=lag", "the camera alone"]);
 }
 
 #[test]
 fn coarser_buffers_raise_the_error() {
-    let bench = Bench::new();
-    let output = bench.run(&split(
+    let sandbox = Sandbox::new();
+    let output = sandbox.run(&split(
         "--filters identity,velocity_gather:fine --input velocity=float16,linear8,kino10,tile_clamped \
          --input depth=float16",
     ));
     assert_done(&output);
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 2 * 6);
     let identity = flip(find_case(&cases, "identity:default"));
     for case in &cases[..6] {
@@ -217,40 +217,43 @@ fn coarser_buffers_raise_the_error() {
 
 #[test]
 fn a_clamped_border_is_cropped_before_scoring() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = [
         "--filters",
         "velocity_gather:fine",
         "--input",
         "border=clamp",
     ];
-    assert_done(&bench.run(&words));
-    let cases = bench.read_filter_cases();
+    assert_done(&sandbox.run(&words));
+    let cases = sandbox.read_filter_cases();
     let clamped = find_case(&cases, "velocity_gather:fine border=clamp");
     // The plate stays clear of the border, so nothing there can change its score.
     let whole = find_case(&cases, "velocity_gather:fine");
     assert_eq!(clamped.scores.full, whole.scores.full);
     assert_eq!(clamped.scores.objects, whole.scores.objects);
-    let output = bench.run(&["--input", "border=mirror"]);
+    let output = sandbox.run(&["--input", "border=mirror"]);
     assert_refused(&output, 2, &["mirror", "leave, clamp"]);
 }
 
 #[test]
 fn means_over_scenes_have_a_student_interval() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    assert!(bench.read_run().overall.is_empty(), "one scene is no mean");
-    assert!(!stdout(&bench.run(&["--filters", "identity"])).contains("mean over"));
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    assert!(
+        sandbox.read_run().overall.is_empty(),
+        "one scene is no mean"
+    );
+    assert!(!stdout(&sandbox.run(&["--filters", "identity"])).contains("mean over"));
 
-    bench.copy_scene("farther", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
-    bench.write(
+    sandbox.copy_scene("farther", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
+    sandbox.write(
         "../bounds.toml",
         "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n",
     );
     let filters = ["--filters", "identity,velocity_gather:fine"];
-    let output = bench.run(&[&filters[..], &["--table"]].concat());
+    let output = sandbox.run(&[&filters[..], &["--table"]].concat());
     assert_done(&output);
-    let (scores, mean) = identity_overall(&bench.read_run());
+    let (scores, mean) = identity_overall(&sandbox.read_run());
     assert_eq!(mean.scenes, 2);
     assert!((mean.mean - 0.5 * (scores[0] + scores[1])).abs() < 1e-12);
     // The standard error of two scores is half of their difference, and t for one degree of freedom is 12.706.
@@ -275,9 +278,9 @@ fn means_over_scenes_have_a_student_interval() {
             .all(|line| line.chars().count() <= 80 || line.contains(": out"))
     );
 
-    assert_done(&bench.check(&filters));
+    assert_done(&sandbox.check(&filters));
     // The scores contain each truth's noise already: a check, which knows the noise, gives the same mean.
-    let (scores, mean) = identity_overall(&bench.read_run());
+    let (scores, mean) = identity_overall(&sandbox.read_run());
     let half = 12.706 * 0.5 * (scores[1] - scores[0]);
     let [low, high] = mean.interval;
     assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");

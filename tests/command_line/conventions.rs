@@ -6,7 +6,7 @@ use std::path::Path;
 use filters::Convention;
 use frame::{ExrFile, Frame, Image, read_exr, write_exr};
 
-use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
 
 /// Conventions, each apart from that of frames in one thing or more.
 const FORMS: [&str; 12] = [
@@ -25,11 +25,11 @@ const FORMS: [&str; 12] = [
      velocity_scale = 0.5\ndepth = \"reversed\"\nnear = 0.1\nfar = 1000\ncolor_scale = 8",
 ];
 
-fn render(bench: &Bench) -> Frame {
-    bench.execute(&split(
+fn render(sandbox: &Sandbox) -> Frame {
+    sandbox.execute(&split(
         "truths render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing",
     ));
-    Frame::read(&bench.path("r/plate/frame.exr")).unwrap()
+    Frame::read(&sandbox.path("r/plate/frame.exr")).unwrap()
 }
 
 /// Writes a frame as the engine would.
@@ -53,13 +53,13 @@ fn largest_difference(a: &Image, b: &Image) -> f32 {
 
 #[test]
 fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
-    let bench = Bench::new();
-    let frame = render(&bench);
+    let sandbox = Sandbox::new();
+    let frame = render(&sandbox);
     let blur = |words: &str| {
-        bench.execute(&split(&format!(
+        sandbox.execute(&split(&format!(
             "engine blur --filter kino --out blurred.exr {words}"
         )));
-        read_exr(&bench.path("blurred.exr"))
+        read_exr(&sandbox.path("blurred.exr"))
             .unwrap()
             .color("")
             .unwrap()
@@ -69,9 +69,9 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
     assert!(moved > 0.02, "there is something to blur: {moved}");
     for form in FORMS {
         let text = format!("[convention]\n{form}\n");
-        fs::write(bench.path("engine.toml"), &text).unwrap();
+        fs::write(sandbox.path("engine.toml"), &text).unwrap();
         let convention = Convention::parse(Path::new("engine.toml"), &text).unwrap();
-        write_engine_frame(&bench.path("engine.exr"), &frame, &convention);
+        write_engine_frame(&sandbox.path("engine.exr"), &frame, &convention);
         let found = blur("--frame engine.exr --convention engine.toml");
         let found = convention.restore_color(&found);
         // Rounding of velocity and depth to 24 binary digits and back.
@@ -82,12 +82,12 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
 
 #[test]
 fn a_picture_of_exposed_colours_has_the_scores_of_its_radiance() {
-    let bench = Bench::new();
-    render(&bench);
-    bench.execute(&split(
+    let sandbox = Sandbox::new();
+    render(&sandbox);
+    sandbox.execute(&split(
         "engine blur --filter velocity_gather --frame r/plate/frame.exr --out plain.exr",
     ));
-    let mut file = read_exr(&bench.path("plain.exr")).unwrap();
+    let mut file = read_exr(&sandbox.path("plain.exr")).unwrap();
     // A power of two changes no digit.
     let exposed = file
         .color("")
@@ -95,11 +95,15 @@ fn a_picture_of_exposed_colours_has_the_scores_of_its_radiance() {
         .map(|pixel| pixel.map(|value| 4.0 * value));
     file.channels.clear();
     file.push_color("", &exposed);
-    write_exr(&bench.path("exposed.exr"), &file).unwrap();
-    fs::write(bench.path("engine.toml"), "[convention]\ncolor_scale = 4\n").unwrap();
+    write_exr(&sandbox.path("exposed.exr"), &file).unwrap();
+    fs::write(
+        sandbox.path("engine.toml"),
+        "[convention]\ncolor_scale = 4\n",
+    )
+    .unwrap();
     let score = |words: &str| {
         let files = "--truth r/plate/truth_trailing.exr --frame r/plate/frame.exr";
-        let output = bench.shuttertruth(&split(&format!("score {files} {words}")));
+        let output = sandbox.shuttertruth(&split(&format!("score {files} {words}")));
         assert_done(&output);
         stdout(&output)
     };
@@ -121,19 +125,19 @@ fn a_picture_of_exposed_colours_has_the_scores_of_its_radiance() {
     );
     let png = "score --truth r/plate/truth_trailing.exr --frame r/plate/frame.exr --image r/plate/frame.png \
                --convention engine.toml";
-    let output = bench.shuttertruth(&split(png));
+    let output = sandbox.shuttertruth(&split(png));
     assert_refused(&output, 2, &["frame.png: is a PNG", "OpenEXR"]);
 }
 
 #[test]
 fn a_wrong_convention_is_refused_with_its_line() {
-    let bench = Bench::new();
-    render(&bench);
+    let sandbox = Sandbox::new();
+    render(&sandbox);
     let words = split(
         "engine blur --filter identity --frame r/plate/frame.exr --out b.exr --convention engine.toml",
     );
     assert_refused(
-        &bench.shuttertruth(&words),
+        &sandbox.shuttertruth(&words),
         2,
         &["engine.toml: cannot read"],
     );
@@ -159,8 +163,8 @@ fn a_wrong_convention_is_refused_with_its_line() {
             ["engine.toml:1: ", "needs frames_per_second"],
         ),
     ] {
-        fs::write(bench.path("engine.toml"), text).unwrap();
-        assert_refused(&bench.shuttertruth(&words), 2, &parts);
+        fs::write(sandbox.path("engine.toml"), text).unwrap();
+        assert_refused(&sandbox.shuttertruth(&words), 2, &parts);
     }
 }
 
@@ -196,11 +200,11 @@ fn copy(@builtin(global_invocation_id) id: vec3<u32>) {
 
 #[test]
 fn run_json_says_what_a_filter_s_shaders_got() {
-    let bench = Bench::new();
-    bench.write_filter("godot", GODOT, COPY);
-    assert_done(&bench.run(&["--filters", "./godot,velocity_gather"]));
+    let sandbox = Sandbox::new();
+    sandbox.write_filter("godot", GODOT, COPY);
+    assert_done(&sandbox.run(&["--filters", "./godot,velocity_gather"]));
     let run: serde_json::Value =
-        serde_json::from_str(&fs::read_to_string(bench.path("out/run.json")).unwrap()).unwrap();
+        serde_json::from_str(&fs::read_to_string(sandbox.path("out/run.json")).unwrap()).unwrap();
     let case = |filter: &str| {
         let mut cases = run["cases"].as_array().unwrap().iter();
         cases.find(|case| case["filter"] == filter).unwrap()["convention"].clone()

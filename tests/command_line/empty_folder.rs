@@ -8,7 +8,7 @@ use serde_json::Value;
 use tests::{root, scenes};
 use tracer::{Location, load_scene};
 
-use crate::bench::{Bench, assert_done, assert_refused, files_below, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, files_below, split, stdout};
 
 const QUICK: &str = "--scenes fan --filter velocity_gather --size 32x18 --samples-per-pixel 16";
 
@@ -76,9 +76,9 @@ fn other_commands_work_in_an_empty_folder() {
 
 #[test]
 fn a_folder_of_scenes_goes_before_the_program_s_own() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let names = |words: &[&str]| -> Vec<String> {
-        let json: Value = serde_json::from_str(&bench.execute(words)).unwrap();
+        let json: Value = serde_json::from_str(&sandbox.execute(words)).unwrap();
         let scenes = json["scenes"].as_array().unwrap().iter();
         scenes
             .map(|scene| scene["name"].as_str().unwrap().to_owned())
@@ -88,12 +88,12 @@ fn a_folder_of_scenes_goes_before_the_program_s_own() {
     let own = names(&["list", "scenes", "--json", "--scenes-dir", "built-in"]);
     assert!(own.len() > 20 && own.contains(&"fan".to_owned()), "{own:?}");
     assert_refused(
-        &bench.run(&["--scenes", "fan"]),
+        &sandbox.run(&["--scenes", "fan"]),
         2,
         &["no scene \"fan\" in scenes", "--scenes-dir built-in"],
     );
     assert_refused(
-        &bench.run(&["--scenes-dir", "nowhere"]),
+        &sandbox.run(&["--scenes-dir", "nowhere"]),
         2,
         &["nowhere: there is no such folder of scenes"],
     );

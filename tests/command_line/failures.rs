@@ -4,7 +4,7 @@ use std::fs;
 
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr, stdout};
 
 const MANIFEST: &str = r#"
 name = "torn"
@@ -23,22 +23,22 @@ const BODY: &str = "
 ";
 
 /// Makes two scenes, on one of which the filter `torn` fails.
-fn set_up() -> Bench {
-    let bench = Bench::new();
-    bench.copy_scene("dim", |scene| {
+fn set_up() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.copy_scene("dim", |scene| {
         scene.replace("exposure = 0.5", "exposure = 0.25")
     });
-    bench.write_filter("torn", MANIFEST, &one_kernel_without_parameters(BODY));
-    bench
+    sandbox.write_filter("torn", MANIFEST, &one_kernel_without_parameters(BODY));
+    sandbox
 }
 
 #[test]
 fn a_run_names_the_failed_case_and_goes_on() {
-    let bench = set_up();
+    let sandbox = set_up();
     let words = ["--filters", "identity,./torn", "--html", "page.html"];
-    let output = bench.run(&words);
+    let output = sandbox.run(&words);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    let run = bench.read_run();
+    let run = sandbox.read_run();
     let [failure] = &run.failures[..] else {
         panic!("one case fails: {:?}", run.failures);
     };
@@ -56,7 +56,7 @@ fn a_run_names_the_failed_case_and_goes_on() {
         "{}",
         failure.reason
     );
-    let measured: Vec<_> = (bench.read_filter_cases().iter())
+    let measured: Vec<_> = (sandbox.read_filter_cases().iter())
         .map(|case| (case.scene.to_string(), case.name()))
         .collect();
     let expected = [
@@ -78,37 +78,37 @@ fn a_run_names_the_failed_case_and_goes_on() {
         "{}",
         stderr(&output)
     );
-    let page = fs::read_to_string(bench.path("page.html")).unwrap();
+    let page = fs::read_to_string(sandbox.path("page.html")).unwrap();
     assert!(page.contains("<strong>dim / torn:default</strong>"));
     // Measured cases are kept, and the failed one is tried again.
-    let again = bench.run(&words);
+    let again = sandbox.run(&words);
     assert_eq!(again.status.code(), Some(1));
-    assert_eq!(bench.read_run().failures, run.failures);
+    assert_eq!(sandbox.read_run().failures, run.failures);
     // A run with failures cannot become a baseline.
     let accept = split("limits accept --out out --baseline base.json --reason none");
-    let refused = bench.outside_ci(&accept);
+    let refused = sandbox.outside_ci(&accept);
     assert_refused(&refused, 1, &["1 case failed", "torn:default on dim"]);
-    assert!(!bench.path("base.json").exists());
+    assert!(!sandbox.path("base.json").exists());
 }
 
 #[test]
 fn a_check_with_a_failed_case_is_broken() {
-    let bench = set_up();
+    let sandbox = set_up();
     let bounds = "[default]\nflip_moving = { limit = 0.99, why = \"it serves a test\" }\n";
-    fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
+    fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
     let words = ["--filters", "./torn", "--junit", "junit.xml"];
-    let output = bench.check(&words);
+    let output = sandbox.check(&words);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(
         stdout(&output).contains("dim / torn:default\n  FAILED"),
         "{}",
         stdout(&output)
     );
-    let junit = fs::read_to_string(bench.path("junit.xml")).unwrap();
+    let junit = fs::read_to_string(sandbox.path("junit.xml")).unwrap();
     assert!(junit.contains("type=\"failed\""), "{junit}");
-    let json = bench.check(&["--filters", "./torn", "--json"]);
+    let json = sandbox.check(&["--filters", "./torn", "--json"]);
     let found: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!(found["decision"], "broken");
     assert_eq!(found["failures"][0]["scene"], "dim");
-    assert_done(&bench.check(&["--filters", "./torn", "--scenes", "plate"]));
+    assert_done(&sandbox.check(&["--filters", "./torn", "--scenes", "plate"]));
 }

@@ -4,7 +4,7 @@ use std::process::{Command, Output};
 
 use tests::root;
 
-use crate::bench::{stderr, stdout};
+use crate::sandbox::{stderr, stdout};
 
 /// Runs examples/fidelity/compare.py. `make test` installs what it needs and names the Python in PYTHON.
 fn compare(more: &[&str]) -> Output {

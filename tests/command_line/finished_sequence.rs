@@ -6,15 +6,15 @@ use frame::{Image, display_srgb, read_exr, write_png};
 use metrics::{SequenceMetric, SequenceScores};
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{Bench, SCENE, assert_done, assert_refused, stdout};
+use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, stdout};
 
 const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
 const FRAME: [&str; 2] = ["--frame", "out/plate/frame.exr"];
 const THREE: [&str; 2] = ["--frames", "3"];
 
-/// Makes a bench with a filter whose picture depends on the frame before and on the frame's number, and runs it on three frames.
-fn run_filter() -> Bench {
-    let bench = Bench::new();
+/// Makes a sandbox with a filter whose picture depends on the frame before and on the frame's number, and runs it on three frames.
+fn run_filter() -> Sandbox {
+    let sandbox = Sandbox::new();
     let manifest = "name = \"late\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\nhistory = [\"color\"]\n\n[[pass]]\nentry = \"work\"\n";
     let body = "let before = textureLoad(color_before, pixel, 0).rgb;
     let now = textureLoad(color, pixel, 0).rgb;
@@ -22,22 +22,22 @@ fn run_filter() -> Bench {
     textureStore(output, pixel, vec4<f32>(mix(before, now, 0.5 + 0.2 * noise), 1.0));";
     let texture = "@group(0) @binding(4) var color_before: texture_2d<f32>;\n";
     let kernels = texture.to_owned() + &one_kernel_without_parameters(body);
-    bench.write_filter("late", manifest, &kernels);
-    assert_done(&bench.run(&[&["--filter", "./late", "--fps", "24"][..], &THREE].concat()));
-    bench
+    sandbox.write_filter("late", manifest, &kernels);
+    assert_done(&sandbox.run(&[&["--filter", "./late", "--fps", "24"][..], &THREE].concat()));
+    sandbox
 }
 
-fn read_color(bench: &Bench, name: &str) -> Image {
-    read_exr(&bench.path(name)).unwrap().color("").unwrap()
+fn read_color(sandbox: &Sandbox, name: &str) -> Image {
+    read_exr(&sandbox.path(name)).unwrap().color("").unwrap()
 }
 
-fn score(bench: &Bench, images: &str, more: &[&str]) -> std::process::Output {
+fn score(sandbox: &Sandbox, images: &str, more: &[&str]) -> std::process::Output {
     let words = [&["score", "--image", images][..], &TRUTH, &FRAME, more];
-    bench.shuttertruth(&words.concat())
+    sandbox.shuttertruth(&words.concat())
 }
 
-fn scores(bench: &Bench, images: &str, more: &[&str]) -> SequenceScores {
-    let output = score(bench, images, &[&THREE[..], &["--json"], more].concat());
+fn scores(sandbox: &Sandbox, images: &str, more: &[&str]) -> SequenceScores {
+    let output = score(sandbox, images, &[&THREE[..], &["--json"], more].concat());
     assert_done(&output);
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(
@@ -50,31 +50,31 @@ fn scores(bench: &Bench, images: &str, more: &[&str]) -> SequenceScores {
 
 #[test]
 fn blur_and_score_repeat_the_sequence_of_a_run() {
-    let bench = run_filter();
+    let sandbox = run_filter();
     let words = ["engine", "blur", "--filter", "./late", "--out", "mine"];
-    bench.execute(&[&words[..], &FRAME, &THREE].concat());
+    sandbox.execute(&[&words[..], &FRAME, &THREE].concat());
     let pictures = ["mine/0000.exr", "mine/0001.exr", "mine/0002.exr"];
     for (picture, folder) in pictures.iter().zip(["plate", "plate/0001", "plate/0002"]) {
-        let expected = read_color(&bench, &format!("out/{folder}/late_default/output.exr"));
+        let expected = read_color(&sandbox, &format!("out/{folder}/late_default/output.exr"));
         assert!(
-            read_color(&bench, picture) == expected,
+            read_color(&sandbox, picture) == expected,
             "{picture}: bit for bit"
         );
     }
-    let run = bench.read_run();
+    let run = sandbox.read_run();
     let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
     assert_eq!(
-        scores(&bench, "mine", &["--fps", "24"]),
+        scores(&sandbox, "mine", &["--fps", "24"]),
         own.scores,
         "bit for bit"
     );
     // Only JOD depends on the rate.
-    let slow = scores(&bench, "mine", &[]);
+    let slow = scores(&sandbox, "mine", &[]);
     for metric in SequenceMetric::ALL {
         let is_same = slow.get(metric) == own.scores.get(metric);
         assert_eq!(is_same, !metric.depends_on_rate(), "{metric:?}");
     }
-    let text = stdout(&score(&bench, "mine", &THREE));
+    let text = stdout(&score(&sandbox, "mine", &THREE));
     for part in [
         "3 frames",
         "flick",
@@ -86,29 +86,29 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
     }
 
     // Another order of the frames has other scores over time.
-    let [first, last] = ["mine/0000.exr", "mine/0002.exr"].map(|name| bench.path(name));
-    fs::rename(&first, bench.path("kept.exr")).unwrap();
+    let [first, last] = ["mine/0000.exr", "mine/0002.exr"].map(|name| sandbox.path(name));
+    fs::rename(&first, sandbox.path("kept.exr")).unwrap();
     fs::rename(&last, &first).unwrap();
-    fs::rename(bench.path("kept.exr"), &last).unwrap();
-    let swapped = scores(&bench, "mine", &[]);
+    fs::rename(sandbox.path("kept.exr"), &last).unwrap();
+    let swapped = scores(&sandbox, "mine", &[]);
     assert!(swapped.flicker.value() > slow.flicker.value());
 
     // Engines write PNGs. A plate of up to 0.7 of white loses little by 8 bits.
-    fs::create_dir(bench.path("shown")).unwrap();
+    fs::create_dir(sandbox.path("shown")).unwrap();
     for (at, folder) in ["plate", "plate/0001", "plate/0002"].iter().enumerate() {
-        let color = read_color(&bench, &format!("out/{folder}/late_default/output.exr"));
-        let path = bench.path(&format!("shown/{at:04}.png"));
+        let color = read_color(&sandbox, &format!("out/{folder}/late_default/output.exr"));
+        let path = sandbox.path(&format!("shown/{at:04}.png"));
         write_png(&path, &display_srgb(&color, 0.0)).unwrap();
     }
-    let shown = scores(&bench, "shown", &[]);
+    let shown = scores(&sandbox, "shown", &[]);
     let ratio = shown.flicker.value().unwrap() / slow.flicker.value().unwrap();
     assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
 }
 
 #[test]
 fn sequences_that_do_not_fit_are_refused() {
-    let bench = run_filter();
-    bench.execute(
+    let sandbox = run_filter();
+    sandbox.execute(
         &[
             &["engine", "blur", "--filter", "./late", "--out", "mine"][..],
             &FRAME,
@@ -117,7 +117,7 @@ fn sequences_that_do_not_fit_are_refused() {
         .concat(),
     );
     let refused = |images: &str, more: &[&str], parts: &[&str]| {
-        assert_refused(&score(&bench, images, more), 2, parts);
+        assert_refused(&score(&sandbox, images, more), 2, parts);
     };
     refused(
         "mine",
@@ -145,10 +145,10 @@ fn sequences_that_do_not_fit_are_refused() {
     ];
     let words = [&["score", "--image", "mine", "--frames", "2"][..], &later].concat();
     let parts = ["0001/truth_trailing.exr: is the truth of a later frame, plate/0001"];
-    assert_refused(&bench.shuttertruth(&words), 2, &parts);
+    assert_refused(&sandbox.shuttertruth(&words), 2, &parts);
 
     let blur = ["engine", "blur", "--filter", "./late", "--out", "mine.exr"];
-    let output = bench.shuttertruth(&[&blur[..], &FRAME, &THREE].concat());
+    let output = sandbox.shuttertruth(&[&blur[..], &FRAME, &THREE].concat());
     assert_refused(
         &output,
         2,
@@ -156,8 +156,8 @@ fn sequences_that_do_not_fit_are_refused() {
     );
 
     fs::copy(
-        bench.path("out/plate/frame.png"),
-        bench.path("mine/0001.png"),
+        sandbox.path("out/plate/frame.png"),
+        sandbox.path("mine/0001.png"),
     )
     .unwrap();
     refused(
@@ -165,8 +165,8 @@ fn sequences_that_do_not_fit_are_refused() {
         &THREE,
         &["mine/0001.exr and mine/0001.png", "remove one of them"],
     );
-    fs::remove_file(bench.path("mine/0001.png")).unwrap();
-    bench.write("scene.toml", &SCENE.replace("-1.6", "-1.5"));
+    fs::remove_file(sandbox.path("mine/0001.png")).unwrap();
+    sandbox.write("scene.toml", &SCENE.replace("-1.6", "-1.5"));
     let parts = [
         "truth_trailing.exr: was rendered from other files of the scene plate",
         "render frames and truths again",

@@ -6,7 +6,7 @@ use suite::{Case, ShutterRule};
 use tests::filter_folder::{one_kernel_without_parameters, write_manifest, write_script};
 use tracer::{FrameRate, SceneId};
 
-use crate::bench::{Bench, IDENTITY, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{IDENTITY, Sandbox, assert_done, assert_refused, split, stdout};
 
 /// Rates and shutters of most tests. The plate is at 60 frames per second, with an exposure of half a frame: 1/120 s.
 const RATES: &str = "--frame-rate 24,60,144 --shutter-time 1/120";
@@ -25,17 +25,17 @@ fn find<'a>(cases: &'a [Case], scene: &str, name: &str) -> &'a Case {
     own.unwrap_or_else(|| panic!("no {scene} {name} among {:?}", names(cases)))
 }
 
-fn read_output(bench: &Bench, case: &Case) -> Image {
-    let file = bench.path("out").join(&case.folder).join("output.exr");
+fn read_output(sandbox: &Sandbox, case: &Case) -> Image {
+    let file = sandbox.path("out").join(&case.folder).join("output.exr");
     read_exr(&file).unwrap().color("").unwrap()
 }
 
 #[test]
 fn a_run_takes_every_scene_at_every_rate() {
-    let bench = Bench::two_scenes();
-    let output = bench.run(&[&IDENTITY[..], &split(RATES)].concat());
+    let sandbox = Sandbox::two_scenes();
+    let output = sandbox.run(&[&IDENTITY[..], &split(RATES)].concat());
     assert_done(&output);
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     let expected = [
         "plate",
         "slow",
@@ -70,10 +70,10 @@ fn a_run_takes_every_scene_at_every_rate() {
     }
 
     // The rate of the file, and a shutter as long as there, give the numbers of a run without the options.
-    let alone = Bench::two_scenes();
+    let alone = Sandbox::two_scenes();
     assert_done(&alone.run(&IDENTITY));
     let whole = alone.read_run();
-    let run = bench.read_run();
+    let run = sandbox.read_run();
     for case in &whole.cases {
         for rate in [None, FrameRate::in_word("60fps_1-120s")] {
             let scene = SceneId {
@@ -131,30 +131,30 @@ fn a_run_takes_every_scene_at_every_rate() {
 
 #[test]
 fn rates_are_kept_and_stay_in_the_run() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = [&IDENTITY[..], &split("--frame-rate 24,144")].concat();
-    assert_done(&bench.run(&words));
-    let first = bench.read_run();
+    assert_done(&sandbox.run(&words));
+    let first = sandbox.read_run();
     let written = |scene: &str| {
-        let truth = bench.path("out").join(scene).join("truth_trailing.exr");
+        let truth = sandbox.path("out").join(scene).join("truth_trailing.exr");
         std::fs::metadata(truth).unwrap().modified().unwrap()
     };
     let before = ["plate", "plate@24fps", "plate@144fps"].map(written);
-    let again = bench.run(&words);
+    let again = sandbox.run(&words);
     assert_done(&again);
     assert_eq!(
         ["plate", "plate@24fps", "plate@144fps"].map(written),
         before
     );
-    assert_eq!(names(&bench.read_run().cases), names(&first.cases));
+    assert_eq!(names(&sandbox.read_run().cases), names(&first.cases));
     // A narrower run keeps the others, and a scene is named with its rate.
-    assert_done(&bench.run(&[&IDENTITY[..], &["--scenes", "plate@24fps"]].concat()));
-    assert_eq!(bench.read_filter_cases().len(), 3);
+    assert_done(&sandbox.run(&[&IDENTITY[..], &["--scenes", "plate@24fps"]].concat()));
+    assert_eq!(sandbox.read_filter_cases().len(), 3);
     assert_eq!(written("plate@24fps"), before[1]);
     // Runs of the same rates compare, and pages show them.
-    std::fs::rename(bench.path("out"), bench.path("first")).unwrap();
-    assert_done(&bench.run(&words));
-    let compared = bench.execute(&["compare", "first", "out", "--html", "compared.html"]);
+    std::fs::rename(sandbox.path("out"), sandbox.path("first")).unwrap();
+    assert_done(&sandbox.run(&words));
+    let compared = sandbox.execute(&["compare", "first", "out", "--html", "compared.html"]);
     let compared = compared.split_whitespace().collect::<Vec<_>>().join(" ");
     for part in [
         "nothing changed of: identity:default 24fps, identity:default, identity:default 144fps",
@@ -162,19 +162,19 @@ fn rates_are_kept_and_stay_in_the_run() {
     ] {
         assert!(compared.contains(part), "{compared}");
     }
-    let page = std::fs::read_to_string(bench.path("out/report.html")).unwrap();
+    let page = std::fs::read_to_string(sandbox.path("out/report.html")).unwrap();
     assert!(page.contains("plate@144fps"));
 }
 
 #[test]
 fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let rules = "--input rule=right,in_frames,in_time,in_time_capped,share_falls";
     let words = format!(
         "--filters velocity_gather:fine --frame-rate 24,144 --shutter-time 1/120,1/19.2 {rules}"
     );
-    assert_done(&bench.run(&split(&words)));
-    let cases = bench.read_filter_cases();
+    assert_done(&sandbox.run(&split(&words)));
+    let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 7 * 5);
     let name = "velocity_gather:fine";
     let output = |scene: &str, rule: &str| {
@@ -182,7 +182,7 @@ fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
             "right" => name.to_owned(),
             rule => format!("{name} rule={rule}"),
         };
-        read_output(&bench, find(&cases, scene, &name))
+        read_output(&sandbox, find(&cases, scene, &name))
     };
     for (scene, rule, same) in [
         ("plate", "in_frames", "plate"),
@@ -215,20 +215,20 @@ fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
 
 #[test]
 fn filters_know_the_rate() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let manifest = |name: &str, more: &str| {
         format!(
             "name = \"{name}\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\n{more}\n[[pass]]\nentry = \"work\"\n"
         )
     };
     let rate = "textureStore(output, pixel, vec4<f32>(frame.frames_per_second, frame.exposure, 0.0, 1.0));";
-    bench.write_filter(
+    sandbox.write_filter(
         "knows",
         &manifest("knows", ""),
         &one_kernel_without_parameters(rate),
     );
     let convention = |per: &str| format!("[convention]\nframes_per_second = 60\n{per}\n");
-    bench.write_filter(
+    sandbox.write_filter(
         "says",
         &manifest("says", &convention("")),
         &one_kernel_without_parameters(rate),
@@ -237,7 +237,7 @@ fn filters_know_the_rate() {
         "textureStore(output, pixel, vec4<f32>(textureLoad(velocity, pixel, 0).xy, 0.0, 1.0));";
     let kernel = "@group(0) @binding(4) var velocity: texture_2d<f32>;\n".to_owned()
         + &one_kernel_without_parameters(speed);
-    bench.write_filter(
+    sandbox.write_filter(
         "speed",
         &manifest("speed", &convention("velocity_per = \"second\"")),
         &kernel,
@@ -248,36 +248,36 @@ layout(rgba32f, set = 0, binding = 0) uniform writeonly image2D output_image;
 layout(push_constant, std430) uniform Params { float rate; float time; } params;
 void main() { imageStore(output_image, ivec2(gl_GlobalInvocationID.xy), vec4(params.rate, params.time, 0.0, 1.0)); }
 ";
-    bench.write_filter("bound", "", "");
+    sandbox.write_filter("bound", "", "");
     std::fs::write(
-        bench.path("bound/bound.glsl"),
+        sandbox.path("bound/bound.glsl"),
         format!("#[compute]\n{bound}"),
     )
     .unwrap();
     std::fs::write(
-        bench.path("bound/filter.toml"),
+        sandbox.path("bound/filter.toml"),
         "name = \"bound\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\n\
          [convention]\nframes_per_second = 60\n[[pass]]\nshader = \"bound.glsl\"\n\
          [[pass.binding]]\nbinding = 0\ntexture = \"output\"\n\
          [[pass.binding]]\npush_constants = true\nvalues = { rate = \"frames_per_second\", time = \"delta_time\" }\n",
     )
     .unwrap();
-    std::fs::remove_file(bench.path("bound/bound.wgsl")).unwrap();
+    std::fs::remove_file(sandbox.path("bound/bound.wgsl")).unwrap();
     write_manifest(
-        &bench.path("program"),
+        &sandbox.path("program"),
         "program",
         "command = [\"./blur.sh\", \"{frame}\", \"{out}\", \"{frames_per_second}\"]",
     );
     write_script(
-        &bench.path("program/blur.sh"),
+        &sandbox.path("program/blur.sh"),
         "echo $3 >> rates.txt; cp $1 $2",
     );
-    assert_done(&bench.run(&split(
+    assert_done(&sandbox.run(&split(
         "--filters ./knows,./says,./speed,./bound,./program --allow-commands --frame-rate 24,144 --jitter-frames 0",
     )));
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     let middle = |scene: &str, name: &str| {
-        *read_output(&bench, find(&cases, scene, &format!("{name}:default"))).at(32, 16)
+        *read_output(&sandbox, find(&cases, scene, &format!("{name}:default"))).at(32, 16)
     };
     for (scene, rate) in [
         ("plate", 60.0),
@@ -295,19 +295,19 @@ void main() { imageStore(output_image, ivec2(gl_GlobalInvocationID.xy), vec4(par
             "{speed} {plain}"
         );
     }
-    let told = std::fs::read_to_string(bench.path("program/rates.txt")).unwrap();
+    let told = std::fs::read_to_string(sandbox.path("program/rates.txt")).unwrap();
     let told: std::collections::BTreeSet<&str> = told.lines().collect();
     assert_eq!(told.into_iter().collect::<Vec<_>>(), ["144", "24", "60"]);
 }
 
 #[test]
 fn a_sequence_is_shown_at_its_rate() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = "--frames 3 --frame-rate 24 --scenes plate --filters identity --fps";
-    let run = |fps: &str| assert_done(&bench.run(&[&split(words)[..], &[fps]].concat()));
+    let run = |fps: &str| assert_done(&sandbox.run(&[&split(words)[..], &[fps]].concat()));
     run("60");
-    let jod = |bench: &Bench, scene: &str| {
-        let run = bench.read_run();
+    let jod = |sandbox: &Sandbox, scene: &str| {
+        let run = sandbox.read_run();
         let mut own = run.sequences.iter();
         let own = own.find(|own| own.scene == scene && own.name == "identity:default");
         let jod = own
@@ -316,16 +316,16 @@ fn a_sequence_is_shown_at_its_rate() {
             .get(metrics::SequenceMetric::Jod);
         jod.value().unwrap()
     };
-    let [written, slow] = ["plate", "plate@24fps"].map(|scene| jod(&bench, scene));
+    let [written, slow] = ["plate", "plate@24fps"].map(|scene| jod(&sandbox, scene));
     // The rate of the scenes' files does not touch those at another.
     run("30");
-    assert_ne!(jod(&bench, "plate"), written);
-    assert_eq!(jod(&bench, "plate@24fps"), slow);
+    assert_ne!(jod(&sandbox, "plate"), written);
+    assert_eq!(jod(&sandbox, "plate@24fps"), slow);
 }
 
 #[test]
 fn rates_that_are_none_are_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for (words, code, parts) in [
         ("--frame-rate 0", 2, ["--frame-rate", "1 to 1000"]),
         ("--frame-rate=-24", 2, ["-24", "1 to 1000"]),
@@ -366,7 +366,7 @@ fn rates_that_are_none_are_refused() {
             1 => &words[..],
             _ => &words[2..],
         };
-        assert_refused(&bench.run(&[&IDENTITY[..], words].concat()), code, &parts);
+        assert_refused(&sandbox.run(&[&IDENTITY[..], words].concat()), code, &parts);
     }
-    assert!(!bench.path("out").exists());
+    assert!(!sandbox.path("out").exists());
 }

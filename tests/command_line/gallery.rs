@@ -5,30 +5,30 @@ use std::fs;
 use frame::read_png;
 use tests::text::assert_contains;
 
-use crate::bench::{Bench, assert_done, assert_refused};
+use crate::sandbox::{Sandbox, assert_done, assert_refused};
 
 #[test]
 fn a_gallery_shows_each_scene_with_its_best_and_its_worst_filter() {
-    let bench = Bench::two_scenes();
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine,bevy:default"]));
-    assert_done(&bench.shuttertruth(&["report", "out", "--gallery", "shown"]));
-    let page = fs::read_to_string(bench.path("shown/README.md")).unwrap();
+    let sandbox = Sandbox::two_scenes();
+    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine,bevy:default"]));
+    assert_done(&sandbox.shuttertruth(&["report", "out", "--gallery", "shown"]));
+    let page = fs::read_to_string(sandbox.path("shown/README.md")).unwrap();
     let parts = ["](truths.png)", "## plate", "](slow.png)", "64x32 pixels"];
     assert_contains(&page, &parts);
     assert_contains(&page, &["| best | `", "| worst | `"]);
     assert!(!page.contains("`identity:default`"), "{page}");
-    let strip = read_png(&bench.path("shown/plate.png")).unwrap();
+    let strip = read_png(&sandbox.path("shown/plate.png")).unwrap();
     // Five pictures of 64x32 with gaps of 2 pixels.
     assert_eq!((strip.width, strip.height), (5 * 66 - 2, 32));
-    let sheet = read_png(&bench.path("shown/truths.png")).unwrap();
+    let sheet = read_png(&sandbox.path("shown/truths.png")).unwrap();
     assert_eq!((sheet.width, sheet.height), (2 * 66 - 2, 32));
     assert_eq!(sheet.at(10, 10), strip.at(66 + 10, 10), "the first truth");
 }
 
 #[test]
 fn a_run_of_only_references_makes_no_gallery() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    let output = bench.shuttertruth(&["report", "out", "--gallery", "shown"]);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    let output = sandbox.shuttertruth(&["report", "out", "--gallery", "shown"]);
     assert_refused(&output, 2, &["no best and no worst", "run filters"]);
 }

@@ -3,22 +3,25 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::bench::{Bench, assert_done, stdout};
 use crate::python::python_with;
+use crate::sandbox::{Sandbox, assert_done, stdout};
 
 #[test]
 fn a_run_of_copies_is_merged_judged_and_reported() {
-    let bench = Bench::new();
-    bench.write(
+    let sandbox = Sandbox::new();
+    sandbox.write(
         "bounds.toml",
         "[filter.\"velocity_gather:fine\"]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n",
     );
-    std::fs::write(bench.path("scenes/bounds.toml"), "").unwrap();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
+    std::fs::write(sandbox.path("scenes/bounds.toml"), "").unwrap();
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/growth.py");
     let grow = |words: &[&str]| {
         let mut command = Command::new(python_with("json"));
-        command.arg(&script).current_dir(bench.path("")).args(words);
+        command
+            .arg(&script)
+            .current_dir(sandbox.path(""))
+            .args(words);
         command
             .args(["--program", env!("CARGO_BIN_EXE_shuttertruth")])
             .output()
@@ -35,7 +38,7 @@ fn a_run_of_copies_is_merged_judged_and_reported() {
     for step in ["merge: ", "check: ", "report: ", "report.html: "] {
         assert!(text.contains(step), "{text}");
     }
-    let run = suite::Run::read(&bench.path("grown/merged/run.json")).unwrap();
+    let run = suite::Run::read(&sandbox.path("grown/merged/run.json")).unwrap();
     let names: Vec<(String, String)> = (run.cases.iter().filter(|case| !case.is_reference))
         .map(|case| (case.scene.to_string(), case.filter.clone()))
         .collect();
@@ -44,7 +47,7 @@ fn a_run_of_copies_is_merged_judged_and_reported() {
         names[5],
         ("plate_0001".to_owned(), "velocity_gather_0001".to_owned())
     );
-    let judgement = bench.path("grown/merged/judgement.json");
+    let judgement = sandbox.path("grown/merged/judgement.json");
     let judgement: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(judgement).unwrap()).unwrap();
     assert_eq!(judgement["findings"].as_array().unwrap().len(), 12);

@@ -5,7 +5,7 @@ use std::fs;
 use metrics::Measured;
 use suite::Case;
 
-use crate::bench::{Bench, assert_done, stdout};
+use crate::sandbox::{Sandbox, assert_done, stdout};
 
 /// Scores that need weights which do not depend on colour.
 const OF_WEIGHTS: [&str; 9] = [
@@ -69,10 +69,10 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 ";
 
-fn write_blur(bench: &Bench, name: &str, float: &str, weight: &str) {
+fn write_blur(sandbox: &Sandbox, name: &str, float: &str, weight: &str) {
     let fill = |text: &str| text.replace("NAME", name).replace("FLOAT", float);
     let kernels = fill(KERNELS).replace("WEIGHT", weight);
-    bench.write_filter(name, &fill(MANIFEST), &kernels);
+    sandbox.write_filter(name, &fill(MANIFEST), &kernels);
 }
 
 fn reason_of(case: &Case, metric: &str) -> String {
@@ -84,11 +84,11 @@ fn reason_of(case: &Case, metric: &str) -> String {
 
 #[test]
 fn rounded_colours_lose_no_score_of_what_a_filter_gathers() {
-    let bench = Bench::new();
-    write_blur(&bench, "full", "rgba32float", "1.0");
-    write_blur(&bench, "half", "rgba16float", "1.0");
-    assert_done(&bench.run(&["--filter", "full,half"]));
-    let cases = bench.read_filter_cases();
+    let sandbox = Sandbox::new();
+    write_blur(&sandbox, "full", "rgba32float", "1.0");
+    write_blur(&sandbox, "half", "rgba16float", "1.0");
+    assert_done(&sandbox.run(&["--filter", "full,half"]));
+    let cases = sandbox.read_filter_cases();
     let [full, half] = &cases[..] else {
         panic!("two filters on one scene");
     };
@@ -111,14 +111,14 @@ fn shaders_of_engines_keep_their_scores_in_16_bits() {
         let after = GUIDE.split_once(start).unwrap().1;
         after.split_once("```").unwrap().0
     };
-    let bench = Bench::new();
-    let godot = bench.path("godot_blur");
+    let sandbox = Sandbox::new();
+    let godot = sandbox.path("godot_blur");
     fs::create_dir_all(&godot).unwrap();
     let manifest = block("`godot_blur/filter.toml` says what its bindings are:\n\n```toml\n");
     fs::write(godot.join("filter.toml"), manifest).unwrap();
     let shader = block("`godot_blur/blur.glsl` is a shader of Godot's kind:\n\n```glsl\n");
     fs::write(godot.join("blur.glsl"), shader).unwrap();
-    let drawn = bench.path("drawn");
+    let drawn = sandbox.path("drawn");
     fs::create_dir_all(&drawn).unwrap();
     let manifest = "name = 'drawn'\nsummary = 'A fragment shader.'\nalignment = 'trailing'\n\n\
          [convention]\ncolor_format = 'rgba16float'\noutput_format = 'rgba16float'\n\n\
@@ -136,8 +136,8 @@ fn shaders_of_engines_keep_their_scores_in_16_bits() {
          sum += textureLoad(color, clamp(there, vec2<i32>(0), last), 0) / 7.0;\n}\n\
          return sum;\n}\n";
     fs::write(drawn.join("draw.wgsl"), shader).unwrap();
-    assert_done(&bench.run(&["--filter", "godot_blur,drawn"]));
-    let cases = bench.read_filter_cases();
+    assert_done(&sandbox.run(&["--filter", "godot_blur,drawn"]));
+    let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 2);
     for case in &cases {
         for metric in OF_WEIGHTS {
@@ -154,8 +154,8 @@ fn shaders_of_engines_keep_their_scores_in_16_bits() {
 /// A shader that is made again for other constants stores as the first does.
 #[test]
 fn shaders_of_other_constants_keep_their_scores_in_16_bits() {
-    let bench = Bench::new();
-    let folder = bench.path("constant");
+    let sandbox = Sandbox::new();
+    let folder = sandbox.path("constant");
     fs::create_dir_all(&folder).unwrap();
     let manifest = "name = 'constant'\nsummary = 'Constants.'\nalignment = 'trailing'\n\n\
          [convention]\ncolor_format = 'rgba16float'\n\n\
@@ -175,8 +175,8 @@ fn shaders_of_other_constants_keep_their_scores_in_16_bits() {
          sum += textureLoad(color, clamp(there, vec2<i32>(0), last), 0) / f32(TAPS);\n}\n\
          textureStore(output, pixel, sum);\n}\n";
     fs::write(folder.join("blur.wgsl"), shader).unwrap();
-    assert_done(&bench.run(&["--filter", "constant", "--set", "constant.taps=7"]));
-    let cases = bench.read_filter_cases();
+    assert_done(&sandbox.run(&["--filter", "constant", "--set", "constant.taps=7"]));
+    let cases = sandbox.read_filter_cases();
     let nonlinearity = cases[0].nonlinearity.unwrap();
     // Half of a last digit of 32 bits is 6e-8, of 16 bits 5e-4.
     assert!(nonlinearity < 1e-4, "{nonlinearity}");
@@ -184,15 +184,15 @@ fn shaders_of_other_constants_keep_their_scores_in_16_bits() {
 
 #[test]
 fn weights_that_depend_on_colour_are_found_in_16_bits_too() {
-    let bench = Bench::new();
-    write_blur(&bench, "bright", "rgba16float", "1.0 + 0.5 * there.g");
-    let output = bench.run(&["--filter", "bright", "--table"]);
+    let sandbox = Sandbox::new();
+    write_blur(&sandbox, "bright", "rgba16float", "1.0 + 0.5 * there.g");
+    let output = sandbox.run(&["--filter", "bright", "--table"]);
     assert_done(&output);
     let table = stdout(&output);
     let table = table.split_whitespace().collect::<Vec<_>>().join(" ");
     let note = "n/a: grow, loss, bleed, TV of bright:default on plate: the filter's weights depend on colour";
     assert!(table.contains(note), "{table}");
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     for metric in OF_WEIGHTS {
         let reason = reason_of(&cases[0], metric);
         assert!(reason.contains("weights depend on colour"), "{reason}");
@@ -203,16 +203,16 @@ fn weights_that_depend_on_colour_are_found_in_16_bits_too() {
 #[cfg(unix)]
 #[test]
 fn a_program_that_rounds_is_told_so() {
-    let bench = Bench::new();
-    write_blur(&bench, "half", "rgba16float", "1.0");
+    let sandbox = Sandbox::new();
+    write_blur(&sandbox, "half", "rgba16float", "1.0");
     let command = format!(
         "command = ['{}', 'engine', 'blur', '--filter', '{}', '--frame', '{{frame}}', '--out', '{{out}}', '--exposure', '{{exposure}}']",
         env!("CARGO_BIN_EXE_shuttertruth"),
-        bench.path("half").display(),
+        sandbox.path("half").display(),
     );
-    tests::filter_folder::write_manifest(&bench.path("outside"), "outside", &command);
-    assert_done(&bench.run(&["--filter", "outside", "--allow-commands"]));
-    let cases = bench.read_filter_cases();
+    tests::filter_folder::write_manifest(&sandbox.path("outside"), "outside", &command);
+    assert_done(&sandbox.run(&["--filter", "outside", "--allow-commands"]));
+    let cases = sandbox.read_filter_cases();
     for metric in OF_WEIGHTS {
         let reason = reason_of(&cases[0], metric);
         assert!(reason.contains("writes 16-bit floats"), "{reason}");

@@ -6,7 +6,7 @@ use std::process::Output;
 
 use frame::Frame;
 
-use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
 
 /// House far from the origin, as exporters write one: Windows line ends, quads, a pentagon, indices counted from the
 /// end, no normals, names with spaces.
@@ -38,15 +38,15 @@ f 4 9 10 5\r
 const MATERIALS: &str = "newmtl the wall\r\nKd 0.8 0.7 0.6\r\nNs 12\r\nnewmtl the roof\r\nKd 0.6 0.2 0.1\r\nmap_Bump none.png\r\n";
 
 /// Makes a folder with the house and its materials.
-fn set_up() -> Bench {
-    let bench = Bench::new();
-    fs::create_dir(bench.path("my models")).unwrap();
-    fs::write(bench.path("my models/the house.obj"), HOUSE).unwrap();
-    fs::write(bench.path("my models/the house.mtl"), MATERIALS).unwrap();
-    bench
+fn set_up() -> Sandbox {
+    let sandbox = Sandbox::new();
+    fs::create_dir(sandbox.path("my models")).unwrap();
+    fs::write(sandbox.path("my models/the house.obj"), HOUSE).unwrap();
+    fs::write(sandbox.path("my models/the house.mtl"), MATERIALS).unwrap();
+    sandbox
 }
 
-fn import(bench: &Bench, more: &[&str]) -> Output {
+fn import(sandbox: &Sandbox, more: &[&str]) -> Output {
     let words = [
         "engine",
         "import",
@@ -54,13 +54,13 @@ fn import(bench: &Bench, more: &[&str]) -> Output {
         "--out",
         "scenes/house",
     ];
-    bench.shuttertruth(&[&words, more].concat())
+    sandbox.shuttertruth(&[&words, more].concat())
 }
 
 /// Renders the imported scene's frame at half the size that its speeds are meant for.
-fn render_frame(bench: &Bench) -> Frame {
-    bench.execute(&split("truths render --scenes house --size 320x180 --samples-per-pixel 8 --replicates 2 --quiet --out out"));
-    Frame::read(&bench.path("out/house/frame.exr")).unwrap()
+fn render_frame(sandbox: &Sandbox) -> Frame {
+    sandbox.execute(&split("truths render --scenes house --size 320x180 --samples-per-pixel 8 --replicates 2 --quiet --out out"));
+    Frame::read(&sandbox.path("out/house/frame.exr")).unwrap()
 }
 
 /// Returns the pixels that show an object, and their velocities.
@@ -90,15 +90,15 @@ fn shown_pixels(frame: &Frame, object: &str) -> Vec<([f64; 2], [f64; 2])> {
 
 #[test]
 fn an_imported_model_is_centred_and_slides_at_the_requested_speed() {
-    let bench = set_up();
-    let output = import(&bench, &["--slide", "40px/frame"]);
+    let sandbox = set_up();
+    let output = import(&sandbox, &["--slide", "40px/frame"]);
     assert_done(&output);
     assert!(
         stdout(&output).contains("slides 40 pixels per frame"),
         "{}",
         stdout(&output)
     );
-    let frame = render_frame(&bench);
+    let frame = render_frame(&sandbox);
     let house = shown_pixels(&frame, "model");
     let count = house.len() as f64;
     let middle = [0, 1].map(|axis| house.iter().map(|(at, _)| at[axis]).sum::<f64>() / count);
@@ -136,9 +136,9 @@ fn an_imported_model_is_centred_and_slides_at_the_requested_speed() {
 
 #[test]
 fn an_imported_model_spins_about_its_own_middle() {
-    let bench = set_up();
-    assert_done(&import(&bench, &["--spin", "20deg/frame"]));
-    let frame = render_frame(&bench);
+    let sandbox = set_up();
+    assert_done(&import(&sandbox, &["--spin", "20deg/frame"]));
+    let frame = render_frame(&sandbox);
     let house = shown_pixels(&frame, "model");
     // Counter-clockwise from above: near points move right. The farthest corner is 14.1 m from the axis. At 57.7 m of
     // distance and 247.3 px of focal length, no point moves faster than 14.1 x 0.35 x 247.3 / 43 px.
@@ -165,12 +165,12 @@ fn an_imported_model_spins_about_its_own_middle() {
 
 #[test]
 fn an_orbiting_camera_keeps_the_model_in_the_middle() {
-    let bench = set_up();
+    let sandbox = set_up();
     assert_done(&import(
-        &bench,
+        &sandbox,
         &["--orbit", "3deg/frame", "--exposure", "1"],
     ));
-    let frame = render_frame(&bench);
+    let frame = render_frame(&sandbox);
     assert_eq!(frame.exposure, 1.0);
     let speed = |object: &str| {
         let shown = shown_pixels(&frame, object);
@@ -191,7 +191,7 @@ fn an_orbiting_camera_keeps_the_model_in_the_middle() {
 
 #[test]
 fn a_model_with_z_up_stands_upright() {
-    let bench = set_up();
+    let sandbox = set_up();
     // The house lies on its back: its y axis becomes z.
     let lying: String = HOUSE
         .lines()
@@ -206,32 +206,32 @@ fn a_model_with_z_up_stands_upright() {
             None => format!("{line}\n"),
         })
         .collect();
-    assert_done(&import(&bench, &["--slide", "8px/frame"]));
-    let upright = render_frame(&bench);
-    fs::write(bench.path("my models/the house.obj"), lying).unwrap();
-    fs::remove_dir_all(bench.path("scenes/house")).unwrap();
-    assert_done(&import(&bench, &["--slide", "8px/frame", "--up", "z"]));
-    assert_eq!(render_frame(&bench).object_id, upright.object_id);
+    assert_done(&import(&sandbox, &["--slide", "8px/frame"]));
+    let upright = render_frame(&sandbox);
+    fs::write(sandbox.path("my models/the house.obj"), lying).unwrap();
+    fs::remove_dir_all(sandbox.path("scenes/house")).unwrap();
+    assert_done(&import(&sandbox, &["--slide", "8px/frame", "--up", "z"]));
+    assert_eq!(render_frame(&sandbox).object_id, upright.object_id);
 }
 
 #[test]
 fn bad_models_are_refused_with_the_way_out() {
-    let bench = set_up();
+    let sandbox = set_up();
     let slide = ["--slide", "40px/frame"];
     assert_refused(
-        &import(&bench, &[]),
+        &import(&sandbox, &[]),
         2,
         &["nothing would move", "spin such as 20deg/frame"],
     );
     for wrong in ["40", "0px/frame", "40deg/frame", "fast"] {
         assert_refused(
-            &import(&bench, &["--slide", wrong]),
+            &import(&sandbox, &["--slide", wrong]),
             2,
             &[wrong, "40px/frame"],
         );
     }
     assert_refused(
-        &import(&bench, &["--slide", "4px/frame", "--exposure", "0"]),
+        &import(&sandbox, &["--slide", "4px/frame", "--exposure", "0"]),
         2,
         &["--exposure", "0"],
     );
@@ -245,7 +245,7 @@ fn bad_models_are_refused_with_the_way_out() {
             "--out",
             out,
         ];
-        bench.shuttertruth(&words)
+        sandbox.shuttertruth(&words)
     };
     assert_refused(&to("scenes/plate"), 2, &["scenes/plate", "exists already"]);
     assert_refused(
@@ -262,28 +262,32 @@ fn bad_models_are_refused_with_the_way_out() {
         "--out",
         "scenes/house",
     ];
-    assert_refused(&bench.shuttertruth(&missing), 2, &["no.obj", "cannot read"]);
+    assert_refused(
+        &sandbox.shuttertruth(&missing),
+        2,
+        &["no.obj", "cannot read"],
+    );
 
-    let obj = |text: &str| fs::write(bench.path("my models/the house.obj"), text).unwrap();
+    let obj = |text: &str| fs::write(sandbox.path("my models/the house.obj"), text).unwrap();
     obj(&HOUSE.replace("f 7 6 10 9 8", "f 7 6 11 9 8"));
     assert_refused(
-        &import(&bench, &slide),
+        &import(&sandbox, &slide),
         2,
         &["the house.obj:16", "11", "1 to 10"],
     );
     obj("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
-    assert_refused(&import(&bench, &slide), 2, &["the house.obj", "face"]);
+    assert_refused(&import(&sandbox, &slide), 2, &["the house.obj", "face"]);
     obj(HOUSE);
     let outside = MATERIALS.replace("Kd 0.6 0.2 0.1", "map_Kd ../scenes/dot.png");
-    fs::write(bench.path("my models/the house.mtl"), outside).unwrap();
+    fs::write(sandbox.path("my models/the house.mtl"), outside).unwrap();
     frame::write_png(
-        &bench.path("scenes/dot.png"),
+        &sandbox.path("scenes/dot.png"),
         &frame::Raster::filled(2, 2, [0.5; 3]),
     )
     .unwrap();
     // Faces with a texture need coordinates. This is checked before the texture's place.
     assert_refused(
-        &import(&bench, &slide),
+        &import(&sandbox, &slide),
         2,
         &["texture", "import the model plain"],
     );
@@ -292,7 +296,7 @@ fn bad_models_are_refused_with_the_way_out() {
         "vt 0 0\r\nusemtl the roof\r\nf 3/1 8/1 9/1 4/1\r\nf 4/1 9/1 10/1 5/1",
     ));
     assert_refused(
-        &import(&bench, &slide),
+        &import(&sandbox, &slide),
         2,
         &[
             "dot.png",
@@ -301,36 +305,36 @@ fn bad_models_are_refused_with_the_way_out() {
         ],
     );
     assert!(
-        !bench.path("scenes/house").exists(),
+        !sandbox.path("scenes/house").exists(),
         "a refused import leaves nothing"
     );
-    let left: Vec<_> = fs::read_dir(bench.path("scenes")).unwrap().collect();
+    let left: Vec<_> = fs::read_dir(sandbox.path("scenes")).unwrap().collect();
     assert_eq!(left.len(), 2, "plate and dot.png alone: {left:?}");
 }
 
 #[test]
 fn a_model_without_its_materials_imports_plain_on_request() {
-    let bench = set_up();
-    fs::remove_file(bench.path("my models/the house.mtl")).unwrap();
+    let sandbox = set_up();
+    fs::remove_file(sandbox.path("my models/the house.mtl")).unwrap();
     let slide = ["--slide", "40px/frame"];
     assert_refused(
-        &import(&bench, &slide),
+        &import(&sandbox, &slide),
         2,
         &["the house.obj:2", "the house.mtl", "import the model plain"],
     );
-    assert_done(&import(&bench, &[&slide[..], &["--plain"]].concat()));
-    assert!(!shown_pixels(&render_frame(&bench), "model").is_empty());
+    assert_done(&import(&sandbox, &[&slide[..], &["--plain"]].concat()));
+    assert!(!shown_pixels(&render_frame(&sandbox), "model").is_empty());
     // Errors of a plain model name their place too.
     let broken = HOUSE.replace("f 7 6 10 9 8", "f 7 6 x 9 8");
-    fs::write(bench.path("my models/the house.obj"), broken).unwrap();
-    fs::remove_dir_all(bench.path("scenes/house")).unwrap();
-    let refused = import(&bench, &[&slide[..], &["--plain"]].concat());
+    fs::write(sandbox.path("my models/the house.obj"), broken).unwrap();
+    fs::remove_dir_all(sandbox.path("scenes/house")).unwrap();
+    let refused = import(&sandbox, &[&slide[..], &["--plain"]].concat());
     assert_refused(&refused, 2, &["my models/the house.obj:16", "\"x\""]);
 }
 
 #[test]
 fn a_model_of_a_quarter_of_a_million_triangles_is_imported() {
-    let bench = set_up();
+    let sandbox = set_up();
     const STEPS: usize = 360;
     let mut text = String::from("o ball\n");
     for row in 0..=STEPS {
@@ -356,8 +360,8 @@ fn a_model_of_a_quarter_of_a_million_triangles_is_imported() {
             writeln!(text, "f {a} {b} {} {}", b + STEPS, a + STEPS).unwrap();
         }
     }
-    fs::write(bench.path("my models/the house.obj"), text).unwrap();
-    let output = import(&bench, &["--spin", "10deg/frame"]);
+    fs::write(sandbox.path("my models/the house.obj"), text).unwrap();
+    let output = import(&sandbox, &["--spin", "10deg/frame"]);
     assert_done(&output);
     let said = stdout(&output);
     let triangles = said
@@ -366,5 +370,5 @@ fn a_model_of_a_quarter_of_a_million_triangles_is_imported() {
         .unwrap();
     let count: usize = triangles.split(' ').next().unwrap().parse().unwrap();
     assert!(count > 2 * STEPS * STEPS, "{said}");
-    assert!(shown_pixels(&render_frame(&bench), "model").len() > 4000);
+    assert!(shown_pixels(&render_frame(&sandbox), "model").len() > 4000);
 }

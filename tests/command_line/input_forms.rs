@@ -3,7 +3,7 @@
 use frame::read_exr;
 use suite::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderScale, Sequence};
 
-use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, split, stdout};
 
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
@@ -14,8 +14,8 @@ fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
 }
 
 /// Measures how far to the right the middle of the plate lies in the output of one frame of a sequence, in pixels.
-fn plate_middle(bench: &Bench, sequence: &Sequence, frame: usize) -> f64 {
-    let folder = bench.path("out").join(&sequence.frames[frame].folder);
+fn plate_middle(sandbox: &Sandbox, sequence: &Sequence, frame: usize) -> f64 {
+    let folder = sandbox.path("out").join(&sequence.frames[frame].folder);
     let output = read_exr(&folder.join("output.exr")).unwrap();
     let plate = output.plane("coverage.plate").unwrap();
     let columns = plate.pixels.iter().enumerate().map(|(at, share)| {
@@ -28,10 +28,10 @@ fn plate_middle(bench: &Bench, sequence: &Sequence, frame: usize) -> f64 {
 
 #[test]
 fn the_jitter_of_a_sequence_goes_on_from_frame_to_frame() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = "--filters identity --frames 3 --input jitter=left_in";
-    assert_done(&bench.run(&split(words)));
-    let run = bench.read_run();
+    assert_done(&sandbox.run(&split(words)));
+    let run = sandbox.read_run();
     let find = |name: &str| {
         let own = run.sequences.iter().find(|own| own.name == name);
         own.expect("it has a sequence")
@@ -39,7 +39,7 @@ fn the_jitter_of_a_sequence_goes_on_from_frame_to_frame() {
     let [still, jittered] = ["identity:default", "identity:default jitter=left_in"].map(find);
     // The second to the fourth number of the Halton sequence of base 2, less a half.
     for (frame, jitter) in [-0.25, 0.25, -0.375].into_iter().enumerate() {
-        let [own, other] = [jittered, still].map(|it| plate_middle(&bench, it, frame));
+        let [own, other] = [jittered, still].map(|it| plate_middle(&sandbox, it, frame));
         // Few samples see the edges of a plate of 3 by 3 pixels.
         assert!(
             (own - other - jitter).abs() < 0.08,
@@ -54,13 +54,13 @@ fn flip(cases: &[Case], name: &str) -> f64 {
 
 #[test]
 fn smaller_buffers_change_filters_that_read_them() {
-    let bench = Bench::new();
-    let output = bench.run(&split(
+    let sandbox = Sandbox::new();
+    let output = sandbox.run(&split(
         "--filters identity,velocity_gather:fine \
          --input buffers=full,full_dilated,half,half_dilated,quarter,quarter_dilated",
     ));
     assert_done(&output);
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 2 * 6);
     let identity = flip(&cases, "identity:default");
     let whole = flip(&cases, "velocity_gather:fine");
@@ -80,19 +80,19 @@ fn smaller_buffers_change_filters_that_read_them() {
     let [quarter, dilated] = ["quarter", "quarter_dilated"]
         .map(|size| flip(&cases, &format!("velocity_gather:fine buffers={size}")));
     assert_ne!(quarter, dilated);
-    let refused = bench.run(&["--input", "buffers=eighth"]);
+    let refused = sandbox.run(&["--input", "buffers=eighth"]);
     assert_refused(&refused, 2, &["eighth", "quarter_dilated"]);
 }
 
 #[test]
 fn samples_jitter_and_scale_change_what_filters_get() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&split(
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&split(
         "--filters identity,velocity_gather:fine --input msaa=first,nearest,farthest \
          --input jitter=removed,left_in,resolved \
          --input scale=50_blur_first,50_upscale_first,67_blur_first,67_upscale_first",
     )));
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 2 * 11);
     let own = |change: &str| flip(&cases, &format!("identity:default {change}"));
     let gathered = |change: &str| flip(&cases, &format!("velocity_gather:fine {change}"));
@@ -125,7 +125,7 @@ fn samples_jitter_and_scale_change_what_filters_get() {
     let case = find_case(&cases, "velocity_gather:fine scale=50_blur_first");
     assert_eq!(case.input.scale, RenderScale::HalfBlurFirst);
     let size = |case: &Case| {
-        let output = bench.path("out").join(&case.folder).join("output.exr");
+        let output = sandbox.path("out").join(&case.folder).join("output.exr");
         let output = read_exr(&output).unwrap();
         (output.width, output.height)
     };
@@ -147,10 +147,10 @@ fn samples_jitter_and_scale_change_what_filters_get() {
 
 #[test]
 fn depth_of_field_runs_before_a_filter_or_after_it() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = "--filters identity,velocity_gather:fine --input depth_of_field=before,after";
     // A scene without a lens is refused before anything is rendered.
-    let refused = bench.run(&split(words));
+    let refused = sandbox.run(&split(words));
     assert_refused(
         &refused,
         2,
@@ -160,20 +160,20 @@ fn depth_of_field_runs_before_a_filter_or_after_it() {
             "aperture and focus",
         ],
     );
-    bench.write(
+    sandbox.write(
         "scene.toml",
         &SCENE.replace("vertical_fov", "aperture = 0.8\nfocus = 2\nvertical_fov"),
     );
-    let output = bench.run(&split(words));
+    let output = sandbox.run(&split(words));
     assert_done(&output);
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 2 * 2);
     assert!(stdout(&output).contains("depth_of_field=after"));
     let case = |name: &str| find_case(&cases, name);
     let after = case("velocity_gather:fine depth_of_field=after");
     assert_eq!(after.input.depth_of_field, DepthOfField::After);
     let output = |name: &str| {
-        let folder = bench.path("out").join(&case(name).folder);
+        let folder = sandbox.path("out").join(&case(name).folder);
         read_exr(&folder.join("output.exr")).unwrap()
     };
     // Without a blur the pass leaves the plate about as the lens shows it: the plate hides nothing of a flat background.

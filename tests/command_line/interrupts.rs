@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{Bench, assert_done, press_ctrl_c, quick_command};
+use crate::sandbox::{Sandbox, assert_done, press_ctrl_c, quick_command};
 
 /// Manifest of a filter whose passes take minutes together.
 const MANIFEST: &str = r#"
@@ -30,18 +30,18 @@ const LIMIT: Duration = Duration::from_secs(2);
 
 #[test]
 fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
-    let bench = Bench::new();
-    bench.write_filter("slow", MANIFEST, &one_kernel_without_parameters(BODY));
+    let sandbox = Sandbox::new();
+    sandbox.write_filter("slow", MANIFEST, &one_kernel_without_parameters(BODY));
     // The frame and the truth are there, so that both commands soon reach the GPU.
-    assert_done(&bench.run(&["--filters", "identity"]));
-    let frame = bench.path("out/plate/frame.exr").display().to_string();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    let frame = sandbox.path("out/plate/frame.exr").display().to_string();
     let blur = [
         "engine", "blur", "--filter", "./slow", "--frame", &frame, "--out", "b.exr",
     ];
     let quick = quick_command("run", "16");
     let run = [&quick[..], &["--filter", "slow"]].concat();
     for words in [blur.to_vec(), run] {
-        let mut child = bench.command(&words).spawn().unwrap();
+        let mut child = sandbox.command(&words).spawn().unwrap();
         std::thread::sleep(Duration::from_secs(2));
         assert!(
             child.try_wait().unwrap().is_none(),
@@ -57,5 +57,5 @@ fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
             pressed.elapsed()
         );
     }
-    assert!(!bench.path("b.exr").exists());
+    assert!(!sandbox.path("b.exr").exists());
 }

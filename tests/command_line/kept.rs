@@ -8,7 +8,7 @@ use std::time::Duration;
 use frame::{read_exr, write_exr};
 use tests::text::assert_contains;
 
-use crate::bench::{Bench, OBJ, assert_done, assert_refused, files_below, split, stdout};
+use crate::sandbox::{OBJ, Sandbox, assert_done, assert_refused, files_below, split, stdout};
 
 /// Returns the words of a `render` of the plate into `out`.
 fn render<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
@@ -24,8 +24,8 @@ fn render<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&words[..], more].concat()
 }
 
-fn spawn(bench: &Bench, words: &[&str]) -> Child {
-    let mut command = bench.command(words);
+fn spawn(sandbox: &Sandbox, words: &[&str]) -> Child {
+    let mut command = sandbox.command(words);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     command.spawn().unwrap()
 }
@@ -43,8 +43,8 @@ fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
 }
 
 #[track_caller]
-fn assert_same(bench: &Bench, one: &str, other: &str) {
-    let [one, other] = [one, other].map(|folder| contents(&bench.path(folder)));
+fn assert_same(sandbox: &Sandbox, one: &str, other: &str) {
+    let [one, other] = [one, other].map(|folder| contents(&sandbox.path(folder)));
     let names = |files: &[(String, Vec<u8>)]| -> Vec<String> {
         files.iter().map(|(name, _)| name.clone()).collect()
     };
@@ -56,53 +56,53 @@ fn assert_same(bench: &Bench, one: &str, other: &str) {
 
 #[test]
 fn merged_parts_of_several_processes_equal_the_bytes_of_one() {
-    let bench = Bench::new();
-    bench.execute(&render("whole", &[]));
+    let sandbox = Sandbox::new();
+    sandbox.execute(&render("whole", &[]));
     let parts = [("a", "0..3"), ("b", "3..4"), ("c", "4..8")];
     let children: Vec<Child> = parts
-        .map(|(out, part)| spawn(&bench, &render(out, &["--replicates", part])))
+        .map(|(out, part)| spawn(&sandbox, &render(out, &["--replicates", part])))
         .into();
     for mut child in children {
         assert!(child.wait().unwrap().success());
     }
-    let merged = bench.shuttertruth(&["truths", "merge", "c", "a", "b", "--out", "joined"]);
+    let merged = sandbox.shuttertruth(&["truths", "merge", "c", "a", "b", "--out", "joined"]);
     assert_done(&merged);
     assert_eq!(
         stdout(&merged),
         "joined/plate/truth_trailing.exr (8 replicates)\n"
     );
-    assert_same(&bench, "whole", "joined");
+    assert_same(&sandbox, "whole", "joined");
 }
 
 #[test]
 fn several_processes_can_render_into_one_folder() {
-    let bench = Bench::new();
-    bench.execute(&render("whole", &[]));
+    let sandbox = Sandbox::new();
+    sandbox.execute(&render("whole", &[]));
     let children: Vec<Child> = ["0..3", "2..5", "5..8", "0..8"]
-        .map(|part| spawn(&bench, &render("shared", &["--replicates", part])))
+        .map(|part| spawn(&sandbox, &render("shared", &["--replicates", part])))
         .into();
     for mut child in children {
         assert!(child.wait().unwrap().success());
     }
-    bench.execute(&["truths", "merge", "shared", "--out", "shared"]);
-    assert_same(&bench, "whole", "shared");
+    sandbox.execute(&["truths", "merge", "shared", "--out", "shared"]);
+    assert_same(&sandbox, "whole", "shared");
 }
 
 #[test]
 fn a_killed_render_resumes_to_the_same_bytes() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let many = ["--samples-per-pixel", "32768", "--threads", "1"];
     let words =
         |out: &'static str| [&["truths", "render", "--quiet", "--out", out][..], &many].concat();
-    bench.execute(&words("whole"));
+    sandbox.execute(&words("whole"));
     let replicate = |index: u32| {
-        bench.path(&format!(
+        sandbox.path(&format!(
             "killed/plate/truth_trailing/replicate_{index:03}.exr"
         ))
     };
     // Each process is killed as soon as it has kept one more replicate.
     for index in [0, 1, 5] {
-        let mut child = spawn(&bench, &words("killed"));
+        let mut child = spawn(&sandbox, &words("killed"));
         while !replicate(index).exists() {
             assert!(
                 child.try_wait().unwrap().is_none(),
@@ -112,28 +112,30 @@ fn a_killed_render_resumes_to_the_same_bytes() {
         }
         child.kill().unwrap();
         child.wait().unwrap();
-        assert!(!bench.path("killed/plate/truth_trailing.exr").exists());
+        assert!(!sandbox.path("killed/plate/truth_trailing.exr").exists());
     }
     let kept = fs::metadata(replicate(1)).unwrap().modified().unwrap();
-    bench.execute(&words("killed"));
+    sandbox.execute(&words("killed"));
     assert_eq!(
         fs::metadata(replicate(1)).unwrap().modified().unwrap(),
         kept,
         "a replicate that was whole was rendered again"
     );
-    assert_same(&bench, "whole", "killed");
+    assert_same(&sandbox, "whole", "killed");
 }
 
 #[test]
 fn files_of_older_versions_are_rendered_again_and_never_merged() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for out in ["whole", "old"] {
-        bench.execute(&render(out, &[]));
+        sandbox.execute(&render(out, &[]));
     }
-    let truths = files_below(&bench.path("old")).into_iter().filter(|path| {
-        let name = path.file_name().unwrap().to_string_lossy();
-        name.starts_with("truth_") || name.starts_with("replicate_")
-    });
+    let truths = files_below(&sandbox.path("old"))
+        .into_iter()
+        .filter(|path| {
+            let name = path.file_name().unwrap().to_string_lossy();
+            name.starts_with("truth_") || name.starts_with("replicate_")
+        });
     for path in truths {
         let mut file = read_exr(&path).unwrap();
         let written = file.channels.len();
@@ -146,33 +148,33 @@ fn files_of_older_versions_are_rendered_again_and_never_merged() {
         write_exr(&path, &file).unwrap();
     }
     assert_refused(
-        &bench.shuttertruth(&["truths", "merge", "old", "--out", "joined"]),
+        &sandbox.shuttertruth(&["truths", "merge", "old", "--out", "joined"]),
         2,
         &[
             "replicate_000.exr: holds no support",
             "make it anew with `shuttertruth truths render`",
         ],
     );
-    bench.execute(&render("old", &[]));
-    assert_same(&bench, "whole", "old");
+    sandbox.execute(&render("old", &[]));
+    assert_same(&sandbox, "whole", "old");
 }
 
 #[test]
 fn a_broken_replicate_is_rendered_again() {
-    let bench = Bench::new();
-    bench.execute(&render("whole", &[]));
-    bench.execute(&render("out", &["--replicates", "0..4"]));
-    let replicate = bench.path("out/plate/truth_trailing/replicate_002.exr");
+    let sandbox = Sandbox::new();
+    sandbox.execute(&render("whole", &[]));
+    sandbox.execute(&render("out", &["--replicates", "0..4"]));
+    let replicate = sandbox.path("out/plate/truth_trailing/replicate_002.exr");
     let bytes = fs::read(&replicate).unwrap();
     fs::write(&replicate, &bytes[..bytes.len() / 2]).unwrap();
-    let stray = bench.path("out/plate/truth_trailing/replicate_001.exr");
+    let stray = sandbox.path("out/plate/truth_trailing/replicate_001.exr");
     fs::copy(
-        bench.path("out/plate/truth_trailing/replicate_000.exr"),
+        sandbox.path("out/plate/truth_trailing/replicate_000.exr"),
         stray,
     )
     .unwrap();
-    bench.execute(&render("out", &[]));
-    assert_same(&bench, "whole", "out");
+    sandbox.execute(&render("out", &[]));
+    assert_same(&sandbox, "whole", "out");
 }
 
 /// Flips one bit of a file's pixels, far behind its header.
@@ -185,55 +187,55 @@ fn flip_a_bit(path: &Path) {
 
 #[test]
 fn a_flipped_bit_in_a_replicate_never_reaches_a_truth() {
-    let bench = Bench::new();
-    bench.execute(&render("whole", &[]));
-    bench.execute(&render("out", &["--replicates", "0..7"]));
-    bench.execute(&render("rest", &["--replicates", "7..8"]));
-    flip_a_bit(&bench.path("out/plate/truth_trailing/replicate_002.exr"));
-    let merged = bench.shuttertruth(&["truths", "merge", "out", "rest", "--out", "joined"]);
+    let sandbox = Sandbox::new();
+    sandbox.execute(&render("whole", &[]));
+    sandbox.execute(&render("out", &["--replicates", "0..7"]));
+    sandbox.execute(&render("rest", &["--replicates", "7..8"]));
+    flip_a_bit(&sandbox.path("out/plate/truth_trailing/replicate_002.exr"));
+    let merged = sandbox.shuttertruth(&["truths", "merge", "out", "rest", "--out", "joined"]);
     assert_refused(&merged, 2, &["out/plate/truth_trailing/replicate_002.exr"]);
-    assert!(!bench.path("joined").exists());
-    bench.execute(&render("out", &[]));
-    assert_same(&bench, "whole", "out");
+    assert!(!sandbox.path("joined").exists());
+    sandbox.execute(&render("out", &[]));
+    assert_same(&sandbox, "whole", "out");
     // A damaged truth is made again, too.
-    flip_a_bit(&bench.path("out/plate/truth_trailing.exr"));
-    bench.execute(&render("out", &[]));
-    assert_same(&bench, "whole", "out");
+    flip_a_bit(&sandbox.path("out/plate/truth_trailing.exr"));
+    sandbox.execute(&render("out", &[]));
+    assert_same(&sandbox, "whole", "out");
 }
 
 #[test]
 fn a_changed_byte_in_a_mesh_renders_again() {
-    let bench = Bench::new();
-    bench.execute(&render("out", &[]));
-    bench.write("plate.obj", &OBJ.replace("v -0.5 -0.5 0", "v -0.6 -0.5 0"));
-    bench.execute(&render("out", &[]));
-    bench.execute(&render("fresh", &[]));
-    assert_same(&bench, "fresh", "out");
+    let sandbox = Sandbox::new();
+    sandbox.execute(&render("out", &[]));
+    sandbox.write("plate.obj", &OBJ.replace("v -0.5 -0.5 0", "v -0.6 -0.5 0"));
+    sandbox.execute(&render("out", &[]));
+    sandbox.execute(&render("fresh", &[]));
+    assert_same(&sandbox, "fresh", "out");
 }
 
 #[test]
 fn more_replicates_reuse_the_kept_ones() {
-    let bench = Bench::new();
-    bench.execute(&render("out", &["--replicates", "4"]));
-    let first = bench.path("out/plate/truth_trailing/replicate_000.exr");
+    let sandbox = Sandbox::new();
+    sandbox.execute(&render("out", &["--replicates", "4"]));
+    let first = sandbox.path("out/plate/truth_trailing/replicate_000.exr");
     let before = fs::metadata(&first).unwrap().modified().unwrap();
-    bench.execute(&render("out", &["--replicates", "8"]));
+    sandbox.execute(&render("out", &["--replicates", "8"]));
     assert_eq!(fs::metadata(&first).unwrap().modified().unwrap(), before);
-    bench.execute(&render("whole", &[]));
-    assert_same(&bench, "whole", "out");
+    sandbox.execute(&render("whole", &[]));
+    assert_same(&sandbox, "whole", "out");
 }
 
 #[test]
 fn incomplete_parts_are_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for (out, more) in [
         ("start", &["--replicates", "0..3"][..]),
         ("gap", &["--replicates", "5..8"]),
         ("other", &["--replicates", "0..4", "--seed", "2"]),
     ] {
-        bench.execute(&render(out, more));
+        sandbox.execute(&render(out, more));
     }
-    fs::create_dir(bench.path("empty")).unwrap();
+    fs::create_dir(sandbox.path("empty")).unwrap();
     for (parts, complaint) in [
         (
             &["start", "gap"][..],
@@ -255,35 +257,35 @@ fn incomplete_parts_are_refused() {
         (&["nowhere"], &["nowhere", "cannot read"]),
     ] {
         let refused =
-            bench.shuttertruth(&[&["truths", "merge", "--out", "joined"][..], parts].concat());
+            sandbox.shuttertruth(&[&["truths", "merge", "--out", "joined"][..], parts].concat());
         assert_refused(&refused, 2, complaint);
         assert!(
-            !bench.path("joined").exists(),
+            !sandbox.path("joined").exists(),
             "a refused merge leaves nothing"
         );
     }
     // Replicates of two truths, whose files never share a name.
-    bench.execute(&render("rest", &["--replicates", "3..4", "--seed", "2"]));
-    let refused = bench.shuttertruth(&["truths", "merge", "start", "rest", "--out", "joined"]);
+    sandbox.execute(&render("rest", &["--replicates", "3..4", "--seed", "2"]));
+    let refused = sandbox.shuttertruth(&["truths", "merge", "start", "rest", "--out", "joined"]);
     assert_refused(
         &refused,
         2,
         &["replicate 3", "other inputs", "content hash"],
     );
-    assert!(!bench.path("joined").exists());
+    assert!(!sandbox.path("joined").exists());
 }
 
 #[test]
 fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
-    let bench = Bench::new();
-    let first = stdout(&bench.shuttertruth(&render("out", &["--replicates", "2"])));
+    let sandbox = Sandbox::new();
+    let first = stdout(&sandbox.shuttertruth(&render("out", &["--replicates", "2"])));
     let floor = |text: &str| -> f64 {
         let after = text.split("moving ").nth(1).unwrap();
         after.split([',', '\n']).next().unwrap().parse().unwrap()
     };
     let target = floor(&first) / 2.0;
     let words = format!("{target}");
-    let reached = bench.shuttertruth(&render("out", &["--replicates", "2", "--noise", &words]));
+    let reached = sandbox.shuttertruth(&render("out", &["--replicates", "2", "--noise", &words]));
     assert_done(&reached);
     assert!(floor(&stdout(&reached)) <= target, "{}", stdout(&reached));
     let replicates = |text: &str, alignment: &str| -> u32 {
@@ -297,20 +299,20 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     // Each truth has the bytes that a render of its number of replicates has. The same command again says the same.
     let both = ["--alignments", "trailing,centred"];
     let until = [&both[..], &["--replicates", "2", "--noise", &words]].concat();
-    let text = stdout(&bench.shuttertruth(&render("both", &until)));
+    let text = stdout(&sandbox.shuttertruth(&render("both", &until)));
     for alignment in ["trailing", "centred"] {
         let count = replicates(&text, alignment).to_string();
         let alone = ["--replicates", &count, "--alignments", alignment];
-        assert_done(&bench.shuttertruth(&render(alignment, &alone)));
+        assert_done(&sandbox.shuttertruth(&render(alignment, &alone)));
         let truth = format!("plate/truth_{alignment}.exr");
         let [one, other] =
-            ["both", alignment].map(|out| fs::read(bench.path(out).join(&truth)).unwrap());
+            ["both", alignment].map(|out| fs::read(sandbox.path(out).join(&truth)).unwrap());
         assert!(one == other, "{truth} differs");
     }
-    assert_eq!(stdout(&bench.shuttertruth(&render("both", &until))), text);
+    assert_eq!(stdout(&sandbox.shuttertruth(&render("both", &until))), text);
 
     let more = split("--replicates 2 --noise 1e-9 --most-replicates 5");
-    let short = bench.shuttertruth(&render("short", &more));
+    let short = sandbox.shuttertruth(&render("short", &more));
     assert_eq!(short.status.code(), Some(4));
     let message = String::from_utf8(short.stderr.clone()).unwrap();
     assert_contains(
@@ -323,5 +325,5 @@ fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
             "--samples-per-pixel",
         ],
     );
-    assert!(bench.path("short/plate/truth_trailing.exr").is_file());
+    assert!(sandbox.path("short/plate/truth_trailing.exr").is_file());
 }

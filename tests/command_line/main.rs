@@ -3,7 +3,6 @@
 mod arguments;
 mod audit;
 mod baseline;
-mod bench;
 mod check;
 #[cfg(unix)]
 mod command_filter;
@@ -40,6 +39,7 @@ mod reference_width;
 mod refusals;
 mod report;
 mod results;
+mod sandbox;
 mod score;
 mod sequence_ranking;
 mod sequences;
@@ -61,15 +61,15 @@ mod variants;
 use std::fs;
 use std::process::Stdio;
 
-use bench::{Bench, assert_done, assert_refused, files_below, split, stdout};
+use sandbox::{Sandbox, assert_done, assert_refused, files_below, split, stdout};
 use tests::filter_folder::copy_shipped_filter;
 use tests::text::assert_contains;
 
 #[test]
 fn a_run_writes_scores_and_pictures_of_every_case() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
-    let run = bench.read_run();
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity,jump_flood:paper"]));
+    let run = sandbox.read_run();
     let render = &run.render;
     assert_eq!(run.format, suite::FORMAT);
     assert_eq!(
@@ -95,7 +95,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
     assert_eq!(names, expected.map(|(bar, name)| (bar, name.to_owned())));
     for case in &run.cases {
         for name in ["output.png", "output.exr", "flip.png", "errors.exr"] {
-            let path = bench.path("out").join(&case.folder).join(name);
+            let path = sandbox.path("out").join(&case.folder).join(name);
             assert!(path.is_file(), "{} was not written", path.display());
         }
     }
@@ -108,7 +108,7 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
         "ladder_trailing/n64.exr",
     ] {
         assert!(
-            bench.path("out/plate").join(name).is_file(),
+            sandbox.path("out/plate").join(name).is_file(),
             "out/plate/{name} was not written"
         );
     }
@@ -116,39 +116,39 @@ fn a_run_writes_scores_and_pictures_of_every_case() {
 
 #[test]
 fn json_goes_to_standard_output() {
-    let bench = Bench::new();
-    let output = bench.run(&["--filters", "identity", "--json"]);
+    let sandbox = Sandbox::new();
+    let output = sandbox.run(&["--filters", "identity", "--json"]);
     assert_done(&output);
     assert_eq!(
         stdout(&output).trim_end(),
-        fs::read_to_string(bench.path("out/run.json")).unwrap()
+        fs::read_to_string(sandbox.path("out/run.json")).unwrap()
     );
 }
 
 #[test]
 fn a_second_run_reuses_the_truth_and_prints_the_same() {
-    let bench = Bench::new();
-    let first = bench.run(&["--filters", "identity"]);
+    let sandbox = Sandbox::new();
+    let first = sandbox.run(&["--filters", "identity"]);
     assert_done(&first);
-    let rendered = |bench: &Bench| {
-        fs::metadata(bench.path("out/plate/truth_trailing.exr"))
+    let rendered = |sandbox: &Sandbox| {
+        fs::metadata(sandbox.path("out/plate/truth_trailing.exr"))
             .unwrap()
             .modified()
             .unwrap()
     };
-    let before = rendered(&bench);
-    let second = bench.run(&["--filters", "identity"]);
+    let before = rendered(&sandbox);
+    let second = sandbox.run(&["--filters", "identity"]);
     // Everything except the counts and the time in the last line.
     let ranking = |output| stdout(output).split("\ncases: ").next().map(str::to_owned);
     assert_eq!(ranking(&first), ranking(&second));
     assert_eq!(
-        rendered(&bench),
+        rendered(&sandbox),
         before,
         "the truth was rendered again though nothing had changed"
     );
-    assert_done(&bench.run(&["--filters", "identity", "--seed", "2"]));
+    assert_done(&sandbox.run(&["--filters", "identity", "--seed", "2"]));
     assert_ne!(
-        rendered(&bench),
+        rendered(&sandbox),
         before,
         "another seed must render another truth"
     );
@@ -156,13 +156,13 @@ fn a_second_run_reuses_the_truth_and_prints_the_same() {
 
 #[test]
 fn the_number_of_threads_changes_no_byte() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let files = |threads: &str, out: &str| {
         let words = split("run --quiet --size 64x32 --samples-per-pixel 16 --filters identity");
         assert_done(
-            &bench.shuttertruth(&[&words[..], &["--threads", threads, "--out", out]].concat()),
+            &sandbox.shuttertruth(&[&words[..], &["--threads", threads, "--out", out]].concat()),
         );
-        let folder = bench.path(out);
+        let folder = sandbox.path(out);
         files_below(&folder)
             .into_iter()
             // run.json records the command, judgement.json names its run.json, and the report shows both.
@@ -193,15 +193,15 @@ fn the_number_of_threads_changes_no_byte() {
 
 #[test]
 fn any_filter_can_blur_a_rendered_frame() {
-    let bench = Bench::new();
-    bench.execute(&split("truths render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing,centred"));
+    let sandbox = Sandbox::new();
+    sandbox.execute(&split("truths render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing,centred"));
     assert_eq!(
-        frame::Truth::read(&bench.path("r/plate/truth_centred.exr"))
+        frame::Truth::read(&sandbox.path("r/plate/truth_centred.exr"))
             .unwrap()
             .size(),
         (64, 32)
     );
-    let frame = frame::Frame::read(&bench.path("r/plate/frame.exr")).unwrap();
+    let frame = frame::Frame::read(&sandbox.path("r/plate/frame.exr")).unwrap();
     for (filter, changes) in [
         ("identity", false),
         ("velocity_gather", true),
@@ -217,8 +217,8 @@ fn any_filter_can_blur_a_rendered_frame() {
             "--out",
             "blurred.exr",
         ];
-        bench.execute(&words);
-        let blurred = frame::read_exr(&bench.path("blurred.exr")).unwrap();
+        sandbox.execute(&words);
+        let blurred = frame::read_exr(&sandbox.path("blurred.exr")).unwrap();
         assert_eq!(
             blurred.color("").unwrap() != frame.color,
             changes,
@@ -229,14 +229,14 @@ fn any_filter_can_blur_a_rendered_frame() {
 
 #[test]
 fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let mut file = frame::ExrFile::new(16, 16);
     file.push_color("", &frame::Raster::filled(16, 16, [0.5; 3]));
     let words = split("engine blur --filter identity --frame engine.exr --out blurred.exr");
     let refused = |file: &frame::ExrFile, parts: &[&str]| {
-        frame::write_exr(&bench.path("engine.exr"), file).unwrap();
-        assert_refused(&bench.shuttertruth(&words), 2, parts);
-        assert!(!bench.path("blurred.exr").exists());
+        frame::write_exr(&sandbox.path("engine.exr"), file).unwrap();
+        assert_refused(&sandbox.shuttertruth(&words), 2, parts);
+        assert!(!sandbox.path("blurred.exr").exists());
     };
     refused(&file, &["engine.exr: lacks the channel \"velocity.X\""]);
     let ones = frame::Raster::filled(16, 16, 1.0);
@@ -247,17 +247,17 @@ fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
         &file,
         &["engine.exr: has no attribute \"exposure\"", "--exposure"],
     );
-    bench.execute(&[&words[..], &["--exposure", "0.5"]].concat());
-    fs::remove_file(bench.path("blurred.exr")).unwrap();
+    sandbox.execute(&[&words[..], &["--exposure", "0.5"]].concat());
+    fs::remove_file(sandbox.path("blurred.exr")).unwrap();
     let mut nan = ones.clone();
     nan.pixels[5 * 16 + 3] = f32::NAN;
     file.channels.retain(|channel| channel.name != "Z");
     file.push_plane("Z", &nan);
     file.set("exposure", 0.5);
     refused(&file, &["engine.exr: depth at (3, 5)", "finite"]);
-    fs::write(bench.path("engine.exr"), b"no exr").unwrap();
+    fs::write(sandbox.path("engine.exr"), b"no exr").unwrap();
     assert_refused(
-        &bench.shuttertruth(&words),
+        &sandbox.shuttertruth(&words),
         2,
         &["engine.exr: not a complete OpenEXR file"],
     );
@@ -265,8 +265,8 @@ fn an_engine_s_exr_needs_only_the_channels_and_an_exposure() {
 
 #[test]
 fn a_user_s_scenes_and_filters_are_given_by_path() {
-    let bench = Bench::new();
-    let mine = bench.path("my_blur");
+    let sandbox = Sandbox::new();
+    let mine = sandbox.path("my_blur");
     copy_shipped_filter("velocity_gather", &mine);
     let absolute = mine.display().to_string();
     for words in [
@@ -276,12 +276,12 @@ fn a_user_s_scenes_and_filters_are_given_by_path() {
         ["--filters", "./my_blur:fine"],
     ] {
         let scene = ["--scenes", "./scenes/plate", "--scenes-dir", "nowhere"];
-        let output = bench.run(&[&scene[..], &words[..]].concat());
+        let output = sandbox.run(&[&scene[..], &words[..]].concat());
         assert_done(&output);
         assert!(stdout(&output).contains("velocity_gather:fine"));
     }
     assert_refused(
-        &bench.run(&["--filters", "other_blur"]),
+        &sandbox.run(&["--filters", "other_blur"]),
         2,
         &[
             "no built-in filter is called \"other_blur\"",
@@ -292,7 +292,7 @@ fn a_user_s_scenes_and_filters_are_given_by_path() {
 
 #[test]
 fn list_shows_scenes_filters_parameters_and_presets() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = [
         "list",
         "plate",
@@ -302,7 +302,7 @@ fn list_shows_scenes_filters_parameters_and_presets() {
         "mcguire",
         "kino",
     ];
-    let output = bench.shuttertruth(&words);
+    let output = sandbox.shuttertruth(&words);
     assert_done(&output);
     assert_contains(
         &stdout(&output),
@@ -321,7 +321,7 @@ fn list_shows_scenes_filters_parameters_and_presets() {
             ".tile_size = 20 pixels",
         ],
     );
-    let output = bench.shuttertruth(&["list", "--json"]);
+    let output = sandbox.shuttertruth(&["list", "--json"]);
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(json["scenes"][0]["name"], "plate");
     assert_eq!(
@@ -345,8 +345,8 @@ fn list_shows_scenes_filters_parameters_and_presets() {
 
 #[test]
 fn a_closed_output_pipe_is_not_an_error() {
-    let bench = Bench::new();
-    let mut child = bench
+    let sandbox = Sandbox::new();
+    let mut child = sandbox
         .command(&["list", "--json"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -358,14 +358,14 @@ fn a_closed_output_pipe_is_not_an_error() {
 
 #[test]
 fn adapters_are_listed_and_chosen_by_name() {
-    let bench = Bench::new();
-    let output = bench.shuttertruth(&["list", "adapters"]);
+    let sandbox = Sandbox::new();
+    let output = sandbox.shuttertruth(&["list", "adapters"]);
     assert_done(&output);
     assert!(stdout(&output).starts_with("0: "), "{}", stdout(&output));
-    let output = bench.run(&["--filters", "identity", "--adapter", "no such card"]);
+    let output = sandbox.run(&["--filters", "identity", "--adapter", "no such card"]);
     assert_refused(&output, 2, &["no such card"]);
     assert!(
-        !bench.path("out").exists(),
+        !sandbox.path("out").exists(),
         "an adapter is looked for before anything is rendered"
     );
 }

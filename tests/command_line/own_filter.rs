@@ -3,7 +3,7 @@
 use metrics::Measured;
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{Bench, assert_done, stderr};
+use crate::sandbox::{Sandbox, assert_done, stderr};
 
 const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
 
@@ -20,7 +20,7 @@ fn block(language: &str) -> &'static str {
 }
 
 /// Writes the guide's filter, with one of its mistakes if asked.
-fn write(bench: &Bench, change: Option<&Mistake>) {
+fn write(sandbox: &Sandbox, change: Option<&Mistake>) {
     let [manifest, kernels] =
         [("filter.toml", "toml"), ("my_blur.wgsl", "wgsl")].map(|(name, language)| match change {
             Some(change) if change.file == name => {
@@ -30,7 +30,7 @@ fn write(bench: &Bench, change: Option<&Mistake>) {
             }
             _ => block(language).to_owned(),
         });
-    bench.write_filter("my_blur", &manifest, &kernels);
+    sandbox.write_filter("my_blur", &manifest, &kernels);
 }
 
 /// Mistake that the guide shows: a file, a text and its replacement, and the program's message.
@@ -67,11 +67,11 @@ fn read_mistakes() -> Vec<Mistake> {
 
 #[test]
 fn the_guide_s_filter_runs_and_beats_the_identity() {
-    let bench = Bench::new();
-    write(&bench, None);
+    let sandbox = Sandbox::new();
+    write(&sandbox, None);
     assert!(block("wgsl").lines().count() <= 20);
-    assert_done(&bench.run(&["--filters", "identity", "--filter", "my_blur"]));
-    let cases = bench.read_filter_cases();
+    assert_done(&sandbox.run(&["--filters", "identity", "--filter", "my_blur"]));
+    let cases = sandbox.read_filter_cases();
     let flip = |case: usize| cases[case].scores.moving.flip.value().unwrap();
     assert_eq!(cases[1].filter, "my_blur");
     // A gather along the pixel's own velocity blurs the inside of the plate correctly, but not the smear outside it:
@@ -81,7 +81,7 @@ fn the_guide_s_filter_runs_and_beats_the_identity() {
 
 #[test]
 fn each_mistake_prints_the_message_in_the_guide() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let mistakes = read_mistakes();
     assert_eq!(
         mistakes.len(),
@@ -89,17 +89,17 @@ fn each_mistake_prints_the_message_in_the_guide() {
         "an entry point, a parameter, a texture, a line that does not compile"
     );
     for mistake in &mistakes {
-        write(&bench, Some(mistake));
-        let output = bench.run(&["--filter", "my_blur"]);
+        write(&sandbox, Some(mistake));
+        let output = sandbox.run(&["--filter", "my_blur"]);
         assert_eq!(stderr(&output), mistake.says);
         assert_eq!(output.status.code(), Some(2));
-        assert!(!bench.path("out").exists());
+        assert!(!sandbox.path("out").exists());
     }
 }
 
 #[test]
 fn weights_that_depend_on_colour_give_no_matte_scores_and_say_why() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let toml = "name = 'bright'\nsummary = 'Counts what is bright more.'\nalignment = 'trailing'\n[[pass]]\nentry = 'work'\n";
     let wgsl = "@group(0) @binding(4) var velocity: texture_2d<f32>;\n".to_owned()
         + &one_kernel_without_parameters(
@@ -112,9 +112,9 @@ fn weights_that_depend_on_colour_give_no_matte_scores_and_say_why() {
     }
     textureStore(output, pixel, sum / sum.a);",
         );
-    bench.write_filter("bright", toml, &wgsl);
-    assert_done(&bench.run(&["--filters", "identity", "--filter", "bright"]));
-    let [identity, bright] = &bench.read_filter_cases()[..] else {
+    sandbox.write_filter("bright", toml, &wgsl);
+    assert_done(&sandbox.run(&["--filters", "identity", "--filter", "bright"]));
+    let [identity, bright] = &sandbox.read_filter_cases()[..] else {
         panic!("two filters on one scene");
     };
     assert_eq!(identity.nonlinearity, Some(0.0));

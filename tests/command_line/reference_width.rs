@@ -6,7 +6,7 @@ use filters::Value;
 use suite::Case;
 use tests::filter_folder::one_kernel;
 
-use crate::bench::{Bench, assert_done, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, split, stdout};
 
 /// Manifest of a box blur. Its parameter is a radius in pixels, for pictures four times as wide as the bench's.
 const MANIFEST: &str = r#"
@@ -39,46 +39,46 @@ const BODY: &str = "
     textureStore(output, pixel, sum / f32(parameters.radius));
 ";
 
-fn set_up() -> Bench {
-    let bench = Bench::new();
-    bench.write_filter("mine", MANIFEST, &one_kernel("radius: i32", BODY));
-    bench
+fn set_up() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.write_filter("mine", MANIFEST, &one_kernel("radius: i32", BODY));
+    sandbox
 }
 
 /// Runs the filter and returns its case.
-fn measure_case(bench: &Bench, more: &[&str]) -> Case {
-    assert_done(&bench.run(&[&["--filter", "mine"], more].concat()));
-    let mut cases = bench.read_run().cases.into_iter();
+fn measure_case(sandbox: &Sandbox, more: &[&str]) -> Case {
+    assert_done(&sandbox.run(&[&["--filter", "mine"], more].concat()));
+    let mut cases = sandbox.read_run().cases.into_iter();
     cases.find(|case| case.filter == "mine").unwrap()
 }
 
 #[test]
 fn a_run_scales_a_preset_to_its_width_and_reports_it() {
-    let bench = set_up();
-    let scaled = measure_case(&bench, &[]);
+    let sandbox = set_up();
+    let scaled = measure_case(&sandbox, &[]);
     assert_eq!(scaled.parameters["radius"], Value::Integer(4));
     assert_eq!(scaled.reference_width, Some(256));
 
     // The first case was kept. This is a different case, so it must not be read back.
-    let written = measure_case(&bench, &["--as-written"]);
+    let written = measure_case(&sandbox, &["--as-written"]);
     assert_eq!(written.parameters["radius"], Value::Integer(16));
     assert_eq!(written.reference_width, None);
     let flip = |case: &Case| serde_json::to_string(&case.scores.moving).unwrap();
     assert_ne!(flip(&written), flip(&scaled));
 
-    let set = measure_case(&bench, &["--set", "mine.radius=16"]);
+    let set = measure_case(&sandbox, &["--set", "mine.radius=16"]);
     assert_eq!(set.parameters["radius"], Value::Integer(16));
     assert_eq!(set.reference_width, Some(256));
     assert_eq!(flip(&set), flip(&written));
-    assert_eq!(flip(&measure_case(&bench, &[])), flip(&scaled));
+    assert_eq!(flip(&measure_case(&sandbox, &[])), flip(&scaled));
 }
 
 #[test]
 fn a_small_frame_scales_a_preset_to_its_own_width() {
-    let bench = set_up();
+    let sandbox = set_up();
     let words = split("--filter mine --input scale=50_blur_first,50_upscale_first");
-    assert_done(&bench.run(&words));
-    let cases = bench.read_run().cases;
+    assert_done(&sandbox.run(&words));
+    let cases = sandbox.read_run().cases;
     let radius = |name: &str| {
         let case = cases.iter().find(|case| case.name() == name);
         case.expect("it was measured").parameters["radius"].clone()
@@ -93,14 +93,14 @@ fn a_small_frame_scales_a_preset_to_its_own_width() {
 
 #[test]
 fn a_guard_band_is_not_part_of_the_width() {
-    let bench = set_up();
-    let case = measure_case(&bench, &["--guard-band", "32"]);
+    let sandbox = set_up();
+    let case = measure_case(&sandbox, &["--guard-band", "32"]);
     assert_eq!(case.parameters["radius"], Value::Integer(4));
 
     let words = split("engine blur --filter ./mine --frame out/plate/frame.exr --out");
     let blur = |out: &str, more: &[&str]| {
-        bench.execute(&[&words[..], &[out], more].concat());
-        let file = frame::read_exr(&bench.path(out)).unwrap();
+        sandbox.execute(&[&words[..], &[out], more].concat());
+        let file = frame::read_exr(&sandbox.path(out)).unwrap();
         file.color("").unwrap()
     };
     let scaled = blur("scaled.exr", &[]);
@@ -113,9 +113,9 @@ fn a_guard_band_is_not_part_of_the_width() {
 
 #[test]
 fn every_command_that_runs_filters_scales_presets_unless_told_not_to() {
-    let bench = set_up();
+    let sandbox = set_up();
     let json = |words: &[&str]| -> serde_json::Value {
-        serde_json::from_str(&bench.execute(words)).unwrap()
+        serde_json::from_str(&sandbox.execute(words)).unwrap()
     };
     let bench_words = split("bench --filters ./mine --size 64x32 --json --quiet");
     let radius = |more: &[&str]| {
@@ -135,7 +135,7 @@ fn every_command_that_runs_filters_scales_presets_unless_told_not_to() {
 
     // The preset's own radius is 4 pixels here, and 16 as written.
     let evaluate = |params: &str, more: &[&str]| {
-        fs::write(bench.path("params.json"), params).unwrap();
+        fs::write(sandbox.path("params.json"), params).unwrap();
         let words = split(
             "tune evaluate --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --out tuned \
              --params params.json",
@@ -150,7 +150,7 @@ fn every_command_that_runs_filters_scales_presets_unless_told_not_to() {
 
 #[test]
 fn a_tuned_preset_records_the_width_of_its_tuning() {
-    let bench = set_up();
+    let sandbox = set_up();
     // Five scenes that are much alike tell a choice from the start, which blurs too little at their speeds.
     for (name, way) in [
         ("a", "-3.58"),
@@ -159,17 +159,17 @@ fn a_tuned_preset_records_the_width_of_its_tuning() {
         ("d", "-3.61"),
         ("e", "-3.62"),
     ] {
-        bench.copy_scene(name, |text| text.replace("-1.6", way));
+        sandbox.copy_scene(name, |text| text.replace("-1.6", way));
     }
     let words = split(
         "tune search --quiet --filter ./mine --objective flip --size 64x32 --samples-per-pixel 16 --scenes a,b,c,d,e --budget 12 \
          --out tuned",
     );
     let preset = |more: &[&str]| {
-        let _ = fs::remove_dir_all(bench.path("tuned"));
-        let table = bench.execute(&[&words[..], more].concat());
-        let preset = fs::read_to_string(bench.path("tuned/preset.toml"));
-        let values: serde_json::Value = bench.read_json("tuned/params.json");
+        let _ = fs::remove_dir_all(sandbox.path("tuned"));
+        let table = sandbox.execute(&[&words[..], more].concat());
+        let preset = fs::read_to_string(sandbox.path("tuned/preset.toml"));
+        let values: serde_json::Value = sandbox.read_json("tuned/params.json");
         (preset.expect(&table), values["radius"].to_string())
     };
     let (scaled, radius) = preset(&[]);
@@ -183,11 +183,11 @@ fn a_tuned_preset_records_the_width_of_its_tuning() {
 
     // The filter has the preset as soon as it is appended.
     fs::write(
-        bench.path("mine/filter.toml"),
+        sandbox.path("mine/filter.toml"),
         format!("{MANIFEST}\n{scaled}"),
     )
     .unwrap();
-    let listed = stdout(&bench.shuttertruth(&["list", "--filter", "mine"]));
+    let listed = stdout(&sandbox.shuttertruth(&["list", "--filter", "mine"]));
     assert!(
         listed.contains("made for pictures 64 pixels wide"),
         "{listed}"
@@ -198,14 +198,14 @@ fn a_tuned_preset_records_the_width_of_its_tuning() {
 /// Scores of filters that are scaled say little about those that are not.
 #[test]
 fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
-    let bench = set_up();
+    let sandbox = set_up();
     let note = |filters: &str, more: &[&str]| {
         // A page shows the cases of earlier runs, too.
-        _ = fs::remove_dir_all(bench.path("out"));
+        _ = fs::remove_dir_all(sandbox.path("out"));
         let words = [&["--filters", filters, "--html", "page.html"], more].concat();
-        let output = bench.run(&words);
+        let output = sandbox.run(&words);
         assert_done(&output);
-        let page = fs::read_to_string(bench.path("page.html")).unwrap();
+        let page = fs::read_to_string(sandbox.path("page.html")).unwrap();
         let page = page.replace("&quot;", "\"");
         let squeeze = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
         let texts = [stdout(&output), page].map(|text| squeeze(&text));
@@ -218,7 +218,7 @@ fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
         found[0].clone()
     };
     let manifest = MANIFEST.replace("reference_width = 256\n", "");
-    bench.write_filter("mine", &manifest, &one_kernel("radius: i32", BODY));
+    sandbox.write_filter("mine", &manifest, &one_kernel("radius: i32", BODY));
     let filters = "./mine,mcguire:paper,identity";
     let says = " to pictures 64 wide for mcguire:paper, and are as written for mine:engine, whose filter.toml names no \
                 reference_width. Give its lengths unit = \"pixels\" and name one, or compare all ";
@@ -229,9 +229,9 @@ fn a_run_that_mixes_scaled_and_unscaled_filters_says_which_are_which() {
     assert_eq!(note("mcguire:paper,identity", &[]), None);
     // A width of its own, for all presets.
     let own = manifest.replacen("[[parameter]]", "reference_width = 256\n\n[[parameter]]", 1);
-    bench.write_filter("mine", &own, &one_kernel("radius: i32", BODY));
+    sandbox.write_filter("mine", &own, &one_kernel("radius: i32", BODY));
     assert_eq!(note(filters, &[]), None);
-    let cases = bench.read_filter_cases();
+    let cases = sandbox.read_filter_cases();
     let case = cases.iter().find(|case| case.filter == "mine").unwrap();
     assert_eq!(case.parameters["radius"], Value::Integer(4));
     assert_eq!(case.reference_width, Some(256));

@@ -4,26 +4,26 @@ use std::fs;
 
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{
-    Bench, OBJ, SCENE, assert_done, assert_refused, files_below, press_ctrl_c, split,
+use crate::sandbox::{
+    OBJ, SCENE, Sandbox, assert_done, assert_refused, files_below, press_ctrl_c, split,
 };
 
 #[test]
 fn a_missing_adapter_gives_exit_code_3_and_the_way_out() {
-    let bench = Bench::new();
-    let output = bench
+    let sandbox = Sandbox::new();
+    let output = sandbox
         .command(&["run", "--out", "out"])
         .env("VK_DRIVER_FILES", "/no/driver.json")
         .env("VK_ICD_FILENAMES", "/no/driver.json")
         .output()
         .unwrap();
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
-    assert!(!bench.path("out").exists());
+    assert!(!sandbox.path("out").exists());
 }
 
 #[test]
 fn bad_arguments_are_refused_with_the_allowed_values() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let rows: &[(&[&str], &[&str])] = &[
         (
             &["--scenes", "plates"],
@@ -95,30 +95,30 @@ fn bad_arguments_are_refused_with_the_allowed_values() {
     ];
     for (more, parts) in rows {
         let words = [&["run", "--quiet", "--out", "out"], *more].concat();
-        assert_refused(&bench.shuttertruth(&words), 2, parts);
+        assert_refused(&sandbox.shuttertruth(&words), 2, parts);
         assert!(
-            !bench.path("out").exists(),
+            !sandbox.path("out").exists(),
             "{more:?} left something behind"
         );
     }
-    fs::write(bench.path("file"), "no folder").unwrap();
+    fs::write(sandbox.path("file"), "no folder").unwrap();
     for out in ["file", "file/below"] {
         let words = ["run", "--quiet", "--filter", "identity", "--out", out];
         let parts = ["file: is a file, where the output folder is to be"];
-        assert_refused(&bench.shuttertruth(&words), 2, &parts);
+        assert_refused(&sandbox.shuttertruth(&words), 2, &parts);
     }
     for command in [&["run"][..], &["truths", "render"]] {
-        let before = files_below(&bench.path("scenes"));
+        let before = files_below(&sandbox.path("scenes"));
         let words = [command, &["--quiet", "--out", "scenes"]].concat();
         assert_refused(
-            &bench.shuttertruth(&words),
+            &sandbox.shuttertruth(&words),
             2,
             &["scenes/plate holds a scene"],
         );
-        assert_eq!(files_below(&bench.path("scenes")), before, "{command:?}");
+        assert_eq!(files_below(&sandbox.path("scenes")), before, "{command:?}");
     }
     assert_refused(
-        &bench.shuttertruth(&[]),
+        &sandbox.shuttertruth(&[]),
         2,
         &["Usage: shuttertruth [OPTIONS] <COMMAND>"],
     );
@@ -172,12 +172,12 @@ fn a_bad_scene_is_refused_with_file_and_line_and_leaves_nothing_behind() {
         ),
     ];
     for ((name, text), parts) in rows {
-        let bench = Bench::new();
-        bench.write(name, &text);
-        let output = bench.run(&["--filters", "identity"]);
+        let sandbox = Sandbox::new();
+        sandbox.write(name, &text);
+        let output = sandbox.run(&["--filters", "identity"]);
         assert_refused(&output, 2, parts);
         assert!(
-            !bench.path("out").exists(),
+            !sandbox.path("out").exists(),
             "{parts:?} left something behind"
         );
     }
@@ -185,29 +185,29 @@ fn a_bad_scene_is_refused_with_file_and_line_and_leaves_nothing_behind() {
 
 #[test]
 fn bounds_of_an_unknown_metric_are_refused() {
-    let bench = Bench::new();
-    bench.write_bound(0.0001);
-    assert_done(&bench.run(&["--filters", "identity"]));
-    assert_eq!(bench.read_findings().len(), 1);
-    bench.write(
+    let sandbox = Sandbox::new();
+    sandbox.write_bound(0.0001);
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    assert_eq!(sandbox.read_findings().len(), 1);
+    sandbox.write(
         "bounds.toml",
         "[default]\nflip = { limit = 0.1, why = \"it serves a test\" }\n",
     );
-    fs::remove_dir_all(bench.path("out")).unwrap();
-    let output = bench.run(&["--filters", "identity"]);
+    fs::remove_dir_all(sandbox.path("out")).unwrap();
+    let output = sandbox.run(&["--filters", "identity"]);
     assert_refused(
         &output,
         2,
         &["bounds.toml:2", "metric \"flip\" is unknown", "flip_moving"],
     );
-    assert!(!bench.path("out").exists());
+    assert!(!sandbox.path("out").exists());
 }
 
 #[test]
 fn ctrl_c_leaves_no_partial_file() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     // Far more samples than the program can render before the interrupt.
-    let mut child = bench
+    let mut child = sandbox
         .command(&split(
             "truths render --quiet --out out --size 1024x512 --samples-per-pixel 65536",
         ))
@@ -216,7 +216,7 @@ fn ctrl_c_leaves_no_partial_file() {
     std::thread::sleep(std::time::Duration::from_millis(500));
     press_ctrl_c(&child);
     assert_eq!(child.wait().unwrap().code(), Some(130));
-    let out = bench.path("out");
+    let out = sandbox.path("out");
     let mut left = if out.exists() {
         files_below(&out)
     } else {
@@ -229,14 +229,14 @@ fn ctrl_c_leaves_no_partial_file() {
 
 #[test]
 fn names_that_no_folder_can_have_are_refused_before_anything_is_rendered() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let long = "n".repeat(250);
     let (manifest, kernels) = (
         "summary = \"It copies.\"\nalignment = \"trailing\"\n[[pass]]\nentry = \"work\"\n",
         one_kernel_without_parameters("textureStore(output, pixel, textureLoad(color, pixel, 0));"),
     );
-    bench.write_filter(&long, &format!("name = \"{long}\"\n{manifest}"), &kernels);
-    bench.copy_scene(&long, |text| text.replace("-1.6", "-0.8"));
+    sandbox.write_filter(&long, &format!("name = \"{long}\"\n{manifest}"), &kernels);
+    sandbox.copy_scene(&long, |text| text.replace("-1.6", "-0.8"));
     let filter = format!("./{long}");
     for words in [
         &["run", "--filter", &filter, "--scenes", "plate"][..],
@@ -244,15 +244,15 @@ fn names_that_no_folder_can_have_are_refused_before_anything_is_rendered() {
         &["check", "--filter", "identity", "--scenes", &long],
         &["truths", "render", "--scenes", &long],
     ] {
-        bench.write_bound(1.0);
-        bench.copy_bound(&long);
-        let output = bench.outside_ci(words);
+        sandbox.write_bound(1.0);
+        sandbox.copy_bound(&long);
+        let output = sandbox.outside_ci(words);
         let parts = [
             "folder \"nnnnnn",
             "allowed: up to 240",
             "give them shorter ones",
         ];
         assert_refused(&output, 2, &parts);
-        assert!(!bench.path("out").exists(), "{words:?}");
+        assert!(!sandbox.path("out").exists(), "{words:?}");
     }
 }

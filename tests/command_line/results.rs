@@ -17,7 +17,7 @@ use tracer::{SceneId, Seal};
 
 use self::filter_page::{picture_name, results_filter_pages};
 use self::page::{main_results, results_page};
-use crate::bench::{Bench, assert_done};
+use crate::sandbox::{Sandbox, assert_done};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../results")
@@ -70,14 +70,14 @@ fn the_page_of_every_filter_is_made_from_the_results_and_shows_its_worst_picture
 
 #[test]
 fn costs_of_a_bench_stand_beside_the_scores_of_their_presets() {
-    let bench = Bench::new();
-    let run = run(&bench, &[]);
+    let sandbox = Sandbox::new();
+    let run = run(&sandbox, &[]);
     let mut results = Results::from_runs(&[run]).unwrap();
     let words = ["bench", "--size", "64x32"];
-    let out = bench.path("out");
+    let out = sandbox.path("out");
     let out = out.to_str().unwrap();
     assert_done(
-        &bench.shuttertruth(
+        &sandbox.shuttertruth(
             &[
                 &words[..],
                 &["--filters", "velocity_gather:fine", "--out", out],
@@ -85,7 +85,7 @@ fn costs_of_a_bench_stand_beside_the_scores_of_their_presets() {
             .concat(),
         ),
     );
-    let costs = report::read_bench(&bench.path("out")).unwrap().unwrap();
+    let costs = report::read_bench(&sandbox.path("out")).unwrap().unwrap();
     results.add_costs(&costs).unwrap();
     let names: Vec<&str> = results.costs.keys().map(String::as_str).collect();
     assert_eq!(names, ["velocity_gather:fine"]);
@@ -103,19 +103,19 @@ fn costs_of_a_bench_stand_beside_the_scores_of_their_presets() {
     assert!(error.contains("the bench timed 64x32 on"), "{error}");
 }
 
-fn run(bench: &Bench, more: &[&str]) -> Run {
+fn run(sandbox: &Sandbox, more: &[&str]) -> Run {
     let words = [
         "--filters",
         "identity,velocity_gather:fine,velocity_gather:coarse",
     ];
-    assert_done(&bench.run(&[&words[..], more].concat()));
-    bench.read_run()
+    assert_done(&sandbox.run(&[&words[..], more].concat()));
+    sandbox.read_run()
 }
 
 #[test]
 fn results_of_two_runs_are_those_of_one() {
     // A run keeps the cases of earlier ones in its folder, so that each has its own.
-    let run = |more: &[&str]| run(&Bench::two_scenes(), more);
+    let run = |more: &[&str]| run(&Sandbox::two_scenes(), more);
     let both = run(&[]);
     let plate = run(&["--scenes", "plate"]);
     let slow = run(&["--scenes", "slow"]);
@@ -191,8 +191,8 @@ fn results_of_two_runs_are_those_of_one() {
 }
 
 /// Writes the filter `learnt`: a gather along the velocity that the plate has, whatever the velocity buffer says.
-fn write_learnt_filter(bench: &Bench) {
-    let folder = bench.path("learnt");
+fn write_learnt_filter(sandbox: &Sandbox) {
+    let folder = sandbox.path("learnt");
     copy_changed_filter("velocity_gather", &folder, |kernels| {
         let read = "textureLoad(velocity, pixel, 0).xy";
         assert!(kernels.contains(read));
@@ -219,12 +219,12 @@ fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
         "0.1, 0.2, 0.3",
     ];
     let make_bench = || {
-        let bench = Bench::new();
+        let sandbox = Sandbox::new();
         for (name, color) in names[1..].iter().zip(colors) {
-            bench.copy_scene(name, |text| text.replace("0.2, 0.2, 0.2", color));
+            sandbox.copy_scene(name, |text| text.replace("0.2, 0.2, 0.2", color));
         }
-        write_learnt_filter(&bench);
-        bench
+        write_learnt_filter(&sandbox);
+        sandbox
     };
     // One that lets most of the plates move the other way.
     let turns_round = |seed: u64| {
@@ -236,10 +236,10 @@ fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
     };
     let seed = (0..).find(|seed| turns_round(*seed)).unwrap().to_string();
     let ranks = |more: &[&str]| {
-        let bench = make_bench();
+        let sandbox = make_bench();
         let words = ["--filters", "velocity_gather:fine,learnt:fine"];
-        assert_done(&bench.run(&[&words[..], more].concat()));
-        let results = Results::from_runs(&[bench.read_run()]).unwrap();
+        assert_done(&sandbox.run(&[&words[..], more].concat()));
+        let results = Results::from_runs(&[sandbox.read_run()]).unwrap();
         assert_eq!(results.scenes().len(), names.len());
         let ranking = results.ranking(None).remove(0);
         let names: Vec<String> = ranking.into_iter().map(|ranked| ranked.name).collect();

@@ -5,20 +5,20 @@ use std::fs;
 use frame::{ExrFile, Frame, Raster, Truth, display_srgb, read_exr, write_exr, write_png};
 use metrics::{EquivalentMetric, Metric, ProbeScores, Scores, SkillMetric};
 
-use crate::bench::{Bench, SCENE, assert_done, assert_refused, stdout};
+use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, stdout};
 
 const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
 const FRAME: [&str; 2] = ["--frame", "out/plate/frame.exr"];
 const LADDER: [&str; 2] = ["--ladder", "out/plate/ladder_trailing"];
 const OUTPUT: &str = "out/plate/velocity_gather_fine/output.exr";
 
-fn score(bench: &Bench, image: &str, more: &[&str]) -> std::process::Output {
+fn score(sandbox: &Sandbox, image: &str, more: &[&str]) -> std::process::Output {
     let words = [&["score", "--image", image][..], &TRUTH, &FRAME, more];
-    bench.shuttertruth(&words.concat())
+    sandbox.shuttertruth(&words.concat())
 }
 
-fn scores(bench: &Bench, image: &str, more: &[&str]) -> Scores {
-    let output = score(bench, image, &[more, &["--json"]].concat());
+fn scores(sandbox: &Sandbox, image: &str, more: &[&str]) -> Scores {
+    let output = score(sandbox, image, &[more, &["--json"]].concat());
     assert_done(&output);
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(json["scene"], "plate");
@@ -27,20 +27,20 @@ fn scores(bench: &Bench, image: &str, more: &[&str]) -> Scores {
 }
 
 /// Runs one filter on the plate. Returns its scores without those of probes, which a picture cannot have.
-fn run(bench: &Bench, more: &[&str]) -> Scores {
-    assert_done(&bench.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
-    let mut scores = bench.read_filter_cases()[0].scores.clone();
+fn run(sandbox: &Sandbox, more: &[&str]) -> Scores {
+    assert_done(&sandbox.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
+    let mut scores = sandbox.read_filter_cases()[0].scores.clone();
     scores.probes = ProbeScores::not_applicable("no probes were run through the filter");
     scores
 }
 
 /// Writes only the colours of an OpenEXR file.
-fn without_mattes(bench: &Bench, from: &str, to: &str) {
-    let mut file = read_exr(&bench.path(from)).unwrap();
+fn without_mattes(sandbox: &Sandbox, from: &str, to: &str) {
+    let mut file = read_exr(&sandbox.path(from)).unwrap();
     file.channels
         .retain(|channel| !channel.name.starts_with("coverage"));
     file.attributes.clear();
-    write_exr(&bench.path(to), &file).unwrap();
+    write_exr(&sandbox.path(to), &file).unwrap();
 }
 
 /// Returns whether a metric is about colours, and so applies to any picture.
@@ -57,10 +57,10 @@ fn of_colour(metric: &Metric) -> bool {
 
 #[test]
 fn score_repeats_the_scores_of_a_run() {
-    let bench = Bench::new();
-    let expected = run(&bench, &[]);
-    assert_eq!(scores(&bench, OUTPUT, &LADDER), expected);
-    let output = score(&bench, OUTPUT, &LADDER);
+    let sandbox = Sandbox::new();
+    let expected = run(&sandbox, &[]);
+    assert_eq!(scores(&sandbox, OUTPUT, &LADDER), expected);
+    let output = score(&sandbox, OUTPUT, &LADDER);
     assert_done(&output);
     assert!(
         stdout(&output).contains("truth: trailing shutter, open for 0.5 frames"),
@@ -73,41 +73,41 @@ fn score_repeats_the_scores_of_a_run() {
 
 #[test]
 fn mattes_that_a_file_gives_are_said_to_be_given() {
-    let bench = Bench::new();
-    run(&bench, &[]);
+    let sandbox = Sandbox::new();
+    run(&sandbox, &[]);
     // A grey picture with the truth's own mattes.
-    let mut file = read_exr(&bench.path(TRUTH[1])).unwrap();
+    let mut file = read_exr(&sandbox.path(TRUTH[1])).unwrap();
     file.attributes.clear();
     let grey = file.color("").unwrap().map(|_| [0.3; 3]);
     file.channels
         .retain(|channel| channel.name.starts_with("coverage."));
     file.push_color("", &grey);
-    write_exr(&bench.path("grey.exr"), &file).unwrap();
+    write_exr(&sandbox.path("grey.exr"), &file).unwrap();
     assert_eq!(
-        scores(&bench, "grey.exr", &[])
+        scores(&sandbox, "grey.exr", &[])
             .get("label_tv".parse().unwrap())
             .value(),
         Some(0.0)
     );
     let note = "grey.exr: its mattes, channels coverage.<object>, were given with the picture and not measured";
-    let text = stdout(&score(&bench, "grey.exr", &[]));
+    let text = stdout(&score(&sandbox, "grey.exr", &[]));
     assert!(text.contains(note), "{text}");
     let notes = |image: &str| {
-        let output = score(&bench, image, &["--json"]);
+        let output = score(&sandbox, image, &["--json"]);
         let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         json["notes"].to_string()
     };
     assert!(notes("grey.exr").contains("given with the picture and not measured"));
-    without_mattes(&bench, "grey.exr", "bare.exr");
+    without_mattes(&sandbox, "grey.exr", "bare.exr");
     assert!(!notes("bare.exr").contains("mattes"));
 }
 
 #[test]
 fn colours_without_mattes_get_only_the_scores_of_colour() {
-    let bench = Bench::new();
-    let expected = run(&bench, &[]);
-    without_mattes(&bench, OUTPUT, "mine.exr");
-    let found = scores(&bench, "mine.exr", &LADDER);
+    let sandbox = Sandbox::new();
+    let expected = run(&sandbox, &[]);
+    without_mattes(&sandbox, OUTPUT, "mine.exr");
+    let found = scores(&sandbox, "mine.exr", &LADDER);
     for metric in Metric::all() {
         if of_colour(&metric) {
             assert_eq!(found.get(metric), expected.get(metric), "{metric}");
@@ -115,7 +115,7 @@ fn colours_without_mattes_get_only_the_scores_of_colour() {
             assert_eq!(found.get(metric).value(), None, "{metric}");
         }
     }
-    let text = stdout(&score(&bench, "mine.exr", &[]));
+    let text = stdout(&score(&sandbox, "mine.exr", &[]));
     let line = |part: &str| {
         let mut lines = text.lines();
         let found = lines.find(|line| line.starts_with("not available: ") && line.contains(part));
@@ -137,12 +137,12 @@ fn colours_without_mattes_get_only_the_scores_of_colour() {
 fn a_png_is_converted_back_to_radiance() {
     // The plate's radiance is up to 0.7. One exposure shows half of it, the other twice, which exceeds display white.
     for (stops, bright) in [("-1.0", false), ("1.0", true)] {
-        let bench = Bench::new();
+        let sandbox = Sandbox::new();
         let display = format!("[display]\nstops = {stops}\n[background]");
-        bench.write("scene.toml", &SCENE.replace("[background]", &display));
-        let expected = run(&bench, &[]);
+        sandbox.write("scene.toml", &SCENE.replace("[background]", &display));
+        let expected = run(&sandbox, &[]);
         let png = OUTPUT.replace(".exr", ".png");
-        let found = scores(&bench, &png, &LADDER);
+        let found = scores(&sandbox, &png, &LADDER);
         let flip = |scores: &Scores| scores.moving.flip.value().unwrap();
         // Steps of 1/255 in sRGB are small beside the blur's error. A forgotten stop is not: the whole picture becomes
         // half or twice as bright.
@@ -154,7 +154,7 @@ fn a_png_is_converted_back_to_radiance() {
         );
         assert_eq!(found.full.flip_hdr.value(), None);
         let psnr = |scores: &Scores| scores.moving.psnr.value().unwrap();
-        let text = stdout(&score(&bench, &png, &[]));
+        let text = stdout(&score(&sandbox, &png, &[]));
         let undone = format!(
             "display exposure of {} stops undone",
             &stops[..stops.len() - 2]
@@ -174,8 +174,8 @@ fn a_png_is_converted_back_to_radiance() {
 
 #[test]
 fn a_guard_band_is_cropped_from_the_picture() {
-    let bench = Bench::new();
-    let expected = run(&bench, &["--guard-band", "8"]);
+    let sandbox = Sandbox::new();
+    let expected = run(&sandbox, &["--guard-band", "8"]);
     let words = [
         "engine",
         "blur",
@@ -184,11 +184,11 @@ fn a_guard_band_is_cropped_from_the_picture() {
         "--out",
         "b.exr",
     ];
-    bench.execute(&[&words[..], &FRAME].concat());
-    let found = scores(&bench, "b.exr", &[]);
+    sandbox.execute(&[&words[..], &FRAME].concat());
+    let found = scores(&sandbox, "b.exr", &[]);
     assert_eq!(found.moving, expected.moving);
     assert_eq!(found.full, expected.full);
-    let text = stdout(&score(&bench, "b.exr", &[]));
+    let text = stdout(&score(&sandbox, "b.exr", &[]));
     assert!(
         text.contains("cropped by the frame's guard band of 8 pixels"),
         "{text}"
@@ -197,15 +197,15 @@ fn a_guard_band_is_cropped_from_the_picture() {
 
 #[test]
 fn mismatched_files_are_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = ["--quiet", "--samples-per-pixel", "16", "--out"];
     let render = |more: &[&str]| {
-        bench.execute(&[&["truths", "render"][..], &words, more].concat());
+        sandbox.execute(&[&["truths", "render"][..], &words, more].concat());
     };
     render(&["out", "--alignments", "trailing,centred"]);
     render(&["short", "--exposure", "0.25"]);
     render(&["small", "--size", "32x16"]);
-    fs::rename(bench.path("scenes/plate"), bench.path("scenes/other")).unwrap();
+    fs::rename(sandbox.path("scenes/plate"), sandbox.path("scenes/other")).unwrap();
     render(&["out"]);
     let blur = |more: &[&str]| {
         let words = [
@@ -216,11 +216,11 @@ fn mismatched_files_are_refused() {
             "--out",
             "b.exr",
         ];
-        bench.execute(&[&words[..], &FRAME, more].concat());
+        sandbox.execute(&[&words[..], &FRAME, more].concat());
     };
     let refused = |words: [&str; 6], parts: &[&str]| {
         assert_refused(
-            &bench.shuttertruth(&[&["score"], &words[..]].concat()),
+            &sandbox.shuttertruth(&[&["score"], &words[..]].concat()),
             2,
             parts,
         );
@@ -268,10 +268,10 @@ fn mismatched_files_are_refused() {
 
 #[test]
 fn bad_pictures_are_refused_with_their_name() {
-    let bench = Bench::new();
-    run(&bench, &[]);
+    let sandbox = Sandbox::new();
+    run(&sandbox, &[]);
     let refused = |image: &str, parts: &[&str]| {
-        assert_refused(&score(&bench, image, &[]), 2, &[&[image], parts].concat());
+        assert_refused(&score(&sandbox, image, &[]), 2, &[&[image], parts].concat());
     };
     refused("nowhere.exr", &["cannot read"]);
     refused("nowhere.png", &["cannot read"]);
@@ -279,40 +279,44 @@ fn bad_pictures_are_refused_with_their_name() {
         "scenes/plate/plate.obj",
         &["allowed: a name that ends with .exr or .png"],
     );
-    fs::copy(bench.path("scenes/plate/plate.obj"), bench.path("no.png")).unwrap();
+    fs::copy(
+        sandbox.path("scenes/plate/plate.obj"),
+        sandbox.path("no.png"),
+    )
+    .unwrap();
     refused("no.png", &["not a PNG that can be read"]);
-    fs::copy(bench.path("no.png"), bench.path("no.exr")).unwrap();
+    fs::copy(sandbox.path("no.png"), sandbox.path("no.exr")).unwrap();
     refused("no.exr", &["not a complete OpenEXR file"]);
-    write_png(&bench.path("odd.png"), &Raster::filled(5, 4, [0.5; 3])).unwrap();
+    write_png(&sandbox.path("odd.png"), &Raster::filled(5, 4, [0.5; 3])).unwrap();
     refused("odd.png", &["has 5x4 pixels, the truth has 64x32"]);
 
-    let mut file = read_exr(&bench.path(OUTPUT)).unwrap();
+    let mut file = read_exr(&sandbox.path(OUTPUT)).unwrap();
     file.channels
         .retain(|channel| channel.name != "coverage.plate");
-    write_exr(&bench.path("part.exr"), &file).unwrap();
+    write_exr(&sandbox.path("part.exr"), &file).unwrap();
     refused("part.exr", &["lacks the channel \"coverage.plate\""]);
     let mut file = ExrFile::new(64, 32);
     let pixels = Raster::from_fn(64, 32, |x, y| {
         [if (x, y) == (9, 3) { f32::NAN } else { 0.5 }; 3]
     });
     file.push_color("", &pixels);
-    write_exr(&bench.path("nan.exr"), &file).unwrap();
+    write_exr(&sandbox.path("nan.exr"), &file).unwrap();
     refused("nan.exr", &["NaN at pixel (9, 3)"]);
 }
 
 #[test]
 fn a_truth_of_an_older_version_is_refused_with_the_way_out() {
-    let bench = Bench::new();
-    run(&bench, &[]);
-    let mut file = read_exr(&bench.path(TRUTH[1])).unwrap();
+    let sandbox = Sandbox::new();
+    run(&sandbox, &[]);
+    let mut file = read_exr(&sandbox.path(TRUTH[1])).unwrap();
     (file.channels).retain(|channel| !channel.name.starts_with("support."));
-    write_exr(&bench.path("old.exr"), &file).unwrap();
+    write_exr(&sandbox.path("old.exr"), &file).unwrap();
     let words = [
         &["score", "--image", OUTPUT, "--truth", "old.exr"][..],
         &FRAME,
     ];
     assert_refused(
-        &bench.shuttertruth(&words.concat()),
+        &sandbox.shuttertruth(&words.concat()),
         2,
         &[
             "old.exr: holds no support",
@@ -323,19 +327,19 @@ fn a_truth_of_an_older_version_is_refused_with_the_way_out() {
 
 #[test]
 fn the_truth_has_no_error_as_exr_and_rounding_errors_as_png() {
-    let bench = Bench::new();
-    run(&bench, &[]);
-    let truth = Truth::read(&bench.path(TRUTH[1])).unwrap();
-    let stops = Frame::read(&bench.path(FRAME[1])).unwrap().display.stops;
+    let sandbox = Sandbox::new();
+    run(&sandbox, &[]);
+    let truth = Truth::read(&sandbox.path(TRUTH[1])).unwrap();
+    let stops = Frame::read(&sandbox.path(FRAME[1])).unwrap().display.stops;
     let shown = display_srgb(&truth.mean().color, stops);
-    write_png(&bench.path("truth.png"), &shown).unwrap();
-    let exact = scores(&bench, TRUTH[1], &[]);
+    write_png(&sandbox.path("truth.png"), &shown).unwrap();
+    let exact = scores(&sandbox, TRUTH[1], &[]);
     assert_eq!(exact.full.flip.value(), Some(0.0));
-    let rounded = scores(&bench, "truth.png", &[]);
+    let rounded = scores(&sandbox, "truth.png", &[]);
     let flip = rounded.moving.flip.value().unwrap();
     // FLIP amplifies small differences: half a step of 1/255 over a whole area gives up to a few hundredths.
     assert!(0.0 < flip && flip < 0.03, "{flip}");
-    let text = stdout(&score(&bench, "truth.png", &[]));
+    let text = stdout(&score(&sandbox, "truth.png", &[]));
     let said = format!("as a PNG of 8 bits, would have a flip_moving of {flip:.3}");
     assert!(text.contains(&said), "{said} is missing from:\n{text}");
 }

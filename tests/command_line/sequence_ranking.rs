@@ -7,7 +7,7 @@ use metrics::{Measured, PERFECT_JOD, SequenceMetric};
 use suite::Run;
 use tracer::SceneId;
 
-use crate::bench::{Bench, assert_done, stdout};
+use crate::sandbox::{Sandbox, assert_done, stdout};
 
 /// Names of a ranking with their ranks: `1 a`, `2-3 b`.
 fn names(ranking: &[Vec<RankedSequence>]) -> Vec<String> {
@@ -44,7 +44,7 @@ fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
 
 #[test]
 fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
-    let bench = Bench::two_scenes();
+    let sandbox = Sandbox::two_scenes();
     let filters = "identity,velocity_gather:fine,velocity_gather:departure";
     let words = [
         "--filters",
@@ -54,9 +54,9 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
         "--jitter-frames",
         "0",
     ];
-    let output = bench.run(&words);
+    let output = sandbox.run(&words);
     assert_done(&output);
-    let run = bench.read_run();
+    let run = sandbox.read_run();
     let text = stdout(&output);
     let title = text
         .lines()
@@ -99,7 +99,7 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
         assert!(is_shown, "{due:?} is missing from:\n{text}");
     }
     // The page has the same ranking, and every scene its own.
-    let page = fs::read_to_string(bench.path("out/sequences.html")).unwrap();
+    let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
     assert!(page.contains("Means over 2 scenes, ranked by jod"));
     let first = &ranking[0][0].ranked;
     assert!(page.contains(&format!(

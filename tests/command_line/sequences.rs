@@ -8,7 +8,7 @@ use frame::{Image, read_exr};
 use suite::{Run, Sequence};
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::bench::{Bench, IDENTITY, SCENE, assert_done, assert_refused, files_below, stdout};
+use crate::sandbox::{IDENTITY, SCENE, Sandbox, assert_done, assert_refused, files_below, stdout};
 
 const THREE: [&str; 2] = ["--frames", "3"];
 
@@ -19,14 +19,14 @@ fn manifest(name: &str, more: &str) -> String {
 }
 
 /// Multiplies the frame by noise: that of its index, or the same in every frame.
-fn write_noisy(bench: &Bench, name: &str, index: &str) {
+fn write_noisy(sandbox: &Sandbox, name: &str, index: &str) {
     let body = format!(
         "let place = vec2<f32>(pixel) + 5.588238 * f32({index} % 64u);
     let noise = fract(52.9829189 * fract(dot(place, vec2<f32>(0.06711056, 0.00583715))));
     let own = textureLoad(color, pixel, 0).rgb;
     textureStore(output, pixel, vec4<f32>(own * (1.0 + 1.2 * (noise - 0.5)), 1.0));"
     );
-    bench.write_filter(
+    sandbox.write_filter(
         name,
         &manifest(name, ""),
         &one_kernel_without_parameters(&body),
@@ -42,8 +42,8 @@ fn find<'a>(run: &'a Run, filter: &str) -> &'a Sequence {
 }
 
 /// Reads the modification times of all measured and rendered files below `out/plate`.
-fn read_times(bench: &Bench) -> BTreeMap<String, SystemTime> {
-    let out = bench.path("out/plate");
+fn read_times(sandbox: &Sandbox) -> BTreeMap<String, SystemTime> {
+    let out = sandbox.path("out/plate");
     let is_kept = |name: &String| name.ends_with("case.json") || name.ends_with(".exr");
     (files_below(&out).into_iter())
         .map(|path| (path.strip_prefix(&out).unwrap().display().to_string(), path))
@@ -54,25 +54,25 @@ fn read_times(bench: &Bench) -> BTreeMap<String, SystemTime> {
 
 #[test]
 fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&IDENTITY));
-    let single = bench.read_run();
-    let read = |name: &str| fs::read(bench.path("out/plate").join(name)).unwrap();
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&IDENTITY));
+    let single = sandbox.read_run();
+    let read = |name: &str| fs::read(sandbox.path("out/plate").join(name)).unwrap();
     let files = [
         "frame.exr",
         "truth_trailing.exr",
         "identity_default/output.exr",
     ];
     let before = files.map(read);
-    assert_done(&bench.run(&[&IDENTITY[..], &["--frames", "1"]].concat()));
+    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "1"]].concat()));
     let text = |run: &Run| serde_json::to_string(&run.cases).unwrap();
-    let one = bench.read_run();
+    let one = sandbox.read_run();
     assert_eq!(text(&one), text(&single));
     assert!(one.sequences.is_empty() && one.frames.is_one());
 
-    fs::remove_dir_all(bench.path("out")).unwrap();
-    assert_done(&bench.run(&[&IDENTITY[..], &THREE].concat()));
-    let run = bench.read_run();
+    fs::remove_dir_all(sandbox.path("out")).unwrap();
+    assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
+    let run = sandbox.read_run();
     assert_eq!(text(&run), text(&single), "bit for bit");
     assert!(files.map(read) == before, "bit for bit");
     let own = find(&run, "identity");
@@ -91,19 +91,19 @@ fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
         "0002/truth_trailing.exr",
         "0002/identity_default/case.json",
     ] {
-        assert!(bench.path("out/plate").join(name).is_file(), "{name}");
+        assert!(sandbox.path("out/plate").join(name).is_file(), "{name}");
     }
 }
 
 #[test]
 fn a_sequence_is_read_back_and_goes_on_where_it_ended() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
-    let before = read_times(&bench);
-    assert_done(&bench.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
-    assert_eq!(read_times(&bench), before);
-    assert_done(&bench.run(&[&IDENTITY[..], &THREE].concat()));
-    let after = read_times(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
+    let before = read_times(&sandbox);
+    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
+    assert_eq!(read_times(&sandbox), before);
+    assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
+    let after = read_times(&sandbox);
     let (new, kept): (BTreeMap<_, _>, BTreeMap<_, _>) = after
         .into_iter()
         .partition(|(name, _)| name.starts_with("0002/"));
@@ -111,7 +111,7 @@ fn a_sequence_is_read_back_and_goes_on_where_it_ended() {
     assert!(new.len() > 10, "{new:?}");
     // JOD depends on the rate: sequences of two rates are no one run.
     let other_rate = ["--filters", "velocity_gather:fine", "--fps", "24"];
-    let refused = bench.run(&[&other_rate[..], &THREE].concat());
+    let refused = sandbox.run(&[&other_rate[..], &THREE].concat());
     let parts = [
         "number of frames was 3 at 60 per second, now 3 at 24 per second",
         "--out",
@@ -121,10 +121,10 @@ fn a_sequence_is_read_back_and_goes_on_where_it_ended() {
 
 #[test]
 fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
-    let bench = Bench::new();
-    write_noisy(&bench, "changing", "frame.frame_index");
-    write_noisy(&bench, "standing", "0u");
-    let output = bench.run(&[
+    let sandbox = Sandbox::new();
+    write_noisy(&sandbox, "changing", "frame.frame_index");
+    write_noisy(&sandbox, "standing", "0u");
+    let output = sandbox.run(&[
         "--filter",
         "./changing",
         "--filter",
@@ -151,7 +151,7 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
         table.lines().all(|line| line.chars().count() <= 80),
         "{table}"
     );
-    let run = bench.read_run();
+    let run = sandbox.read_run();
     let [changing, standing] = ["changing", "standing"].map(|name| &find(&run, name).scores);
     let value = |score: &metrics::Measured| score.value().unwrap();
     // Single frames are equally good: their noise differs by its pattern alone.
@@ -165,7 +165,7 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
 
 #[test]
 fn a_filter_with_history_reads_the_frame_before() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let body = "let before = textureLoad(color_before, pixel, 0).rgb;
     let motion = textureLoad(velocity_before, pixel, 0).xy;
     let depth = textureLoad(depth_before, pixel, 0).x;
@@ -176,10 +176,10 @@ fn a_filter_with_history_reads_the_frame_before() {
 @group(0) @binding(6) var depth_before: texture_2d<f32>;\n";
     let kernels = textures.to_owned() + &one_kernel_without_parameters(body);
     let history = "history = [\"color\", \"velocity\", \"depth\"]";
-    bench.write_filter("before", &manifest("before", history), &kernels);
-    assert_done(&bench.run(&[&["--filter", "./before"][..], &THREE].concat()));
+    sandbox.write_filter("before", &manifest("before", history), &kernels);
+    assert_done(&sandbox.run(&[&["--filter", "./before"][..], &THREE].concat()));
     let color = |name: &str| -> Image {
-        let file = read_exr(&bench.path("out/plate").join(name)).unwrap();
+        let file = read_exr(&sandbox.path("out/plate").join(name)).unwrap();
         file.color("").unwrap()
     };
     let frames = ["frame.exr", "0001/frame.exr", "0002/frame.exr"].map(color);
@@ -190,27 +190,27 @@ fn a_filter_with_history_reads_the_frame_before() {
     assert!(outputs[1] == frames[0] && outputs[2] == frames[1]);
     assert!(frames[1] != frames[0]);
 
-    bench.write_filter("before", &manifest("before", ""), &kernels);
+    sandbox.write_filter("before", &manifest("before", ""), &kernels);
     let parts = ["\"color_before\" is no known input", "`history` names them"];
-    assert_refused(&bench.run(&["--filter", "./before"]), 2, &parts);
-    bench.write_filter(
+    assert_refused(&sandbox.run(&["--filter", "./before"]), 2, &parts);
+    sandbox.write_filter(
         "before",
         &manifest("before", "history = [\"color\", \"color\"]"),
         &kernels,
     );
     let parts = ["filter.toml:4", "history names \"color\" twice"];
-    assert_refused(&bench.run(&["--filter", "./before"]), 2, &parts);
+    assert_refused(&sandbox.run(&["--filter", "./before"]), 2, &parts);
 }
 
 #[test]
 fn frames_at_which_a_scene_is_not_defined_are_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let path = SCENE.replace(
         "{ time = 0, translation = [0, 0, 0] },",
         "{ time = 0, translation = [0, 0, 0] },\n    { time = 2.5, translation = [1, 0, 0] },",
     );
-    bench.write("scene.toml", &path);
-    let refused = bench.run(&[&IDENTITY[..], &["--frames", "4"]].concat());
+    sandbox.write("scene.toml", &path);
+    let refused = sandbox.run(&[&IDENTITY[..], &["--frames", "4"]].concat());
     let parts = [
         "scene plate/0003",
         "the motion of object plate at frame 3",
@@ -218,15 +218,15 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
         "two keys",
     ];
     assert_refused(&refused, 2, &parts);
-    assert!(!bench.path("out/plate").exists(), "nothing was rendered");
-    assert_done(&bench.run(&[&IDENTITY[..], &THREE].concat()));
+    assert!(!sandbox.path("out/plate").exists(), "nothing was rendered");
+    assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
     for (option, value, says) in [
         ("--frames", "0", "0 is not in 1..=1000"),
         ("--frames", "1001", "1001 is not in 1..=1000"),
         ("--fps", "0", "a number above 0"),
     ] {
         assert_refused(
-            &bench.run(&[&IDENTITY[..], &[option, value]].concat()),
+            &sandbox.run(&[&IDENTITY[..], &[option, value]].concat()),
             2,
             &[says],
         );
@@ -235,7 +235,7 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
 
 #[test]
 fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = |part: &'static str, out: &'static str| {
         let more = ["--replicates", part, "--frames", "2", "--out", out];
         [
@@ -251,38 +251,38 @@ fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
         .chain(more)
     };
     for (part, out) in [("0..3", "one"), ("3..8", "two")] {
-        bench.execute(&words(part, out).collect::<Vec<_>>());
+        sandbox.execute(&words(part, out).collect::<Vec<_>>());
     }
-    bench.execute(&["truths", "merge", "--quiet", "one", "two", "--out", "out"]);
-    let truth = bench.path("out/plate/0001/truth_trailing.exr");
+    sandbox.execute(&["truths", "merge", "--quiet", "one", "two", "--out", "out"]);
+    let truth = sandbox.path("out/plate/0001/truth_trailing.exr");
     let before = fs::metadata(&truth).unwrap().modified().unwrap();
-    assert_done(&bench.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
+    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
     assert_eq!(fs::metadata(&truth).unwrap().modified().unwrap(), before);
 }
 
 #[test]
 fn a_sequence_has_a_page_and_an_animation_per_case() {
-    let bench = Bench::new();
-    let output = bench.run(&[&IDENTITY[..], &THREE, &["--fps", "12"]].concat());
+    let sandbox = Sandbox::new();
+    let output = sandbox.run(&[&IDENTITY[..], &THREE, &["--fps", "12"]].concat());
     assert_done(&output);
     assert!(
         stdout(&output).contains("out/sequences.html"),
         "{}",
         stdout(&output)
     );
-    let page = fs::read_to_string(bench.path("out/sequences.html")).unwrap();
+    let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
     for path in [
         "plate/0001/frame.png",
         "plate/0002/identity_default/change.png",
         "plate/truth_trailing.png",
     ] {
         assert!(page.contains(path), "{path}");
-        assert!(bench.path("out").join(path).is_file(), "{path}");
+        assert!(sandbox.path("out").join(path).is_file(), "{path}");
     }
     assert!(page.contains("img-src data: 'self' file:"));
-    let report = fs::read_to_string(bench.path("out/report.html")).unwrap();
+    let report = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
     assert!(report.contains("href=\"sequences.html\""));
-    let animation = fs::read(bench.path("out/plate/identity_default/sequence.png")).unwrap();
+    let animation = fs::read(sandbox.path("out/plate/identity_default/sequence.png")).unwrap();
     let chunks = |name: &[u8]| animation.windows(4).filter(|bytes| *bytes == name).count();
     assert_eq!((chunks(b"acTL"), chunks(b"fcTL")), (1, 3));
 }

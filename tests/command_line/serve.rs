@@ -8,14 +8,14 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::bench::{Bench, assert_refused, split, stderr, stdout};
 use crate::python::python_with;
+use crate::sandbox::{Sandbox, assert_refused, split, stderr, stdout};
 
 pub const SERVE: &str = "tune serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
 
 /// Sends the lines one by one and reads all answers.
-fn converse(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
-    let mut child = bench
+fn converse(sandbox: &Sandbox, more: &[&str], lines: &[Value]) -> Vec<Value> {
+    let mut child = sandbox
         .command(&[&split(SERVE)[..], more].concat())
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -40,8 +40,12 @@ fn converse(bench: &Bench, more: &[&str], lines: &[Value]) -> Vec<Value> {
 
 #[test]
 fn a_request_gets_one_answer_per_scene_and_then_a_summary() {
-    let bench = Bench::new();
-    let heard = converse(&bench, &[], &[json!({"id": 7, "params": {"samples": 12}})]);
+    let sandbox = Sandbox::new();
+    let heard = converse(
+        &sandbox,
+        &[],
+        &[json!({"id": 7, "params": {"samples": 12}})],
+    );
     assert_eq!(heard[0]["ready"], true);
     assert_eq!(heard[0]["scenes"], json!(["plate"]));
     assert_eq!(
@@ -60,9 +64,9 @@ fn a_request_gets_one_answer_per_scene_and_then_a_summary() {
 
 #[test]
 fn a_bad_request_gets_an_error_and_the_service_goes_on() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let heard = converse(
-        &bench,
+        &sandbox,
         &[],
         &[
             json!("samples = 3"),
@@ -97,9 +101,9 @@ fn a_bad_request_gets_an_error_and_the_service_goes_on() {
 
 #[test]
 fn a_cancelled_request_gets_no_summary() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let heard = converse(
-        &bench,
+        &sandbox,
         &[],
         &[
             json!({"cancel": 2}),
@@ -120,11 +124,11 @@ fn a_cancelled_request_gets_no_summary() {
 
 #[test]
 fn parameters_of_a_file_are_checked() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let evaluate = |text: &str| {
-        fs::write(bench.path("p.json"), text).unwrap();
+        fs::write(sandbox.path("p.json"), text).unwrap();
         let words = split("tune evaluate --quiet --filter jump_flood --params p.json");
-        bench.shuttertruth(&[&words[..], &["--out", "out"]].concat())
+        sandbox.shuttertruth(&[&words[..], &["--out", "out"]].concat())
     };
     for (text, parts) in [
         (
@@ -142,19 +146,22 @@ fn parameters_of_a_file_are_checked() {
     ] {
         assert_refused(&evaluate(text), 2, &parts);
     }
-    fs::remove_file(bench.path("p.json")).unwrap();
+    fs::remove_file(sandbox.path("p.json")).unwrap();
     let words = split("tune evaluate --filter jump_flood --params p.json --out out");
-    assert_refused(&bench.shuttertruth(&words), 2, &["p.json: cannot read"]);
-    assert!(!bench.path("out").exists());
+    assert_refused(&sandbox.shuttertruth(&words), 2, &["p.json: cannot read"]);
+    assert!(!sandbox.path("out").exists());
 }
 
 /// Makes the command of the example, which finds the program on its PATH; `more` are options of the example.
-fn optuna(bench: &Bench, more: &[&str]) -> Command {
+fn optuna(sandbox: &Sandbox, more: &[&str]) -> Command {
     let example = tests::root().join("examples/optuna_tune.py");
     let program = Path::new(env!("CARGO_BIN_EXE_shuttertruth"));
     let path = std::env::var("PATH").unwrap_or_default();
     let mut command = Command::new(python_with("optuna"));
-    command.current_dir(bench.path("")).arg(example).args(more);
+    command
+        .current_dir(sandbox.path(""))
+        .arg(example)
+        .args(more);
     let folder = program.parent().unwrap().display();
     command.env("PATH", format!("{folder}:{path}"));
     let words = SERVE.replace("flip ", "flip,bleed ");
@@ -164,8 +171,8 @@ fn optuna(bench: &Bench, more: &[&str]) -> Command {
 
 #[test]
 fn optuna_finds_something_better_through_the_service() {
-    let bench = Bench::new();
-    let output = optuna(&bench, &[]).output().unwrap();
+    let sandbox = Sandbox::new();
+    let output = optuna(&sandbox, &[]).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let errors = found
@@ -178,8 +185,8 @@ fn optuna_finds_something_better_through_the_service() {
 }
 
 /// Reads the operations of a study's journal that are written whole.
-fn read_journal(bench: &Bench) -> Vec<Value> {
-    let text = fs::read_to_string(bench.path("study.log")).unwrap_or_default();
+fn read_journal(sandbox: &Sandbox) -> Vec<Value> {
+    let text = fs::read_to_string(sandbox.path("study.log")).unwrap_or_default();
     let lines = text
         .lines()
         .map_while(|line| serde_json::from_str(line).ok());
@@ -208,10 +215,10 @@ fn count_ended(journal: &[Value]) -> usize {
 
 #[test]
 fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = ["--journal", "study.log", "--trials", "12"];
     let start = || {
-        let mut command = optuna(&bench, &words);
+        let mut command = optuna(&sandbox, &words);
         command
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -221,7 +228,7 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
     let [mut killed, other] = [(); 2].map(|()| start());
     let end = Instant::now() + Duration::from_secs(120);
     loop {
-        let journal = read_journal(&bench);
+        let journal = read_journal(&sandbox);
         if list_workers(&journal).len() == 2 && count_ended(&journal) >= 2 {
             break;
         }
@@ -233,14 +240,14 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
     }
     killed.kill().unwrap();
     killed.wait().unwrap();
-    let before = count_ended(&read_journal(&bench));
+    let before = count_ended(&read_journal(&sandbox));
     assert!(before < 12, "the study ended before a worker was killed");
 
     let output = other.wait_with_output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     let best: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert!(!best.as_array().unwrap().is_empty());
-    let journal = read_journal(&bench);
+    let journal = read_journal(&sandbox);
     assert_eq!(list_workers(&journal).len(), 2);
     // Both may have been at their last trial.
     assert!(

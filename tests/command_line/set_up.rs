@@ -5,7 +5,7 @@ use std::process::Command;
 
 use tests::root;
 
-use crate::bench::{Bench, assert_refused};
+use crate::sandbox::{Sandbox, assert_refused};
 
 /// Lists the commands, as the page of commands has them: `tune search`.
 fn list_commands() -> Vec<String> {
@@ -18,7 +18,7 @@ fn list_commands() -> Vec<String> {
 
 #[test]
 fn the_version_says_which_source_and_which_target() {
-    let version = Bench::new().execute(&["--version"]);
+    let version = Sandbox::new().execute(&["--version"]);
     let own = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"), " (");
     let rest = version
         .strip_prefix(own)
@@ -39,9 +39,9 @@ fn the_version_says_which_source_and_which_target() {
 
 #[test]
 fn completions_know_every_command_in_every_shell() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let script = bench.execute(&["completions", shell]);
+        let script = sandbox.execute(&["completions", shell]);
         for command in list_commands() {
             let word = command.rsplit(' ').next().unwrap();
             assert!(script.contains(word), "{shell} does not complete {command}");
@@ -52,7 +52,7 @@ fn completions_know_every_command_in_every_shell() {
         );
     }
     assert_refused(
-        &bench.shuttertruth(&["completions", "csh"]),
+        &sandbox.shuttertruth(&["completions", "csh"]),
         2,
         &["csh", "zsh"],
     );
@@ -61,16 +61,16 @@ fn completions_know_every_command_in_every_shell() {
 #[cfg(unix)]
 #[test]
 fn bash_completes_a_command() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     fs::write(
-        bench.path("completions"),
-        bench.execute(&["completions", "bash"]),
+        sandbox.path("completions"),
+        sandbox.execute(&["completions", "bash"]),
     )
     .unwrap();
     let script = "source completions; COMP_WORDS=(shuttertruth compl); COMP_CWORD=1; _shuttertruth shuttertruth compl shuttertruth; \
                   echo \"${COMPREPLY[@]}\"";
     let output = Command::new("bash")
-        .current_dir(bench.path(""))
+        .current_dir(sandbox.path(""))
         .args(["-c", script])
         .output()
         .unwrap();
@@ -79,10 +79,10 @@ fn bash_completes_a_command() {
 
 #[test]
 fn the_manual_has_a_page_for_every_command() {
-    let bench = Bench::new();
-    bench.execute(&["man", "--out", "pages"]);
+    let sandbox = Sandbox::new();
+    sandbox.execute(&["man", "--out", "pages"]);
     let read = |name: &str| {
-        let path = bench
+        let path = sandbox
             .path("pages")
             .join(format!("{}.1", name.replace(' ', "-")));
         fs::read_to_string(path).unwrap()

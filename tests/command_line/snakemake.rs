@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::bench::{Bench, assert_done, split, stderr, stdout};
 use crate::python::python_with;
+use crate::sandbox::{Sandbox, assert_done, split, stderr, stdout};
 
 /// Words behind `plan` and `run`.
 const WORDS: &str =
     "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2 --filter kino:default,identity";
 
 /// Runs the example's Snakefile with two jobs at a time.
-fn snakemake(bench: &Bench) -> Command {
+fn snakemake(sandbox: &Sandbox) -> Command {
     let mut command = Command::new(python_with("snakemake"));
     let snakefile = tests::root().join("examples/snakemake/Snakefile");
     command.args([
@@ -27,8 +27,8 @@ fn snakemake(bench: &Bench) -> Command {
     command.arg(snakefile).arg("--config");
     command.arg(format!("program={}", env!("CARGO_BIN_EXE_shuttertruth")));
     // It keeps files there that no test needs.
-    command.env("XDG_CACHE_HOME", bench.path("cache"));
-    command.current_dir(bench.path(""));
+    command.env("XDG_CACHE_HOME", sandbox.path("cache"));
+    command.current_dir(sandbox.path(""));
     command
 }
 
@@ -76,7 +76,7 @@ fn assert_ended_well(output: &Output) {
 
 #[test]
 fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
-    let [shared, alone] = [(); 2].map(|()| Bench::two_scenes());
+    let [shared, alone] = [(); 2].map(|()| Sandbox::two_scenes());
     let words = split(WORDS);
     let plan = shared.execute(&[&["truths", "plan"], &words[..], &["--json"]].concat());
     fs::write(shared.path("plan.jsonl"), plan).unwrap();
@@ -96,8 +96,8 @@ fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
         stderr(&first)
     );
     assert!(!shared.path("out/run.json").exists());
-    let rendered = |bench: &Bench| {
-        let truth = bench.path("out/parts/truths/slow/truth_trailing.exr");
+    let rendered = |sandbox: &Sandbox| {
+        let truth = sandbox.path("out/parts/truths/slow/truth_trailing.exr");
         fs::metadata(truth).unwrap().modified().unwrap()
     };
     let before = rendered(&shared);
@@ -106,7 +106,7 @@ fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
     assert_ended_well(&second);
     assert_eq!(rendered(&shared), before, "a truth was rendered again");
     assert_done(&alone.shuttertruth(&[&["run"], &words[..]].concat()));
-    let run = |bench: &Bench| fs::read_to_string(bench.path("out/run.json")).unwrap();
+    let run = |sandbox: &Sandbox| fs::read_to_string(sandbox.path("out/run.json")).unwrap();
     assert_eq!(run(&shared), run(&alone));
     assert!(shared.path("out/report.html").is_file());
 

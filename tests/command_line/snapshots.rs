@@ -5,7 +5,7 @@ use std::process::Output;
 use snapbox::{Assert, Data, Redactions};
 use tests::filter_folder::one_kernel;
 
-use crate::bench::{Bench, IDENTITY, assert_done, quick_command, split, stderr, stdout};
+use crate::sandbox::{IDENTITY, Sandbox, assert_done, quick_command, split, stderr, stdout};
 
 /// Compares what a command prints on standard output with a file of `snapshots/`.
 #[track_caller]
@@ -30,10 +30,10 @@ fn assert_printed(output: &Output, file: &str) {
         .eq(text, Data::read_from(&folder.join(file), None));
 }
 
-/// Makes a bench of two scenes with a limit that the identity breaks, one that it keeps, and a target that it misses.
-fn make_bounded() -> Bench {
-    let bench = Bench::two_scenes();
-    bench.write(
+/// Makes a sandbox of two scenes with a limit that the identity breaks, one that it keeps, and a target that it misses.
+fn make_bounded() -> Sandbox {
+    let sandbox = Sandbox::two_scenes();
+    sandbox.write(
         "bounds.toml",
         "[default]
 flip_moving = { limit = 0.2, why = \"a smear of half the plate's motion is lost\" }
@@ -42,19 +42,19 @@ misplacement = { limit = 0.5, why = \"what the paper promises\", level = \"repor
 occluder_contamination = { limit = 0.5, why = \"nothing passes in front of the plate\" }
 ",
     );
-    bench.copy_bound("slow");
-    bench
+    sandbox.copy_bound("slow");
+    sandbox
 }
 
 #[test]
 fn lists() {
-    let bench = make_bounded();
+    let sandbox = make_bounded();
     for (words, file) in [
         ("list", "list.txt"),
         ("list inputs", "list_inputs.txt"),
         ("list plate", "list_scene.txt"),
     ] {
-        let output = bench.shuttertruth(&split(words));
+        let output = sandbox.shuttertruth(&split(words));
         assert_done(&output);
         assert_printed(&output, file);
     }
@@ -62,38 +62,38 @@ fn lists() {
 
 #[test]
 fn runs() {
-    let bench = Bench::two_scenes();
-    let output = bench.run(&IDENTITY);
+    let sandbox = Sandbox::two_scenes();
+    let output = sandbox.run(&IDENTITY);
     assert_done(&output);
     assert_printed(&output, "run.txt");
-    let output = bench.run(&[&IDENTITY[..], &["--table"]].concat());
+    let output = sandbox.run(&[&IDENTITY[..], &["--table"]].concat());
     assert_done(&output);
     assert_printed(&output, "run_table.txt");
-    let output = bench.run(&split(
+    let output = sandbox.run(&split(
         "--filter identity --frame-rate 24,48 --input velocity=linear8 --input depth=float16",
     ));
     assert_done(&output);
     assert_printed(&output, "run_inputs.txt");
-    let output = Bench::two_scenes().run(&split("--filter identity --frames 3"));
+    let output = Sandbox::two_scenes().run(&split("--filter identity --frames 3"));
     assert_done(&output);
     assert_printed(&output, "run_sequence.txt");
 }
 
 #[test]
 fn checks() {
-    let bench = make_bounded();
-    let output = bench.check(&IDENTITY);
+    let sandbox = make_bounded();
+    let output = sandbox.check(&IDENTITY);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert_printed(&output, "check.txt");
-    let output = bench.check(&[&IDENTITY[..], &["-v"]].concat());
+    let output = sandbox.check(&[&IDENTITY[..], &["-v"]].concat());
     assert_printed(&output, "check_verbose.txt");
 }
 
 /// A kernel that halves colours is exact on every adapter.
 #[test]
 fn comparisons() {
-    let bench = Bench::two_scenes();
-    bench.write_filter(
+    let sandbox = Sandbox::two_scenes();
+    sandbox.write_filter(
         "dim",
         "name = \"dim\"
 summary = \"Scales colours.\"
@@ -113,15 +113,15 @@ entry = \"work\"
         ),
     );
     let filters = ["--filters", "identity,./dim"];
-    assert_done(&bench.run(&filters));
+    assert_done(&sandbox.run(&filters));
     let mut other = quick_command("run", "16");
     other[3] = "other";
     let gain = ["--set", "dim.gain=0.5"];
-    assert_done(&bench.shuttertruth(&[&other[..], &filters, &gain].concat()));
-    let output = bench.shuttertruth(&["compare", "out", "other"]);
+    assert_done(&sandbox.shuttertruth(&[&other[..], &filters, &gain].concat()));
+    let output = sandbox.shuttertruth(&["compare", "out", "other"]);
     assert_done(&output);
     assert_printed(&output, "compare.txt");
-    let output = bench.shuttertruth(&["list", "--filter", "./dim"]);
+    let output = sandbox.shuttertruth(&["list", "--filter", "./dim"]);
     assert_done(&output);
     assert_printed(&output, "list_filter.txt");
 }

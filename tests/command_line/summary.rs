@@ -2,22 +2,22 @@
 
 use std::fs;
 
-use crate::bench::{Bench, assert_done, stdout};
+use crate::sandbox::{Sandbox, assert_done, stdout};
 
 #[test]
 fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
-    let bench = Bench::two_scenes();
-    let output = bench.run(&["--jitter-frames", "0"]);
+    let sandbox = Sandbox::two_scenes();
+    let output = sandbox.run(&["--jitter-frames", "0"]);
     assert_done(&output);
     let text = stdout(&output);
     assert!(text.lines().count() <= 40, "{text}");
     assert!(text.contains("centred shutter"), "{text}");
     assert!(text.contains("--table shows all"), "{text}");
-    let page = fs::read_to_string(bench.path("out/report.html")).unwrap();
+    let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
     assert!(page.contains("jump_flood"));
-    let again = stdout(&bench.run(&["--jitter-frames", "0", "--table"]));
+    let again = stdout(&sandbox.run(&["--jitter-frames", "0", "--table"]));
     assert!(again.lines().count() > 60, "{again}");
-    let cases = bench.read_run().cases.len();
+    let cases = sandbox.read_run().cases.len();
     assert!(
         again.contains(&format!("cases: {cases}, {cases} of them read back")),
         "{again}"
@@ -26,8 +26,8 @@ fn a_run_ranks_filters_in_at_most_40_lines_and_names_the_report() {
 
 #[test]
 fn filters_within_noise_share_ranks() {
-    let bench = Bench::new();
-    let text = stdout(&bench.run(&[
+    let sandbox = Sandbox::new();
+    let text = stdout(&sandbox.run(&[
         "--filters",
         "jump_flood:paper,jump_flood_packed:paper,identity",
     ]));
@@ -40,32 +40,32 @@ fn filters_within_noise_share_ranks() {
 
 #[test]
 fn an_override_shows_in_the_name_the_folder_and_the_tables() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = [
         "--filters",
         "velocity_gather:fine",
         "--set",
         "velocity_gather.samples=2",
     ];
-    let output = bench.run(&words);
+    let output = sandbox.run(&words);
     assert_done(&output);
     let name = "velocity_gather:fine samples=2";
     assert!(stdout(&output).contains(name), "{}", stdout(&output));
-    let table = stdout(&bench.run(&[&words[..], &["--table"]].concat()));
+    let table = stdout(&sandbox.run(&[&words[..], &["--table"]].concat()));
     assert!(table.contains(name), "{table}");
-    let case = &bench.read_filter_cases()[0];
+    let case = &sandbox.read_filter_cases()[0];
     assert_eq!(case.name(), name);
     assert_eq!(
         case.folder.to_str(),
         Some("plate/velocity_gather_fine_samples_2")
     );
     assert!(
-        bench
+        sandbox
             .path("out/plate/velocity_gather_fine_samples_2/output.exr")
             .is_file()
     );
     assert!(
-        fs::read_to_string(bench.path("out/report.html"))
+        fs::read_to_string(sandbox.path("out/report.html"))
             .unwrap()
             .contains(name)
     );
@@ -73,10 +73,10 @@ fn an_override_shows_in_the_name_the_folder_and_the_tables() {
 
 #[test]
 fn a_check_ends_with_its_verdict_and_counts_targets_apart() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let verdict = |bounds: &str, more: &[&str]| {
-        fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
-        let output = bench.check(&[&["--filters", "identity"], more].concat());
+        fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
+        let output = sandbox.check(&[&["--filters", "identity"], more].concat());
         (output.status.code(), stdout(&output))
     };
     let target = "flip_moving = { limit = 0.2, why = \"it serves a test\", level = \"report\" }\n";

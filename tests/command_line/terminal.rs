@@ -4,21 +4,21 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
-use crate::bench::{Bench, IDENTITY, assert_done, quick_command, stderr, stdout};
+use crate::sandbox::{IDENTITY, Sandbox, assert_done, quick_command, stderr, stdout};
 
 /// First character of every colour code.
 const ESCAPE: char = '\u{1b}';
 
-/// Makes a bench whose scenes have a limit that the identity breaks.
-fn make_bounded() -> Bench {
-    let bench = Bench::new();
+/// Makes a sandbox whose scenes have a limit that the identity breaks.
+fn make_bounded() -> Sandbox {
+    let sandbox = Sandbox::new();
     fs::write(
-        bench.path("scenes/bounds.toml"),
+        sandbox.path("scenes/bounds.toml"),
         "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test of the terminal, and has a reason that takes \
          more than one line of eighty columns to say\" }\n",
     )
     .unwrap();
-    bench
+    sandbox
 }
 
 #[track_caller]
@@ -35,35 +35,35 @@ fn assert_fits(text: &str) {
 
 #[test]
 fn output_fits_80_columns() {
-    let bench = make_bounded();
-    bench.copy_scene("a_scene_with_a_rather_long_name", |text| {
+    let sandbox = make_bounded();
+    sandbox.copy_scene("a_scene_with_a_rather_long_name", |text| {
         text.replace("-1.6", "-0.8")
     });
     let filters = ["--filters", "jump_flood_packed:corrected,identity"];
-    let run = bench.run(&filters);
+    let run = sandbox.run(&filters);
     assert_done(&run);
     assert_fits(&stdout(&run));
-    let check = stdout(&bench.check(&filters));
+    let check = stdout(&sandbox.check(&filters));
     assert!(check.contains("BROKEN flip_moving"), "{check}");
     assert_fits(&check);
-    fs::rename(bench.path("out"), bench.path("first")).unwrap();
-    let check = bench.check(&[&filters[..], &["--set", "jump_flood_packed.samples=2"]].concat());
+    fs::rename(sandbox.path("out"), sandbox.path("first")).unwrap();
+    let check = sandbox.check(&[&filters[..], &["--set", "jump_flood_packed.samples=2"]].concat());
     assert_eq!(check.status.code(), Some(1), "{}", stderr(&check));
-    let compared = bench.shuttertruth(&["compare", "first", "out"]);
+    let compared = sandbox.shuttertruth(&["compare", "first", "out"]);
     assert_done(&compared);
     assert!(stdout(&compared).contains("jump_flood_packed:corrected.samples"));
     assert_fits(&stdout(&compared));
-    let list = bench.shuttertruth(&["list"]);
+    let list = sandbox.shuttertruth(&["list"]);
     assert_done(&list);
     assert_fits(&stdout(&list));
 }
 
 #[test]
 fn only_terminals_get_colours_and_no_color_disables_them() {
-    let bench = make_bounded();
+    let sandbox = make_bounded();
     let with = |variables: &[(&str, &str)], more: &[&str]| {
         let words = quick_command("check", "64");
-        let mut command = bench.command(&[&words[..], &IDENTITY, more].concat());
+        let mut command = sandbox.command(&[&words[..], &IDENTITY, more].concat());
         for name in ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
             command.env_remove(name);
         }
@@ -87,8 +87,8 @@ fn only_terminals_get_colours_and_no_color_disables_them() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_terminal_shows_progress_and_respects_no_color() {
-    let bench = make_bounded();
-    bench.add_slow_scene();
+    let sandbox = make_bounded();
+    sandbox.add_slow_scene();
     // One replicate takes longer than the interval at which progress bars are redrawn.
     let words = quick_command("check", "2048");
     let words: Vec<&str> = words
@@ -100,7 +100,7 @@ fn a_terminal_shows_progress_and_respects_no_color() {
         let line = line.join(" ").replace("--out out", &format!("--out {out}"));
         let mut command = std::process::Command::new("script");
         command.args(["--quiet", "--return", "--command", &line, "/dev/null"]);
-        command.current_dir(bench.path(".")).env("TERM", "xterm");
+        command.current_dir(sandbox.path(".")).env("TERM", "xterm");
         for name in ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
             command.env_remove(name);
         }
@@ -137,20 +137,20 @@ fn a_terminal_shows_progress_and_respects_no_color() {
 
 #[test]
 fn a_short_run_prints_nothing_on_standard_error_without_a_terminal() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = quick_command("run", "16");
     let words: Vec<&str> = words
         .into_iter()
         .filter(|word| *word != "--quiet")
         .collect();
-    let output = bench.shuttertruth(&[&words[..], &IDENTITY].concat());
+    let output = sandbox.shuttertruth(&[&words[..], &IDENTITY].concat());
     assert_done(&output);
     assert_eq!(stderr(&output), "");
 }
 
 #[test]
 fn json_output_has_no_other_text() {
-    let bench = make_bounded();
+    let sandbox = make_bounded();
     let run = quick_command("run", "16");
     let run = [&run[..], &IDENTITY, &["--html", "page.html"]].concat();
     let check = quick_command("check", "64");
@@ -186,7 +186,7 @@ fn json_output_has_no_other_text() {
             "flip",
         ),
     ] {
-        let output = bench
+        let output = sandbox
             .command(&[&words[..], &["--json"]].concat())
             .env_remove("CI")
             .output()
@@ -203,16 +203,16 @@ fn json_output_has_no_other_text() {
 
 #[test]
 fn colours_can_be_forced_and_disabled() {
-    let bench = Bench::new();
-    let list = |color: &str| stdout(&bench.shuttertruth(&["list", "--color", color]));
+    let sandbox = Sandbox::new();
+    let list = |color: &str| stdout(&sandbox.shuttertruth(&["list", "--color", color]));
     assert!(list("always").contains('\u{1b}'));
     assert!(!list("never").contains('\u{1b}'));
 }
 
 #[test]
 fn long_work_is_announced() {
-    let bench = Bench::new();
-    let mut child = bench
+    let sandbox = Sandbox::new();
+    let mut child = sandbox
         .command(&["run", "--samples-per-pixel", "8192", "--size", "320x180"])
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
@@ -235,9 +235,9 @@ fn long_work_is_announced() {
 fn driver_messages_are_hidden_unless_requested_and_files_follow_the_umask() {
     use std::os::unix::fs::PermissionsExt;
 
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = [&quick_command("run", "16")[..], &["--filters", "identity"]].concat();
-    let output = bench
+    let output = sandbox
         .command(&words)
         .env_remove("XDG_RUNTIME_DIR")
         .output()
@@ -245,13 +245,13 @@ fn driver_messages_are_hidden_unless_requested_and_files_follow_the_umask() {
     assert_done(&output);
     assert_eq!(stderr(&output), "");
     let verbose = [&words[..], &["-v"]].concat();
-    let output = bench
+    let output = sandbox
         .command(&verbose)
         .env_remove("XDG_RUNTIME_DIR")
         .output()
         .unwrap();
     assert_done(&output);
-    let probe = bench.path("probe");
+    let probe = sandbox.path("probe");
     fs::write(&probe, "").unwrap();
     let mode = |path: &std::path::Path| fs::metadata(path).unwrap().permissions().mode();
     for file in [
@@ -260,6 +260,10 @@ fn driver_messages_are_hidden_unless_requested_and_files_follow_the_umask() {
         "plate/frame.exr",
         "plate/frame.png",
     ] {
-        assert_eq!(mode(&bench.path("out").join(file)), mode(&probe), "{file}");
+        assert_eq!(
+            mode(&sandbox.path("out").join(file)),
+            mode(&probe),
+            "{file}"
+        );
     }
 }

@@ -11,7 +11,7 @@ use frame::{FAR_DEPTH, Frame, Image, Plane, Raster, Vectors};
 use tests::text::assert_contains;
 use tests::{root, scenes};
 
-use crate::bench::{Bench, split, stderr, stdout};
+use crate::sandbox::{Sandbox, split, stderr, stdout};
 
 /// Number of pictures over the shutter.
 const SUBFRAMES: usize = 4;
@@ -68,22 +68,22 @@ fn run_npm<S: AsRef<OsStr>>(folder: &Path, words: impl IntoIterator<Item = S>) {
 
 /// A scene as three.js draws it, and as the tracer renders it.
 struct Drawn {
-    bench: Bench,
+    sandbox: Sandbox,
     frame: Frame,
 }
 
 impl Drawn {
     fn new(scene: &str) -> Self {
-        let bench = Bench::new();
+        let sandbox = Sandbox::new();
         let folder = scenes().display().to_string();
         let words = split("engine export --gltf gltf --scenes-dir");
-        bench.execute(&[&words, &[&folder, scene][..]].concat());
+        sandbox.execute(&[&words, &[&folder, scene][..]].concat());
         let words =
             split("truths render --quiet --samples-per-pixel 8 --velocity previous_frame --out r");
         let scene_words = ["--scenes-dir", &folder, "--scenes", scene, "--size", SIZE];
-        bench.execute(&[&words, &scene_words[..]].concat());
-        let frame = Frame::read(&bench.path("r").join(scene).join("frame.exr")).unwrap();
-        let drawn = Self { bench, frame };
+        sandbox.execute(&[&words, &scene_words[..]].concat());
+        let frame = Frame::read(&sandbox.path("r").join(scene).join("frame.exr")).unwrap();
+        let drawn = Self { sandbox, frame };
         drawn.capture(install());
         drawn
     }
@@ -91,17 +91,17 @@ impl Drawn {
     /// Lets three.js draw the scene, in place of what it drew before.
     fn capture(&self, example: &Path) {
         let mut words: Vec<String> = ["run", "-s", "capture", "--"].map(str::to_owned).into();
-        let gltf = self.bench.path("gltf").join(&self.frame.provenance.scene);
+        let gltf = self.sandbox.path("gltf").join(&self.frame.provenance.scene);
         words.push(gltf.display().to_string());
         words.extend(["--size".to_owned(), SIZE.to_owned()]);
         words.extend(["--subframes".to_owned(), SUBFRAMES.to_string()]);
-        let out = self.bench.path("capture");
+        let out = self.sandbox.path("capture");
         words.extend(["--out".to_owned(), out.display().to_string()]);
         run_npm(example, words);
     }
 
     fn file(&self, name: &str) -> frame::ExrFile {
-        let file = frame::read_exr(&self.bench.path("capture").join(name)).unwrap();
+        let file = frame::read_exr(&self.sandbox.path("capture").join(name)).unwrap();
         let is_finite = file.channels.iter().all(|channel| {
             let plane = file.plane(&channel.name).unwrap();
             assert!(
@@ -119,7 +119,7 @@ impl Drawn {
     }
 
     fn convention(&self) -> Convention {
-        let path = self.bench.path("capture/engine.toml");
+        let path = self.sandbox.path("capture/engine.toml");
         Convention::parse(&path, &fs::read_to_string(&path).unwrap()).unwrap()
     }
 
@@ -140,7 +140,7 @@ impl Drawn {
         let folder = scenes().display().to_string();
         let words = split("engine audit capture --out audit --scenes-dir");
         let output = self
-            .bench
+            .sandbox
             .shuttertruth(&[&words, &[folder.as_str()][..]].concat());
         (output.status.code(), stdout(&output) + &stderr(&output))
     }
@@ -228,7 +228,7 @@ fn audit_names_what_is_planted_in_three_js_s_velocity() {
     let drawn = Drawn::new("flat_field");
     let (code, said) = drawn.audit();
     assert_eq!(code, Some(0), "{said}");
-    let told = (drawn.bench).execute(&["engine", "ingest", "capture", "--out", "engine"]);
+    let told = (drawn.sandbox).execute(&["engine", "ingest", "capture", "--out", "engine"]);
     assert_contains(&told, &["makes the picture brighter, 1.0625 times"]);
     for (planted, cause) in [
         ("velocity.mul(2)", "velocity is twice too long"),

@@ -3,12 +3,12 @@
 use tests::filter_folder::write_manifest;
 use tests::text::assert_contains;
 
-use crate::bench::{Bench, assert_refused, split};
+use crate::sandbox::{Sandbox, assert_refused, split};
 
 #[test]
 fn a_bench_prints_and_writes_the_same_times() {
-    let bench = Bench::new();
-    let table = bench.execute(&split(
+    let sandbox = Sandbox::new();
+    let table = sandbox.execute(&split(
         "bench --quiet --as-written --size 32x16 --filters jump_flood_packed:paper,identity",
     ));
     assert_contains(
@@ -31,7 +31,7 @@ fn a_bench_prints_and_writes_the_same_times() {
     let words: Vec<&str> = table.split_whitespace().collect();
     assert!(words.join(" ").contains("of 20 rounds by"), "{table}");
 
-    let done: suite::Bench = bench.read_json("out/bench.json");
+    let done: suite::Bench = sandbox.read_json("out/bench.json");
     assert_eq!((done.width, done.height, done.rounds), (32, 16, 20));
     let names: Vec<&str> = done.cases.iter().map(|case| &case.filter[..]).collect();
     assert_eq!(names, ["jump_flood", "jump_flood_packed", "identity"]);
@@ -74,9 +74,9 @@ fn a_bench_prints_and_writes_the_same_times() {
 
 #[test]
 fn bad_arguments_of_bench_are_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let program = "command = ['cp', '{frame}', '{out}']";
-    write_manifest(&bench.path("outside"), "outside", program);
+    write_manifest(&sandbox.path("outside"), "outside", program);
     let rows: &[(&[&str], &[&str])] = &[
         (&["--filters", "./outside"], &["outside is a program"]),
         (&["--filters", "jumpflood"], &["jumpflood", "jump_flood"]),
@@ -91,14 +91,14 @@ fn bad_arguments_of_bench_are_refused() {
     ];
     for (more, parts) in rows {
         let words = [&["bench", "--quiet"], *more].concat();
-        assert_refused(&bench.shuttertruth(&words), 2, parts);
+        assert_refused(&sandbox.shuttertruth(&words), 2, parts);
         assert!(
-            !bench.path("out").exists(),
+            !sandbox.path("out").exists(),
             "{more:?} left something behind"
         );
     }
     assert_refused(
-        &bench.without_adapter(&["bench"]),
+        &sandbox.without_adapter(&["bench"]),
         3,
         &["mesa-vulkan-drivers"],
     );

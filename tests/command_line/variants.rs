@@ -1,6 +1,6 @@
 //! Kinds of frames that filters can get.
 
-use crate::bench::{Bench, assert_done, assert_refused, split};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split};
 
 /// Model of two colours that meet two pixels beyond the right border, where the plate moves to.
 const TWO_COLOURS: &str = "\
@@ -18,9 +18,9 @@ f 2 5 6 3
 ";
 const PAINTS: &str = "newmtl paint\nKd 0 0 0\nKe 0.7 0.4 0.2\nnewmtl other\nKd 0 0 0\nKe 0 0 1\n";
 
-fn measure(bench: &Bench, more: &[&str]) -> suite::Run {
-    assert_done(&bench.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
-    bench.read_run()
+fn measure(sandbox: &Sandbox, more: &[&str]) -> suite::Run {
+    assert_done(&sandbox.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
+    sandbox.read_run()
 }
 
 /// Returns the filter's squared error over the whole picture.
@@ -34,11 +34,11 @@ fn error(run: &suite::Run) -> f64 {
 
 #[test]
 fn a_guard_band_removes_the_error_at_the_border() {
-    let bench = Bench::new();
-    bench.write("plate.obj", TWO_COLOURS);
-    bench.write("plate.mtl", PAINTS);
-    let bare = measure(&bench, &[]);
-    let padded = measure(&bench, &["--guard-band", "8"]);
+    let sandbox = Sandbox::new();
+    sandbox.write("plate.obj", TWO_COLOURS);
+    sandbox.write("plate.mtl", PAINTS);
+    let bare = measure(&sandbox, &[]);
+    let padded = measure(&sandbox, &["--guard-band", "8"]);
     assert_eq!((bare.render.guard_band, padded.render.guard_band), (0, 8));
     assert!(
         error(&padded) < 0.9 * error(&bare),
@@ -50,15 +50,15 @@ fn a_guard_band_removes_the_error_at_the_border() {
 
 #[test]
 fn a_run_records_the_kind_of_its_frames() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = split("--velocity camera_only --frame-sampling point --sky-velocity off");
-    let run = measure(&bench, &words);
+    let run = measure(&sandbox, &words);
     let json = serde_json::to_value(&run).unwrap();
     assert_eq!(
         ["velocity", "color", "sky_velocity"].map(|key| json[key].to_string()),
         ["\"camera_only\"", "\"point\"", "false"]
     );
-    let other = measure(&bench, &[]);
+    let other = measure(&sandbox, &[]);
     assert_ne!(
         error(&run),
         error(&other),
@@ -68,7 +68,7 @@ fn a_run_records_the_kind_of_its_frames() {
 
 #[test]
 fn bad_kinds_of_frames_are_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for (more, parts) in [
         (
             ["--frame-sampling", "sharp"],
@@ -79,17 +79,17 @@ fn bad_kinds_of_frames_are_refused() {
         (["--guard-band", "wide"], ["--guard-band", "wide"]),
         (["--guard-band", "99999"], ["200062x200030", "16384"]),
     ] {
-        let refused = bench.run(&[&["--filters", "identity"][..], &more].concat());
+        let refused = sandbox.run(&[&["--filters", "identity"][..], &more].concat());
         assert_refused(&refused, 2, &parts);
     }
 }
 
 #[test]
 fn a_sealed_scene_has_another_truth_and_not_the_limits_of_its_scene() {
-    let bench = Bench::new();
-    bench.write_bound(0.0001);
+    let sandbox = Sandbox::new();
+    sandbox.write_bound(0.0001);
     let run = |more: &[&str]| {
-        let run = measure(&bench, more);
+        let run = measure(&sandbox, more);
         let case = run.cases.iter().find(|case| !case.is_reference).unwrap();
         (case.scene.clone(), case.truth_hash.clone(), error(&run))
     };
@@ -98,7 +98,7 @@ fn a_sealed_scene_has_another_truth_and_not_the_limits_of_its_scene() {
     assert_eq!(sealed, run(&["--scenes", "plate@seal7"]));
     assert_eq!(sealed.0, "plate@seal7");
     assert_ne!(sealed.1, plain.1);
-    let check = |more: &[&str]| bench.check(&[&["--filters", "identity"], more].concat());
+    let check = |more: &[&str]| sandbox.check(&[&["--filters", "identity"], more].concat());
     assert_refused(
         &check(&["--seal", "7"]),
         2,

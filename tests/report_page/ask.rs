@@ -5,8 +5,8 @@ use std::fs;
 use serde_json::{Value, json};
 use study::{Clip, Question, ShownPair, Study, draw_session};
 
-use crate::bench::{Bench, assert_done};
 use crate::browser::Browser;
+use crate::sandbox::{Sandbox, assert_done};
 
 const FILTERS: [&str; 2] = [
     "--filters",
@@ -54,14 +54,14 @@ fn kept(browser: &mut Browser) -> Value {
 
 #[test]
 fn answers_by_keys_survive_a_reload_and_become_a_scale() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&[&FILTERS[..], &["--frames", "3", "--fps", "5"]].concat()));
-    let written = bench.execute(&["people", "ask", "out", "--out", "a page", "--json"]);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&[&FILTERS[..], &["--frames", "3", "--fps", "5"]].concat()));
+    let written = sandbox.execute(&["people", "ask", "out", "--out", "a page", "--json"]);
     let written: Value = serde_json::from_str(&written).unwrap();
     let study: Study = serde_json::from_value(written["study"].clone()).unwrap();
-    let page = bench.path("a page/index.html");
+    let page = sandbox.path("a page/index.html");
     let mut browser = Browser::new(1280, 800);
-    browser.save_to(&bench.path("saved"));
+    browser.save_to(&sandbox.path("saved"));
     browser.open(&page, "");
     let start = browser.text("document.getElementById('start').innerText");
     assert!(
@@ -134,14 +134,14 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     browser.value("document.getElementById('save').click()");
     let name = format!("saved/answers_{seed}.json");
     let start = std::time::Instant::now();
-    while !bench.path(&name).is_file() {
+    while !sandbox.path(&name).is_file() {
         assert!(start.elapsed().as_secs() < 20, "nothing was saved");
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
-    let file: Value = serde_json::from_slice(&fs::read(bench.path(&name)).unwrap()).unwrap();
+    let file: Value = serde_json::from_slice(&fs::read(sandbox.path(&name)).unwrap()).unwrap();
     assert_eq!(file["display"]["viewport"], json!([1280, 800]));
     assert_eq!(file["answers"][0]["zoom"], zoom);
-    let printed = bench.execute(&["people", "preferences", &name, "--run", "out", "--json"]);
+    let printed = sandbox.execute(&["people", "preferences", &name, "--run", "out", "--json"]);
     let printed: Value = serde_json::from_str(&printed).unwrap();
     let question = &printed["questions"][0];
     assert_eq!(question["sessions"][0]["failed_checks"], 0);
@@ -173,10 +173,10 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
 
 #[test]
 fn the_page_draws_the_sessions_that_the_program_expects() {
-    let bench = Bench::new();
-    bench.add_slow_scene();
+    let sandbox = Sandbox::new();
+    sandbox.add_slow_scene();
     let filters = "jump_flood:paper,velocity_gather:fine,velocity_gather:coarse,identity,bevy:high,kino,three:corrected";
-    assert_done(&bench.run(&["--filters", filters]));
+    assert_done(&sandbox.run(&["--filters", filters]));
     let words = [
         "people",
         "ask",
@@ -187,11 +187,11 @@ fn the_page_draws_the_sessions_that_the_program_expects() {
         "13",
         "--json",
     ];
-    let written: Value = serde_json::from_str(&bench.execute(&words)).unwrap();
+    let written: Value = serde_json::from_str(&sandbox.execute(&words)).unwrap();
     let study: Study = serde_json::from_value(written["study"].clone()).unwrap();
     assert_eq!(study.shutters.len(), 2);
     let mut browser = Browser::new(390, 700);
-    browser.open(&bench.path("out/ask/index.html"), "");
+    browser.open(&sandbox.path("out/ask/index.html"), "");
     for most_pairs in [7, 13, 20, 1000] {
         let study = Study {
             most_pairs,

@@ -1,18 +1,18 @@
 //! Cases in a browser: picture pairs, links, blinking, zoom, the first screen, and paper.
 
-use crate::bench::{Bench, assert_done};
 use crate::browser::Browser;
+use crate::sandbox::{Sandbox, assert_done};
 use crate::{make_page, open_case, press, settle};
 
 /// Makes a run of two filters with one shutter, and its page.
-fn set_up() -> (Bench, std::path::PathBuf) {
-    let bench = Bench::new();
-    assert_done(&bench.run(&[
+fn set_up() -> (Sandbox, std::path::PathBuf) {
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&[
         "--filters",
         "identity,velocity_gather:fine,jump_flood:paper",
     ]));
-    let page = make_page(&bench);
-    (bench, page)
+    let page = make_page(&sandbox);
+    (sandbox, page)
 }
 
 /// Returns the picture in a pane, as a data address.
@@ -214,9 +214,9 @@ fn printed_pages_show_both_pictures_whole() {
 
 #[test]
 fn an_address_that_names_another_section_is_left_alone() {
-    let bench = Bench::two_scenes();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::two_scenes();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/identity:default");
     // As between a click on a link and the event that follows it.

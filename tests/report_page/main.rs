@@ -1,38 +1,38 @@
 //! Reports in a real browser: pictures, pointer and keys.
 
 mod ask;
-#[path = "../command_line/bench.rs"]
-#[expect(dead_code, reason = "the tests of the command line need more of it")]
-mod bench;
 #[expect(dead_code, reason = "the pictures of pages need more of it")]
 mod browser;
 mod cases;
 mod numbers;
 mod other_pages;
 mod overview;
+#[path = "../command_line/sandbox.rs"]
+#[expect(dead_code, reason = "the tests of the command line need more of it")]
+mod sandbox;
 
 use std::path::PathBuf;
 
-use bench::{Bench, assert_done};
 use browser::{Browser, address_of};
 use numbers::read_out;
 use report::{LARGEST_PAGE, write_report};
+use sandbox::{Sandbox, assert_done};
 
 /// Makes the page of the bench's last run; returns its path.
-fn make_page(bench: &Bench) -> PathBuf {
-    make_page_within(bench, LARGEST_PAGE)
+fn make_page(sandbox: &Sandbox) -> PathBuf {
+    make_page_within(sandbox, LARGEST_PAGE)
 }
 
-fn make_page_within(bench: &Bench, largest: usize) -> PathBuf {
-    let html = bench.path("page/a report.html");
-    let (run, findings) = (bench.read_run(), bench.read_findings());
-    write_report(&run, &findings, &bench.path("out"), &html, largest).unwrap();
+fn make_page_within(sandbox: &Sandbox, largest: usize) -> PathBuf {
+    let html = sandbox.path("page/a report.html");
+    let (run, findings) = (sandbox.read_run(), sandbox.read_findings());
+    write_report(&run, &findings, &sandbox.path("out"), &html, largest).unwrap();
     html
 }
 
 /// Returns the case of a filter on the only scene.
-fn case_of(bench: &Bench, name: &str) -> suite::Case {
-    let mut cases = bench.read_run().cases.into_iter();
+fn case_of(sandbox: &Sandbox, name: &str) -> suite::Case {
+    let mut cases = sandbox.read_run().cases.into_iter();
     cases
         .find(|case| case.name() == name && !case.is_reference)
         .unwrap()
@@ -56,12 +56,12 @@ fn press(browser: &mut Browser, key: &str) {
 
 #[test]
 fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
-    let bench = Bench::two_scenes();
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::two_scenes();
+    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
-    for case in bench.read_run().cases {
+    for case in sandbox.read_run().cases {
         let reference = if case.is_reference { "@trailing" } else { "" };
         let address = format!("{}/{}{reference}", case.scene, case.name());
         browser.value(&format!("location.hash = '#{address}'"));
@@ -87,9 +87,9 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
 #[test]
 fn divider_and_keys_change_the_shown_pictures() {
     const STAGE: &str = ".stage";
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/velocity_gather:fine");
     let first = browser.picture(STAGE);
@@ -142,9 +142,9 @@ fn divider_and_keys_change_the_shown_pictures() {
 
 #[test]
 fn every_key_that_the_page_lists_works() {
-    let bench = Bench::two_scenes();
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::two_scenes();
+    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/identity:default");
     let state = "[location.hash.split('&')[0], document.documentElement.dataset.theme, document.getElementById('viewer').dataset.mode, \
@@ -203,9 +203,9 @@ fn every_key_that_the_page_lists_works() {
 
 #[test]
 fn tables_have_captions_and_pictures_have_words() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     for part in ["", "#plate/identity:default", "#filter:identity:default"] {
         browser.open(&page, part);
@@ -234,12 +234,12 @@ fn tables_have_captions_and_pictures_have_words() {
 
 #[test]
 fn headings_sort_both_ways() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&[
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&[
         "--filters",
         "identity,velocity_gather:fine,jump_flood:paper",
     ]));
-    let page = make_page(&bench);
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     let column = |browser: &mut Browser, press: bool| -> Vec<f64> {
@@ -266,9 +266,9 @@ fn headings_sort_both_ways() {
 
 #[test]
 fn rows_of_one_shutter_stay_together_when_headings_sort() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine,bevy:high"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     let names = |browser: &mut Browser| {
@@ -292,11 +292,11 @@ fn rows_of_one_shutter_stay_together_when_headings_sort() {
 
 #[test]
 fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
-    let bench = Bench::new();
-    bench.write_bound(0.2);
-    let output = bench.check(&["--filters", "identity"]);
+    let sandbox = Sandbox::new();
+    sandbox.write_bound(0.2);
+    let output = sandbox.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1));
-    let page = make_page(&bench);
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     let outcome = browser.text("document.querySelector('.outcome').innerText");
@@ -332,7 +332,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
         canvas(1),
         canvas(2)
     ));
-    let worst = bench.read_findings()[0].worst.clone().unwrap();
+    let worst = sandbox.read_findings()[0].worst.clone().unwrap();
     browser.value("document.querySelector('article.open button.place').click()");
     read_out(&mut browser, worst.x, worst.y);
     assert_eq!(
@@ -346,12 +346,12 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
 #[test]
 fn a_scene_name_with_a_script_is_shown_as_text() {
     const NAME: &str = "<script>alert(1)";
-    let bench = Bench::new();
-    bench.copy_scene(NAME, |text| {
+    let sandbox = Sandbox::new();
+    sandbox.copy_scene(NAME, |text| {
         text.replace("nothing: it serves", "<img src=x onerror=alert(2)> & it's")
     });
-    assert_done(&bench.run(&["--filters", "identity", "--scenes", NAME]));
-    let page = make_page(&bench);
+    assert_done(&sandbox.run(&["--filters", "identity", "--scenes", NAME]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     open_case(
         &mut browser,
@@ -371,9 +371,9 @@ fn a_scene_name_with_a_script_is_shown_as_text() {
 
 #[test]
 fn everything_fits_a_narrow_screen() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(360, 800);
     for part in ["", "#plate/identity:default", "#filter:identity:default"] {
         browser.open(&page, part);

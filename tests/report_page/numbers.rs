@@ -5,8 +5,8 @@ use std::fs;
 use frame::{ExrFile, read_exr};
 use suite::Case;
 
-use crate::bench::{Bench, assert_done};
 use crate::browser::{Browser, address_of};
+use crate::sandbox::{Sandbox, assert_done};
 use crate::{case_of, make_page, make_page_within, open_case};
 
 /// Returns the read-out's rows by layer, each with its texts.
@@ -37,9 +37,9 @@ fn channels(files: &[ExrFile; 4]) -> Vec<(&'static str, &ExrFile, Vec<&'static s
 }
 
 /// Reads the files of a case: truth, output, frame, errors.
-fn files_of(bench: &Bench, case: &Case) -> [ExrFile; 4] {
-    let own = bench.path("out").join(&case.folder);
-    let scene = bench.path("out").join(case.scene.folder());
+fn files_of(sandbox: &Sandbox, case: &Case) -> [ExrFile; 4] {
+    let own = sandbox.path("out").join(&case.folder);
+    let scene = sandbox.path("out").join(case.scene.folder());
     [
         scene.join(format!("truth_{}.exr", case.alignment)),
         own.join("output.exr"),
@@ -80,11 +80,11 @@ fn assert_near(shown: &serde_json::Value, files: &[ExrFile; 4], x: u32, y: u32) 
 
 #[test]
 fn the_read_out_shows_the_values_of_the_openexr_files_in_three_digits() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    let page = make_page(&bench);
-    let case = case_of(&bench, "velocity_gather:fine");
-    let files = files_of(&bench, &case);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
+    let page = make_page(&sandbox);
+    let case = case_of(&sandbox, "velocity_gather:fine");
+    let files = files_of(&sandbox, &case);
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/velocity_gather:fine");
     let [left, top, width, _] = browser.place(".stack");
@@ -116,25 +116,25 @@ fn the_read_out_shows_the_values_of_the_openexr_files_in_three_digits() {
 
 #[test]
 fn numbers_and_tables_beside_the_page_are_found() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let whole = make_page(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    let whole = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     let article = "[...document.querySelectorAll('article.open > :not(.viewer_place)')].map((own) => own.textContent).join()";
     open_case(&mut browser, &whole, "plate/velocity_gather:fine");
     let words = browser.text(article);
     assert!(words.contains("flip_moving"), "{words}");
 
-    let page = make_page_within(&bench, 0);
+    let page = make_page_within(&sandbox, 0);
     let [numbers, tables] =
-        ["scene_0.js", "tables_0.js"].map(|name| bench.path("page/a report_files").join(name));
+        ["scene_0.js", "tables_0.js"].map(|name| sandbox.path("page/a report_files").join(name));
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/velocity_gather:fine");
     assert_eq!(browser.text(article), words);
     let [left, top, width, _] = browser.place(".stack");
     browser.point(left + 20.5 * width / 64.0, top + 15.5 * width / 64.0);
     let shown = read_out(&mut browser, 20, 15);
-    let files = files_of(&bench, &case_of(&bench, "velocity_gather:fine"));
+    let files = files_of(&sandbox, &case_of(&sandbox, "velocity_gather:fine"));
     assert_near(&shown, &files, 20, 15);
     browser.press("k");
     browser.until(

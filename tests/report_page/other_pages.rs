@@ -1,22 +1,22 @@
 //! Pages of a comparison and of a tuning in a browser.
 
-use crate::bench::{Bench, assert_done, quick_command};
 use crate::browser::{Browser, address_of};
+use crate::sandbox::{Sandbox, assert_done, quick_command};
 
 const GATHER: [&str; 2] = ["--filters", "velocity_gather:fine"];
 
 #[test]
 fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&GATHER));
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&GATHER));
     let mut words = quick_command("run", "16").to_vec();
     let out = words.iter().position(|word| *word == "out").unwrap();
     words[out] = "other";
     words.extend(GATHER);
     words.extend(["--set", "velocity_gather.samples=2"]);
-    assert_done(&bench.shuttertruth(&words));
-    assert_done(&bench.shuttertruth(&["compare", "out", "other", "--html", "page.html"]));
-    let page = bench.path("page.html");
+    assert_done(&sandbox.shuttertruth(&words));
+    assert_done(&sandbox.shuttertruth(&["compare", "out", "other", "--html", "page.html"]));
+    let page = sandbox.path("page.html");
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     let heading = browser.text("document.querySelector('main h2').textContent");
@@ -46,12 +46,12 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
 
 #[test]
 fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
-    let bench = Bench::two_scenes();
+    let sandbox = Sandbox::two_scenes();
     let words = "tune search --quiet --filter jump_flood --from paper --vary samples=2..16,jitter --objective flip,bleed --scenes plate,slow \
                  --size 64x32 --samples-per-pixel 16 --budget 8 --out tuned";
-    assert_done(&bench.shuttertruth(&words.split_whitespace().collect::<Vec<_>>()));
-    assert_done(&bench.shuttertruth(&["report", "tuned", "--html", "page.html"]));
-    let page = bench.path("page.html");
+    assert_done(&sandbox.shuttertruth(&words.split_whitespace().collect::<Vec<_>>()));
+    assert_done(&sandbox.shuttertruth(&["report", "tuned", "--html", "page.html"]));
+    let page = sandbox.path("page.html");
     let mut browser = Browser::new(390, 844);
     browser.open(&page, "");
     assert_eq!(browser.value("document.documentElement.scrollWidth"), 390);
@@ -68,12 +68,12 @@ fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
 
 #[test]
 fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine", "--frames", "3"]));
-    let page = bench.path("out/sequences.html");
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine", "--frames", "3"]));
+    let page = sandbox.path("out/sequences.html");
     let mut browser = Browser::new(1280, 900);
     // The last sequence is that of the filter.
-    let last = bench.read_run().sequences.len() - 1;
+    let last = sandbox.read_run().sequences.len() - 1;
     browser.open(&page, &format!("#{last}"));
     let loaded = "[...document.querySelectorAll('#pictures img:not([hidden])')].every(own => own.complete && own.naturalWidth === 64)";
     browser.until(loaded);

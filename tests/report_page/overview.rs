@@ -1,8 +1,8 @@
 //! The overview in a browser: the search for rows, the preview of a worst place, and sections of filters.
 
-use crate::bench::{Bench, assert_done};
 use crate::browser::Browser;
 use crate::make_page;
+use crate::sandbox::{Sandbox, assert_done};
 
 /// Returns the names in the visible rows.
 fn rows(browser: &mut Browser) -> String {
@@ -14,26 +14,26 @@ fn rows(browser: &mut Browser) -> String {
 
 #[test]
 fn the_search_filters_rows_and_references_show_on_request() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     const FILTERS: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
-    assert_done(&bench.run(&FILTERS));
-    let errors = bench.read_filter_cases();
+    assert_done(&sandbox.run(&FILTERS));
+    let errors = sandbox.read_filter_cases();
     let errors = errors
         .iter()
         .map(|case| case.scores.moving.flip.value().unwrap());
     let limit = errors.sum::<f64>() / 2.0;
-    bench.write(
+    sandbox.write(
         "bounds.toml",
         &format!("[default]\nflip_moving = {{ limit = {limit}, why = \"it serves a test\" }}\n"),
     );
-    let output = bench.check(&FILTERS);
+    let output = sandbox.check(&FILTERS);
     assert_eq!(
         output.status.code(),
         Some(1),
         "one of both is beyond the mean"
     );
-    bench.check(&["--filters", "identity,velocity_gather:fine"]);
-    let page = make_page(&bench);
+    sandbox.check(&["--filters", "identity,velocity_gather:fine"]);
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     assert_eq!(rows(&mut browser), "velocity_gather:fine,identity:default");
@@ -81,9 +81,9 @@ fn the_search_filters_rows_and_references_show_on_request() {
 
 #[test]
 fn a_link_opens_the_same_table() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     assert_eq!(browser.text("location.hash"), "");
@@ -124,9 +124,9 @@ fn a_link_opens_the_same_table() {
 
 #[test]
 fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     let [x, y, width, height] = browser.place(".panel tbody:not(.group) tr:not([hidden]) a.case");
@@ -159,9 +159,9 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter() {
 
 #[test]
 fn only_the_table_that_is_seen_is_parsed_until_somebody_prints() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
     let tables = "document.querySelectorAll('.panel table').length";

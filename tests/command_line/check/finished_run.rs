@@ -3,13 +3,13 @@
 use std::fs;
 
 use super::{IDENTITY, assert_ends, bound, make_bounded};
-use crate::bench::{assert_refused, stderr};
+use crate::sandbox::{assert_refused, stderr};
 
 #[test]
 fn a_finished_run_is_judged_without_an_adapter() {
-    let bench = make_bounded(0.2, "required");
-    let made = assert_ends(&bench.check(&IDENTITY), 1, &["BROKEN flip_moving"]);
-    let judge = |words: &[&str]| bench.without_adapter(&[&["check"], words].concat());
+    let sandbox = make_bounded(0.2, "required");
+    let made = assert_ends(&sandbox.check(&IDENTITY), 1, &["BROKEN flip_moving"]);
+    let judge = |words: &[&str]| sandbox.without_adapter(&[&["check"], words].concat());
     // The run wrote the page already.
     let page = made.lines().find(|line| line.starts_with("report: "));
     let made = made.replace(&format!("{}\n", page.unwrap()), "");
@@ -27,9 +27,9 @@ fn a_finished_run_is_judged_without_an_adapter() {
     let plain = assert_ends(&judge(&["out"]), 1, &["BROKEN flip_moving"]);
     assert!(!plain.contains("worst at"), "{plain}");
 
-    bench.write("bounds.toml", &bound("flip_moving", 0.9, "required"));
+    sandbox.write("bounds.toml", &bound("flip_moving", 0.9, "required"));
     assert_ends(&judge(&["out"]), 0, &["1 required bound: 1 met"]);
-    assert_eq!(bench.read_findings()[0].limit, 0.9);
+    assert_eq!(sandbox.read_findings()[0].limit, 0.9);
 
     let output = judge(&["out", "--scenes-dir", "elsewhere"]);
     assert_refused(
@@ -37,7 +37,7 @@ fn a_finished_run_is_judged_without_an_adapter() {
         2,
         &["elsewhere/plate", "no such scene", "--scenes-dir"],
     );
-    fs::remove_file(bench.path("scenes/plate/bounds.toml")).unwrap();
+    fs::remove_file(sandbox.path("scenes/plate/bounds.toml")).unwrap();
     assert_refused(
         &judge(&["out"]),
         2,
@@ -49,12 +49,12 @@ fn a_finished_run_is_judged_without_an_adapter() {
 
 #[test]
 fn a_judgement_of_another_run_is_refused() {
-    let bench = make_bounded(0.2, "required");
-    bench.check(&IDENTITY);
-    let run = bench.path("out/run.json");
+    let sandbox = make_bounded(0.2, "required");
+    sandbox.check(&IDENTITY);
+    let run = sandbox.path("out/run.json");
     let text = fs::read_to_string(&run).unwrap();
     fs::write(&run, text.replace("\"seed\": 1,", "\"seed\": 2,")).unwrap();
-    let output = bench.shuttertruth(&["report", "out", "--html", "page.html"]);
+    let output = sandbox.shuttertruth(&["report", "out", "--html", "page.html"]);
     assert_refused(
         &output,
         2,

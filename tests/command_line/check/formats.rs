@@ -4,12 +4,12 @@ use std::fs;
 use std::process::Output;
 
 use super::{IDENTITY, assert_ends, bound, json, make_bounded};
-use crate::bench::{Bench, files_below, quick_command};
+use crate::sandbox::{Sandbox, files_below, quick_command};
 
 #[test]
 fn junit_has_a_case_for_every_bound() {
-    let bench = Bench::new();
-    bench.write(
+    let sandbox = Sandbox::new();
+    sandbox.write(
         "bounds.toml",
         "[default]
 flip_moving = { limit = 0.2, why = \"it serves a test\" }
@@ -19,11 +19,11 @@ occluder_contamination = { limit = 0.5, why = \"it serves a test\" }
 ",
     );
     assert_ends(
-        &bench.check(&[&IDENTITY[..], &["--junit", "x/junit.xml"]].concat()),
+        &sandbox.check(&[&IDENTITY[..], &["--junit", "x/junit.xml"]].concat()),
         1,
         &[],
     );
-    let text = fs::read_to_string(bench.path("x/junit.xml")).unwrap();
+    let text = fs::read_to_string(sandbox.path("x/junit.xml")).unwrap();
     let report = quick_junit::Report::deserialize_from_str(&text).unwrap();
     let suite = &report.test_suites[0];
     assert_eq!(
@@ -52,7 +52,7 @@ occluder_contamination = { limit = 0.5, why = \"it serves a test\" }
 
 #[test]
 fn github_gets_at_most_ten_annotations_and_a_full_summary() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let metrics = [
         "flip_moving",
         "flip_hdr_moving",
@@ -65,13 +65,13 @@ fn github_gets_at_most_ten_annotations_and_a_full_summary() {
         let limit = if metric == "misplacement" { 0.9 } else { 0.1 };
         format!("{metric} = {{ limit = {limit}, why = \"100 %: a|b\" }}\n")
     });
-    bench.write("bounds.toml", &format!("[default]\n{}", lines.concat()));
-    fs::write(bench.path("summary.md"), "before\n").unwrap();
+    sandbox.write("bounds.toml", &format!("[default]\n{}", lines.concat()));
+    fs::write(sandbox.path("summary.md"), "before\n").unwrap();
     let check = |filters: &str| {
         let more = ["--github", "--filters", filters];
-        let mut command = bench.command(&[&quick_command("check", "64")[..], &more].concat());
+        let mut command = sandbox.command(&[&quick_command("check", "64")[..], &more].concat());
         command
-            .env("GITHUB_STEP_SUMMARY", bench.path("summary.md"))
+            .env("GITHUB_STEP_SUMMARY", sandbox.path("summary.md"))
             .output()
             .unwrap()
     };
@@ -95,7 +95,7 @@ fn github_gets_at_most_ten_annotations_and_a_full_summary() {
         "{}",
         many[9]
     );
-    let summary = fs::read_to_string(bench.path("summary.md")).unwrap();
+    let summary = fs::read_to_string(sandbox.path("summary.md")).unwrap();
     assert!(
         summary.starts_with("before\n## Shuttertruth: FAIL\n"),
         "{summary}"
@@ -106,8 +106,8 @@ fn github_gets_at_most_ten_annotations_and_a_full_summary() {
 
 #[test]
 fn json_holds_the_same_verdict() {
-    let bench = make_bounded(0.2, "required");
-    let found = json(&bench, &[]);
+    let sandbox = make_bounded(0.2, "required");
+    let found = json(&sandbox, &[]);
     assert_eq!(found["format"], judge::CHECK_FORMAT);
     assert_eq!(found["decision"], "broken");
     let finding = &found["findings"][0];
@@ -129,13 +129,13 @@ fn json_holds_the_same_verdict() {
 /// The identity leaves a silhouette as short as the object: far below the ideal of 1.
 #[test]
 fn a_limit_on_a_distance_stands_beside_a_distance() {
-    let bench = make_bounded(0.2, "required");
-    bench.write("bounds.toml", &bound("extent", 0.01, "required"));
+    let sandbox = make_bounded(0.2, "required");
+    sandbox.write("bounds.toml", &bound("extent", 0.01, "required"));
     let files = ["--junit", "junit.xml", "--github", "--filters", "identity"];
-    let mut command = bench.command(&[&quick_command("check", "64")[..], &files].concat());
-    command.env("GITHUB_STEP_SUMMARY", bench.path("summary.md"));
+    let mut command = sandbox.command(&[&quick_command("check", "64")[..], &files].concat());
+    command.env("GITHUB_STEP_SUMMARY", sandbox.path("summary.md"));
     let text = assert_ends(&command.output().unwrap(), 1, &["BROKEN extent"]);
-    let finding = &bench.read_findings()[0];
+    let finding = &sandbox.read_findings()[0];
     let interval = finding.interval.unwrap();
     let apart = (1.0 - interval.center).abs();
     assert!(apart > 0.01 && interval.high < 1.0, "{finding:?}");
@@ -148,7 +148,7 @@ fn a_limit_on_a_distance_stands_beside_a_distance() {
     );
     let limit = "; limit 0.01000, floor ";
     let annotation = text.lines().find(|line| line.starts_with("::error"));
-    let junit = fs::read_to_string(bench.path("junit.xml")).unwrap();
+    let junit = fs::read_to_string(sandbox.path("junit.xml")).unwrap();
     let one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for (name, found) in [
         ("terminal", one_line.as_str()),
@@ -161,9 +161,9 @@ fn a_limit_on_a_distance_stands_beside_a_distance() {
         );
     }
     // Tables have the score itself, and say what its limit is on.
-    let summary = fs::read_to_string(bench.path("summary.md")).unwrap();
+    let summary = fs::read_to_string(sandbox.path("summary.md")).unwrap();
     assert!(summary.contains("| 0.01000 from 1 |"), "{summary}");
-    let pages = files_below(&bench.path("out"));
+    let pages = files_below(&sandbox.path("out"));
     let pages = pages
         .iter()
         .filter(|path| path.extension().is_some_and(|end| end == "html"));

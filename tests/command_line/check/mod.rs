@@ -8,13 +8,13 @@ mod sequences;
 
 use std::process::Output;
 
-use crate::bench::{Bench, IDENTITY, stderr, stdout};
+use crate::sandbox::{IDENTITY, Sandbox, stderr, stdout};
 
-/// Makes a bench whose scene bounds the identity's `flip_moving`; the identity scores about 0.3.
-fn make_bounded(limit: f64, level: &str) -> Bench {
-    let bench = Bench::new();
-    bench.write("bounds.toml", &bound("flip_moving", limit, level));
-    bench
+/// Makes a sandbox whose scene bounds the identity's `flip_moving`; the identity scores about 0.3.
+fn make_bounded(limit: f64, level: &str) -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.write("bounds.toml", &bound("flip_moving", limit, level));
+    sandbox
 }
 
 fn bound(metric: &str, limit: f64, level: &str) -> String {
@@ -45,7 +45,7 @@ fn verdict(output: &Output) -> String {
     words.join(" ")
 }
 
-fn json(bench: &Bench, more: &[&str]) -> serde_json::Value {
-    let output = bench.check(&[&IDENTITY[..], &["--json"], more].concat());
+fn json(sandbox: &Sandbox, more: &[&str]) -> serde_json::Value {
+    let output = sandbox.check(&[&IDENTITY[..], &["--json"], more].concat());
     serde_json::from_slice(&output.stdout).unwrap()
 }

@@ -6,17 +6,17 @@ use frame::{Frame, Truth, read_exr};
 use metrics::Metric;
 
 use super::{IDENTITY, assert_ends, bound, json, make_bounded, verdict};
-use crate::bench::{Bench, SCENE, assert_refused};
+use crate::sandbox::{SCENE, Sandbox, assert_refused};
 
 #[test]
 fn scores_within_their_bounds_pass() {
-    let bench = make_bounded(0.9, "required");
-    let text = assert_ends(&bench.check(&IDENTITY), 0, &["1 required bound: 1 met"]);
+    let sandbox = make_bounded(0.9, "required");
+    let text = assert_ends(&sandbox.check(&IDENTITY), 0, &["1 required bound: 1 met"]);
     assert!(
         !text.contains("plate /"),
         "what is kept is not listed: {text}"
     );
-    let case = &bench.read_filter_cases()[0];
+    let case = &sandbox.read_filter_cases()[0];
     let interval = case.intervals[&Metric::FLIP];
     let value = case
         .scores
@@ -31,12 +31,12 @@ fn scores_within_their_bounds_pass() {
 
 #[test]
 fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
-    let bench = make_bounded(0.2, "required");
-    let output = bench.check(&IDENTITY);
+    let sandbox = make_bounded(0.2, "required");
+    let output = sandbox.check(&IDENTITY);
     assert_ends(&output, 1, &["BROKEN flip_moving 0.2"]);
     assert!(verdict(&output).contains("a required bound is broken"));
     assert!(
-        bench
+        sandbox
             .path("out/plate/identity_default/worst_flip_moving.png")
             .is_file()
     );
@@ -44,10 +44,10 @@ fn a_broken_bound_gives_exit_code_1_and_its_evidence() {
 
 #[test]
 fn a_blur_unlike_every_decoy_is_reported_as_such() {
-    let bench = make_bounded(0.04, "required");
+    let sandbox = make_bounded(0.04, "required");
     // A box over whatever moves, with front and back swapped: wrong in a way that no decoy is. Scaled to 64 pixels, its
     // tiles would be too small to blur anything.
-    let output = bench.check(&[
+    let output = sandbox.check(&[
         "--filters",
         "mcguire:motion_blur_demo,mcguire:paper",
         "--as-written",
@@ -63,12 +63,12 @@ fn a_blur_unlike_every_decoy_is_reported_as_such() {
 
 #[test]
 fn a_bound_of_level_report_fails_nothing() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let text = bound("flip_moving", 0.2, "report");
     let required = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
-    bench.write("bounds.toml", &(text + required));
+    sandbox.write("bounds.toml", &(text + required));
     assert_ends(
-        &bench.check(&[&IDENTITY[..], &["-v"]].concat()),
+        &sandbox.check(&[&IDENTITY[..], &["-v"]].concat()),
         0,
         &["target missed flip_moving", "1 required bound: 1 met"],
     );
@@ -76,15 +76,15 @@ fn a_bound_of_level_report_fails_nothing() {
 
 #[test]
 fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
-    let bench = make_bounded(0.9, "required");
-    let found = json(&bench, &[]);
+    let sandbox = make_bounded(0.9, "required");
+    let found = json(&sandbox, &[]);
     let interval = &found["findings"][0]["interval"];
     let [low, high] = ["low", "high"].map(|end| interval[end].as_f64().unwrap());
     // The limit lies a little more than a quarter of the interval's half width from its middle. 16 times the samples
     // halve the width twice.
     let limit = 0.5 * (low + high) + 0.26 * 0.5 * (high - low);
-    bench.write("bounds.toml", &bound("flip_moving", limit, "required"));
-    let output = bench.check(&IDENTITY);
+    sandbox.write("bounds.toml", &bound("flip_moving", limit, "required"));
+    let output = sandbox.check(&IDENTITY);
     assert_ends(
         &output,
         4,
@@ -95,15 +95,15 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
     );
     assert!(verdict(&output).contains("raise the samples per pixel"));
     let value = found["findings"][0]["value"].as_f64().unwrap();
-    bench.write(
+    sandbox.write(
         "bounds.toml",
         &bound("flip_moving", value.min(limit), "report"),
     );
     let required = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
-    let text = fs::read_to_string(bench.path("scenes/plate/bounds.toml")).unwrap();
-    bench.write("bounds.toml", &(text + required));
+    let text = fs::read_to_string(sandbox.path("scenes/plate/bounds.toml")).unwrap();
+    sandbox.write("bounds.toml", &(text + required));
     assert_ends(
-        &bench.check(&[&IDENTITY[..], &["-v"]].concat()),
+        &sandbox.check(&[&IDENTITY[..], &["-v"]].concat()),
         0,
         &["target undecided flip_moving"],
     );
@@ -111,19 +111,19 @@ fn a_limit_inside_the_interval_gives_exit_code_4_and_the_samples_to_decide() {
 
 #[test]
 fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
-    let bench = make_bounded(0.9, "required");
-    let found = json(&bench, &[]);
+    let sandbox = make_bounded(0.9, "required");
+    let found = json(&sandbox, &[]);
     let floor = found["findings"][0]["floor"].as_f64().unwrap();
     let strictest = found["findings"][0]["strictest"].as_f64().unwrap();
     assert_eq!(strictest, 3.0 * floor);
-    bench.write(
+    sandbox.write(
         "bounds.toml",
         &bound("flip_moving", 0.99 * strictest, "report"),
     );
     let required = "label_tv = { limit = 0.9, why = \"it serves a test\" }\n";
-    let text = fs::read_to_string(bench.path("scenes/plate/bounds.toml")).unwrap();
-    bench.write("bounds.toml", &(text.clone() + required));
-    let output = bench.check(&IDENTITY);
+    let text = fs::read_to_string(sandbox.path("scenes/plate/bounds.toml")).unwrap();
+    sandbox.write("bounds.toml", &(text.clone() + required));
+    let output = sandbox.check(&IDENTITY);
     let allowed = format!("the noise floor of {floor:.5}");
     assert_ends(
         &output,
@@ -136,8 +136,8 @@ fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
     );
     assert!(verdict(&output).contains("stricter than three noise floors"));
     // A bound that is broken beside it is a fact.
-    bench.write("bounds.toml", &(text + &required.replace("0.9", "0.02")));
-    let output = bench.check(&IDENTITY);
+    sandbox.write("bounds.toml", &(text + &required.replace("0.9", "0.02")));
+    let output = sandbox.check(&IDENTITY);
     assert_ends(
         &output,
         1,
@@ -148,9 +148,9 @@ fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
 
 #[test]
 fn a_case_without_an_applicable_bound_does_not_pass() {
-    let bench = make_bounded(0.9, "required");
-    bench.write("scene.toml", &SCENE.replace("[-1.6, 0, 0]", "[0, 0, 0]"));
-    let output = bench.check(&IDENTITY);
+    let sandbox = make_bounded(0.9, "required");
+    sandbox.write("scene.toml", &SCENE.replace("[-1.6, 0, 0]", "[0, 0, 0]"));
+    let output = sandbox.check(&IDENTITY);
     assert_ends(&output, 2, &["1 not applicable"]);
     assert!(verdict(&output).contains("no bound that applies"));
 }
@@ -195,19 +195,19 @@ fn check_refuses_bad_input_before_it_renders() {
         ),
     ];
     for (bounds, more, parts) in rows {
-        let bench = Bench::new();
-        bench.write("bounds.toml", bounds);
-        assert_refused(&bench.check(&[&IDENTITY[..], *more].concat()), 2, parts);
+        let sandbox = Sandbox::new();
+        sandbox.write("bounds.toml", bounds);
+        assert_refused(&sandbox.check(&[&IDENTITY[..], *more].concat()), 2, parts);
         assert!(
-            !bench.path("out").exists(),
+            !sandbox.path("out").exists(),
             "{more:?} left something behind"
         );
     }
-    let bench = make_bounded(0.9, "required");
-    fs::create_dir(bench.path("scenes/plates")).unwrap();
-    fs::write(bench.path("scenes/plates/bounds.toml"), "").unwrap();
+    let sandbox = make_bounded(0.9, "required");
+    fs::create_dir(sandbox.path("scenes/plates")).unwrap();
+    fs::write(sandbox.path("scenes/plates/bounds.toml"), "").unwrap();
     assert_refused(
-        &bench.check(&IDENTITY),
+        &sandbox.check(&IDENTITY),
         2,
         &["plates/bounds.toml: bounds of a scene that does not exist"],
     );
@@ -215,24 +215,24 @@ fn check_refuses_bad_input_before_it_renders() {
 
 #[test]
 fn a_missing_adapter_gives_exit_code_3() {
-    let bench = make_bounded(0.9, "required");
-    let output = bench.without_adapter(&["check", "--out", "out", "--filters", "identity"]);
+    let sandbox = make_bounded(0.9, "required");
+    let output = sandbox.without_adapter(&["check", "--out", "out", "--filters", "identity"]);
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
 }
 
 #[test]
 fn an_error_map_that_no_file_holds_is_measured_again() {
-    let bench = Bench::new();
-    bench.write("bounds.toml", &bound("mae_moving", 0.001, "required"));
-    let output = bench.check(&[&IDENTITY[..], &["--json"]].concat());
+    let sandbox = Sandbox::new();
+    sandbox.write("bounds.toml", &bound("mae_moving", 0.001, "required"));
+    let output = sandbox.check(&[&IDENTITY[..], &["--json"]].concat());
     let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let worst = &found["findings"][0]["worst"];
     assert_eq!(worst["map"], "absolute_error", "{found}");
-    let run = bench.read_run();
+    let run = sandbox.read_run();
     let case = (run.cases.iter())
         .find(|case| case.filter == "identity")
         .unwrap();
-    let out = bench.path("out");
+    let out = sandbox.path("out");
     let errors = read_exr(&out.join(&case.folder).join("errors.exr")).unwrap();
     assert!(errors.plane("absolute_error").is_err(), "it is not kept");
     let map = (suite::ErrorMaps::read(case, &out).unwrap())

@@ -7,15 +7,15 @@ use metrics::{Metric, SequenceMetric};
 use suite::Run;
 
 use super::{IDENTITY, assert_ends, json};
-use crate::bench::{Bench, assert_done, assert_refused, split};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split};
 
 const THREE: [&str; 2] = ["--frames", "3"];
 
-/// Makes a bench whose plate has limits on a single frame and on sequences of three frames. The identity's flicker is some hundredths
+/// Makes a sandbox whose plate has limits on a single frame and on sequences of three frames. The identity's flicker is some hundredths
 /// of display white, squared.
-fn bounded_sequence() -> Bench {
-    let bench = Bench::new();
-    bench.write(
+fn bounded_sequence() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.write(
         "bounds.toml",
         "[default]
 flip_moving = { limit = 0.9, why = \"it serves a test\" }
@@ -25,13 +25,13 @@ popping = { limit = 0.9, frames = 3, why = \"it serves a test\" }
 jod = { limit = 1.0, frames = 3, fps = 60, why = \"it serves a test\", level = \"report\" }
 ",
     );
-    bench
+    sandbox
 }
 
 #[test]
 fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
-    let bench = bounded_sequence();
-    let single = bench.check(&IDENTITY);
+    let sandbox = bounded_sequence();
+    let single = sandbox.check(&IDENTITY);
     let parts = [
         "3 required bounds: 1 met, 2 not judged",
         "1 target: 1 not judged",
@@ -39,7 +39,7 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
         "PASS",
     ];
     assert_ends(&single, 0, &parts);
-    let not_judged = bench.read_findings();
+    let not_judged = sandbox.read_findings();
     let outcomes = |findings: &[judge::Finding]| -> Vec<(String, Outcome)> {
         let pairs = findings.iter().map(|own| (own.metric.name(), own.outcome));
         pairs.collect()
@@ -55,10 +55,10 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
         ])
     );
     let text = |run: &Run| serde_json::to_string(&run.cases).unwrap();
-    let alone = text(&bench.read_run());
+    let alone = text(&sandbox.read_run());
 
     let more = [&THREE[..], &["--junit", "junit.xml"]].concat();
-    let output = bench.check(&[&IDENTITY[..], &more].concat());
+    let output = sandbox.check(&[&IDENTITY[..], &more].concat());
     let broken = [
         "plate / identity:default",
         "BROKEN flicker over 3 frames 0.0",
@@ -72,9 +72,9 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     ];
     let printed = assert_ends(&output, 1, &broken);
     assert!(!printed.contains("not judged"), "{printed}");
-    let run = bench.read_run();
+    let run = sandbox.read_run();
     assert_eq!(text(&run), alone, "bit for bit");
-    let findings = bench.read_findings();
+    let findings = sandbox.read_findings();
     assert_eq!(findings[0], not_judged[0]);
     let flicker = &findings[1];
     assert_eq!(
@@ -89,14 +89,14 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     assert_eq!(flicker.worst_frame, Some(worst));
     assert_eq!(flicker.pictures, own.frames[worst as usize].folder);
     assert!(
-        bench
+        sandbox
             .path("out")
             .join(&flicker.pictures)
             .join("change.png")
             .is_file()
     );
 
-    let junit = fs::read_to_string(bench.path("junit.xml")).unwrap();
+    let junit = fs::read_to_string(sandbox.path("junit.xml")).unwrap();
     for part in [
         "identity:default flicker",
         "BROKEN flicker over 3 frames",
@@ -104,24 +104,24 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     ] {
         assert!(junit.contains(part), "{part}: {junit}");
     }
-    let page = fs::read_to_string(bench.path("out/report.html")).unwrap();
+    let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
     for part in ["BROKEN flicker over 3 frames", "sequences.html"] {
         assert!(page.contains(part), "{part}");
     }
-    let json = json(&bench, &THREE);
+    let json = json(&sandbox, &THREE);
     assert_eq!(json["findings"][1]["kind"], "broken");
     assert_eq!(json["findings"][1]["frames"], 3);
     assert_eq!(json["findings"][2]["fps"], 60.0);
 
     // The finished run is judged again, without an adapter, and refuses what it cannot measure.
-    let judge = |words: &[&str]| bench.without_adapter(&[&["check", "out"], words].concat());
+    let judge = |words: &[&str]| sandbox.without_adapter(&[&["check", "out"], words].concat());
     assert_ends(&judge(&[]), 1, &["BROKEN flicker over 3 frames"]);
     assert_refused(
         &judge(&THREE),
         2,
         &["--frames", "cannot be used with", "RUN"],
     );
-    let other = bench.check(&[&IDENTITY[..], &["--frames", "2"]].concat());
+    let other = sandbox.check(&[&IDENTITY[..], &["--frames", "2"]].concat());
     let parts = [
         "bounds.toml:4: the limit on flicker holds for sequences of 3 frames, and they are to have 2 frames",
         "shuttertruth limits calibrate",
@@ -131,19 +131,19 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
 
 #[test]
 fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = split(
         "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
          velocity_gather:fine --frames 2 --jitter-frames 0",
     );
-    let refused = bench.shuttertruth(&[&words[..13], &["--metrics", "flicker"]].concat());
+    let refused = sandbox.shuttertruth(&[&words[..13], &["--metrics", "flicker"]].concat());
     assert_refused(
         &refused,
         2,
         &["--metrics: flicker is a score of a sequence", "--frames"],
     );
-    assert_done(&bench.shuttertruth(&words));
-    let proposed = fs::read_to_string(bench.path("calibrated/plate.bounds.toml")).unwrap();
+    assert_done(&sandbox.shuttertruth(&words));
+    let proposed = fs::read_to_string(sandbox.path("calibrated/plate.bounds.toml")).unwrap();
     // Nothing is bounded yet: all eight scores of sequences, and four of single frames.
     assert_eq!(proposed.matches(", frames = 2, ").count(), 8, "{proposed}");
     assert!(
@@ -154,7 +154,7 @@ fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
     let lines = proposed
         .lines()
         .filter(|line| !line.starts_with("fixed_pattern"));
-    bench.write("bounds.toml", &lines.collect::<Vec<_>>().join("\n"));
+    sandbox.write("bounds.toml", &lines.collect::<Vec<_>>().join("\n"));
     // A seed that neither run has.
     let fine = [
         "--filters",
@@ -164,7 +164,7 @@ fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
         "--frames",
         "2",
     ];
-    assert_ends(&bench.check(&fine), 0, &["11 required bounds: 11 met"]);
+    assert_ends(&sandbox.check(&fine), 0, &["11 required bounds: 11 met"]);
     let worse = [&fine[..], &["--set", "velocity_gather.samples=2"]].concat();
-    assert_ends(&bench.check(&worse), 1, &["BROKEN error over 2 frames"]);
+    assert_ends(&sandbox.check(&worse), 1, &["BROKEN error over 2 frames"]);
 }

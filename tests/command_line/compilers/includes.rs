@@ -7,14 +7,14 @@ use tests::root;
 
 use super::installed::find_program;
 use super::{BINDINGS, COPY, list, write_pass};
-use crate::bench::{Bench, assert_done, stderr};
+use crate::sandbox::{Sandbox, assert_done, stderr};
 
 /// What a stranger's shader includes comes from its own folder.
 #[test]
 fn nothing_outside_of_the_folder_is_included() {
-    let bench = Bench::new();
-    fs::write(bench.path("secret.txt"), "the secret\n").unwrap();
-    let secret = bench.path("secret.txt").display().to_string();
+    let sandbox = Sandbox::new();
+    fs::write(sandbox.path("secret.txt"), "the secret\n").unwrap();
+    let secret = sandbox.path("secret.txt").display().to_string();
     let outside = "outside of the filter's folder";
     let glsl = "#version 450\n#extension GL_GOOGLE_include_directive : require\n";
     // (file, text, line, part of the message)
@@ -74,19 +74,22 @@ fn nothing_outside_of_the_folder_is_included() {
     }
     cases.push(("blur.slang", "\nimport \"../secret\";\n".into(), 2, outside));
     for (file, text, line, says) in cases {
-        let folder = bench.path("translated");
+        let folder = sandbox.path("translated");
         _ = fs::remove_dir_all(&folder);
-        write_pass(&bench, file, "");
+        write_pass(&sandbox, file, "");
         fs::write(folder.join(file), &text).unwrap();
         fs::write(folder.join("own.h"), format!("#include \"{secret}\"\n")).unwrap();
         std::os::unix::fs::symlink(&secret, folder.join("link.h")).unwrap();
-        std::os::unix::fs::symlink(bench.path(""), folder.join("linked")).unwrap();
-        fs::create_dir_all(bench.path("bin")).unwrap();
+        std::os::unix::fs::symlink(sandbox.path(""), folder.join("linked")).unwrap();
+        fs::create_dir_all(sandbox.path("bin")).unwrap();
         // A compiler that would tell.
         for program in ["glslangValidator", "slangc"] {
-            write_script(&bench.path("bin").join(program), "echo the secret; exit 1");
+            write_script(
+                &sandbox.path("bin").join(program),
+                "echo the secret; exit 1",
+            );
         }
-        let listed = list(&bench);
+        let listed = list(&sandbox);
         assert_eq!(listed.status.code(), Some(2), "{text}");
         let said = stderr(&listed);
         let named = if text.contains("own.h") {
@@ -101,12 +104,12 @@ fn nothing_outside_of_the_folder_is_included() {
     }
     // Modules of WESL and Slang are looked for by their names.
     for (file, link) in [("blur.wesl", "secret.wesl"), ("blur.slang", "secret.slang")] {
-        let folder = bench.path("translated");
+        let folder = sandbox.path("translated");
         _ = fs::remove_dir_all(&folder);
-        write_pass(&bench, file, "");
+        write_pass(&sandbox, file, "");
         std::os::unix::fs::symlink(&secret, folder.join(link)).unwrap();
-        write_script(&bench.path("bin/wesl"), "echo the secret; exit 1");
-        let said = stderr(&list(&bench));
+        write_script(&sandbox.path("bin/wesl"), "echo the secret; exit 1");
+        let said = stderr(&list(&sandbox));
         assert!(
             said.contains(&format!("translated/{link}: is a link")),
             "{said}"
@@ -115,15 +118,15 @@ fn nothing_outside_of_the_folder_is_included() {
 }
 
 /// Puts the real glslangValidator, and nothing else, on the bench's PATH.
-fn install_glslang(bench: &Bench) {
+fn install_glslang(sandbox: &Sandbox) {
     let found = find_program("glslangValidator").expect("apt-get install glslang-tools");
-    fs::create_dir_all(bench.path("bin")).unwrap();
-    _ = std::os::unix::fs::symlink(found, bench.path("bin/glslangValidator"));
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
+    _ = std::os::unix::fs::symlink(found, sandbox.path("bin/glslangValidator"));
 }
 
 /// Writes a file that says so if a compiler opens it.
-fn write_secret(bench: &Bench) {
-    fs::write(bench.path("secret.txt"), "#error the_secret\n").unwrap();
+fn write_secret(sandbox: &Sandbox) {
+    fs::write(sandbox.path("secret.txt"), "#error the_secret\n").unwrap();
 }
 
 const GLSL: &str = "#version 450\n#extension GL_GOOGLE_include_directive : require\n";
@@ -131,11 +134,11 @@ const GLSL: &str = "#version 450\n#extension GL_GOOGLE_include_directive : requi
 /// A compiler looks for a file in the folders of all files that are being included.
 #[test]
 fn no_folder_of_an_includer_leads_outside() {
-    let bench = Bench::new();
-    write_secret(&bench);
-    let folder = bench.path("translated");
+    let sandbox = Sandbox::new();
+    write_secret(&sandbox);
+    let folder = sandbox.path("translated");
     fs::create_dir_all(folder.join("p/q/r/s")).unwrap();
-    write_pass(&bench, "p/q/blur.comp", "");
+    write_pass(&sandbox, "p/q/blur.comp", "");
     for (file, head, includes) in [
         ("p/q/blur.comp", GLSL, "../../top.h"),
         ("top.h", "", "p/q/r/s/deep.h"),
@@ -145,8 +148,8 @@ fn no_folder_of_an_includer_leads_outside() {
         let text = format!("{head}#include \"{includes}\"\n");
         fs::write(folder.join(file), text).unwrap();
     }
-    install_glslang(&bench);
-    let said = stderr(&list(&bench));
+    install_glslang(&sandbox);
+    let said = stderr(&list(&sandbox));
     let parts = [
         "deep.h:1",
         "../../secret.txt",
@@ -159,19 +162,19 @@ fn no_folder_of_an_includer_leads_outside() {
 /// What glslangValidator opened once because the program took it for a comment, for text in quotes or for no directive.
 #[test]
 fn no_directive_is_hidden_from_the_program() {
-    let bench = Bench::new();
-    write_secret(&bench);
-    install_glslang(&bench);
+    let sandbox = Sandbox::new();
+    write_secret(&sandbox);
+    install_glslang(&sandbox);
     // From the folder of the copies: a compiler may join an absolute path to that.
     let secret = format!(
         "{}..{}",
         "../".repeat(11),
-        bench.path("secret.txt").display()
+        sandbox.path("secret.txt").display()
     );
     let include = format!("#include \"{secret}\"");
     let texts = [
         include.clone(),
-        format!("#include \"{}\"", bench.path("secret.txt").display()),
+        format!("#include \"{}\"", sandbox.path("secret.txt").display()),
         format!("#define U \"\\\"/*\"\n{include}\n"),
         format!("/\\\n* \" */ {include}\n"),
         format!("#define U \"/*\n\"*/ {include}\n"),
@@ -182,17 +185,17 @@ fn no_directive_is_hidden_from_the_program() {
         format!("#define F <{secret}>\n#include F\n"),
         format!(
             "#line 1 \"{}/x\"\n#include \"secret.txt\"\n",
-            bench.path("").display()
+            sandbox.path("").display()
         ),
         "#include \"zz/../../secret.txt\"\n".to_owned(),
     ];
     for text in texts {
-        _ = fs::remove_dir_all(bench.path("translated"));
-        write_pass(&bench, "blur.comp", "");
-        fs::create_dir_all(bench.path("translated/zz")).unwrap();
+        _ = fs::remove_dir_all(sandbox.path("translated"));
+        write_pass(&sandbox, "blur.comp", "");
+        fs::create_dir_all(sandbox.path("translated/zz")).unwrap();
         let shader = format!("{GLSL}{text}\nvoid main() {{}}\n");
-        fs::write(bench.path("translated/blur.comp"), shader).unwrap();
-        let listed = list(&bench);
+        fs::write(sandbox.path("translated/blur.comp"), shader).unwrap();
+        let listed = list(&sandbox);
         assert_eq!(listed.status.code(), Some(2), "{text}");
         let said = stderr(&listed);
         assert!(!said.contains("the_secret"), "{text}: {said}");
@@ -203,11 +206,11 @@ fn no_directive_is_hidden_from_the_program() {
 /// Lines keep their numbers, in the shader and in what it includes.
 #[test]
 fn honest_includes_work_and_errors_name_their_lines() {
-    let bench = Bench::new();
-    install_glslang(&bench);
-    let folder = bench.path("translated");
+    let sandbox = Sandbox::new();
+    install_glslang(&sandbox);
+    let folder = sandbox.path("translated");
     fs::create_dir_all(folder.join("in/lib/deep")).unwrap();
-    write_pass(&bench, "in/blur.comp", BINDINGS);
+    write_pass(&sandbox, "in/blur.comp", BINDINGS);
     fs::write(folder.join("copy.wgsl"), COPY).unwrap();
     let fastest = root().join("tests/fixtures/shaders/fastest.comp");
     let fastest = fs::read_to_string(fastest).unwrap();
@@ -237,12 +240,12 @@ fn honest_includes_work_and_errors_name_their_lines() {
         "lib/c.h",
         "#define JOINED(x) \\\n  (x) \\\n\nconst float c = JOINED(1.0);\n",
     );
-    assert_done(&list(&bench));
+    assert_done(&list(&sandbox));
     let breaks = |file: &str, text: &str, line: &str| {
         let place = folder.join("in").join(file);
         let honest = fs::read_to_string(&place).unwrap();
         fs::write(&place, text).unwrap();
-        let said = stderr(&list(&bench));
+        let said = stderr(&list(&sandbox));
         fs::write(&place, honest).unwrap();
         tests::text::assert_contains(&said, &[line, "broken"]);
     };
@@ -259,10 +262,10 @@ fn honest_includes_work_and_errors_name_their_lines() {
 /// Each copy names modules as seen from itself, so the compiler looks nowhere else first.
 #[test]
 fn modules_are_named_from_the_copy_itself() {
-    let bench = Bench::new();
-    let folder = bench.path("translated");
+    let sandbox = Sandbox::new();
+    let folder = sandbox.path("translated");
     fs::create_dir_all(folder.join("in/lib")).unwrap();
-    write_pass(&bench, "in/blur.slang", "");
+    write_pass(&sandbox, "in/blur.slang", "");
     let write = |file: &str, text: &str| fs::write(folder.join("in").join(file), text).unwrap();
     write(
         "blur.slang",
@@ -275,11 +278,11 @@ fn modules_are_named_from_the_copy_itself() {
         "lib/other.slang",
         "__include\n\"noise\"; import \"nowhere\";\n",
     );
-    fs::create_dir_all(bench.path("bin")).unwrap();
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
     let script = "for word; do case \"$word\" in *.slang) \
                   /bin/cat \"$word\" \"${word%/*}/lib/other.slang\";; esac; done; exit 1";
-    write_script(&bench.path("bin/slangc"), script);
-    let said = stderr(&list(&bench));
+    write_script(&sandbox.path("bin/slangc"), script);
+    let said = stderr(&list(&sandbox));
     let parts = [
         "import lib.other; import \"lib/other\";",
         "import \"noise.slang\";",
@@ -288,7 +291,7 @@ fn modules_are_named_from_the_copy_itself() {
     ];
     tests::text::assert_contains(&said, &parts);
     write("blur.slang", "import \"../nowhere\";\n");
-    let said = stderr(&list(&bench));
+    let said = stderr(&list(&sandbox));
     let parts = ["blur.slang:1: imports \"../nowhere\", which is no file"];
     tests::text::assert_contains(&said, &parts);
 }
@@ -296,14 +299,14 @@ fn modules_are_named_from_the_copy_itself() {
 /// A shader, too, is a file of the folder.
 #[test]
 fn a_shader_is_no_link_out_of_the_folder() {
-    let bench = Bench::new();
-    let secret = bench.path("secret.comp");
+    let sandbox = Sandbox::new();
+    let secret = sandbox.path("secret.comp");
     fs::write(&secret, "the secret\n").unwrap();
-    write_pass(&bench, "blur.comp", "");
-    let shader = bench.path("translated/blur.comp");
+    write_pass(&sandbox, "blur.comp", "");
+    let shader = sandbox.path("translated/blur.comp");
     _ = fs::remove_file(&shader);
     std::os::unix::fs::symlink(&secret, &shader).unwrap();
-    let said = stderr(&list(&bench));
+    let said = stderr(&list(&sandbox));
     let parts = ["translated/blur.comp: is a link to a file outside of the filter's folder"];
     tests::text::assert_contains(&said, &parts);
     assert!(!said.contains("the secret"), "{said}");

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use tests::root;
 
-use crate::bench::{Bench, assert_done};
+use crate::sandbox::{Sandbox, assert_done};
 
 /// Finds a program on the PATH.
 pub fn find_program(name: &str) -> Option<PathBuf> {
@@ -15,8 +15,8 @@ pub fn find_program(name: &str) -> Option<PathBuf> {
 }
 
 /// Copies the fixtures of one language into the folder of a filter, whose head is that of the documented example.
-fn write_fixture(bench: &Bench, language: &str, head: &str) {
-    let folder = bench.path(language);
+fn write_fixture(sandbox: &Sandbox, language: &str, head: &str) {
+    let folder = sandbox.path(language);
     let fixtures = root().join("tests/fixtures/shaders");
     fs::create_dir_all(folder.join("random")).unwrap();
     let passes = fs::read_to_string(fixtures.join(format!("{language}.toml"))).unwrap();
@@ -43,10 +43,10 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
         let after = README.split_once(&format!("```{language}\n")).unwrap().1;
         after.split_once("```").unwrap().0
     };
-    let bench = Bench::new();
-    bench.write_filter("centre_blur", block("toml"), block("wgsl"));
+    let sandbox = Sandbox::new();
+    sandbox.write_filter("centre_blur", block("toml"), block("wgsl"));
     let head = block("toml").split_once("[[pass]]").unwrap().0;
-    bench.execute(&[
+    sandbox.execute(&[
         "truths",
         "render",
         "--quiet",
@@ -73,9 +73,9 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
             "--out",
             "b.exr",
         ];
-        let output = bench.command(&words).env("PATH", path).output().unwrap();
+        let output = sandbox.command(&words).env("PATH", path).output().unwrap();
         assert_done(&output);
-        frame::read_exr(&bench.path("b.exr"))
+        frame::read_exr(&sandbox.path("b.exr"))
             .unwrap()
             .color("")
             .unwrap()
@@ -92,10 +92,10 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
             println!("{program} is not on the PATH: {language} was not tried with it");
             continue;
         };
-        let bin = bench.path(&format!("bin_{program}"));
+        let bin = sandbox.path(&format!("bin_{program}"));
         fs::create_dir_all(&bin).unwrap();
         _ = std::os::unix::fs::symlink(found, bin.join(program));
-        write_fixture(&bench, language, head);
+        write_fixture(&sandbox, language, head);
         for preset in ["fast", "fine"] {
             let expected = blur("centre_blur", preset, &bin);
             let found = blur(language, preset, &bin);

@@ -14,11 +14,11 @@ use std::process::Output;
 use tests::filter_folder::write_script;
 use tests::root;
 
-use crate::bench::{Bench, assert_done, stderr};
+use crate::sandbox::{Sandbox, assert_done, stderr};
 
 /// Writes a filter with one pass over a shader in that file.
-fn write_pass(bench: &Bench, file: &str, more: &str) {
-    let folder = bench.path("translated");
+fn write_pass(sandbox: &Sandbox, file: &str, more: &str) {
+    let folder = sandbox.path("translated");
     fs::create_dir_all(&folder).unwrap();
     let manifest = format!(
         "name = \"translated\"\nsummary = \"A shader in another language.\"\nalignment = \"centred\"\n\n\
@@ -29,10 +29,10 @@ fn write_pass(bench: &Bench, file: &str, more: &str) {
 }
 
 /// Lists the filter with no other programs on the PATH than those in `bin`.
-fn list(bench: &Bench) -> Output {
-    fs::create_dir_all(bench.path("bin")).unwrap();
-    let mut command = bench.command(&["list", "--filter", "translated"]);
-    command.env("PATH", bench.path("bin")).output().unwrap()
+fn list(sandbox: &Sandbox) -> Output {
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
+    let mut command = sandbox.command(&["list", "--filter", "translated"]);
+    command.env("PATH", sandbox.path("bin")).output().unwrap()
 }
 
 /// Bindings of the module that fake compilers hand out.
@@ -74,7 +74,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 
 #[test]
 fn a_language_without_its_compiler_names_the_way_out() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for (file, parts) in [
         (
             "blur.comp",
@@ -102,8 +102,8 @@ fn a_language_without_its_compiler_names_the_way_out() {
             ],
         ),
     ] {
-        write_pass(&bench, file, "");
-        let listed = list(&bench);
+        write_pass(&sandbox, file, "");
+        let listed = list(&sandbox);
         assert_eq!(listed.status.code(), Some(2), "{listed:?}");
         for part in parts {
             assert!(stderr(&listed).contains(part), "{}", stderr(&listed));
@@ -139,41 +139,41 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
         ),
     ];
     for (file, compiler, words, module) in cases {
-        let bench = Bench::new();
-        write_pass(&bench, file, BINDINGS);
-        fs::write(bench.path("translated/copy.wgsl"), COPY).unwrap();
-        fs::create_dir_all(bench.path("bin")).unwrap();
+        let sandbox = Sandbox::new();
+        write_pass(&sandbox, file, BINDINGS);
+        fs::write(sandbox.path("translated/copy.wgsl"), COPY).unwrap();
+        fs::create_dir_all(sandbox.path("bin")).unwrap();
         let module = module.display();
         let script = format!(
             "case \"$*\" in {words}*) ;; *) echo \"called as $*\"; exit 3;; esac\n\
              for word; do case \"$word\" in *.spv) /bin/cp {module} \"$word\";; esac; done"
         );
-        write_script(&bench.path("bin").join(compiler), &script);
-        assert_done(&list(&bench));
+        write_script(&sandbox.path("bin").join(compiler), &script);
+        assert_done(&list(&sandbox));
     }
-    let bench = Bench::new();
-    write_pass(&bench, "blur.wesl", "conditions = [\"FAST\", \"FINE\"]\n");
+    let sandbox = Sandbox::new();
+    write_pass(&sandbox, "blur.wesl", "conditions = [\"FAST\", \"FINE\"]\n");
     let wgsl = COPY.replace(
         "@group(0) @binding(1) var tile_motion: texture_2d<f32>;\n",
         "",
     );
     let wgsl = wgsl.replace("textureLoad(tile_motion, id.xy, 0)", "vec4<f32>()");
-    fs::create_dir_all(bench.path("bin")).unwrap();
-    fs::write(bench.path("compiled.wgsl"), wgsl).unwrap();
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
+    fs::write(sandbox.path("compiled.wgsl"), wgsl).unwrap();
     let script = format!(
         "case \"$*\" in \"compile -D FAST -D FINE \"/*/blur.wesl) ;; *) echo \"called as $*\" >&2; exit 3;; esac\n\
          /bin/cat {}",
-        bench.path("compiled.wgsl").display()
+        sandbox.path("compiled.wgsl").display()
     );
-    write_script(&bench.path("bin/wesl"), &script);
-    let manifest = bench.path("translated/filter.toml");
+    write_script(&sandbox.path("bin/wesl"), &script);
+    let manifest = sandbox.path("translated/filter.toml");
     let text = fs::read_to_string(&manifest).unwrap();
     let without_texture = text.replace(
         "[[texture]]\nname = \"tile_motion\"\nformat = \"rg32float\"\n\n",
         "",
     );
     fs::write(&manifest, without_texture).unwrap();
-    assert_done(&list(&bench));
+    assert_done(&list(&sandbox));
 }
 
 /// Two passes over one shader: its compiler runs once, and again only for what changes its input.
@@ -181,9 +181,9 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
 #[test]
 fn a_compiler_runs_once_for_each_content() {
     let module = fs::canonicalize(root().join("tests/fuzz/corpus/spirv/fastest")).unwrap();
-    let bench = Bench::new();
-    write_pass(&bench, "blur.slang", BINDINGS);
-    let folder = bench.path("translated");
+    let sandbox = Sandbox::new();
+    write_pass(&sandbox, "blur.slang", BINDINGS);
+    let folder = sandbox.path("translated");
     let manifest = fs::read_to_string(folder.join("filter.toml")).unwrap();
     let (head, passes) = manifest.split_once("[[pass]]").unwrap();
     let (first, rest) = passes.split_once("[[pass]]").unwrap();
@@ -193,28 +193,28 @@ fn a_compiler_runs_once_for_each_content() {
     fs::write(folder.join("filter.toml"), passes).unwrap();
     fs::write(folder.join("other.slang"), "another text of a shader\n").unwrap();
     fs::write(folder.join("copy.wgsl"), COPY).unwrap();
-    fs::create_dir_all(bench.path("bin")).unwrap();
-    let log = bench.path("log.txt");
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
+    let log = sandbox.path("log.txt");
     let script = format!(
         "echo called >> {}\nfor word; do case \"$word\" in *.spv) /bin/cp {} \"$word\";; esac; done",
         log.display(),
         module.display()
     );
-    write_script(&bench.path("bin/slangc"), &script);
-    assert_done(&list(&bench));
+    write_script(&sandbox.path("bin/slangc"), &script);
+    assert_done(&list(&sandbox));
     assert_eq!(fs::read_to_string(log).unwrap(), "called\ncalled\n");
 }
 
 #[cfg(unix)]
 #[test]
 fn what_a_compiler_says_is_shown_with_its_line() {
-    let bench = Bench::new();
-    write_pass(&bench, "blur.slang", "");
-    fs::create_dir_all(bench.path("bin")).unwrap();
+    let sandbox = Sandbox::new();
+    write_pass(&sandbox, "blur.slang", "");
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
     // Slang puts the line in brackets.
     let script = "for word; do case \"$word\" in *.slang) echo \"$word(7): error 20001: unexpected token\" >&2;; esac; done\nexit 1";
-    write_script(&bench.path("bin/slangc"), script);
-    let said = stderr(&list(&bench));
+    write_script(&sandbox.path("bin/slangc"), script);
+    let said = stderr(&list(&sandbox));
     assert!(
         said.contains("translated/blur.slang:7: slangc refuses it: "),
         "{said}"
@@ -229,12 +229,12 @@ fn what_a_compiler_says_is_shown_with_its_line() {
 #[cfg(unix)]
 #[test]
 fn a_compiler_that_makes_nothing_has_failed() {
-    let bench = Bench::new();
-    write_pass(&bench, "blur.wesl", "");
-    fs::create_dir_all(bench.path("bin")).unwrap();
+    let sandbox = Sandbox::new();
+    write_pass(&sandbox, "blur.wesl", "");
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
     let script = "printf '\\033[1m\\033[91merror\\033[0m: file not found\\n' >&2";
-    write_script(&bench.path("bin/wesl"), script);
-    let said = stderr(&list(&bench));
+    write_script(&sandbox.path("bin/wesl"), script);
+    let said = stderr(&list(&sandbox));
     assert!(
         said.contains("translated/blur.wesl: wesl refuses it: error: file not found"),
         "{said}"

@@ -13,8 +13,8 @@ use quick::shorten;
 use reader::Reader;
 use tests::root;
 
-use crate::bench::{stderr, stdout};
 use crate::links::find_pages;
+use crate::sandbox::{stderr, stdout};
 
 /// Commands that are not run, and why.
 const NOT_RUN: [(&str, &str); 45] = [

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use tests::root;
 
 use super::page::{Step, find_steps};
-use crate::bench::files_below;
+use crate::sandbox::files_below;
 
 /// A copy of what the commands of the guides need of the repository.
 pub struct Reader {

@@ -1,7 +1,7 @@
 //! The tables of scores that README.md and docs/results.md show, against what `run` prints.
 
 use super::reader::Reader;
-use crate::bench::{assert_done, stdout};
+use crate::sandbox::{assert_done, stdout};
 
 const README: &str = include_str!("../../../README.md");
 const RESULTS: &str = include_str!("../../../docs/results.md");

@@ -12,7 +12,7 @@ use judge::{CHECK_FORMAT, Check, Decision, check, compare_runs};
 use suite::{Failure, StoredRun};
 use tracer::SceneId;
 
-use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr, stdout};
 
 /// Folder name that starts a line like a GitHub Actions command, and clears a terminal.
 #[cfg(unix)]
@@ -37,14 +37,14 @@ fn assert_tame(output: &Output) {
 #[cfg(unix)]
 #[test]
 fn names_of_files_are_printed_without_control_codes() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    fs::create_dir(bench.path(HOSTILE)).unwrap();
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    fs::create_dir(sandbox.path(HOSTILE)).unwrap();
     let below = |name: &str| format!("{HOSTILE}/{name}");
-    fs::write(bench.path(&below("run.json")), "no run").unwrap();
-    fs::create_dir(bench.path(&below("scene"))).unwrap();
+    fs::write(sandbox.path(&below("run.json")), "no run").unwrap();
+    fs::create_dir(sandbox.path(&below("scene"))).unwrap();
     fs::write(
-        bench.path(&below("scene/scene.toml")),
+        sandbox.path(&below("scene/scene.toml")),
         "family = \"a\n::error::c\"\n",
     )
     .unwrap();
@@ -61,7 +61,7 @@ fn names_of_files_are_printed_without_control_codes() {
             2,
         ),
     ] {
-        let output = bench.shuttertruth(&words);
+        let output = sandbox.shuttertruth(&words);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         assert_tame(&output);
         assert!(
@@ -71,17 +71,17 @@ fn names_of_files_are_printed_without_control_codes() {
         );
     }
     for html in [below("p.html"), below("q.html")] {
-        let written = bench.shuttertruth(&["report", "out", "--html", &html]);
+        let written = sandbox.shuttertruth(&["report", "out", "--html", &html]);
         assert_done(&written);
         assert_tame(&written);
         assert!(stdout(&written).contains("a\\n::error::b\\u001b[2J"));
     }
     fs::rename(
-        bench.path("scenes/plate"),
-        bench.path("scenes").join(HOSTILE),
+        sandbox.path("scenes/plate"),
+        sandbox.path("scenes").join(HOSTILE),
     )
     .unwrap();
-    let named = bench.run(&["--filters", "identity"]);
+    let named = sandbox.run(&["--filters", "identity"]);
     assert_refused(
         &named,
         2,
@@ -92,12 +92,12 @@ fn names_of_files_are_printed_without_control_codes() {
 
 #[test]
 fn names_in_files_are_printed_without_control_codes() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
     let name = "a\n::error::b\u{1b}]0;c\u{7}";
     let (truth, frame) = (
-        bench.path("out/plate/truth_trailing.exr"),
-        bench.path("out/plate/frame.exr"),
+        sandbox.path("out/plate/truth_trailing.exr"),
+        sandbox.path("out/plate/frame.exr"),
     );
     let mut altered = Truth::read(&truth).unwrap();
     altered.provenance.scene = name.to_owned();
@@ -106,27 +106,27 @@ fn names_in_files_are_printed_without_control_codes() {
         "score --truth out/plate/truth_trailing.exr --frame out/plate/frame.exr --image \
          out/plate/identity_default/output.exr",
     );
-    let other = bench.shuttertruth(&words);
+    let other = sandbox.shuttertruth(&words);
     assert_refused(&other, 2, &["was rendered from the scene plate"]);
     assert_tame(&other);
     let mut altered = Frame::read(&frame).unwrap();
     altered.provenance.scene = name.to_owned();
     altered.write(&frame).unwrap();
-    let scored = bench.shuttertruth(&words);
+    let scored = sandbox.shuttertruth(&words);
     assert_done(&scored);
     assert_tame(&scored);
-    let json = bench.shuttertruth(&[&words[..], &["--json"]].concat());
+    let json = sandbox.shuttertruth(&[&words[..], &["--json"]].concat());
     let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!(json["scene"], name);
 }
 
 #[test]
 fn names_in_a_run_are_printed_without_control_codes() {
-    let bench = Bench::two_scenes();
-    assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
+    let sandbox = Sandbox::two_scenes();
+    assert_done(&sandbox.run(&["--filters", "identity,jump_flood:paper"]));
     let name = "a\n::error::b\u{1b}[35m\u{9b}2J";
-    let whole = StoredRun::read(&bench.path("out")).unwrap();
-    let mut side = StoredRun::read(&bench.path("out")).unwrap();
+    let whole = StoredRun::read(&sandbox.path("out")).unwrap();
+    let mut side = StoredRun::read(&sandbox.path("out")).unwrap();
     let first = side.run.cases[0].scene.clone();
     // Cases of the first scene stay, to be compared.
     for case in (side.run.cases.iter_mut()).filter(|case| case.scene != first) {
@@ -160,11 +160,11 @@ fn names_in_a_run_are_printed_without_control_codes() {
     let styled = terminal_text(&run_table(&side.run));
     assert!(styled.contains("\u{1b}[1m"), "{styled:?}");
 
-    let text = fs::read_to_string(bench.path("out/run.json")).unwrap();
+    let text = fs::read_to_string(sandbox.path("out/run.json")).unwrap();
     let planted = text.replace("\"jump_flood\"", "\"a\\u001b[35m\\u009b2J\"");
     assert_ne!(planted, text);
-    fs::write(bench.path("out/run.json"), planted).unwrap();
-    let compared = bench.shuttertruth(&["compare", "out", "out"]);
+    fs::write(sandbox.path("out/run.json"), planted).unwrap();
+    let compared = sandbox.shuttertruth(&["compare", "out", "out"]);
     assert_done(&compared);
     assert_tame(&compared);
     assert!(stdout(&compared).contains("a\\u001b[35m\\u009b2J"));
@@ -221,13 +221,13 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_closed_or_full_standard_error_changes_no_exit_code() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let program = env!("CARGO_BIN_EXE_shuttertruth");
     let shell = |line: &str| {
         let mut command = std::process::Command::new("bash");
         command
             .args(["-c", line, program])
-            .current_dir(bench.path("."));
+            .current_dir(sandbox.path("."));
         command.stdout(Stdio::null()).stderr(Stdio::null());
         command.status().unwrap().code()
     };

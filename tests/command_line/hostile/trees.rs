@@ -3,32 +3,32 @@
 use std::process::Output;
 use std::time::{Duration, Instant};
 
-use crate::bench::{Bench, OBJ, SCENE, assert_done, assert_refused, files_below, stderr};
+use crate::sandbox::{OBJ, SCENE, Sandbox, assert_done, assert_refused, files_below, stderr};
 
 /// Time limit for a second or two of work on a busy machine. These cases once took longer, or ended the program.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Renders the plate with these faces after its own two.
-fn render(bench: &Bench, more_faces: &str) -> Output {
-    bench.write("plate.obj", &format!("{OBJ}{more_faces}"));
-    render_soon(bench, &[])
+fn render(sandbox: &Sandbox, more_faces: &str) -> Output {
+    sandbox.write("plate.obj", &format!("{OBJ}{more_faces}"));
+    render_soon(sandbox, &[])
 }
 
 /// Renders the scene, and fails if that takes long.
-fn render_soon(bench: &Bench, more: &[&str]) -> Output {
+fn render_soon(sandbox: &Sandbox, more: &[&str]) -> Output {
     let words = [
         "truths", "render", "--quiet", "--out", "out", "--size", "16x16",
     ];
     let samples = ["--scenes", "plate", "--samples-per-pixel", "16"];
     let began = Instant::now();
-    let output = bench.shuttertruth(&[&words[..], &samples, more].concat());
+    let output = sandbox.shuttertruth(&[&words[..], &samples, more].concat());
     assert!(began.elapsed() < PATIENCE, "{:?}", began.elapsed());
     output
 }
 
 /// Reads the channels of all pictures of a render.
-fn pictures(bench: &Bench) -> Vec<Vec<frame::Channel>> {
-    let files = files_below(&bench.path("out")).into_iter();
+fn pictures(sandbox: &Sandbox) -> Vec<Vec<frame::Channel>> {
+    let files = files_below(&sandbox.path("out")).into_iter();
     files
         .filter(|file| file.extension().is_some_and(|kind| kind == "exr"))
         .map(|path| frame::read_exr(&path).unwrap().channels)
@@ -47,7 +47,7 @@ fn triangles(corners: impl Iterator<Item = [[f64; 3]; 3]>) -> String {
 
 #[test]
 fn copies_of_a_face_are_dropped_with_a_note_and_change_no_pixel() {
-    let (plain, crowded) = (Bench::new(), Bench::new());
+    let (plain, crowded) = (Sandbox::new(), Sandbox::new());
     assert_done(&render(&plain, ""));
     // The plate emits light, and so does every copy.
     let output = render(&crowded, &"f 1 2 3\n".repeat(20_000));
@@ -61,7 +61,7 @@ fn copies_of_a_face_are_dropped_with_a_note_and_change_no_pixel() {
 
 #[test]
 fn faces_without_area_are_dropped_with_a_note_and_change_no_pixel() {
-    let (plain, crowded) = (Bench::new(), Bench::new());
+    let (plain, crowded) = (Sandbox::new(), Sandbox::new());
     assert_done(&render(&plain, ""));
     let on_a_line =
         (0..20_000).map(|x| [0, 1, 3].map(|step| [f64::from(x + step) * 1e-5, 0.0, 0.0]));
@@ -74,12 +74,12 @@ fn faces_without_area_are_dropped_with_a_note_and_change_no_pixel() {
 
 #[test]
 fn many_different_faces_in_one_place_are_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     // Each has its own texture coordinates.
     let faces: String = (0..300)
         .map(|u| format!("vt {u} 0\nf 1/-1 2/-1 3/-1\n"))
         .collect();
-    bench.write(
+    sandbox.write(
         "plate.obj",
         &(OBJ.replace("f 1 2 3\nf 1 3 4\n", "") + &faces),
     );
@@ -89,17 +89,17 @@ fn many_different_faces_in_one_place_are_refused() {
         "allowed: 256",
         "delete all but one",
     ];
-    assert_refused(&render_soon(&bench, &[]), 2, &parts);
+    assert_refused(&render_soon(&sandbox, &[]), 2, &parts);
 }
 
 #[test]
 fn a_few_faces_in_one_place_render_the_same_every_time() {
-    let bench = Bench::new();
-    assert_done(&render(&bench, "f 3 2 1\nf 2 3 1\nf 1 3 2\n"));
-    let first = pictures(&bench);
-    std::fs::remove_dir_all(bench.path("out")).unwrap();
-    assert_done(&render_soon(&bench, &["--threads", "1"]));
-    assert!(first == pictures(&bench));
+    let sandbox = Sandbox::new();
+    assert_done(&render(&sandbox, "f 3 2 1\nf 2 3 1\nf 1 3 2\n"));
+    let first = pictures(&sandbox);
+    std::fs::remove_dir_all(sandbox.path("out")).unwrap();
+    assert_done(&render_soon(&sandbox, &["--threads", "1"]));
+    assert!(first == pictures(&sandbox));
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn nested_faces_render() {
         let size = f64::from(size) * 1e-5;
         [[-size, -size, 0.0], [size, -size, 0.0], [0.0, size, 0.0]]
     });
-    assert_done(&render(&Bench::new(), &triangles(nested)));
+    assert_done(&render(&Sandbox::new(), &triangles(nested)));
 }
 
 #[test]
@@ -121,45 +121,45 @@ fn long_thin_crossing_faces_render() {
             .map(|number| [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|step| part(number, step)));
         [from, to, to.map(|coordinate| coordinate + 1e-3)]
     });
-    assert_done(&render(&Bench::new(), &triangles(thin)));
+    assert_done(&render(&Sandbox::new(), &triangles(thin)));
 }
 
 #[test]
 fn many_objects_in_one_place_render() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let (head, object) = SCENE.split_once("[object.plate]").unwrap();
     let objects: String = (0..1000)
         .map(|index| format!("[object.plate_{index}]{object}"))
         .collect();
-    bench.write("scene.toml", &format!("{head}{objects}"));
-    assert_done(&render_soon(&bench, &[]));
+    sandbox.write("scene.toml", &format!("{head}{objects}"));
+    assert_done(&render_soon(&sandbox, &[]));
 }
 
 #[test]
 fn geometry_that_is_too_large_is_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let size = 1e30;
     let huge = [[-size, 0.0, -1.0], [size, 0.0, -1.0], [0.0, size, -1.0]];
-    let output = render(&bench, &triangles([huge].into_iter()));
+    let output = render(&sandbox, &triangles([huge].into_iter()));
     assert_refused(&output, 2, &["plate"]);
-    assert!(!bench.path("out/plate/frame.exr").exists());
+    assert!(!sandbox.path("out/plate/frame.exr").exists());
 }
 
 #[test]
 fn a_picture_that_is_not_finite_is_refused_before_it_is_written() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     // The sum of two such radiances exceeds what a float holds.
-    bench.write(
+    sandbox.write(
         "plate.mtl",
         "newmtl paint\nKd 0.5 0.5 0.5\nKe 3e38 3e38 3e38\n",
     );
-    assert_refused(&render_soon(&bench, &[]), 2, &["plate"]);
-    assert!(!bench.path("out/plate/frame.exr").exists());
+    assert_refused(&render_soon(&sandbox, &[]), 2, &["plate"]);
+    assert!(!sandbox.path("out/plate/frame.exr").exists());
 }
 
 #[test]
 fn samples_and_threads_beyond_the_limits_are_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let refused = |words: &[&str], part: &str| {
         let words = [
             &[
@@ -168,8 +168,8 @@ fn samples_and_threads_beyond_the_limits_are_refused() {
             words,
         ]
         .concat();
-        assert_refused(&bench.shuttertruth(&words), 2, &[part]);
-        assert!(!bench.path("out").exists());
+        assert_refused(&sandbox.shuttertruth(&words), 2, &[part]);
+        assert!(!sandbox.path("out").exists());
     };
     refused(
         &["--samples-per-pixel", "4294967295"],
@@ -187,14 +187,14 @@ fn samples_and_threads_beyond_the_limits_are_refused() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_render_that_exceeds_memory_is_refused_before_it_begins() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let limited = |size: &str| {
         let program = env!("CARGO_BIN_EXE_shuttertruth");
         let words =
             "truths render --quiet --out out --scenes plate --samples-per-pixel 16 --threads 1";
         let script = format!("ulimit -v 1258291 && exec {program} {words} --size {size}");
         let mut shell = std::process::Command::new("sh");
-        shell.current_dir(bench.path("")).args(["-c", &script]);
+        shell.current_dir(sandbox.path("")).args(["-c", &script]);
         shell.output().unwrap()
     };
     let began = Instant::now();

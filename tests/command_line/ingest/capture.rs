@@ -10,7 +10,7 @@ use frame::{
 };
 use tracer::{RenderSettings, load_scene, trace_frame};
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 
 pub const EXPOSURE: f64 = 0.5;
 pub const SIZE: &str = "96x54";
@@ -37,24 +37,24 @@ color_scale = 2.0
 
 /// A folder `capture` in a bench, which holds the bench's plate as an engine draws it.
 pub struct Capture<'a> {
-    bench: &'a Bench,
+    sandbox: &'a Sandbox,
     /// The frame that it was made of.
     pub frame: Frame,
 }
 
 impl<'a> Capture<'a> {
     /// Writes the instant: half floats, as most engines have them.
-    pub fn new(bench: &'a Bench) -> Self {
-        Self::at(bench, 0.0)
+    pub fn new(sandbox: &'a Sandbox) -> Self {
+        Self::at(sandbox, 0.0)
     }
 
     /// Writes another time than the instant.
-    pub fn at(bench: &'a Bench, time: f64) -> Self {
+    pub fn at(sandbox: &'a Sandbox, time: f64) -> Self {
         let capture = Self {
-            bench,
-            frame: render_instant(bench, time),
+            sandbox,
+            frame: render_instant(sandbox, time),
         };
-        fs::create_dir(bench.path("capture")).unwrap();
+        fs::create_dir(sandbox.path("capture")).unwrap();
         capture.write("capture.toml", DESCRIPTION);
         capture.write("engine.toml", CONVENTION);
         let Frame {
@@ -104,7 +104,7 @@ impl<'a> Capture<'a> {
             let time = shutter.at((f64::from(index) + 0.5) / f64::from(count));
             let Frame {
                 color, object_id, ..
-            } = render_instant(self.bench, time);
+            } = render_instant(self.sandbox, time);
             let ids = has_ids.then_some(&object_id);
             self.write_picture(&format!("subframes/{index:04}.exr"), &color, ids);
             if index < 4 {
@@ -118,7 +118,7 @@ impl<'a> Capture<'a> {
     }
 
     pub fn path(&self, name: &str) -> PathBuf {
-        self.bench.path("capture").join(name)
+        self.sandbox.path("capture").join(name)
     }
 
     pub fn write(&self, name: &str, text: &str) {
@@ -151,8 +151,8 @@ impl<'a> Capture<'a> {
 }
 
 /// Renders the plate as it is at a time.
-fn render_instant(bench: &Bench, time: f64) -> Frame {
-    let scene = load_scene(bench.path("scenes/plate"), None).unwrap();
+fn render_instant(sandbox: &Sandbox, time: f64) -> Frame {
+    let scene = load_scene(sandbox.path("scenes/plate"), None).unwrap();
     let scene = scene.later_by(time);
     let settings = RenderSettings {
         width: WIDTH,

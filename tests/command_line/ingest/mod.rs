@@ -11,14 +11,14 @@ use capture::{Capture, SIZE};
 use frame::{FAR_DEPTH, Frame, Truth, VelocityKind};
 use metrics::{Measured, Metric};
 
-use crate::bench::{Bench, SCENE, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, split, stdout};
 
 /// Name of the scene in every table.
 const NAME: &str = "mine@Test_Engine_1.2";
 const OUT: &str = "out/engine/mine";
 
-fn ingest(bench: &Bench) -> String {
-    bench.execute(&split("engine ingest capture --quiet -o out/engine/mine"))
+fn ingest(sandbox: &Sandbox) -> String {
+    sandbox.execute(&split("engine ingest capture --quiet -o out/engine/mine"))
 }
 
 /// Relative error of a half float, and of a few roundings of single ones.
@@ -26,12 +26,12 @@ const HALF: f32 = 1.01 / 2048.0;
 
 #[test]
 fn a_capture_in_another_convention_comes_back_as_our_own_frame() {
-    let bench = Bench::new();
-    bench.write("scene.toml", &SCENE.replace("-1.6, 0, 0", "-1.6, 0.8, 0"));
-    let capture = Capture::new(&bench);
-    ingest(&bench);
+    let sandbox = Sandbox::new();
+    sandbox.write("scene.toml", &SCENE.replace("-1.6, 0, 0", "-1.6, 0.8, 0"));
+    let capture = Capture::new(&sandbox);
+    ingest(&sandbox);
     let ours = &capture.frame;
-    let frame = Frame::read(&bench.path(OUT).join("frame.exr")).unwrap();
+    let frame = Frame::read(&sandbox.path(OUT).join("frame.exr")).unwrap();
     assert_eq!(frame.size(), ours.size());
     assert_eq!(frame.exposure, capture::EXPOSURE);
     assert_eq!(frame.options.velocity, VelocityKind::PreviousFrame);
@@ -58,9 +58,9 @@ fn a_capture_in_another_convention_comes_back_as_our_own_frame() {
 
 #[test]
 fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
-    let bench = Bench::new();
-    Capture::new(&bench).with_subframes(16);
-    let told = ingest(&bench);
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox).with_subframes(16);
+    let told = ingest(&sandbox);
     for words in [
         "drawn by Test Engine 1.2",
         "mean of 16 sub-frames, trailing shutter, open for 0.5 frames; not path traced",
@@ -71,10 +71,10 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
     ] {
         assert!(told.contains(words), "{words}\n{told}");
     }
-    bench.execute(&split(
+    sandbox.execute(&split(
         "truths render --quiet --scenes plate --size 96x54 --samples-per-pixel 256",
     ));
-    let read = |path: &str| Truth::read(&bench.path(path)).unwrap();
+    let read = |path: &str| Truth::read(&sandbox.path(path)).unwrap();
     let engines = read("out/engine/mine/truth_trailing.exr");
     let ours = read("out/plate/truth_trailing.exr");
     assert_eq!(engines.provenance.samples_per_pixel, 16, "sub-frames");
@@ -98,14 +98,14 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
 
 #[test]
 fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
-    let bench = Bench::new();
-    Capture::new(&bench).with_subframes(32);
-    ingest(&bench);
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox).with_subframes(32);
+    ingest(&sandbox);
     let words = "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 64 --filter identity,jump_flood:paper \
                  --input velocity=float32";
-    let printed = bench.execute(&split(words));
+    let printed = sandbox.execute(&split(words));
     assert!(printed.contains("Test_Engine_1.2"), "{printed}");
-    let run = bench.read_run();
+    let run = sandbox.read_run();
     assert_eq!(format!("{}x{}", run.render.width, run.render.height), SIZE);
     let case = |scene: &str, filter: &str| {
         let mut cases = run.cases.iter();
@@ -165,21 +165,21 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
         "the truth tells no more of 32 sub-frames"
     );
     // The same again is read back.
-    let again = bench.execute(&split(words));
+    let again = sandbox.execute(&split(words));
     assert!(again.contains("cases: 17, 17 of them read back"), "{again}");
-    bench.execute(&split("report out --html again.html --exr layers"));
+    sandbox.execute(&split("report out --html again.html --exr layers"));
 }
 
 #[test]
 fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
-    let bench = Bench::new();
-    Capture::new(&bench).with_subframes_and_ids(16);
-    let told = ingest(&bench);
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox).with_subframes_and_ids(16);
+    let told = ingest(&sandbox);
     assert!(told.contains("objects: plate\n"), "{told}");
     let words = "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 64 --filter jump_flood:paper \
                  --frame-sampling antialiased";
-    bench.execute(&split(words));
-    let run = bench.read_run();
+    sandbox.execute(&split(words));
+    let run = sandbox.read_run();
     let score = |scene: &str, filter: &str, metric: &str| {
         let mut cases = run.cases.iter();
         let found = cases.find(|case| case.scene == scene && case.filter == filter);
@@ -214,18 +214,18 @@ fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
         reason.contains("an engine's picture does not say"),
         "{reason}"
     );
-    bench.execute(&split("report out --html again.html --exr layers"));
+    sandbox.execute(&split("report out --html again.html --exr layers"));
 }
 
 #[test]
 fn a_page_says_which_truth_is_the_engines() {
-    let bench = Bench::new();
-    Capture::new(&bench).with_subframes(8);
-    ingest(&bench);
-    bench.execute(&split(
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox).with_subframes(8);
+    ingest(&sandbox);
+    sandbox.execute(&split(
         "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 16 --filter identity",
     ));
-    let page = fs::read_to_string(bench.path("out/report.html")).unwrap();
+    let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
     for words in [
         "<td class=\"text\">mean of 8 sub-frames that Test Engine 1.2 drew</td>",
         "<td class=\"text\">path traced</td>",
@@ -240,12 +240,12 @@ fn a_page_says_which_truth_is_the_engines() {
 
 #[test]
 fn the_engines_picture_is_scored_alone_too() {
-    let bench = Bench::new();
-    Capture::new(&bench).with_subframes(8);
-    ingest(&bench);
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox).with_subframes(8);
+    ingest(&sandbox);
     let words = "score --truth out/engine/mine/truth_trailing.exr --frame out/engine/mine/frame.exr --image \
                  out/engine/mine/blurred.exr --ladder out/engine/mine/ladder_trailing";
-    let told = bench.execute(&split(words));
+    let told = sandbox.execute(&split(words));
     assert!(
         told.contains("truth: mean of 8 sub-frames that Test Engine 1.2 drew"),
         "{told}"
@@ -255,14 +255,14 @@ fn the_engines_picture_is_scored_alone_too() {
 
 #[test]
 fn a_check_holds_an_engine_to_the_bounds_beside_its_own_scene() {
-    let bench = Bench::new();
-    Capture::new(&bench).with_subframes(16);
-    ingest(&bench);
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox).with_subframes(16);
+    ingest(&sandbox);
     // Bounds of our plate say nothing about the engine's.
-    bench.write_bound(0.0001);
+    sandbox.write_bound(0.0001);
     let words = split("check --quiet --scenes out/engine/mine --filter identity");
     assert_refused(
-        &bench.shuttertruth(&words),
+        &sandbox.shuttertruth(&words),
         2,
         &[NAME, "has no bound", "identity"],
     );
@@ -270,8 +270,8 @@ fn a_check_holds_an_engine_to_the_bounds_beside_its_own_scene() {
         let text = format!(
             "[default]\nflip_moving = {{ limit = {limit:?}, level = \"required\", why = \"it serves a test\" }}\n"
         );
-        fs::write(bench.path(OUT).join("bounds.toml"), text).unwrap();
-        bench.shuttertruth(&words)
+        fs::write(sandbox.path(OUT).join("bounds.toml"), text).unwrap();
+        sandbox.shuttertruth(&words)
     };
     // The identity scores about 0.3, and three noise floors are about 0.15.
     assert_done(&bound(0.9));
@@ -281,21 +281,21 @@ fn a_check_holds_an_engine_to_the_bounds_beside_its_own_scene() {
         !stdout(&broken).contains("95 % CI"),
         "sub-frames are no samples"
     );
-    let finished = bench.shuttertruth(&split("check out --scenes-dir out/engine"));
+    let finished = sandbox.shuttertruth(&split("check out --scenes-dir out/engine"));
     assert_eq!(finished.status.code(), Some(1), "{}", stdout(&finished));
     assert_refused(
-        &bench.shuttertruth(&split("check out")),
+        &sandbox.shuttertruth(&split("check out")),
         2,
         &[NAME, "--scenes-dir"],
     );
-    fs::remove_file(bench.path(OUT).join("bounds.toml")).unwrap();
+    fs::remove_file(sandbox.path(OUT).join("bounds.toml")).unwrap();
     fs::write(
-        bench.path(OUT).join("bounds.toml"),
+        sandbox.path(OUT).join("bounds.toml"),
         "[default]\nflip_moving = { limit = 0.001, why = \"it serves a test\" }\n",
     )
     .unwrap();
-    let strict = bench.shuttertruth(&words);
+    let strict = sandbox.shuttertruth(&words);
     assert_eq!(strict.status.code(), Some(2));
-    let told = [stdout(&strict), crate::bench::stderr(&strict)].concat();
+    let told = [stdout(&strict), crate::sandbox::stderr(&strict)].concat();
     assert!(told.contains("capture more sub-frames than 16"), "{told}");
 }

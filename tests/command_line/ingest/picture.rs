@@ -5,7 +5,7 @@ use tests::random::Random;
 
 use super::capture::Capture;
 use super::ingest;
-use crate::bench::{Bench, SCENE};
+use crate::sandbox::{SCENE, Sandbox};
 
 /// Makes some pixels of the engine's blurred picture brighter.
 fn brighten(capture: &Capture, scale: f32, is_chosen: impl Fn(u32, u32) -> bool) {
@@ -19,20 +19,20 @@ fn brighten(capture: &Capture, scale: f32, is_chosen: impl Fn(u32, u32) -> bool)
 
 #[test]
 fn the_gain_of_a_blur_is_that_of_still_pixels() {
-    let bench = Bench::new();
-    let capture = Capture::new(&bench).with_subframes(8);
-    let told = ingest(&bench);
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox).with_subframes(8);
+    let told = ingest(&sandbox);
     assert!(!told.contains("FOUND"), "{told}");
     // The plate passes the middle of the picture. A blur that puts too much light there has another defect than a gain.
     let blurred = capture.read_color("blurred.exr");
     brighten(&capture, 1.5, |x, y| {
         blurred.at(x, y)[2] != blurred.at(0, 0)[2]
     });
-    let told = ingest(&bench);
+    let told = ingest(&sandbox);
     assert!(!told.contains("FOUND"), "{told}");
     capture.write_color("blurred.exr", &blurred);
     brighten(&capture, 17.0 / 16.0, |_, _| true);
-    let told = ingest(&bench);
+    let told = ingest(&sandbox);
     // Half floats round 1.0625 times 0.2.
     let found = "FOUND: the engine's blur makes the picture brighter, 1.062";
     assert!(told.contains(found), "{told}");
@@ -41,11 +41,11 @@ fn the_gain_of_a_blur_is_that_of_still_pixels() {
 
 #[test]
 fn without_a_still_pixel_there_is_no_gain_to_judge() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let wide = "0, 0], scale = 20 }";
-    bench.write("scene.toml", &SCENE.replace("0, 0] }", wide));
-    Capture::new(&bench).with_subframes(4);
-    let told = ingest(&bench);
+    sandbox.write("scene.toml", &SCENE.replace("0, 0] }", wide));
+    Capture::new(&sandbox).with_subframes(4);
+    let told = ingest(&sandbox);
     let words = "the gain of the engine's blur is not judged: velocity reaches every lit pixel";
     assert!(told.contains(words), "{told}");
 }
@@ -66,8 +66,8 @@ fn add_noise(capture: &Capture, count: u32) {
 
 #[test]
 fn noise_that_makes_still_pixels_move_is_said() {
-    let bench = Bench::new();
-    let capture = Capture::new(&bench).with_subframes(8);
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox).with_subframes(8);
     brighten(&capture, 17.0 / 16.0, |_, _| true);
     let share = |told: &str| -> f64 {
         let line = told
@@ -76,7 +76,7 @@ fn noise_that_makes_still_pixels_move_is_said() {
             .unwrap();
         line.split(' ').nth(1).unwrap().parse().unwrap()
     };
-    let told = ingest(&bench);
+    let told = ingest(&sandbox);
     assert!(
         told.contains(
             " % of the pixels; 0.0 % change between sub-frames though no velocity reaches them"
@@ -87,7 +87,7 @@ fn noise_that_makes_still_pixels_move_is_said() {
     // The plate covers 144 pixels of 5184, and its way half as many.
     assert!((3.0..7.0).contains(&share(&told)), "{told}");
     add_noise(&capture, 8);
-    let told = ingest(&bench);
+    let told = ingest(&sandbox);
     assert!(share(&told) > 95.0, "{told}");
     for words in [
         "FOUND: the moving region has ",

@@ -7,16 +7,16 @@ use frame::{ExrFile, Plane, display_srgb, read_exr, write_exr, write_png};
 
 use super::capture::{CONVENTION, Capture, DESCRIPTION};
 use super::ingest;
-use crate::bench::{Bench, assert_done, assert_refused, split, stderr};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr};
 
-fn try_ingest(bench: &Bench) -> Output {
-    bench.shuttertruth(&split("engine ingest capture -o out/engine/mine"))
+fn try_ingest(sandbox: &Sandbox) -> Output {
+    sandbox.shuttertruth(&split("engine ingest capture -o out/engine/mine"))
 }
 
 /// Changes the files of a capture, looks at the refusal, and puts the files back.
 fn assert_refusal(
     capture: &Capture,
-    bench: &Bench,
+    sandbox: &Sandbox,
     changed: &str,
     parts: &[&str],
     change: impl FnOnce(),
@@ -24,7 +24,7 @@ fn assert_refusal(
     let path = capture.path(changed);
     let before = fs::read(&path).ok();
     change();
-    assert_refused(&try_ingest(bench), 2, parts);
+    assert_refused(&try_ingest(sandbox), 2, parts);
     match before {
         Some(bytes) => fs::write(&path, bytes).unwrap(),
         None => fs::remove_file(&path).unwrap(),
@@ -33,16 +33,16 @@ fn assert_refusal(
 
 #[test]
 fn folders_that_are_no_captures_are_refused() {
-    let bench = Bench::new();
-    let refusal = try_ingest(&bench);
+    let sandbox = Sandbox::new();
+    let refusal = try_ingest(&sandbox);
     assert_refused(
         &refusal,
         2,
         &["capture: there is no such folder", "color.exr"],
     );
-    let capture = Capture::new(&bench);
+    let capture = Capture::new(&sandbox);
     let refuse = |changed: &str, parts: &[&str], change: &dyn Fn()| {
-        assert_refusal(&capture, &bench, changed, parts, change);
+        assert_refusal(&capture, &sandbox, changed, parts, change);
     };
     let remove = |name: &'static str| {
         let path = capture.path(name);
@@ -128,16 +128,16 @@ fn folders_that_are_no_captures_are_refused() {
     refuse("color.png", &["color.png", "remove one of them"], &|| {
         fs::write(capture.path("color.png"), "").unwrap();
     });
-    assert_done(&try_ingest(&bench));
+    assert_done(&try_ingest(&sandbox));
     let words = split("engine ingest capture -o capture");
     assert_refused(
-        &bench.shuttertruth(&words),
+        &sandbox.shuttertruth(&words),
         2,
         &["--out capture", "is the capture itself"],
     );
     let words = split("engine ingest capture -o out/a@b");
     assert_refused(
-        &bench.shuttertruth(&words),
+        &sandbox.shuttertruth(&words),
         2,
         &["out/a@b: its last part", "allowed: letters"],
     );
@@ -145,8 +145,8 @@ fn folders_that_are_no_captures_are_refused() {
 
 #[test]
 fn pictures_that_cannot_be_right_are_refused() {
-    let bench = Bench::new();
-    let capture = Capture::new(&bench);
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox);
     let path = |name: &str| capture.path(name);
     let change = |name: &'static str, channel: &'static str, change: &dyn Fn(&mut Plane)| {
         let file = read_exr(&path(name)).unwrap();
@@ -161,7 +161,7 @@ fn pictures_that_cannot_be_right_are_refused() {
         write_exr(&path(name), &changed).unwrap();
     };
     let refuse = |changed: &str, parts: &[&str], change: &dyn Fn()| {
-        assert_refusal(&capture, &bench, changed, parts, change);
+        assert_refusal(&capture, &sandbox, changed, parts, change);
     };
     for (name, channel, value, parts) in [
         (
@@ -239,14 +239,14 @@ fn pictures_that_cannot_be_right_are_refused() {
             write_exr(&path("object.exr"), &file).unwrap();
         },
     );
-    assert_done(&try_ingest(&bench));
+    assert_done(&try_ingest(&sandbox));
 }
 
 #[test]
 fn sub_frames_that_make_no_truth_are_refused() {
-    let bench = Bench::new();
-    let capture = Capture::new(&bench).with_subframes(5);
-    let refuse = |parts: &[&str]| assert_refused(&try_ingest(&bench), 2, parts);
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox).with_subframes(5);
+    let refuse = |parts: &[&str]| assert_refused(&try_ingest(&sandbox), 2, parts);
     refuse(&[
         "subframes: holds 5 sub-frames",
         "even numbers from 4",
@@ -283,11 +283,11 @@ fn sub_frames_that_make_no_truth_are_refused() {
 
 #[test]
 fn ids_that_fit_no_object_or_are_missing_are_refused() {
-    let bench = Bench::new();
-    let capture = Capture::new(&bench).with_subframes_and_ids(4);
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox).with_subframes_and_ids(4);
     let color = &capture.frame.color;
     capture.write_color("subframes/0002.exr", color);
-    let refusal = try_ingest(&bench);
+    let refusal = try_ingest(&sandbox);
     assert_refused(
         &refusal,
         2,
@@ -298,7 +298,7 @@ fn ids_that_fit_no_object_or_are_missing_are_refused() {
     );
     let ids = color.map(|_| 7);
     capture.write_picture("subframes/0002.exr", color, Some(&ids));
-    let refusal = try_ingest(&bench);
+    let refusal = try_ingest(&sandbox);
     assert_refused(
         &refusal,
         2,
@@ -309,7 +309,7 @@ fn ids_that_fit_no_object_or_are_missing_are_refused() {
         "capture.toml",
         &DESCRIPTION.replace("scene = \"plate\"\n", ""),
     );
-    let told = ingest(&bench);
+    let told = ingest(&sandbox);
     assert!(
         told.contains("objects: object_1, object_2, object_3,"),
         "{told}"
@@ -318,14 +318,14 @@ fn ids_that_fit_no_object_or_are_missing_are_refused() {
 
 #[test]
 fn losses_are_told_and_taken() {
-    let bench = Bench::new();
-    let capture = Capture::new(&bench);
-    let told = stderr(&try_ingest(&bench));
+    let sandbox = Sandbox::new();
+    let capture = Capture::new(&sandbox);
+    let told = stderr(&try_ingest(&sandbox));
     assert!(told.contains("velocity.exr holds half floats"), "{told}");
     // Half floats of a depth that ends at 1 lose what is far.
     let forward = CONVENTION.replace("reversed", "forward");
     capture.write("engine.toml", &forward);
-    let told = stderr(&try_ingest(&bench));
+    let told = stderr(&try_ingest(&sandbox));
     assert!(
         told.contains("depth.exr holds half floats of depth = \"forward\": 41 m"),
         "{told}"
@@ -333,6 +333,6 @@ fn losses_are_told_and_taken() {
     fs::remove_file(capture.path("color.exr")).unwrap();
     let shown = display_srgb(&capture.frame.color, 0.0);
     write_png(&capture.path("color.png"), &shown).unwrap();
-    let told = stderr(&try_ingest(&bench));
+    let told = stderr(&try_ingest(&sandbox));
     assert!(told.contains("color.png has 8 bits per channel"), "{told}");
 }

@@ -5,23 +5,23 @@ use std::process::Output;
 
 use super::capture::{Capture, DESCRIPTION};
 use super::ingest;
-use crate::bench::{Bench, assert_done, assert_refused, split, stderr};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr};
 
 #[test]
 fn a_capture_without_sub_frames_has_no_truth_to_run_against() {
-    let bench = Bench::new();
-    Capture::new(&bench);
-    let told = ingest(&bench);
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox);
+    let told = ingest(&sandbox);
     assert!(told.contains("no sub-frames, and so no truth"), "{told}");
-    let refusal = bench.shuttertruth(&split("run --scenes out/engine/mine"));
+    let refusal = sandbox.shuttertruth(&split("run --scenes out/engine/mine"));
     assert_refused(&refusal, 2, &["drew no sub-frames", "score"]);
 }
 
 #[test]
 fn what_an_engine_drew_is_not_rendered_otherwise() {
-    let bench = Bench::new();
-    Capture::new(&bench).with_subframes(4);
-    ingest(&bench);
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox).with_subframes(4);
+    ingest(&sandbox);
     for (words, parts) in [
         (
             "run --scenes out/engine/mine --size 64x32",
@@ -59,9 +59,9 @@ fn what_an_engine_drew_is_not_rendered_otherwise() {
             ["does not change from run to run", "bounds.toml"],
         ),
     ] {
-        assert_refused_after_notes(&bench.shuttertruth(&split(words)), &parts);
+        assert_refused_after_notes(&sandbox.shuttertruth(&split(words)), &parts);
     }
-    let begun = bench.path("out/mine@Test_Engine_1.2");
+    let begun = sandbox.path("out/mine@Test_Engine_1.2");
     assert!(!begun.exists(), "a run began before it was refused");
 }
 
@@ -74,19 +74,19 @@ fn assert_refused_after_notes(output: &Output, parts: &[&str]) {
 
 #[test]
 fn files_of_two_captures_are_not_mixed() {
-    let bench = Bench::new();
-    Capture::new(&bench).with_subframes(4);
-    ingest(&bench);
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox).with_subframes(4);
+    ingest(&sandbox);
     for name in ["frame.exr", "truth_trailing.exr"] {
-        let own = bench.path("out/engine/mine").join(name);
+        let own = sandbox.path("out/engine/mine").join(name);
         let before = fs::read(&own).unwrap();
         // Another name of the scene is no other capture, another exposure is one.
         let changed = DESCRIPTION.replace("0.5", "0.25");
-        fs::write(bench.path("capture/capture.toml"), changed).unwrap();
-        bench.execute(&split("engine ingest capture --quiet -o out/engine/other"));
-        fs::copy(bench.path("out/engine/other").join(name), &own).unwrap();
+        fs::write(sandbox.path("capture/capture.toml"), changed).unwrap();
+        sandbox.execute(&split("engine ingest capture --quiet -o out/engine/other"));
+        fs::copy(sandbox.path("out/engine/other").join(name), &own).unwrap();
         let words = split("run --quiet --scenes out/engine/mine --filter identity");
-        let refusal = bench.shuttertruth(&words);
+        let refusal = sandbox.shuttertruth(&words);
         assert_refused(
             &refusal,
             2,
@@ -95,9 +95,9 @@ fn files_of_two_captures_are_not_mixed() {
         fs::write(&own, before).unwrap();
     }
     let words = split("run --quiet --scenes out/engine/mine --filter identity");
-    assert_done(&bench.shuttertruth(&words));
-    fs::write(bench.path("out/engine/mine/ingested.json"), "{}").unwrap();
-    let refusal = bench.shuttertruth(&words);
+    assert_done(&sandbox.shuttertruth(&words));
+    fs::write(sandbox.path("out/engine/mine/ingested.json"), "{}").unwrap();
+    let refusal = sandbox.shuttertruth(&words);
     assert_refused(
         &refusal,
         2,
@@ -107,12 +107,12 @@ fn files_of_two_captures_are_not_mixed() {
 
 #[test]
 fn frames_of_a_run_are_not_overwritten() {
-    let bench = Bench::new();
-    Capture::new(&bench);
-    bench.execute(&split(
+    let sandbox = Sandbox::new();
+    Capture::new(&sandbox);
+    sandbox.execute(&split(
         "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16",
     ));
-    let refusal = bench.shuttertruth(&split("engine ingest capture -o out/plate"));
+    let refusal = sandbox.shuttertruth(&split("engine ingest capture -o out/plate"));
     assert_refused(
         &refusal,
         2,
@@ -122,6 +122,6 @@ fn frames_of_a_run_are_not_overwritten() {
             "new folder",
         ],
     );
-    let refusal = bench.shuttertruth(&split("engine ingest capture -o scenes/plate"));
+    let refusal = sandbox.shuttertruth(&split("engine ingest capture -o scenes/plate"));
     assert_refused(&refusal, 2, &["holds a scene"]);
 }

@@ -10,13 +10,13 @@ use tests::filter_folder::one_kernel_without_parameters;
 use super::{
     QUICK, REPLICATES, change_manifest, entries, packed, renew_truth, replicate_files, run, write,
 };
-use crate::bench::{Bench, assert_refused, split, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_refused, split, stderr, stdout};
 
 #[test]
 fn a_truth_of_an_engine_is_no_success() {
-    let bench = Bench::two_scenes();
-    run(&bench, "identity", &[]);
-    let (own, drawn) = (bench.path("out/slow"), bench.path("out/slow@engine"));
+    let sandbox = Sandbox::two_scenes();
+    run(&sandbox, "identity", &[]);
+    let (own, drawn) = (sandbox.path("out/slow"), sandbox.path("out/slow@engine"));
     fs::rename(own, &drawn).unwrap();
     for file in ["frame.exr", "truth_trailing.exr"] {
         mark_drawn(&drawn.join(file));
@@ -26,21 +26,21 @@ fn a_truth_of_an_engine_is_no_success() {
         "only that engine can draw",
         "--scenes",
     ];
-    assert_refused(&bench.shuttertruth(&["truths", "verify"]), 2, &parts);
-    bench.execute(&["truths", "verify", "--scenes", "plate"]);
+    assert_refused(&sandbox.shuttertruth(&["truths", "verify"]), 2, &parts);
+    sandbox.execute(&["truths", "verify", "--scenes", "plate"]);
 }
 
 /// A scene of this program is traced, whatever its files say.
 #[test]
 fn a_file_that_says_that_an_engine_drew_it_is_traced() {
-    let bench = packed();
+    let sandbox = packed();
     for file in ["truth_trailing.exr", "frame.exr"] {
-        let path = bench.path("out/plate").join(file);
+        let path = sandbox.path("out/plate").join(file);
         let honest = fs::read(&path).unwrap();
         mark_drawn(&path);
-        bench.execute(&["truths", "pack", "--out", "forged.tar.zst"]);
+        sandbox.execute(&["truths", "pack", "--out", "forged.tar.zst"]);
         let parts = [file, "attribute engine holds \"another\""];
-        refuse(&bench, &parts);
+        refuse(&sandbox, &parts);
         fs::write(&path, honest).unwrap();
     }
 }
@@ -48,30 +48,30 @@ fn a_file_that_says_that_an_engine_drew_it_is_traced() {
 /// A folder of truths is the user's own, and is not traced again; but its headers do not decide either.
 #[test]
 fn a_kept_file_that_says_that_an_engine_drew_it_is_rendered_again() {
-    let bench = packed();
+    let sandbox = packed();
     let files = ["frame.exr", "truth_trailing.exr", "ladder_trailing/n4.exr"];
     let all = files
         .map(str::to_owned)
         .into_iter()
         .chain(replicate_files());
     for file in all.clone() {
-        mark_drawn(&bench.path("out/plate").join(file));
+        mark_drawn(&sandbox.path("out/plate").join(file));
     }
-    run(&bench, "identity", &["--truths", "out", "--out", "fresh"]);
+    run(&sandbox, "identity", &["--truths", "out", "--out", "fresh"]);
     for file in all {
-        let drawn = frame::read_attribute(&bench.path("fresh/plate").join(&file), "engine");
+        let drawn = frame::read_attribute(&sandbox.path("fresh/plate").join(&file), "engine");
         assert_eq!(drawn, None, "{file}");
     }
-    bench.execute(&["truths", "verify", "fresh"]);
+    sandbox.execute(&["truths", "verify", "fresh"]);
 }
 
 /// Changes one attribute after another in all kept files, with right checksums, and the checksum itself.
 #[test]
 fn every_changed_attribute_is_found() {
-    let bench = packed();
-    let folder = bench.path("out/plate");
-    let scene = tracer::load_scene(bench.path("scenes/plate"), None).unwrap();
-    let kept = &suite::list_scene_renders(&bench.path("out"), Path::new("out")).unwrap()[0];
+    let sandbox = packed();
+    let folder = sandbox.path("out/plate");
+    let scene = tracer::load_scene(sandbox.path("scenes/plate"), None).unwrap();
+    let kept = &suite::list_scene_renders(&sandbox.path("out"), Path::new("out")).unwrap()[0];
     let verification = Verification { seed: 5, tiles: 1 };
     let differences = || {
         let verified = suite::verify_scene(&scene, kept, &verification, Monitor::SILENT);
@@ -109,8 +109,8 @@ fn every_changed_attribute_is_found() {
 /// The words that a file may have are those that the tracer writes.
 #[test]
 fn the_instructions_of_all_machines_are_known() {
-    let bench = Bench::new();
-    let scene = tracer::load_scene(bench.path("scenes/plate"), None).unwrap();
+    let sandbox = Sandbox::new();
+    let scene = tracer::load_scene(sandbox.path("scenes/plate"), None).unwrap();
     let stage = || tracer::Stage::new(&scene, 0.0, 0.0);
     for word in [stage().traversal(), stage().portable().traversal()] {
         assert!(TRAVERSALS.contains(&word), "{word}");
@@ -120,14 +120,14 @@ fn the_instructions_of_all_machines_are_known() {
 /// Truths of half the brightness, for a filter that writes half the brightness.
 #[test]
 fn no_pack_turns_a_failed_check_into_a_success() {
-    let bench = packed();
+    let sandbox = packed();
     let body = "textureStore(output, pixel, 0.5 * textureLoad(color, pixel, 0));";
-    bench.write_filter("half", MANIFEST, &one_kernel_without_parameters(body));
-    bench.write_bound(0.4);
+    sandbox.write_filter("half", MANIFEST, &one_kernel_without_parameters(body));
+    sandbox.write_bound(0.4);
     let check = |pack: &str| {
         let words = format!("check --filter ./half --truths {pack} --out checked {QUICK}");
-        let output = bench.outside_ci(&split(&words));
-        _ = fs::remove_dir_all(bench.path("checked"));
+        let output = sandbox.outside_ci(&split(&words));
+        _ = fs::remove_dir_all(sandbox.path("checked"));
         output
     };
     let output = check("truths.tar.zst");
@@ -135,34 +135,34 @@ fn no_pack_turns_a_failed_check_into_a_success() {
     assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
 
     for file in replicate_files() {
-        let path = bench.path("out/plate").join(file);
+        let path = sandbox.path("out/plate").join(file);
         let mut replicate = Replicate::read(&path).unwrap();
         for pixel in &mut replicate.picture.color.pixels {
             *pixel = pixel.map(|value| 0.5 * value);
         }
         replicate.write(&path).unwrap();
     }
-    renew_truth(&bench, "out");
-    let pack = || drop(bench.execute(&["truths", "pack", "--out", "forged.tar.zst"]));
+    renew_truth(&sandbox, "out");
+    let pack = || drop(sandbox.execute(&["truths", "pack", "--out", "forged.tar.zst"]));
     let refuse_check = |parts: &[&str]| {
         let output = check("forged.tar.zst");
         assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
         tests::text::assert_contains(&stderr(&output), parts);
-        refuse(&bench, parts);
+        refuse(&sandbox, parts);
     };
     let replicate = "forged.tar.zst/plate/truth_trailing/replicate_00";
     pack();
     refuse_check(&[replicate, "channel"]);
     // Without its truth, a run would make one of the replicates.
-    leave_out(&bench, "plate/ladder_trailing/");
-    leave_out(&bench, "plate/truth_trailing.exr");
+    leave_out(&sandbox, "plate/ladder_trailing/");
+    leave_out(&sandbox, "plate/truth_trailing.exr");
     refuse_check(&[replicate, "channel"]);
     pack();
-    leave_out(&bench, "plate/truth_trailing.exr");
+    leave_out(&sandbox, "plate/truth_trailing.exr");
     let ladder = "plate/ladder_trailing/n1.exr: there is no truth_trailing.exr beside it";
-    refuse(&bench, &[ladder]);
+    refuse(&sandbox, &[ladder]);
     for file in ["truth_trailing.exr", "frame.exr"] {
-        mark_drawn(&bench.path("out/plate").join(file));
+        mark_drawn(&sandbox.path("out/plate").join(file));
         pack();
         refuse_check(&["attribute engine holds \"another\""]);
     }
@@ -171,45 +171,45 @@ fn no_pack_turns_a_failed_check_into_a_success() {
 /// A truth of eight replicates, and eight more that nobody traced.
 #[test]
 fn replicates_beyond_those_of_the_truth_are_traced_too() {
-    let bench = packed();
-    bench.execute(&split(
+    let sandbox = packed();
+    sandbox.execute(&split(
         "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --replicates 16 --out more",
     ));
     for index in REPLICATES..2 * REPLICATES {
         let file = format!("plate/truth_trailing/replicate_{index:03}.exr");
         fs::copy(
-            bench.path("more").join(&file),
-            bench.path("out").join(&file),
+            sandbox.path("more").join(&file),
+            sandbox.path("out").join(&file),
         )
         .unwrap();
     }
-    bench.execute(&["truths", "verify"]);
-    let path = bench.path("out/plate/truth_trailing/replicate_012.exr");
+    sandbox.execute(&["truths", "verify"]);
+    let path = sandbox.path("out/plate/truth_trailing/replicate_012.exr");
     let mut replicate = Replicate::read(&path).unwrap();
     replicate.picture.color.pixels.fill([9.0; 3]);
     replicate.write(&path).unwrap();
     let verify = ["truths", "verify", "--tiles", "100"];
     let parts = ["replicate_012.exr", "channel"];
-    assert_refused(&bench.shuttertruth(&verify), 1, &parts);
+    assert_refused(&sandbox.shuttertruth(&verify), 1, &parts);
     replicate.provenance.engine = Some("another".to_owned());
     replicate.write(&path).unwrap();
     let parts = ["replicate_012.exr", "attribute engine"];
-    assert_refused(&bench.shuttertruth(&verify), 1, &parts);
+    assert_refused(&sandbox.shuttertruth(&verify), 1, &parts);
 }
 
 /// A part of a render has replicates and no truth.
 #[test]
 fn replicates_without_a_truth_are_traced_too() {
-    let bench = Bench::new();
-    bench.execute(&split(
+    let sandbox = Sandbox::new();
+    sandbox.execute(&split(
         "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --replicates 3..5 --out part",
     ));
-    let printed = bench.execute(&["truths", "verify", "part"]);
+    let printed = sandbox.execute(&["truths", "verify", "part"]);
     assert!(printed.starts_with("part: 1 tile of "), "{printed}");
-    mark_drawn(&bench.path("part/plate/truth_trailing/replicate_004.exr"));
+    mark_drawn(&sandbox.path("part/plate/truth_trailing/replicate_004.exr"));
     let parts = ["replicate_004.exr", "attribute engine"];
     assert_refused(
-        &bench.shuttertruth(&["truths", "verify", "part"]),
+        &sandbox.shuttertruth(&["truths", "verify", "part"]),
         1,
         &parts,
     );
@@ -227,19 +227,19 @@ entry = "work"
 
 /// Refuses `forged.tar.zst` in `verify`, and in a run, which leaves nothing of it.
 #[track_caller]
-fn refuse(bench: &Bench, parts: &[&str]) {
-    let verified = bench.shuttertruth(&["truths", "verify", "forged.tar.zst"]);
+fn refuse(sandbox: &Sandbox, parts: &[&str]) {
+    let verified = sandbox.shuttertruth(&["truths", "verify", "forged.tar.zst"]);
     assert_refused(&verified, 1, parts);
     let words = "run --filter identity --truths forged.tar.zst --out fresh";
-    let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
+    let output = sandbox.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
     assert_refused(&output, 2, parts);
-    assert!(!bench.path("fresh/plate").exists());
-    assert!(!bench.path("fresh/.shuttertruth.unpacked").exists());
+    assert!(!sandbox.path("fresh/plate").exists());
+    assert!(!sandbox.path("fresh/.shuttertruth.unpacked").exists());
 }
 
 /// Leaves files out of `forged.tar.zst` whose paths begin like this.
-fn leave_out(bench: &Bench, begin: &str) {
-    let path = bench.path("forged.tar.zst");
+fn leave_out(sandbox: &Sandbox, begin: &str) {
+    let path = sandbox.path("forged.tar.zst");
     let mut entries = entries(&path);
     let before = entries.len();
     entries.retain(|entry| !entry.name.starts_with(begin));

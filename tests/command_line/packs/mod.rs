@@ -12,7 +12,7 @@ use std::path::Path;
 use frame::{Replicate, Truth};
 use store::Manifest;
 
-use crate::bench::{Bench, split};
+use crate::sandbox::{Sandbox, split};
 
 /// Options that measure in next to no time.
 const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
@@ -21,17 +21,17 @@ const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames
 const REPLICATES: u32 = 8;
 
 /// Measures a plate into the folder `out`, with the filters.
-fn run(bench: &Bench, filters: &str, more: &[&str]) {
+fn run(sandbox: &Sandbox, filters: &str, more: &[&str]) {
     let words = [&["run", "--filter", filters], &split(QUICK)[..], more].concat();
-    bench.execute(&words);
+    sandbox.execute(&words);
 }
 
-/// Makes a bench with a finished run of the identity in `out`, and its pack `truths.tar.zst`.
-fn packed() -> Bench {
-    let bench = Bench::new();
-    run(&bench, "identity", &[]);
-    bench.execute(&["truths", "pack"]);
-    bench
+/// Makes a sandbox with a finished run of the identity in `out`, and its pack `truths.tar.zst`.
+fn packed() -> Sandbox {
+    let sandbox = Sandbox::new();
+    run(&sandbox, "identity", &[]);
+    sandbox.execute(&["truths", "pack"]);
+    sandbox
 }
 
 /// An entry of an archive.
@@ -89,18 +89,18 @@ fn compress(pack: &Path, bytes: &[u8]) {
 }
 
 /// Changes the lowest bit of one number of a replicate, and makes the truth anew, as a forger would who knows the program.
-fn forge(bench: &Bench, out: &str, file: &str, pixel: usize) {
-    let path = bench.path(file);
+fn forge(sandbox: &Sandbox, out: &str, file: &str, pixel: usize) {
+    let path = sandbox.path(file);
     let mut replicate = Replicate::read(&path).unwrap();
     let red = &mut replicate.picture.color.pixels[pixel][0];
     *red = f32::from_bits(red.to_bits() ^ 1);
     replicate.write(&path).unwrap();
-    renew_truth(bench, out);
+    renew_truth(sandbox, out);
 }
 
 /// Makes the truth of the replicates that lie beside it.
-fn renew_truth(bench: &Bench, out: &str) {
-    let folder = bench.path(out).join("plate");
+fn renew_truth(sandbox: &Sandbox, out: &str) {
+    let folder = sandbox.path(out).join("plate");
     let replicates: Vec<Replicate> = replicate_files()
         .map(|file| Replicate::read(&folder.join(file)).unwrap())
         .collect();

@@ -7,26 +7,26 @@ use store::Manifest;
 use tar::EntryType;
 
 use super::{Packed, QUICK, change_manifest, compress, entries, packed, run, write};
-use crate::bench::{Bench, assert_refused, make_fifo, quick_command, split};
+use crate::sandbox::{Sandbox, assert_refused, make_fifo, quick_command, split};
 
 #[track_caller]
-fn refuse_to_pack(bench: &Bench, words: &[&str], parts: &[&str]) {
+fn refuse_to_pack(sandbox: &Sandbox, words: &[&str], parts: &[&str]) {
     let all = [&["truths", "pack"], words, &["--out", "none.tar.zst"]].concat();
-    assert_refused(&bench.shuttertruth(&all), 2, parts);
-    assert!(!bench.path("none.tar.zst").exists());
+    assert_refused(&sandbox.shuttertruth(&all), 2, parts);
+    assert!(!sandbox.path("none.tar.zst").exists());
 }
 
 #[test]
 fn what_is_no_finished_run_is_not_packed() {
-    let bench = packed();
-    fs::create_dir(bench.path("empty")).unwrap();
+    let sandbox = packed();
+    fs::create_dir(sandbox.path("empty")).unwrap();
     refuse_to_pack(
-        &bench,
+        &sandbox,
         &["empty"],
         &["empty/run.json", "there is no such file"],
     );
     refuse_to_pack(
-        &bench,
+        &sandbox,
         &["--scenes", "plat"],
         &["--scenes: no \"plat\" there", "did you mean plate?"],
     );
@@ -36,41 +36,49 @@ fn what_is_no_finished_run_is_not_packed() {
         "truth_trailing/replicate_007.exr",
         "ladder_trailing/n64.exr",
     ] {
-        let path = bench.path("out/plate").join(file);
+        let path = sandbox.path("out/plate").join(file);
         let bytes = fs::read(&path).unwrap();
         fs::remove_file(&path).unwrap();
-        refuse_to_pack(&bench, &[], &[file, "there is no such file", "unfinished"]);
+        refuse_to_pack(
+            &sandbox,
+            &[],
+            &[file, "there is no such file", "unfinished"],
+        );
         fs::write(&path, &bytes[..40]).unwrap();
-        refuse_to_pack(&bench, &[], &[file, "not a complete file"]);
+        refuse_to_pack(&sandbox, &[], &[file, "not a complete file"]);
         fs::write(&path, &bytes).unwrap();
     }
     // Another truth in the folder than the run was measured with.
     let render = "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --seed 2 --out out";
-    bench.execute(&split(render));
+    sandbox.execute(&split(render));
     let parts = ["plate/truth_trailing.exr", "the run was measured with"];
-    refuse_to_pack(&bench, &[], &parts);
+    refuse_to_pack(&sandbox, &[], &parts);
 }
 
 #[test]
 fn a_ladder_of_another_truth_is_not_packed() {
-    let bench = packed();
-    run(&bench, "identity", &["--seed", "2", "--out", "other"]);
+    let sandbox = packed();
+    run(&sandbox, "identity", &["--seed", "2", "--out", "other"]);
     let rung = "plate/ladder_trailing/n8.exr";
-    fs::copy(bench.path("other").join(rung), bench.path("out").join(rung)).unwrap();
-    refuse_to_pack(&bench, &[], &[rung, "its header has the hash"]);
+    fs::copy(
+        sandbox.path("other").join(rung),
+        sandbox.path("out").join(rung),
+    )
+    .unwrap();
+    refuse_to_pack(&sandbox, &[], &[rung, "its header has the hash"]);
 }
 
 /// A pack, taken apart.
 struct Parts {
-    bench: Bench,
+    sandbox: Sandbox,
     entries: Vec<Packed>,
 }
 
 impl Parts {
     fn new() -> Self {
-        let bench = packed();
-        let entries = entries(&bench.path("truths.tar.zst"));
-        Self { bench, entries }
+        let sandbox = packed();
+        let entries = entries(&sandbox.path("truths.tar.zst"));
+        Self { sandbox, entries }
     }
 
     /// Refuses the archive `forged.tar.zst`, in `verify` and in a run, which leaves nothing of it.
@@ -78,12 +86,12 @@ impl Parts {
     fn refused(&self, parts: &[&str]) {
         let parts = [&["forged.tar.zst"], parts].concat();
         let verify = ["truths", "verify", "forged.tar.zst"];
-        assert_refused(&self.bench.shuttertruth(&verify), 2, &parts);
+        assert_refused(&self.sandbox.shuttertruth(&verify), 2, &parts);
         let words = "run --filter identity --truths forged.tar.zst --out fresh";
-        let output = (self.bench).shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
+        let output = (self.sandbox).shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
         assert_refused(&output, 2, &parts);
-        assert!(!self.bench.path("fresh/plate").exists());
-        assert!(!self.bench.path("fresh/.shuttertruth.unpacked").exists());
+        assert!(!self.sandbox.path("fresh/plate").exists());
+        assert!(!self.sandbox.path("fresh/.shuttertruth.unpacked").exists());
     }
 
     /// Changes the entries, and expects that the archive is refused.
@@ -91,7 +99,7 @@ impl Parts {
     fn refuse_entries(&self, change: impl FnOnce(&mut Vec<Packed>), parts: &[&str]) {
         let mut entries = self.entries.clone();
         change(&mut entries);
-        write(&self.bench.path("forged.tar.zst"), &entries);
+        write(&self.sandbox.path("forged.tar.zst"), &entries);
         self.refused(parts);
     }
 
@@ -105,9 +113,9 @@ impl Parts {
     /// Changes the bytes of the archive.
     #[track_caller]
     fn refuse_bytes(&self, change: impl FnOnce(&mut Vec<u8>), parts: &[&str]) {
-        let mut bytes = fs::read(self.bench.path("truths.tar.zst")).unwrap();
+        let mut bytes = fs::read(self.sandbox.path("truths.tar.zst")).unwrap();
         change(&mut bytes);
-        fs::write(self.bench.path("forged.tar.zst"), bytes).unwrap();
+        fs::write(self.sandbox.path("forged.tar.zst"), bytes).unwrap();
         self.refused(parts);
     }
 }
@@ -234,10 +242,10 @@ fn an_archive_that_was_cut_off_or_goes_on_is_refused() {
     parts.refuse_bytes(|bytes| bytes.extend(b"more"), &cut);
     parts.refuse_bytes(Vec::clear, &cut);
     parts.refuse_bytes(|bytes| bytes.fill(b'x'), &cut);
-    let whole = zstd::decode_all(&fs::read(parts.bench.path("truths.tar.zst")).unwrap()[..]);
+    let whole = zstd::decode_all(&fs::read(parts.sandbox.path("truths.tar.zst")).unwrap()[..]);
     let mut whole = whole.unwrap();
     whole.extend([1; 512]);
-    compress(&parts.bench.path("forged.tar.zst"), &whole);
+    compress(&parts.sandbox.path("forged.tar.zst"), &whole);
     parts.refused(&["goes on behind its last file"]);
     // A header that promises more than there is.
     let mut huge = whole.clone();
@@ -246,17 +254,21 @@ fn an_archive_that_was_cut_off_or_goes_on_is_refused() {
     header.set_size(1 << 36);
     header.set_cksum();
     huge[..512].copy_from_slice(header.as_bytes());
-    compress(&parts.bench.path("forged.tar.zst"), &huge);
+    compress(&parts.sandbox.path("forged.tar.zst"), &huge);
     parts.refused(&["manifest.json"]);
 }
 
 #[test]
 fn a_file_whose_header_has_another_hash_than_the_manifest_is_refused() {
     let parts = Parts::new();
-    run(&parts.bench, "identity", &["--seed", "2", "--out", "other"]);
+    run(
+        &parts.sandbox,
+        "identity",
+        &["--seed", "2", "--out", "other"],
+    );
     let pack = ["truths", "pack", "other", "--out", "other.tar.zst"];
-    parts.bench.execute(&pack);
-    let other = entries(&parts.bench.path("other.tar.zst"));
+    parts.sandbox.execute(&pack);
+    let other = entries(&parts.sandbox.path("other.tar.zst"));
     let other: Manifest = serde_json::from_slice(&other[0].bytes).unwrap();
     let mut forged = parts.entries.clone();
     change_manifest(&mut forged, |manifest| {
@@ -264,22 +276,22 @@ fn a_file_whose_header_has_another_hash_than_the_manifest_is_refused() {
             file.content_hash.clone_from(&other.content_hash);
         }
     });
-    write(&parts.bench.path("forged.tar.zst"), &forged);
+    write(&parts.sandbox.path("forged.tar.zst"), &forged);
     let words = "run --filter identity --seed 2 --truths forged.tar.zst --out fresh";
-    let output = (parts.bench).shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
+    let output = (parts.sandbox).shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
     let found = ["has another content_hash than manifest.json says"];
     assert_refused(&output, 2, &found);
-    assert!(!parts.bench.path("fresh/plate").exists());
+    assert!(!parts.sandbox.path("fresh/plate").exists());
 }
 
 #[test]
 fn a_check_refuses_a_pack_that_git_tracks() {
-    let bench = packed();
-    bench.write_bound(1.0);
+    let sandbox = packed();
+    sandbox.write_bound(1.0);
     let git = |words: &[&str]| {
         let mut git = Command::new("git");
         let output = git
-            .current_dir(bench.path(""))
+            .current_dir(sandbox.path(""))
             .args(words)
             .output()
             .unwrap();
@@ -287,7 +299,7 @@ fn a_check_refuses_a_pack_that_git_tracks() {
     };
     let check = || {
         let words = [&quick_command("check", "16")[..], &["--filter", "identity"]].concat();
-        bench.outside_ci(&[&words[..], &["--truths", "truths.tar.zst"]].concat())
+        sandbox.outside_ci(&[&words[..], &["--truths", "truths.tar.zst"]].concat())
     };
     git(&["init", "-q"]);
     git(&["add", "scenes"]);
@@ -303,10 +315,10 @@ fn a_check_refuses_a_pack_that_git_tracks() {
 
 #[test]
 fn truths_that_are_neither_a_folder_nor_a_file_are_refused() {
-    let bench = Bench::new();
-    make_fifo(&bench.path("pipe"));
+    let sandbox = Sandbox::new();
+    make_fifo(&sandbox.path("pipe"));
     let words = "run --filter identity --truths pipe --out fresh";
-    let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
+    let output = sandbox.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
     let parts = ["--truths pipe: is neither a folder nor a regular file"];
     assert_refused(&output, 2, &parts);
 }

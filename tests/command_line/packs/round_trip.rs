@@ -9,7 +9,7 @@ use suite::TRAVERSALS;
 use tests::text::assert_contains;
 
 use super::{QUICK, entries, packed, run};
-use crate::bench::{Bench, assert_done, files_below, split, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_done, files_below, split, stderr, stdout};
 
 /// Names of the files that a run renders.
 fn is_rendered(name: &str) -> bool {
@@ -18,8 +18,8 @@ fn is_rendered(name: &str) -> bool {
 }
 
 /// Reads all rendered files of a folder, by their names.
-fn rendered(bench: &Bench, out: &str) -> BTreeMap<String, Vec<u8>> {
-    let root = bench.path(out);
+fn rendered(sandbox: &Sandbox, out: &str) -> BTreeMap<String, Vec<u8>> {
+    let root = sandbox.path(out);
     let name = |path: &PathBuf| path.strip_prefix(&root).unwrap().display().to_string();
     files_below(&root)
         .into_iter()
@@ -30,9 +30,9 @@ fn rendered(bench: &Bench, out: &str) -> BTreeMap<String, Vec<u8>> {
 
 /// Writes into every rendered file that it was traced by the instructions of another machine. Nothing depends on them, and what is
 /// rendered anew names others.
-fn mark(bench: &Bench, out: &str) {
-    for name in rendered(bench, out).into_keys() {
-        let path = bench.path(out).join(name);
+fn mark(sandbox: &Sandbox, out: &str) {
+    for name in rendered(sandbox, out).into_keys() {
+        let path = sandbox.path(out).join(name);
         let mut file = read_exr(&path).unwrap();
         let own = file.get::<String>("traversal").unwrap();
         let other = TRAVERSALS.into_iter().find(|word| *word != own);
@@ -42,8 +42,8 @@ fn mark(bench: &Bench, out: &str) {
 }
 
 /// Reads run.json without the command line, which names other folders.
-fn scores(bench: &Bench, out: &str) -> String {
-    let mut run: serde_json::Value = bench.read_json(&format!("{out}/run.json"));
+fn scores(sandbox: &Sandbox, out: &str) -> String {
+    let mut run: serde_json::Value = sandbox.read_json(&format!("{out}/run.json"));
     run["command"].take();
     run.to_string()
 }
@@ -53,20 +53,20 @@ const FILTERS: &str = "identity,kino:default";
 
 #[test]
 fn a_check_from_a_pack_renders_nothing_and_has_the_same_scores() {
-    let bench = Bench::two_scenes();
-    bench.write_bound(1.0);
-    bench.copy_bound("slow");
+    let sandbox = Sandbox::two_scenes();
+    sandbox.write_bound(1.0);
+    sandbox.copy_bound("slow");
     let check = |more: &[&str]| {
         let words = [&["check", "--filter", FILTERS], &split(QUICK)[..], more].concat();
-        let output = bench.outside_ci(&words);
+        let output = sandbox.outside_ci(&words);
         assert_done(&output);
         output
     };
     check(&[]);
-    mark(&bench, "out");
-    bench.execute(&["truths", "pack", "out", "--out", "kept/truths.tar.zst"]);
-    fs::create_dir(bench.path("elsewhere")).unwrap();
-    fs::rename(bench.path("kept"), bench.path("elsewhere/kept")).unwrap();
+    mark(&sandbox, "out");
+    sandbox.execute(&["truths", "pack", "out", "--out", "kept/truths.tar.zst"]);
+    fs::create_dir(sandbox.path("elsewhere")).unwrap();
+    fs::rename(sandbox.path("kept"), sandbox.path("elsewhere/kept")).unwrap();
     let pack = "elsewhere/kept/truths.tar.zst";
     let output = check(&["--truths", pack, "--out", "fresh"]);
     assert_contains(
@@ -74,14 +74,14 @@ fn a_check_from_a_pack_renders_nothing_and_has_the_same_scores() {
         &[pack, "traced 8 tiles again", "; nothing is rendered"],
     );
     // Each scene has a frame, two truths of eight replicates, and the sharp picture of the trailing shutter's middle.
-    let kept = rendered(&bench, "out");
+    let kept = rendered(&sandbox, "out");
     assert_eq!(kept.len(), 2 * (1 + 2 * (1 + 8) + 1));
     assert!(
-        kept == rendered(&bench, "fresh"),
+        kept == rendered(&sandbox, "fresh"),
         "a file was rendered again, or is another one"
     );
-    assert_eq!(scores(&bench, "fresh"), scores(&bench, "out"));
-    assert!(!bench.path("fresh/.shuttertruth.unpacked").exists());
+    assert_eq!(scores(&sandbox, "fresh"), scores(&sandbox, "out"));
+    assert!(!sandbox.path("fresh/.shuttertruth.unpacked").exists());
     // A second check finds all of it in its folder.
     let output = check(&["--truths", pack, "--out", "fresh"]);
     let parts = ["took no file; nothing is rendered"];
@@ -90,27 +90,27 @@ fn a_check_from_a_pack_renders_nothing_and_has_the_same_scores() {
 
 #[test]
 fn one_run_gives_one_archive_with_the_manifest_first() {
-    let bench = packed();
-    let first = fs::read(bench.path("truths.tar.zst")).unwrap();
+    let sandbox = packed();
+    let first = fs::read(sandbox.path("truths.tar.zst")).unwrap();
     // Another folder, with files of another time.
-    for file in files_below(&bench.path("out")) {
-        let below = file.strip_prefix(bench.path("out")).unwrap();
-        let to = bench.path("copy").join(below);
+    for file in files_below(&sandbox.path("out")) {
+        let below = file.strip_prefix(sandbox.path("out")).unwrap();
+        let to = sandbox.path("copy").join(below);
         fs::create_dir_all(to.parent().unwrap()).unwrap();
         fs::write(to, fs::read(&file).unwrap()).unwrap();
     }
-    let printed = bench.execute(&["truths", "pack", "copy", "--out", "again.tar.zst"]);
+    let printed = sandbox.execute(&["truths", "pack", "copy", "--out", "again.tar.zst"]);
     assert_contains(&printed, &["written: again.tar.zst", "1 truth in 17 files"]);
-    assert!(fs::read(bench.path("again.tar.zst")).unwrap() == first);
+    assert!(fs::read(sandbox.path("again.tar.zst")).unwrap() == first);
 
-    let entries = entries(&bench.path("truths.tar.zst"));
+    let entries = entries(&sandbox.path("truths.tar.zst"));
     let manifest: store::Manifest = serde_json::from_slice(&entries[0].bytes).unwrap();
     assert_eq!(entries[0].name, "manifest.json");
     assert_eq!(manifest.format, store::PACK_FORMAT);
     let names: Vec<&String> = entries[1..].iter().map(|entry| &entry.name).collect();
     let listed: Vec<&String> = manifest.files.iter().map(|file| &file.path).collect();
     assert_eq!(names, listed);
-    let truth_hash = &bench.read_run().cases[0].truth_hash;
+    let truth_hash = &sandbox.read_run().cases[0].truth_hash;
     for (file, entry) in manifest.files.iter().zip(&entries[1..]) {
         assert_eq!(file.bytes, entry.bytes.len() as u64);
         assert_eq!(file.blake3, blake3::hash(&entry.bytes).to_hex().to_string());
@@ -126,26 +126,26 @@ fn one_run_gives_one_archive_with_the_manifest_first() {
 
 #[test]
 fn a_pack_of_chosen_scenes_leaves_the_others_to_be_rendered() {
-    let bench = Bench::two_scenes();
-    run(&bench, "identity", &[]);
-    bench.execute(&["truths", "pack", "--scenes", "sl*"]);
+    let sandbox = Sandbox::two_scenes();
+    run(&sandbox, "identity", &[]);
+    sandbox.execute(&["truths", "pack", "--scenes", "sl*"]);
     let words = "run --filter identity --truths truths.tar.zst --out fresh";
-    let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
+    let output = sandbox.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
     assert_done(&output);
     let parts = [
         "took 17 files, and traced 3 tiles again",
         "renders what it lacks: frame of plate, trailing truth of plate.",
     ];
     assert_contains(&stderr(&output), &parts);
-    assert_eq!(scores(&bench, "fresh"), scores(&bench, "out"));
+    assert_eq!(scores(&sandbox, "fresh"), scores(&sandbox, "out"));
 }
 
 #[test]
 fn truths_of_other_settings_stay_in_the_pack() {
-    let bench = packed();
+    let sandbox = packed();
     let words = "run --filter identity --seed 2 --out";
     let run = |more: &[&str]| {
-        let output = bench.shuttertruth(&[&split(words), more, &split(QUICK)].concat());
+        let output = sandbox.shuttertruth(&[&split(words), more, &split(QUICK)].concat());
         assert_done(&output);
         stderr(&output)
     };
@@ -153,24 +153,24 @@ fn truths_of_other_settings_stay_in_the_pack() {
     let parts = ["took no file; renders what it lacks: frame of plate, trailing truth of plate"];
     assert_contains(&said, &parts);
     run(&["alone"]);
-    assert_eq!(scores(&bench, "other"), scores(&bench, "alone"));
+    assert_eq!(scores(&sandbox, "other"), scores(&sandbox, "alone"));
 }
 
 #[test]
 fn later_frames_of_sequences_are_packed_too() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let sequence = "--filter identity --frames 2";
-    run(&bench, "identity", &["--frames", "2"]);
-    mark(&bench, "out");
-    bench.execute(&["truths", "pack"]);
+    run(&sandbox, "identity", &["--frames", "2"]);
+    mark(&sandbox, "out");
+    sandbox.execute(&["truths", "pack"]);
     let words = [&["run"], &split(sequence)[..], &split(QUICK)].concat();
     let more = ["--truths", "truths.tar.zst", "--out", "fresh"];
-    let output = bench.shuttertruth(&[&words[..], &more].concat());
+    let output = sandbox.shuttertruth(&[&words[..], &more].concat());
     assert_done(&output);
     assert_contains(&stderr(&output), &["; nothing is rendered"]);
-    assert!(rendered(&bench, "fresh") == rendered(&bench, "out"));
-    assert_eq!(scores(&bench, "fresh"), scores(&bench, "out"));
-    let printed = bench.execute(&["truths", "verify", "truths.tar.zst"]);
+    assert!(rendered(&sandbox, "fresh") == rendered(&sandbox, "out"));
+    assert_eq!(scores(&sandbox, "fresh"), scores(&sandbox, "out"));
+    let printed = sandbox.execute(&["truths", "verify", "truths.tar.zst"]);
     assert_contains(
         &printed,
         &["6 tiles of 16x16", "2 truths equal to the mean"],
@@ -179,13 +179,13 @@ fn later_frames_of_sequences_are_packed_too() {
 
 #[test]
 fn plans_and_calibrations_take_packs() {
-    let bench = packed();
+    let sandbox = packed();
     let words = [
         &["truths", "plan", "--filter", "identity"],
         &split(QUICK)[..],
     ]
     .concat();
-    let plan = bench.execute(&[&words[..], &["--truths", "truths.tar.zst", "--json"]].concat());
+    let plan = sandbox.execute(&[&words[..], &["--truths", "truths.tar.zst", "--json"]].concat());
     assert!(!plan.contains("truths/plate"), "they are in the pack");
     for line in plan.lines() {
         let job: serde_json::Value = serde_json::from_str(line).unwrap();
@@ -195,7 +195,7 @@ fn plans_and_calibrations_take_packs() {
     }
     let words = "limits calibrate --filter identity --size 64x32 --samples-per-pixel 16 --runs 2 --out seeds";
     let more = ["--truths", "truths.tar.zst"];
-    let output = bench.shuttertruth(&[&split(words)[..], &more].concat());
+    let output = sandbox.shuttertruth(&[&split(words)[..], &more].concat());
     assert_done(&output);
     // The first of the two seeds is that of the pack. A calibration takes one rung of the ladder.
     let parts = [
@@ -209,20 +209,20 @@ fn plans_and_calibrations_take_packs() {
 
 #[test]
 fn a_pack_removes_what_a_killed_one_left_and_nothing_else() {
-    let bench = packed();
-    let there = |name: &str| bench.path(name).exists();
+    let sandbox = packed();
+    let there = |name: &str| sandbox.path(name).exists();
     for name in [
         ".shuttertruth-killed.tmp",
         ".shuttertruth-notes",
         "kept.tmp",
     ] {
-        fs::write(bench.path(name), "").unwrap();
+        fs::write(sandbox.path(name), "").unwrap();
     }
-    bench.execute(&["truths", "pack"]);
+    sandbox.execute(&["truths", "pack"]);
     assert!(!there(".shuttertruth-killed.tmp"));
     assert!(there(".shuttertruth-notes") && there("kept.tmp"));
-    fs::create_dir(bench.path("below")).unwrap();
-    fs::write(bench.path("below/.shuttertruth-killed.tmp"), "").unwrap();
-    bench.execute(&["truths", "pack", "--out", "below/truths.tar.zst"]);
+    fs::create_dir(sandbox.path("below")).unwrap();
+    fs::write(sandbox.path("below/.shuttertruth-killed.tmp"), "").unwrap();
+    sandbox.execute(&["truths", "pack", "--out", "below/truths.tar.zst"]);
     assert!(!there("below/.shuttertruth-killed.tmp"));
 }

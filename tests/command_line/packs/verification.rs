@@ -7,11 +7,11 @@ use frame::{Frame, Ladder, Replicate};
 use serde_json::Value;
 
 use super::{QUICK, REPLICATES, forge, packed, renew_truth, run};
-use crate::bench::{Bench, assert_done, assert_refused, split, stderr, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr, stdout};
 
 /// Verifies and returns what is printed as JSON.
-fn verify(bench: &Bench, words: &[&str]) -> Value {
-    let printed = bench.execute(&[&["truths", "verify", "--json"], words].concat());
+fn verify(sandbox: &Sandbox, words: &[&str]) -> Value {
+    let printed = sandbox.execute(&[&["truths", "verify", "--json"], words].concat());
     serde_json::from_str(&printed).unwrap()
 }
 
@@ -34,15 +34,15 @@ fn find_tile<'a>(verified: &'a Value, part: &str) -> (&'a Value, String) {
 
 #[test]
 fn honest_truths_are_equal_on_any_number_of_threads() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     // Both shutters, a guard band, and an exposure that no scene has.
     let more = "--exposure 0.3 --guard-band 3 --velocity previous_frame";
-    run(&bench, "identity,kino:default", &split(more));
-    bench.execute(&["truths", "pack"]);
+    run(&sandbox, "identity,kino:default", &split(more));
+    sandbox.execute(&["truths", "pack"]);
     let mut all = Vec::new();
     for (truths, threads) in [("out", "1"), ("out", "3"), ("truths.tar.zst", "2")] {
         let words = ["--seed", "7", "--tiles", "5", "--threads", threads, truths];
-        let verified = verify(&bench, &words);
+        let verified = verify(&sandbox, &words);
         assert_eq!(verified["truths"], 2);
         assert_eq!(verified["seed"], 7);
         // The frame, two replicates and two rungs.
@@ -51,25 +51,25 @@ fn honest_truths_are_equal_on_any_number_of_threads() {
     }
     assert_eq!(all[0], all[1]);
     assert_eq!(all[0], all[2]);
-    let printed = bench.execute(&["truths", "verify"]);
+    let printed = sandbox.execute(&["truths", "verify"]);
     assert!(
         printed.starts_with("out: 5 tiles of 16x16 pixels traced again and equal; 2 truths"),
         "{printed}"
     );
     // A choice that nobody named is another one each time.
-    assert_ne!(printed, bench.execute(&["truths", "verify"]));
+    assert_ne!(printed, sandbox.execute(&["truths", "verify"]));
 }
 
 #[test]
 fn a_bit_in_a_replicate_is_found_where_a_tile_covers_it() {
-    let bench = packed();
-    let honest = verify(&bench, &["--seed", "7"]);
+    let sandbox = packed();
+    let honest = verify(&sandbox, &["--seed", "7"]);
     let (tile, file) = find_tile(&honest, "replicate_");
     let [x, y] = middle(tile);
-    let before = fs::read(bench.path(&file)).unwrap();
-    forge(&bench, "out", &file, (y * 64 + x) as usize);
+    let before = fs::read(sandbox.path(&file)).unwrap();
+    forge(&sandbox, "out", &file, (y * 64 + x) as usize);
     // Pack and manifest are made anew: all hashes are right.
-    bench.execute(&["truths", "pack", "--out", "forged.tar.zst"]);
+    sandbox.execute(&["truths", "pack", "--out", "forged.tar.zst"]);
     let below = Path::new(&file).strip_prefix("out").unwrap();
     let place = format!(
         "forged.tar.zst/{}: pixel ({x}, {y}) of its channel R",
@@ -82,9 +82,9 @@ fn a_bit_in_a_replicate_is_found_where_a_tile_covers_it() {
         "render plate again",
         "seed 7",
     ];
-    let output = bench.shuttertruth(&["truths", "verify", "forged.tar.zst", "--seed", "7"]);
+    let output = sandbox.shuttertruth(&["truths", "verify", "forged.tar.zst", "--seed", "7"]);
     assert_refused(&output, 1, &parts);
-    let output = bench.shuttertruth(&[
+    let output = sandbox.shuttertruth(&[
         "truths",
         "verify",
         "forged.tar.zst",
@@ -97,49 +97,49 @@ fn a_bit_in_a_replicate_is_found_where_a_tile_covers_it() {
     assert_eq!(verified["differences"].as_array().unwrap().len(), 1);
 
     // The tile of this seed lies in one replicate, and finds nothing in another.
-    fs::write(bench.path(&file), before).unwrap();
+    fs::write(sandbox.path(&file), before).unwrap();
     let number = (0..REPLICATES).find(|index| !file.contains(&format!("replicate_{index:03}")));
     let other = format!(
         "out/plate/truth_trailing/replicate_{:03}.exr",
         number.unwrap()
     );
-    forge(&bench, "out", &other, 12 * 64 + 20);
-    let folder = bench.path("out/plate/ladder_trailing");
-    fs::rename(&folder, bench.path("ladder")).unwrap();
-    verify(&bench, &["--seed", "7"]);
+    forge(&sandbox, "out", &other, 12 * 64 + 20);
+    let folder = sandbox.path("out/plate/ladder_trailing");
+    fs::rename(&folder, sandbox.path("ladder")).unwrap();
+    verify(&sandbox, &["--seed", "7"]);
     let many = ["truths", "verify", "--seed", "7", "--tiles", "200"];
     let parts = [other.as_str(), "pixel (20, 12) of its channel R"];
-    assert_refused(&bench.shuttertruth(&many), 1, &parts);
+    assert_refused(&sandbox.shuttertruth(&many), 1, &parts);
 }
 
 #[test]
 fn a_truth_that_is_not_the_mean_of_its_replicates_is_found_wherever_it_differs() {
-    let bench = packed();
+    let sandbox = packed();
     let file = "out/plate/truth_trailing/replicate_003.exr";
-    let mut replicate = Replicate::read(&bench.path(file)).unwrap();
+    let mut replicate = Replicate::read(&sandbox.path(file)).unwrap();
     let coverage = &mut replicate.picture.coverage[1].pixels[5 * 64 + 9];
     *coverage += 0.25;
-    replicate.write(&bench.path(file)).unwrap();
+    replicate.write(&sandbox.path(file)).unwrap();
     let parts = [
         "out/plate/truth_trailing.exr: is not the mean of its replicates: pixel (9, 5)",
         "use none of these files",
     ];
-    let output = bench.shuttertruth(&["truths", "verify", "--seed", "1"]);
+    let output = sandbox.shuttertruth(&["truths", "verify", "--seed", "1"]);
     assert_refused(&output, 1, &parts);
 }
 
 #[test]
 fn a_frame_and_a_rung_are_verified_too() {
-    let bench = packed();
-    let honest = verify(&bench, &["--seed", "3"]);
+    let sandbox = packed();
+    let honest = verify(&sandbox, &["--seed", "3"]);
     let (tile, file) = find_tile(&honest, "frame.exr");
-    let path = bench.path(&file);
+    let path = sandbox.path(&file);
     let whole = Frame::read(&path).unwrap();
     let [x, y] = middle(tile);
     let pixel = (y * 64 + x) as usize;
     let refused = |channel: &str| {
         let place = format!("{file}: pixel ({x}, {y}) of its channel {channel}");
-        let output = bench.shuttertruth(&["truths", "verify", "--seed", "3"]);
+        let output = sandbox.shuttertruth(&["truths", "verify", "--seed", "3"]);
         assert_refused(&output, 1, &[&place]);
     };
     let mut frame = whole.clone();
@@ -151,25 +151,25 @@ fn a_frame_and_a_rung_are_verified_too() {
     frame.write(&path).unwrap();
     refused("object.id");
     whole.write(&path).unwrap();
-    verify(&bench, &["--seed", "3"]);
+    verify(&sandbox, &["--seed", "3"]);
 
     let (tile, file) = find_tile(&honest, "ladder_trailing");
-    let path = bench.path(&file);
+    let path = sandbox.path(&file);
     let [x, y] = middle(tile);
     let mut rung = Ladder::read(&path).unwrap();
     rung.rungs[0].halves[1].color.pixels[(y * 64 + x) as usize][2] += 1.0;
     rung.write(&path).unwrap();
     let place = format!("{file}: pixel ({x}, {y}) of its channel n");
-    let output = bench.shuttertruth(&["truths", "verify", "--seed", "3"]);
+    let output = sandbox.shuttertruth(&["truths", "verify", "--seed", "3"]);
     assert_refused(&output, 1, &[&place]);
 }
 
 #[test]
 fn a_run_takes_nothing_from_a_pack_of_forged_truths() {
-    let bench = packed();
+    let sandbox = packed();
     // Every pixel of every replicate, so that any tile finds it.
     for index in 0..REPLICATES {
-        let path = bench.path(&format!(
+        let path = sandbox.path(&format!(
             "out/plate/truth_trailing/replicate_{index:03}.exr"
         ));
         let mut replicate = Replicate::read(&path).unwrap();
@@ -178,24 +178,24 @@ fn a_run_takes_nothing_from_a_pack_of_forged_truths() {
         }
         replicate.write(&path).unwrap();
     }
-    renew_truth(&bench, "out");
-    bench.execute(&["truths", "pack", "--out", "forged.tar.zst"]);
+    renew_truth(&sandbox, "out");
+    sandbox.execute(&["truths", "pack", "--out", "forged.tar.zst"]);
     let words = "run --filter identity --truths forged.tar.zst --out fresh";
-    let output = bench.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
+    let output = sandbox.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
     let parts = [
         "forged.tar.zst/plate/truth_trailing/replicate_00",
         "channel G",
         "seed",
     ];
     assert_refused(&output, 2, &parts);
-    assert!(!bench.path("fresh/plate").exists());
-    assert!(!bench.path("fresh/.shuttertruth.unpacked").exists());
+    assert!(!sandbox.path("fresh/plate").exists());
+    assert!(!sandbox.path("fresh/.shuttertruth.unpacked").exists());
 }
 
 #[test]
 fn truths_of_another_scene_are_no_truths_of_this_one() {
-    let bench = packed();
-    let scene = bench.path("scenes/plate/scene.toml");
+    let sandbox = packed();
+    let scene = sandbox.path("scenes/plate/scene.toml");
     let text = fs::read_to_string(&scene).unwrap();
     fs::write(&scene, text.replace("-1.6", "-1.5")).unwrap();
     let parts = [
@@ -203,10 +203,10 @@ fn truths_of_another_scene_are_no_truths_of_this_one() {
         "out/plate/truth_trailing.exr: was made of another scene",
         "render it again",
     ];
-    assert_refused(&bench.shuttertruth(&["truths", "verify"]), 1, &parts);
-    fs::remove_dir_all(bench.path("scenes/plate")).unwrap();
+    assert_refused(&sandbox.shuttertruth(&["truths", "verify"]), 1, &parts);
+    fs::remove_dir_all(sandbox.path("scenes/plate")).unwrap();
     assert_refused(
-        &bench.shuttertruth(&["truths", "verify"]),
+        &sandbox.shuttertruth(&["truths", "verify"]),
         2,
         &["scenes: holds no scene"],
     );
@@ -214,8 +214,8 @@ fn truths_of_another_scene_are_no_truths_of_this_one() {
 
 #[test]
 fn what_holds_no_truth_is_refused() {
-    let bench = packed();
-    let verify = |words: &[&str]| bench.shuttertruth(&[&["truths", "verify"], words].concat());
+    let sandbox = packed();
+    let verify = |words: &[&str]| sandbox.shuttertruth(&[&["truths", "verify"], words].concat());
     assert_refused(
         &verify(&["nowhere"]),
         2,
@@ -230,7 +230,7 @@ fn what_holds_no_truth_is_refused() {
         &["'0' for '--tiles <N>': 0 is not in 1..=10000"],
     );
     // A truth without ladder or frame, as `render` leaves it, is verified as far as it goes.
-    bench.execute(&split(
+    sandbox.execute(&split(
         "truths render --quiet --scenes plate --samples-per-pixel 16 --out r",
     ));
     let output = verify(&["r"]);

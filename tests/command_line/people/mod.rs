@@ -11,16 +11,16 @@ use study::{
 };
 use tests::text::assert_contains;
 
-use crate::bench::{Bench, assert_done, assert_refused, files_below};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, files_below};
 
 /// Filters of the trailing shutter, from the best to the worst.
 const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
 
 /// Makes a run of three filters on two scenes, and the page that asks about it; returns the study.
-fn make_study(bench: &Bench, more: &[&str]) -> Study {
-    bench.add_slow_scene();
-    assert_done(&bench.run(&[&["--filters", FILTERS][..], more].concat()));
-    let written = bench.execute(&["people", "ask", "out", "--out", "page", "--json"]);
+fn make_study(sandbox: &Sandbox, more: &[&str]) -> Study {
+    sandbox.add_slow_scene();
+    assert_done(&sandbox.run(&[&["--filters", FILTERS][..], more].concat()));
+    let written = sandbox.execute(&["people", "ask", "out", "--out", "page", "--json"]);
     let written: Value = serde_json::from_str(&written).unwrap();
     assert_eq!(written["page"], "page/index.html");
     serde_json::from_value(written["study"].clone()).unwrap()
@@ -88,10 +88,10 @@ fn opposite(choice: Chosen) -> Chosen {
 }
 
 /// Writes files of answers; returns the words that name them.
-fn write_answers(bench: &Bench, files: &[AnswerFile]) -> Vec<String> {
+fn write_answers(sandbox: &Sandbox, files: &[AnswerFile]) -> Vec<String> {
     let write = |(index, file): (usize, &AnswerFile)| {
         let name = format!("answers_{index}.json");
-        fs::write(bench.path(&name), serde_json::to_string(file).unwrap()).unwrap();
+        fs::write(sandbox.path(&name), serde_json::to_string(file).unwrap()).unwrap();
         name
     };
     files.iter().enumerate().map(write).collect()
@@ -108,13 +108,13 @@ fn preferences<'a>(answers: &'a [String], more: &[&'a str]) -> Vec<&'a str> {
 
 #[test]
 fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
-    let bench = Bench::new();
-    let study = make_study(&bench, &["--frames", "2", "--fps", "12"]);
+    let sandbox = Sandbox::new();
+    let study = make_study(&sandbox, &["--frames", "2", "--fps", "12"]);
     assert_eq!((study.frames.count, study.frames.per_second), (2, 12.0));
     assert_eq!(study.scenes, ["plate", "slow"]);
     // Two scenes of the sharp frame, the truth and three filters, two frames each, and the page.
-    assert_eq!(files_below(&bench.path("page")).len(), 2 * 5 * 2 + 1);
-    let picture = |path: &str| fs::read(bench.path(path)).unwrap();
+    assert_eq!(files_below(&sandbox.path("page")).len(), 2 * 5 * 2 + 1);
+    let picture = |path: &str| fs::read(sandbox.path(path)).unwrap();
     for (copy, original) in [
         ("page/pictures/0_0.png", "out/plate/frame.png"),
         ("page/pictures/1_1.png", "out/plate/0001/truth_trailing.png"),
@@ -122,7 +122,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
     ] {
         assert_eq!(picture(copy), picture(original), "{copy}");
     }
-    let text = bench.execute(&[
+    let text = sandbox.execute(&[
         "people",
         "ask",
         "out",
@@ -143,7 +143,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
             "Nobody has answered yet",
         ],
     );
-    finish_half_a_page(&bench);
+    finish_half_a_page(&sandbox);
     let ask =
         |more: &[&'static str]| [&["people", "ask", "out", "--out", "new"][..], more].concat();
     for (words, parts) in [
@@ -173,12 +173,12 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
         ),
         (vec!["people", "ask", "none"], &["no such file"]),
     ] {
-        assert_refused(&bench.shuttertruth(&words), 2, parts);
-        assert!(!bench.path("new").exists(), "{words:?}");
+        assert_refused(&sandbox.shuttertruth(&words), 2, parts);
+        assert!(!sandbox.path("new").exists(), "{words:?}");
     }
-    fs::remove_file(bench.path("out/slow/0001/frame.png")).unwrap();
+    fs::remove_file(sandbox.path("out/slow/0001/frame.png")).unwrap();
     assert_refused(
-        &bench.shuttertruth(&ask(&[])),
+        &sandbox.shuttertruth(&ask(&[])),
         2,
         &["slow/0001/frame.png: cannot read"],
     );
@@ -186,8 +186,8 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
 
 #[test]
 fn answers_become_a_scale_beside_the_scores_of_the_run() {
-    let bench = Bench::new();
-    let study = make_study(&bench, &[]);
+    let sandbox = Sandbox::new();
+    let study = make_study(&sandbox, &[]);
     // Six people choose the better filter, but for one answer in four; the last one does so in every check, too.
     let people: Vec<AnswerFile> = (0..6)
         .map(|seed| {
@@ -201,8 +201,8 @@ fn answers_become_a_scale_beside_the_scores_of_the_run() {
             })
         })
         .collect();
-    let names = write_answers(&bench, &people);
-    let printed = bench.execute(&preferences(&names, &["--run", "out", "--json"]));
+    let names = write_answers(&sandbox, &people);
+    let printed = sandbox.execute(&preferences(&names, &["--run", "out", "--json"]));
     let printed: Value = serde_json::from_str(&printed).unwrap();
     let question = &printed["questions"][0];
     assert_eq!(question["question"], "truth");
@@ -250,7 +250,7 @@ fn answers_become_a_scale_beside_the_scores_of_the_run() {
     assert!(score("flip_moving")["predicted"].as_f64().unwrap() > 0.6);
     assert_eq!(score("psnr_moving")["correlation"], 1.0);
 
-    let table = bench.execute(&preferences(&names, &["--run", "out"]));
+    let table = sandbox.execute(&preferences(&names, &["--run", "out"]));
     let words = table.split_whitespace().collect::<Vec<_>>().join(" ");
     for part in [
         "Which looks more like the truth?",
@@ -269,8 +269,8 @@ fn answers_become_a_scale_beside_the_scores_of_the_run() {
 
     // One person alone, who always chooses alike: no sample of people, and only the prior holds the distances.
     let one = answer(&study, Question::Better, 9, |pair, _| prefer_first(pair));
-    let names = write_answers(&bench, &[one]);
-    let table = bench.execute(&preferences(&names, &[]));
+    let names = write_answers(&sandbox, &[one]);
+    let table = sandbox.execute(&preferences(&names, &[]));
     let words = table.split_whitespace().collect::<Vec<_>>().join(" ");
     for part in [
         "1 session, 8 answers",
@@ -283,18 +283,18 @@ fn answers_become_a_scale_beside_the_scores_of_the_run() {
 }
 
 /// Makes a page where a killed process had begun another one.
-fn finish_half_a_page(bench: &Bench) {
-    let half = bench.path("half");
+fn finish_half_a_page(sandbox: &Sandbox) {
+    let half = sandbox.path("half");
     fs::create_dir_all(half.join("pictures")).unwrap();
     fs::write(half.join("pictures/99_0.png"), "of another study").unwrap();
     fs::write(half.join(".shuttertruth-killed.tmp"), "").unwrap();
     let ask = ["people", "ask", "out", "--out", "half"];
     let parts = ["half: holds 1 files or folders", "a new folder"];
-    assert_refused(&bench.shuttertruth(&ask), 2, &parts);
+    assert_refused(&sandbox.shuttertruth(&ask), 2, &parts);
     fs::write(half.join(".shuttertruth.unfinished"), "").unwrap();
-    bench.execute(&ask);
+    sandbox.execute(&ask);
     let names = |folder: &str| -> Vec<std::path::PathBuf> {
-        let root = bench.path(folder);
+        let root = sandbox.path(folder);
         let files = files_below(&root).into_iter();
         files
             .map(|file| file.strip_prefix(&root).unwrap().to_owned())

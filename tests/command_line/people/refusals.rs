@@ -6,16 +6,16 @@ use serde_json::json;
 use study::{AnswerFile, Question};
 
 use super::{FILTERS, answer, make_study, prefer_first, preferences, write_answers};
-use crate::bench::{Bench, assert_done, assert_refused};
+use crate::sandbox::{Sandbox, assert_done, assert_refused};
 
 #[test]
 fn answers_that_no_page_of_this_run_asked_for_are_refused() {
-    let bench = Bench::new();
-    let study = make_study(&bench, &[]);
+    let sandbox = Sandbox::new();
+    let study = make_study(&sandbox, &[]);
     let session = |seed| answer(&study, Question::Truth, seed, |pair, _| prefer_first(pair));
     let refuse = |files: &[AnswerFile], parts: &[&str]| {
-        let names = write_answers(&bench, files);
-        assert_refused(&bench.shuttertruth(&preferences(&names, &[])), 2, parts);
+        let names = write_answers(&sandbox, files);
+        assert_refused(&sandbox.shuttertruth(&preferences(&names, &[])), 2, parts);
     };
     let changed = |change: fn(&mut AnswerFile)| {
         let mut file = session(3);
@@ -86,9 +86,9 @@ fn answers_that_no_page_of_this_run_asked_for_are_refused() {
     );
 
     let refuse_text = |text: &str, parts: &[&str]| {
-        fs::write(bench.path("answers_0.json"), text).unwrap();
+        fs::write(sandbox.path("answers_0.json"), text).unwrap();
         assert_refused(
-            &bench.shuttertruth(&["people", "preferences", "answers_0.json"]),
+            &sandbox.shuttertruth(&["people", "preferences", "answers_0.json"]),
             2,
             parts,
         );
@@ -110,28 +110,28 @@ fn answers_that_no_page_of_this_run_asked_for_are_refused() {
     );
 
     // Another run: another seed makes other truths, a filter that changed makes other pictures.
-    let names = write_answers(&bench, &[session(1)]);
+    let names = write_answers(&sandbox, &[session(1)]);
     let with_run = preferences(&names, &["--run", "out"]);
-    assert_done(&bench.shuttertruth(&with_run));
-    let output = bench.path("out/plate/identity_default/output.png");
+    assert_done(&sandbox.shuttertruth(&with_run));
+    let output = sandbox.path("out/plate/identity_default/output.png");
     let before = fs::read(&output).unwrap();
-    fs::copy(bench.path("out/plate/truth_trailing.png"), &output).unwrap();
+    fs::copy(sandbox.path("out/plate/truth_trailing.png"), &output).unwrap();
     assert_refused(
-        &bench.shuttertruth(&with_run),
+        &sandbox.shuttertruth(&with_run),
         2,
         &["another run: the pictures differ"],
     );
     fs::write(&output, before).unwrap();
-    assert_done(&bench.shuttertruth(&with_run));
-    assert_done(&bench.run(&["--filters", FILTERS, "--seed", "2"]));
+    assert_done(&sandbox.shuttertruth(&with_run));
+    assert_done(&sandbox.run(&["--filters", FILTERS, "--seed", "2"]));
     assert_refused(
-        &bench.shuttertruth(&with_run),
+        &sandbox.shuttertruth(&with_run),
         2,
         &["another run: the truths differ"],
     );
-    assert_done(&bench.run(&["--filters", "identity", "--no-cache"]));
+    assert_done(&sandbox.run(&["--filters", "identity", "--no-cache"]));
     assert_refused(
-        &bench.shuttertruth(&with_run),
+        &sandbox.shuttertruth(&with_run),
         2,
         &["is not the run", "fits nothing"],
     );

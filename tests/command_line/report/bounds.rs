@@ -3,21 +3,21 @@
 use metrics::Metric;
 
 use super::{between, filter_case, find_article, make_page};
-use crate::bench::{Bench, assert_done, quick_command, stdout};
+use crate::sandbox::{Sandbox, assert_done, quick_command, stdout};
 
 #[test]
 fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
-    let bench = Bench::new();
-    bench.write(
+    let sandbox = Sandbox::new();
+    sandbox.write(
         "bounds.toml",
         "[default]\n\
          flip_moving = { limit = 0.2, why = \"it <i>serves</i> a test\" }\n\
          label_tv = { limit = 0.9, why = \"it serves a test, too\" }\n",
     );
-    let output = bench.check(&["--filters", "identity"]);
+    let output = sandbox.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
-    let page = make_page(&bench);
-    let case = filter_case(&bench);
+    let page = make_page(&sandbox);
+    let case = filter_case(&sandbox);
 
     assert!(page.contains("2 required bounds: 1 broken, 0 too noisy to decide."));
     // The estimate without the truth's noise, with its interval.
@@ -36,7 +36,7 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     assert!(failures.contains("plate / identity:default"));
 
     let article = find_article(&page, &case);
-    let findings = bench.read_findings();
+    let findings = sandbox.read_findings();
     let worst = findings[0].worst.as_ref().unwrap();
     for words in [
         "1 of 2 required bounds met.",
@@ -64,21 +64,21 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
 
 #[test]
 fn a_report_finds_the_worst_place_if_the_run_did_not() {
-    let bench = Bench::new();
-    bench.write_bound(0.2);
-    let output = bench.check(&["--filters", "identity"]);
+    let sandbox = Sandbox::new();
+    sandbox.write_bound(0.2);
+    let output = sandbox.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1));
-    let page = make_page(&bench);
+    let page = make_page(&sandbox);
     let checked = between(
-        find_article(&page, &filter_case(&bench)),
+        find_article(&page, &filter_case(&sandbox)),
         "<figure class=\"crop\" ",
         " data-map",
     )[0]
     .to_owned();
     let words = [&quick_command("run", "64")[..], &["--filters", "identity"]].concat();
-    assert_done(&bench.shuttertruth(&words));
-    let page = make_page(&bench);
-    let article = find_article(&page, &filter_case(&bench));
+    assert_done(&sandbox.shuttertruth(&words));
+    let page = make_page(&sandbox);
+    let article = find_article(&page, &filter_case(&sandbox));
     assert_eq!(
         between(article, "<figure class=\"crop\" ", " data-map")[0],
         checked

@@ -5,17 +5,17 @@ use std::fs;
 
 use frame::{Frame, Truth, read_exr};
 
-use crate::bench::{Bench, IDENTITY, assert_done, assert_refused, files_below, stdout};
+use crate::sandbox::{IDENTITY, Sandbox, assert_done, assert_refused, files_below, stdout};
 
 #[test]
 fn run_and_check_write_the_page_that_report_writes() {
-    let bench = Bench::new();
-    bench.write_bound(0.2);
+    let sandbox = Sandbox::new();
+    sandbox.write_bound(0.2);
     let make_page = || {
-        bench.execute(&["report", "out", "--html", "page.html"]);
-        fs::read(bench.path("page.html")).unwrap()
+        sandbox.execute(&["report", "out", "--html", "page.html"]);
+        fs::read(sandbox.path("page.html")).unwrap()
     };
-    let output = bench.run(&[&IDENTITY[..], &["--html", "own.html"]].concat());
+    let output = sandbox.run(&[&IDENTITY[..], &["--html", "own.html"]].concat());
     assert_done(&output);
     assert!(
         stdout(&output).contains("report: own.html ("),
@@ -23,10 +23,10 @@ fn run_and_check_write_the_page_that_report_writes() {
         stdout(&output)
     );
     assert!(
-        fs::read(bench.path("own.html")).unwrap() == make_page(),
+        fs::read(sandbox.path("own.html")).unwrap() == make_page(),
         "run writes another page"
     );
-    let output = bench.check(&[&IDENTITY[..], &["--html", "own.html"]].concat());
+    let output = sandbox.check(&[&IDENTITY[..], &["--html", "own.html"]].concat());
     assert_eq!(output.status.code(), Some(1), "the bound is broken");
     assert!(
         stdout(&output).contains("report: own.html ("),
@@ -34,29 +34,29 @@ fn run_and_check_write_the_page_that_report_writes() {
         stdout(&output)
     );
     assert!(
-        fs::read(bench.path("own.html")).unwrap() == make_page(),
+        fs::read(sandbox.path("own.html")).unwrap() == make_page(),
         "check writes another page"
     );
 }
 
 #[test]
 fn layers_equal_the_files_of_the_case() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = ["--filters", "velocity_gather:fine", "--guard-band", "4"];
-    assert_done(&bench.run(&words));
-    bench.execute(&["report", "out", "--exr", "layers", "--quiet"]);
-    let run = bench.read_run();
+    assert_done(&sandbox.run(&words));
+    sandbox.execute(&["report", "out", "--exr", "layers", "--quiet"]);
+    let run = sandbox.read_run();
     assert_eq!(
-        files_below(&bench.path("layers")).len(),
+        files_below(&sandbox.path("layers")).len(),
         run.cases.len(),
         "one file a case"
     );
-    let layers = read_exr(&bench.path("layers/plate/velocity_gather_fine.exr")).unwrap();
-    let case = bench.path("out/plate/velocity_gather_fine");
+    let layers = read_exr(&sandbox.path("layers/plate/velocity_gather_fine.exr")).unwrap();
+    let case = sandbox.path("out/plate/velocity_gather_fine");
     let output = read_exr(&case.join("output.exr")).unwrap();
     let errors = read_exr(&case.join("errors.exr")).unwrap();
-    let truth = Truth::read(&bench.path("out/plate/truth_trailing.exr")).unwrap();
-    let frame = Frame::read(&bench.path("out/plate/frame.exr"))
+    let truth = Truth::read(&sandbox.path("out/plate/truth_trailing.exr")).unwrap();
+    let frame = Frame::read(&sandbox.path("out/plate/frame.exr"))
         .unwrap()
         .cropped();
     assert_eq!(
@@ -107,16 +107,16 @@ fn layers_equal_the_files_of_the_case() {
 
 #[test]
 fn a_report_needs_no_names_and_refuses_missing_files() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&IDENTITY));
-    fs::remove_file(bench.path("out/report.html")).unwrap();
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&IDENTITY));
+    fs::remove_file(sandbox.path("out/report.html")).unwrap();
     // The folder and the page have the names that `run` gives them.
-    assert_done(&bench.shuttertruth(&["report"]));
-    assert!(bench.path("out/report.html").is_file());
-    fs::remove_file(bench.path("out/plate/identity_default/errors.exr")).unwrap();
+    assert_done(&sandbox.shuttertruth(&["report"]));
+    assert!(sandbox.path("out/report.html").is_file());
+    fs::remove_file(sandbox.path("out/plate/identity_default/errors.exr")).unwrap();
     let words = ["report", "out", "--exr", "layers", "--quiet"];
     assert_refused(
-        &bench.shuttertruth(&words),
+        &sandbox.shuttertruth(&words),
         2,
         &["identity_default/errors.exr"],
     );

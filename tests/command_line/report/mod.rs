@@ -7,16 +7,16 @@ mod tuning;
 
 use std::fs;
 
-use crate::bench::{Bench, assert_done, stdout};
+use crate::sandbox::{Sandbox, assert_done, stdout};
 
 const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
 
 /// Makes the page of the bench's last run.
-fn make_page(bench: &Bench) -> String {
-    let output = bench.shuttertruth(&WORDS);
+fn make_page(sandbox: &Sandbox) -> String {
+    let output = sandbox.shuttertruth(&WORDS);
     assert_done(&output);
     assert!(stdout(&output).contains("written: page/report.html ("));
-    fs::read_to_string(bench.path("page/report.html")).unwrap()
+    fs::read_to_string(sandbox.path("page/report.html")).unwrap()
 }
 
 /// Finds every text between two texts.
@@ -63,6 +63,6 @@ fn find_article<'a>(page: &'a str, case: &suite::Case) -> &'a str {
 }
 
 /// Returns the only case of a filter.
-fn filter_case(bench: &Bench) -> suite::Case {
-    bench.read_filter_cases().remove(0)
+fn filter_case(sandbox: &Sandbox) -> suite::Case {
+    sandbox.read_filter_cases().remove(0)
 }

@@ -6,14 +6,14 @@ use std::fs;
 use metrics::Metric;
 
 use super::{WORDS, address, between, find_article, make_page, panel, planes};
-use crate::bench::{Bench, assert_done, assert_refused, split};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split};
 
 #[test]
 fn a_page_shows_the_scores_and_means_of_the_run() {
-    let bench = Bench::two_scenes();
-    assert_done(&bench.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = make_page(&bench);
-    let run = bench.read_run();
+    let sandbox = Sandbox::two_scenes();
+    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    let page = make_page(&sandbox);
+    let run = sandbox.read_run();
     for case in &run.cases {
         let link = format!("href=\"#{}\"", address(case));
         for (metric, digits) in [("flip_moving", 3), ("row_loss", 2), ("psnr_moving", 1)] {
@@ -57,13 +57,13 @@ fn a_page_shows_the_scores_and_means_of_the_run() {
 
 #[test]
 fn the_page_of_a_check_ranks_as_the_terminal_does() {
-    let bench = Bench::two_scenes();
+    let sandbox = Sandbox::two_scenes();
     let bounds = "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n";
-    fs::write(bench.path("scenes/bounds.toml"), bounds).unwrap();
+    fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
     let filters = "identity,velocity_gather:fine,mcguire:paper,bevy:high";
-    assert_done(&bench.check(&["--filters", filters]));
-    let page = make_page(&bench);
-    let run = bench.read_run();
+    assert_done(&sandbox.check(&["--filters", filters]));
+    let page = make_page(&sandbox);
+    let run = sandbox.read_run();
     let table = panel(&page, "flip_moving");
     let terminal = cli::ranking_text(&run.cases);
     for ranked in judge::rank_for_summary(&run.cases).concat() {
@@ -107,11 +107,11 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
 
 #[test]
 fn rankings_by_flip_are_grouped_by_shutter_and_rankings_by_skill_are_not() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     // A slow scene of few samples has no skill: the oracle's gain there is noise.
-    bench.copy_scene("fast", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
-    assert_done(&bench.run(&["--filters", "velocity_gather:fine,bevy:high"]));
-    let page = make_page(&bench);
+    sandbox.copy_scene("fast", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
+    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine,bevy:high"]));
+    let page = make_page(&sandbox);
     let ranking = |title: &str| {
         let label = format!("aria-label=\"{title} of every case\"");
         between(&page, &label, "</table>")[0]
@@ -140,16 +140,16 @@ fn rankings_by_flip_are_grouped_by_shutter_and_rankings_by_skill_are_not() {
 
 #[test]
 fn a_page_holds_every_plane_once_and_fetches_nothing() {
-    let bench = Bench::two_scenes();
-    assert_done(&bench.run(&["--filters", "identity,jump_flood:paper"]));
-    let page = make_page(&bench);
+    let sandbox = Sandbox::two_scenes();
+    assert_done(&sandbox.run(&["--filters", "identity,jump_flood:paper"]));
+    let page = make_page(&sandbox);
     let scenes = planes(&page);
     assert_eq!(scenes.len(), 2, "one list per scene");
     for own in &scenes {
         let once: BTreeSet<&String> = own.iter().collect();
         assert_eq!(once.len(), own.len(), "a plane stands there twice");
     }
-    for case in bench.read_run().cases {
+    for case in sandbox.read_run().cases {
         let article = find_article(&page, &case);
         let layers = between(article, "data-layers=\"", "\"")[0];
         let scene: usize = between(article, "data-scene=\"", "\"")[0].parse().unwrap();
@@ -208,22 +208,22 @@ fn a_page_holds_every_plane_once_and_fetches_nothing() {
 
 #[test]
 fn the_same_run_makes_the_same_page() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    assert!(make_page(&bench) == make_page(&bench));
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    assert!(make_page(&sandbox) == make_page(&sandbox));
 }
 
 #[cfg(unix)] // Elsewhere no folder has such a name.
 #[test]
 fn a_scene_name_with_a_script_is_shown_as_text() {
     const NAME: &str = "<script>alert(1)";
-    let bench = Bench::new();
-    bench.copy_scene(NAME, |text| {
+    let sandbox = Sandbox::new();
+    sandbox.copy_scene(NAME, |text| {
         text.replace("nothing: it serves", "<img src=x onerror=alert(2)> & it's")
     });
     let words = ["--filters", "identity", "--scenes", NAME];
-    assert_done(&bench.run(&words));
-    let page = make_page(&bench);
+    assert_done(&sandbox.run(&words));
+    let page = make_page(&sandbox);
     assert!(page.contains("<h2 tabindex=\"-1\">&lt;script&gt;alert(1) / <a href="));
     assert!(page.contains("&lt;img src=x onerror=alert(2)&gt; &amp; it"));
     assert!(!page.contains("<script>alert") && !page.contains("<img src=x"));
@@ -233,16 +233,16 @@ fn a_scene_name_with_a_script_is_shown_as_text() {
 
 #[test]
 fn costs_come_from_the_bench_beside_the_run() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
-    assert_done(&bench.run(&split(words)));
-    let without = make_page(&bench);
+    assert_done(&sandbox.run(&split(words)));
+    let without = make_page(&sandbox);
     assert!(without.contains("This run has no bench.json."));
     let words =
         "bench --quiet --filters identity,jump_flood:paper,mcguire:paper --size 64x32 --out out";
-    assert_done(&bench.shuttertruth(&split(words)));
-    let page = make_page(&bench);
-    let text = fs::read_to_string(bench.path("out/bench.json")).unwrap();
+    assert_done(&sandbox.shuttertruth(&split(words)));
+    let page = make_page(&sandbox);
+    let text = fs::read_to_string(sandbox.path("out/bench.json")).unwrap();
     let timed: suite::Bench = serde_json::from_str(&text).unwrap();
     let seconds = timed
         .cases
@@ -269,7 +269,7 @@ fn costs_come_from_the_bench_beside_the_run() {
         );
     }
     fs::write(
-        bench.path("out/bench.json"),
+        sandbox.path("out/bench.json"),
         text.replace("\"format\": 1", "\"format\": 0"),
     )
     .unwrap();
@@ -277,16 +277,17 @@ fn costs_come_from_the_bench_beside_the_run() {
         "out/bench.json: has format 0; allowed: 1",
         "`shuttertruth bench`",
     ];
-    assert_refused(&bench.shuttertruth(&WORDS), 2, &parts);
+    assert_refused(&sandbox.shuttertruth(&WORDS), 2, &parts);
 }
 
 #[test]
 fn a_run_keeps_the_jump_flood_s_dilated_map() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "jump_flood:corrected"]));
-    let case = &bench.read_filter_cases()[0];
-    let output = frame::read_exr(&bench.path("out").join(&case.folder).join("output.exr")).unwrap();
-    let frame = frame::Frame::read(&bench.path("out/plate/frame.exr")).unwrap();
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "jump_flood:corrected"]));
+    let case = &sandbox.read_filter_cases()[0];
+    let output =
+        frame::read_exr(&sandbox.path("out").join(&case.folder).join("output.exr")).unwrap();
+    let frame = frame::Frame::read(&sandbox.path("out/plate/frame.exr")).unwrap();
     let [x, y] = ["dilated.X", "dilated.Y"].map(|name| output.plane(name).unwrap());
     let motion = *frame.velocity.at(32, 16);
     assert!(motion[0] > 5.0, "the plate moves to the right: {motion:?}");
@@ -308,19 +309,19 @@ fn a_run_keeps_the_jump_flood_s_dilated_map() {
 
 #[test]
 fn a_report_refuses_a_file_without_a_run_or_its_pictures() {
-    let bench = Bench::new();
-    fs::create_dir(bench.path("out")).unwrap();
+    let sandbox = Sandbox::new();
+    fs::create_dir(sandbox.path("out")).unwrap();
     let refused = |parts: &[&str]| {
-        assert_refused(&bench.shuttertruth(&WORDS), 2, parts);
-        assert!(!bench.path("page").exists());
+        assert_refused(&sandbox.shuttertruth(&WORDS), 2, parts);
+        assert!(!sandbox.path("page").exists());
     };
     refused(&["out/run.json", "read"]);
-    fs::write(bench.path("out/run.json"), "{}").unwrap();
+    fs::write(sandbox.path("out/run.json"), "{}").unwrap();
     refused(&["out/run.json: no run of this program", "`shuttertruth run`"]);
-    fs::remove_file(bench.path("out/run.json")).unwrap();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    let picture = bench.path("out/plate/identity_default/output.exr");
-    let other = bench.path("out/other.exr");
+    fs::remove_file(sandbox.path("out/run.json")).unwrap();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    let picture = sandbox.path("out/plate/identity_default/output.exr");
+    let other = sandbox.path("out/other.exr");
     fs::copy(&picture, &other).unwrap();
     fs::write(&picture, "no picture").unwrap();
     refused(&["out/plate/identity_default/output.exr"]);
@@ -335,10 +336,10 @@ fn a_report_refuses_a_file_without_a_run_or_its_pictures() {
     ]);
     fs::rename(&other, &picture).unwrap();
 
-    let text = fs::read_to_string(bench.path("out/run.json")).unwrap();
+    let text = fs::read_to_string(sandbox.path("out/run.json")).unwrap();
     let mut run: serde_json::Value = serde_json::from_str(&text).unwrap();
-    fs::remove_file(bench.path("out/judgement.json")).unwrap();
+    fs::remove_file(sandbox.path("out/judgement.json")).unwrap();
     run["cases"] = serde_json::json!([]);
-    fs::write(bench.path("out/run.json"), run.to_string()).unwrap();
+    fs::write(sandbox.path("out/run.json"), run.to_string()).unwrap();
     refused(&["the run has no cases"]);
 }

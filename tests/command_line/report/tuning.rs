@@ -4,28 +4,28 @@ use std::fs;
 
 use tune::{Sensitivity, Tuning};
 
-use crate::bench::{Bench, assert_refused, split};
+use crate::sandbox::{Sandbox, assert_refused, split};
 
 const TUNE: &str = "tune search --quiet --filter jump_flood --from paper --vary samples=2..16,jitter,foreground_extent --objective flip,bleed \
                     --scenes plate,slow --size 64x32 --samples-per-pixel 16 --out tuned";
 
-fn set_up() -> Bench {
-    let bench = Bench::new();
-    bench.copy_scene("slow", |text| {
+fn set_up() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.copy_scene("slow", |text| {
         text.replace("-1.6", "-0.8")
             .replace("\"translation\"", "\"camera\"")
     });
-    bench.copy_scene("held_out", |text| text.replace("-1.6", "-1.2"));
-    bench
+    sandbox.copy_scene("held_out", |text| text.replace("-1.6", "-1.2"));
+    sandbox
 }
 
-fn tune(bench: &Bench, more: &[&str]) {
-    bench.execute(&[&split(TUNE)[..], more].concat());
+fn tune(sandbox: &Sandbox, more: &[&str]) {
+    sandbox.execute(&[&split(TUNE)[..], more].concat());
 }
 
-fn make_page(bench: &Bench) -> String {
-    bench.execute(&["report", "tuned", "--html", "page.html"]);
-    fs::read_to_string(bench.path("page.html")).unwrap()
+fn make_page(sandbox: &Sandbox) -> String {
+    sandbox.execute(&["report", "tuned", "--html", "page.html"]);
+    fs::read_to_string(sandbox.path("page.html")).unwrap()
 }
 
 /// Finds the part of a page from a heading to the next one.
@@ -40,15 +40,15 @@ fn find_section<'a>(page: &'a str, heading: &str) -> &'a str {
 
 #[test]
 fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
-    let bench = set_up();
+    let sandbox = set_up();
     tune(
-        &bench,
+        &sandbox,
         &split(
             "--budget 14 --held-out held_out --held-out-size 64x32 --held-out-samples-per-pixel 16",
         ),
     );
-    let page = make_page(&bench);
-    let tuning: Tuning = bench.read_json("tuned/tune.json");
+    let page = make_page(&sandbox);
+    let tuning: Tuning = sandbox.read_json("tuned/tune.json");
     assert!(page.contains("from paper, 14 trials on 2 scenes"));
     let convergence = find_section(&page, "Convergence");
     assert_eq!(
@@ -105,12 +105,12 @@ fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
 
 #[test]
 fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
-    let bench = set_up();
+    let sandbox = set_up();
     let words: Vec<&str> = TUNE.split_whitespace().skip(2).collect();
-    bench.execute(&[&["tune", "sensitivity", "--rows", "4"], &words[..]].concat());
-    let page = make_page(&bench);
+    sandbox.execute(&[&["tune", "sensitivity", "--rows", "4"], &words[..]].concat());
+    let page = make_page(&sandbox);
     let found: Sensitivity =
-        serde_json::from_slice(&fs::read(bench.path("tuned/sensitivity.json")).unwrap()).unwrap();
+        serde_json::from_slice(&fs::read(sandbox.path("tuned/sensitivity.json")).unwrap()).unwrap();
     let table = find_section(&page, "Which parameters can become constants");
     for (name, own) in &found.parameters {
         let total = own.indices.total;
@@ -126,9 +126,9 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
     for own in old["parameters"].as_object_mut().unwrap().values_mut() {
         own["indices"] = serde_json::Value::Null;
     }
-    fs::write(bench.path("tuned/sensitivity.json"), old.to_string()).unwrap();
+    fs::write(sandbox.path("tuned/sensitivity.json"), old.to_string()).unwrap();
     assert_refused(
-        &bench.shuttertruth(&["report", "tuned", "--html", "page.html"]),
+        &sandbox.shuttertruth(&["report", "tuned", "--html", "page.html"]),
         2,
         &[
             "tuned/sensitivity.json",
@@ -140,15 +140,15 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
 
 #[test]
 fn an_unfinished_tuning_has_a_page_and_an_empty_folder_is_refused() {
-    let bench = set_up();
-    tune(&bench, &["--budget", "3"]);
-    fs::remove_file(bench.path("tuned/tune.json")).unwrap();
-    let journal = bench.path("tuned/journal.jsonl");
+    let sandbox = set_up();
+    tune(&sandbox, &["--budget", "3"]);
+    fs::remove_file(sandbox.path("tuned/tune.json")).unwrap();
+    let journal = sandbox.path("tuned/journal.jsonl");
     let text = fs::read_to_string(&journal).unwrap();
     // A fourth trial is half written.
     fs::write(&journal, format!("{text}{{\"trial\": 3, \"val")).unwrap();
     assert_eq!(
-        find_section(&make_page(&bench), "Convergence")
+        find_section(&make_page(&sandbox), "Convergence")
             .matches("<circle")
             .count(),
         3
@@ -156,19 +156,19 @@ fn an_unfinished_tuning_has_a_page_and_an_empty_folder_is_refused() {
     let words = ["report", "tuned", "--html", "page.html"];
     fs::write(&journal, format!("{text}{{\"trial\": 3}}\n")).unwrap();
     assert_refused(
-        &bench.shuttertruth(&words),
+        &sandbox.shuttertruth(&words),
         2,
         &["tuned/journal.jsonl:5", "is no trial"],
     );
     fs::remove_file(&journal).unwrap();
     assert_refused(
-        &bench.shuttertruth(&words),
+        &sandbox.shuttertruth(&words),
         2,
         &["tuned: holds neither a run.json nor"],
     );
     let layers = ["report", "tuned", "--exr", "layers"];
     assert_refused(
-        &bench.shuttertruth(&layers),
+        &sandbox.shuttertruth(&layers),
         2,
         &["--exr", "keeps no pictures"],
     );
@@ -176,15 +176,15 @@ fn an_unfinished_tuning_has_a_page_and_an_empty_folder_is_refused() {
 
 #[test]
 fn texts_of_a_filter_are_shown_as_text() {
-    let bench = set_up();
-    tune(&bench, &["--budget", "3"]);
-    let path = bench.path("tuned/tune.json");
+    let sandbox = set_up();
+    tune(&sandbox, &["--budget", "3"]);
+    let path = sandbox.path("tuned/tune.json");
     let mut tuning: Tuning = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
     tuning
         .failed
         .insert(2, "<script>alert(1)</script>".to_owned());
     fs::write(&path, serde_json::to_string(&tuning).unwrap()).unwrap();
-    let page = make_page(&bench);
+    let page = make_page(&sandbox);
     assert!(
         page.contains("&lt;script&gt;alert(1)"),
         "the reason is not shown"

@@ -5,7 +5,7 @@ mod same_bytes;
 
 use serde_json::Value;
 
-use crate::bench::{Bench, split};
+use crate::sandbox::{Sandbox, split};
 
 /// Filters of both shutters, one of them with two presets.
 const FILTERS: &str = "--filter velocity_gather,kino:default,identity";
@@ -14,8 +14,8 @@ const FILTERS: &str = "--filter velocity_gather,kino:default,identity";
 const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
 
 /// Plans a command; returns one job per line.
-fn plan(bench: &Bench, words: &[&str]) -> Vec<Value> {
-    let text = bench.execute(&[&["truths", "plan"], words, &["--json"]].concat());
+fn plan(sandbox: &Sandbox, words: &[&str]) -> Vec<Value> {
+    let text = sandbox.execute(&[&["truths", "plan"], words, &["--json"]].concat());
     let lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
     lines.collect()
 }
@@ -30,25 +30,29 @@ fn list(job: &Value, key: &str) -> Vec<String> {
 
 /// Runs a job, whose inputs must be there; it must leave all its outputs. Returns what it prints.
 #[track_caller]
-fn execute(bench: &Bench, job: &Value) -> String {
+fn execute(sandbox: &Sandbox, job: &Value) -> String {
     for input in list(job, "inputs") {
-        assert!(bench.path(&input).is_file(), "{}: no {input}", job["job"]);
+        assert!(sandbox.path(&input).is_file(), "{}: no {input}", job["job"]);
     }
     let words = list(job, "arguments");
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let printed = bench.execute(&words);
+    let printed = sandbox.execute(&words);
     for output in list(job, "outputs") {
-        assert!(bench.path(&output).is_file(), "{}: no {output}", job["job"]);
+        assert!(
+            sandbox.path(&output).is_file(),
+            "{}: no {output}",
+            job["job"]
+        );
     }
     printed
 }
 
 /// Measures two scenes in one folder each, with one filter and the references.
-fn two_parts() -> Bench {
-    let bench = Bench::two_scenes();
+fn two_parts() -> Sandbox {
+    let sandbox = Sandbox::two_scenes();
     for scene in ["plate", "slow"] {
         let out = ["--filter", "identity", "--scenes", scene, "--out", scene];
-        bench.execute(&[&["run"], &split(QUICK)[..], &out].concat());
+        sandbox.execute(&[&["run"], &split(QUICK)[..], &out].concat());
     }
-    bench
+    sandbox
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::{FILTERS, QUICK, execute, list, plan, two_parts};
-use crate::bench::{Bench, assert_done, files_below, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, files_below, split, stdout};
 
 /// Reads all files below a folder, but for some folders and for pages.
 fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
@@ -23,13 +23,13 @@ fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 /// Runs the jobs of a plan in one bench and the command itself in another; compares all files.
 #[track_caller]
 fn assert_jobs_equal_one_process(words: &[&str]) {
-    let [shared, alone] = [(); 2].map(|()| Bench::two_scenes());
+    let [shared, alone] = [(); 2].map(|()| Sandbox::two_scenes());
     let jobs = plan(&shared, words);
     for job in &jobs {
         execute(&shared, job);
     }
     alone.execute(&[&["run"], words].concat());
-    let [shared, alone] = [shared, alone].map(|bench| contents(&bench.path("out")));
+    let [shared, alone] = [shared, alone].map(|sandbox| contents(&sandbox.path("out")));
     let names = |files: &[(PathBuf, Vec<u8>)]| -> Vec<PathBuf> {
         files.iter().map(|(name, _)| name.clone()).collect()
     };
@@ -56,14 +56,14 @@ fn jobs_of_a_sequence_make_the_files_of_one_process() {
 fn jobs_of_a_calibration_leave_nothing_to_measure() {
     let words = format!("{QUICK} --filter identity --scenes plate --runs 2 --metrics flip_moving");
     let words = split(&words);
-    let [shared, alone] = [(); 2].map(|()| Bench::new());
+    let [shared, alone] = [(); 2].map(|()| Sandbox::new());
     let jobs = plan(&shared, &words);
     let (last, others) = jobs.split_last().unwrap();
     for job in others {
         execute(&shared, job);
     }
-    let measured = |bench: &Bench| {
-        let record = bench.path("out/seed_2/plate/identity_default/case.json");
+    let measured = |sandbox: &Sandbox| {
+        let record = sandbox.path("out/seed_2/plate/identity_default/case.json");
         fs::metadata(record).unwrap().modified().unwrap()
     };
     let before = measured(&shared);
@@ -75,10 +75,10 @@ fn jobs_of_a_calibration_leave_nothing_to_measure() {
 
 #[test]
 fn a_plan_is_a_table_or_one_line_per_job() {
-    let bench = Bench::two_scenes();
+    let sandbox = Sandbox::two_scenes();
     let words = format!("{QUICK} {FILTERS}");
     let words = split(&words);
-    let jobs = plan(&bench, &words);
+    let jobs = plan(&sandbox, &words);
     let names: Vec<&str> = jobs
         .iter()
         .map(|job| job["job"].as_str().unwrap())
@@ -102,54 +102,59 @@ fn a_plan_is_a_table_or_one_line_per_job() {
     // Three presets take longer than one, and eight references longer still.
     assert!(seconds("filters/plate/velocity_gather") > seconds("filters/plate/identity"));
     assert!(seconds("references/plate") > seconds("filters/plate/identity"));
-    let table = bench.execute(&[&["truths", "plan"], &words[..]].concat());
+    let table = sandbox.execute(&[&["truths", "plan"], &words[..]].concat());
     for name in names {
         assert!(table.contains(name), "{name} is missing from:\n{table}");
     }
-    assert!(!bench.path("out").exists(), "a plan writes nothing");
+    assert!(!sandbox.path("out").exists(), "a plan writes nothing");
 }
 
 #[test]
 fn parts_made_by_hand_are_joined_without_a_plan() {
-    let bench = two_parts();
-    let output = bench.shuttertruth(&["truths", "merge", "plate", "slow", "--out", "both"]);
+    let sandbox = two_parts();
+    let output = sandbox.shuttertruth(&["truths", "merge", "plate", "slow", "--out", "both"]);
     assert_done(&output);
     assert_eq!(stdout(&output), "both/run.json (16 cases of 2 parts)\n");
     let words = [&["run"], &split(QUICK)[..], &["--filter", "identity"]].concat();
-    bench.execute(&words);
+    sandbox.execute(&words);
     // The command is the one difference.
     let read = |out: &str| {
-        let mut run: serde_json::Value = bench.read_json(&format!("{out}/run.json"));
+        let mut run: serde_json::Value = sandbox.read_json(&format!("{out}/run.json"));
         run["command"].take();
         run
     };
     assert_eq!(read("both"), read("out"));
-    bench.execute(&["report", "both"]);
+    sandbox.execute(&["report", "both"]);
     // A part twice is no other run.
     let words = [
         "truths", "merge", "plate", "slow", "plate", "--out", "twice",
     ];
-    bench.execute(&words);
+    sandbox.execute(&words);
     assert_eq!(read("twice"), read("both"));
 }
 
 #[test]
 fn truths_of_another_folder_are_taken_if_their_inputs_are_the_same() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let render = "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --ladders --out kept";
-    bench.execute(&split(render));
+    sandbox.execute(&split(render));
     let with = |out: &str, more: &[&str]| {
         let words = ["run", "--filter", "identity", "--out", out];
-        bench.execute(&[&words[..], &split(QUICK), more].concat());
+        sandbox.execute(&[&words[..], &split(QUICK), more].concat());
     };
-    let written = |path: &str| fs::metadata(bench.path(path)).unwrap().modified().unwrap();
+    let written = |path: &str| {
+        fs::metadata(sandbox.path(path))
+            .unwrap()
+            .modified()
+            .unwrap()
+    };
     with("same", &["--truths", "kept"]);
     for name in ["frame.exr", "truth_trailing.exr", "ladder_trailing/n64.exr"] {
         let [kept, taken] = ["kept", "same"].map(|out| written(&format!("{out}/plate/{name}")));
         assert_eq!(kept, taken, "{name} was rendered again");
     }
     let truth =
-        |out: &str| fs::read(bench.path(&format!("{out}/plate/truth_trailing.exr"))).unwrap();
+        |out: &str| fs::read(sandbox.path(&format!("{out}/plate/truth_trailing.exr"))).unwrap();
     with("other", &["--truths", "kept", "--seed", "2"]);
     with("alone", &["--seed", "2"]);
     assert_ne!(
@@ -166,28 +171,28 @@ fn truths_of_another_folder_are_taken_if_their_inputs_are_the_same() {
 
 #[test]
 fn a_part_holds_its_references_or_its_filters_and_has_no_report() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for (part, has_references) in [("references", true), ("filters", false)] {
         let words = ["run", "--filter", "identity", "--part", part, "--out", part];
-        bench.execute(&[&words[..], &split(QUICK)].concat());
-        let run: suite::Run = bench.read_json(&format!("{part}/run.json"));
+        sandbox.execute(&[&words[..], &split(QUICK)].concat());
+        let run: suite::Run = sandbox.read_json(&format!("{part}/run.json"));
         assert!(!run.cases.is_empty());
         assert!(
             run.cases
                 .iter()
                 .all(|case| case.is_reference == has_references)
         );
-        assert!(!bench.path(part).join("report.html").exists());
+        assert!(!sandbox.path(part).join("report.html").exists());
     }
 }
 
 #[test]
 fn a_plan_of_a_user_s_own_files_names_them() {
-    let bench = Bench::new();
-    tests::filter_folder::copy_shipped_filter("velocity_gather", &bench.path("my_blur"));
-    fs::create_dir(bench.path("kept")).unwrap();
+    let sandbox = Sandbox::new();
+    tests::filter_folder::copy_shipped_filter("velocity_gather", &sandbox.path("my_blur"));
+    fs::create_dir(sandbox.path("kept")).unwrap();
     let words = format!("{QUICK} --scenes ./scenes/plate --filter my_blur:fine --truths kept");
-    let jobs = plan(&bench, &split(&words));
+    let jobs = plan(&sandbox, &split(&words));
     let job = |name: &str| jobs.iter().find(|job| job["job"] == name).unwrap();
     assert!(
         jobs.iter().all(|job| job["job"] != "truths/plate"),
@@ -200,7 +205,7 @@ fn a_plan_of_a_user_s_own_files_names_them() {
         assert!(inputs.contains(&file.to_owned()), "{file}: {inputs:?}");
     }
     for job in &jobs {
-        execute(&bench, job);
+        execute(&sandbox, job);
     }
 }
 

@@ -9,12 +9,12 @@ use tests::text::assert_contains;
 use tune::TrialOutcome;
 
 use super::{parse_trials, read_journal, read_tuning, set_up, tuning_words};
-use crate::bench::{Bench, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
 
 #[test]
 fn a_tuning_beats_its_start_and_records_the_way() {
-    let bench = set_up();
-    let table = bench.execute(&tuning_words("out", "40", &["--held-out", "plate"]));
+    let sandbox = set_up();
+    let table = sandbox.execute(&tuning_words("out", "40", &["--held-out", "plate"]));
     assert_contains(
         &table,
         &[
@@ -26,7 +26,7 @@ fn a_tuning_beats_its_start_and_records_the_way() {
             "FLIP of chosen against start",
         ],
     );
-    let journal = read_journal(&bench, "out");
+    let journal = read_journal(&sandbox, "out");
     let trials = parse_trials(&journal);
     assert_eq!(trials.len(), 40);
     // The tuning begins with the published preset, not with the result of another tuning.
@@ -42,7 +42,7 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     assert!(!begun("tuned"), "{journal}");
     // The published demo scales each trail by noise. On these small plates, another jitter alone lowers the error by
     // some percent.
-    let tuning = read_tuning(&bench, "out");
+    let tuning = read_tuning(&sandbox, "out");
     assert!(tuning.chosen.error.unwrap() < -0.01, "{table}");
     assert_eq!(tuning.start.error, Some(0.0));
     assert_eq!(tuning.start.values["samples"], filters::Value::Integer(8));
@@ -67,23 +67,23 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     assert_eq!(families, ["camera", "thin", "translation"]);
     assert_eq!(tuning.held_out.len(), 1);
     let file: serde_json::Value =
-        serde_json::from_slice(&fs::read(bench.path("out/tune.json")).unwrap()).unwrap();
+        serde_json::from_slice(&fs::read(sandbox.path("out/tune.json")).unwrap()).unwrap();
     let first = &file["openings"][0];
     assert_eq!(first["opening"], 1, "keys of files stay");
     assert!(first["paired"]["flip"]["bounds"].is_array(), "{first}");
 
     // The choice in the file equals the choice in tune.json.
-    let params = bench.path("out/params.json");
+    let params = sandbox.path("out/params.json");
     let words = split("tune evaluate --quiet --filter jump_flood --from paper --params");
     let scene = split("--scenes a --size 64x32 --samples-per-pixel 16 --out out");
     let params = [params.to_str().unwrap(), "--objective", "flip,bleed"];
-    let output = bench.shuttertruth(&[&words[..], &params, &scene].concat());
+    let output = sandbox.shuttertruth(&[&words[..], &params, &scene].concat());
     assert_done(&output);
     let answer: tune::Evaluation = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(answer.scenes["a"], tuning.chosen.scenes["a"]);
     assert_eq!(answer.values, tuning.values);
     // The filter's preset equals it, too.
-    let filter = with_preset(&bench, "out/preset.toml");
+    let filter = with_preset(&sandbox, "out/preset.toml");
     let preset = filter.presets.last().unwrap();
     assert_eq!(
         filter.settings(Some(&preset.name)).unwrap().values,
@@ -97,25 +97,25 @@ fn a_tuning_beats_its_start_and_records_the_way() {
     assert_eq!(tuned.scenes.iter().collect::<Vec<_>>(), scenes);
 
     // Reading the same scenes again does not count as a second opening; reading others does.
-    bench.execute(&tuning_words("out", "40", &["--held-out", "plate"]));
-    assert_eq!(read_tuning(&bench, "out").held_out.len(), 1);
+    sandbox.execute(&tuning_words("out", "40", &["--held-out", "plate"]));
+    assert_eq!(read_tuning(&sandbox, "out").held_out.len(), 1);
     let other = ["--held-out", "plate", "--held-out-size", "64x32"];
-    let output = bench.shuttertruth(&tuning_words("out", "40", &other));
+    let output = sandbox.shuttertruth(&tuning_words("out", "40", &other));
     assert!(
         stdout(&output).contains("evaluated 2 times"),
         "{}",
         stdout(&output)
     );
-    assert_eq!(read_journal(&bench, "out"), journal, "no trial was added");
+    assert_eq!(read_journal(&sandbox, "out"), journal, "no trial was added");
 }
 
 #[test]
 fn a_trial_scores_like_a_run() {
-    let bench = set_up();
-    bench.execute(&tuning_words("out", "1", &[]));
-    assert_done(&bench.run(&["--filters", "jump_flood:paper", "--scenes", "a,b,c,d,e,f,g"]));
-    let trial = &parse_trials(&read_journal(&bench, "out"))[0];
-    for case in bench.read_filter_cases() {
+    let sandbox = set_up();
+    sandbox.execute(&tuning_words("out", "1", &[]));
+    assert_done(&sandbox.run(&["--filters", "jump_flood:paper", "--scenes", "a,b,c,d,e,f,g"]));
+    let trial = &parse_trials(&read_journal(&sandbox, "out"))[0];
+    for case in sandbox.read_filter_cases() {
         let score = trial.scenes[&case.scene.to_string()];
         assert_eq!(
             Some(score.flip),
@@ -129,12 +129,12 @@ fn a_trial_scores_like_a_run() {
 }
 
 /// Loads the built-in jump flood with a preset from a file in place of its tuned one.
-fn with_preset(bench: &Bench, preset: &str) -> Filter {
-    let copy = bench.path("jump_flood");
+fn with_preset(sandbox: &Sandbox, preset: &str) -> Filter {
+    let copy = sandbox.path("jump_flood");
     copy_shipped_filter("jump_flood", &copy);
     let read = |path: &Path| fs::read_to_string(path).unwrap();
     let mut filter: toml::Table = read(&copy.join("filter.toml")).parse().unwrap();
-    let mut added: toml::Table = read(&bench.path(preset)).parse().unwrap();
+    let mut added: toml::Table = read(&sandbox.path(preset)).parse().unwrap();
     let presets = filter["preset"].as_array_mut().unwrap();
     presets.retain(|preset| preset["name"].as_str() != Some("tuned"));
     presets.append(added["preset"].as_array_mut().unwrap());
@@ -144,10 +144,10 @@ fn with_preset(bench: &Bench, preset: &str) -> Filter {
 
 #[test]
 fn two_presets_are_compared_scene_by_scene() {
-    let bench = set_up();
+    let sandbox = set_up();
     let words = split("tune compare paper corrected --quiet --filter jump_flood");
     let more = split("--scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --out out");
-    let output = bench.shuttertruth(&[&words[..], &more].concat());
+    let output = sandbox.shuttertruth(&[&words[..], &more].concat());
     assert_done(&output);
     // Lines break at the width of the terminal.
     let unwrap_lines = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -161,7 +161,7 @@ fn two_presets_are_compared_scene_by_scene() {
         "{text}"
     );
     let same = split("tune compare paper paper --quiet --filter jump_flood");
-    let output = bench.shuttertruth(&[&same[..], &more].concat());
+    let output = sandbox.shuttertruth(&[&same[..], &more].concat());
     let text = unwrap_lines(stdout(&output));
     assert!(
         text.contains("+0.0 %, 90 % CI +0.0 % to +0.0 %, over 7 scenes: undecided"),
@@ -171,13 +171,13 @@ fn two_presets_are_compared_scene_by_scene() {
 
 #[test]
 fn a_study_finds_the_parameters_that_matter() {
-    let bench = set_up();
+    let sandbox = set_up();
     let words = split("tune sensitivity --quiet --filter jump_flood --from corrected --rows 4");
     let more = split("--vary samples,behind_extent --scenes a,b --size 64x32");
     let few = ["--samples-per-pixel", "16", "--out", "out"];
-    let output = bench.shuttertruth(&[&words[..], &more, &few].concat());
+    let output = sandbox.shuttertruth(&[&words[..], &more, &few].concat());
     assert_done(&output);
-    let found: tune::Sensitivity = bench.read_json("out/sensitivity.json");
+    let found: tune::Sensitivity = sandbox.read_json("out/sensitivity.json");
     // Weighted taps do not read the extent; only replaced ones do.
     let extent = &found.parameters["behind_extent"];
     assert!(extent.constant && extent.slice.iter().all(|(_, error)| *error == 0.0));
@@ -195,22 +195,22 @@ fn a_study_finds_the_parameters_that_matter() {
         row("samples") < row("behind_extent"),
         "what matters comes first:\n{table}"
     );
-    let output = bench.shuttertruth(&[&words[..words.len() - 1], &["1"], &more, &few].concat());
+    let output = sandbox.shuttertruth(&[&words[..words.len() - 1], &["1"], &more, &few].concat());
     assert_refused(&output, 2, &["--rows <N>", "1 is not in 2.."]);
 }
 
 #[test]
 fn cost_is_relative_to_the_start() {
-    let bench = set_up();
+    let sandbox = set_up();
     let words = split("tune search --quiet --filter jump_flood --vary samples --scenes a");
     let more = split("--size 64x32 --samples-per-pixel 16 --budget 6 --out out");
-    bench.execute(&[&words[..], &more].concat());
-    let trials = parse_trials(&read_journal(&bench, "out"));
+    sandbox.execute(&[&words[..], &more].concat());
+    let trials = parse_trials(&read_journal(&sandbox, "out"));
     assert_eq!(trials[0].cost, Some(1.0));
     assert!(
         trials
             .iter()
             .all(|trial| trial.cost.is_some_and(|cost| cost > 0.0))
     );
-    assert!(Path::new(&bench.path("out/tune.json")).is_file());
+    assert!(Path::new(&sandbox.path("out/tune.json")).is_file());
 }

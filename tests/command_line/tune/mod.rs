@@ -8,7 +8,7 @@ use std::fs;
 
 use tune::{Trial, Tuning};
 
-use crate::bench::{Bench, MTL, OBJ, SCENE, split};
+use crate::sandbox::{MTL, OBJ, SCENE, Sandbox, split};
 
 /// Scenes: name, distance that the plate moves in one frame in metres, and family.
 const SCENES: [(&str, &str, &str); 7] = [
@@ -21,14 +21,14 @@ const SCENES: [(&str, &str, &str); 7] = [
     ("g", "-2.0", "translation"),
 ];
 
-/// Makes a bench with scenes a to g.
-fn set_up() -> Bench {
-    let bench = Bench::new();
+/// Makes a sandbox with scenes a to g.
+fn set_up() -> Sandbox {
+    let sandbox = Sandbox::new();
     for (name, way, family) in SCENES {
         let scene = SCENE
             .replace("translation = [-1.6,", &format!("translation = [{way},"))
             .replace("\"translation\"", &format!("\"{family}\""));
-        let folder = bench.path("scenes").join(name);
+        let folder = sandbox.path("scenes").join(name);
         fs::create_dir_all(&folder).unwrap();
         for (file, text) in [
             ("scene.toml", scene.as_str()),
@@ -38,7 +38,7 @@ fn set_up() -> Bench {
             fs::write(folder.join(file), text).unwrap();
         }
     }
-    bench
+    sandbox
 }
 
 /// Tuning of five parameters on six scenes, by scores that do not depend on a clock.
@@ -50,8 +50,8 @@ fn tuning_words<'w>(out: &'w str, budget: &'w str, more: &[&'w str]) -> Vec<&'w 
     [&split(TUNE)[..], &[budget, "--out", out], more].concat()
 }
 
-fn read_journal(bench: &Bench, out: &str) -> String {
-    fs::read_to_string(bench.path(out).join("journal.jsonl")).unwrap()
+fn read_journal(sandbox: &Sandbox, out: &str) -> String {
+    fs::read_to_string(sandbox.path(out).join("journal.jsonl")).unwrap()
 }
 
 fn parse_trials(journal: &str) -> Vec<Trial> {
@@ -61,6 +61,6 @@ fn parse_trials(journal: &str) -> Vec<Trial> {
         .collect()
 }
 
-fn read_tuning(bench: &Bench, out: &str) -> Tuning {
-    bench.read_json(&format!("{out}/tune.json"))
+fn read_tuning(sandbox: &Sandbox, out: &str) -> Tuning {
+    sandbox.read_json(&format!("{out}/tune.json"))
 }

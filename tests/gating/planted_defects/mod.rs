@@ -61,32 +61,32 @@ const SMALL_TILES: &str = "8";
 /// Filters without defects.
 const SOUND: [&str; 2] = ["mcguire:paper", "jump_flood:corrected"];
 
-struct Bench {
+struct Sandbox {
     folder: tempfile::TempDir,
     gpu: Option<Gpu>,
     bounds: RunBounds,
 }
 
-impl Bench {
+impl Sandbox {
     /// Measures the filters without defects, and makes bounds from their scores.
     fn new(filters: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let shipped = choices(filters.iter().map(|name| (*name).to_owned()));
-        let mut bench = Self {
+        let mut sandbox = Self {
             gpu: open_gpu(&shipped, None, Monitor::SILENT).unwrap(),
             bounds: RunBounds::new(),
             folder,
         };
         let runs: Vec<Run> = (CALIBRATED_WITH.into_iter())
-            .map(|seed| bench.run(choices(filters.iter().map(|name| (*name).to_owned())), seed))
+            .map(|seed| sandbox.run(choices(filters.iter().map(|name| (*name).to_owned())), seed))
             .collect();
         let metrics = METRICS.map(|name| name.parse::<Metric>().unwrap());
         for name in NAMES {
             let scene = SceneId::new(name, None);
             let bounds = calibrate_scene(&runs, &metrics, &scene);
-            bench.bounds.insert(scene, bounds);
+            sandbox.bounds.insert(scene, bounds);
         }
-        bench
+        sandbox
     }
 
     fn run(&self, filters: Vec<FilterChoice>, seed: u64) -> Run {
@@ -178,13 +178,13 @@ fn broken_bounds(check: &Check) -> Vec<String> {
 
 #[test]
 fn every_planted_defect_breaks_a_bound_and_sound_filters_pass() {
-    let bench = Bench::new(&SOUND);
+    let sandbox = Sandbox::new(&SOUND);
     let planted = DEFECTS.iter().map(|defect| {
-        let copy = bench.plant(defect);
+        let copy = sandbox.plant(defect);
         format!("{}:{}", copy.display(), defect.preset)
     });
     let words = SOUND.iter().map(|name| (*name).to_owned());
-    let checks = bench.checks(choices(words.chain(planted)));
+    let checks = sandbox.checks(choices(words.chain(planted)));
     let (sound, defective) = checks.split_at(SOUND.len());
     for check in sound {
         assert_eq!(

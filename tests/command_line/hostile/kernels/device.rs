@@ -7,12 +7,12 @@ use tests::open_gpu;
 use tests::text::assert_contains;
 
 use super::{change, list, load, write_mine};
-use crate::bench::{assert_done, assert_refused, stderr};
+use crate::sandbox::{assert_done, assert_refused, stderr};
 
 #[test]
 fn list_tries_a_filter_and_lists_it_if_it_works() {
-    let bench = write_mine(&[]);
-    let output = list(&bench);
+    let sandbox = write_mine(&[]);
+    let output = list(&sandbox);
     assert_done(&output);
     assert_eq!(stderr(&output), "");
 }
@@ -29,14 +29,14 @@ fn list_refuses_a_filter_that_the_device_refuses_with_file_and_pass() {
     ];
     for (from, to, parts) in wrong {
         let table = "var<workgroup> table: array<vec4<f32>, 100000>;";
-        let bench = match to.starts_with("table") {
+        let sandbox = match to.starts_with("table") {
             true => write_mine(&[(from, to), ("// declarations", table)]),
             false => write_mine(&[(from, to)]),
         };
-        assert_refused(&list(&bench), 2, parts);
+        assert_refused(&list(&sandbox), 2, parts);
         // Nothing was rendered before.
-        assert_refused(&bench.run(&["--filter", "mine"]), 2, parts);
-        assert!(!bench.path("out").exists());
+        assert_refused(&sandbox.run(&["--filter", "mine"]), 2, parts);
+        assert!(!sandbox.path("out").exists());
     }
 }
 
@@ -58,12 +58,12 @@ fn the_lowest_common_limits_hold_if_no_adapter_is_there() {
             .map(|name| format!("[[texture]]\nname = \"{name}\"\nformat = \"rgba32float\"\n"))
             .collect();
         let pass = format!("{textures}\n[[pass]]");
-        let bench = write_mine(&[
+        let sandbox = write_mine(&[
             ("// declarations", &declared),
             ("// statements", &stored),
             ("[[pass]]", &pass),
         ]);
-        let filter = load(&bench).unwrap();
+        let filter = load(&sandbox).unwrap();
         Limits::lowest()
             .check(&filter)
             .map_err(|error| error.to_string())
@@ -96,7 +96,7 @@ fn the_lowest_common_limits_hold_if_no_adapter_is_there() {
 
 #[test]
 fn variables_and_calls_too_large_for_any_device_are_refused_on_load() {
-    let bench = write_mine(&[
+    let sandbox = write_mine(&[
         (
             "// declarations",
             "var<private> much: array<f32, 10000000>;",
@@ -111,7 +111,7 @@ fn variables_and_calls_too_large_for_any_device_are_refused_on_load() {
         "bytes of variables",
         "allowed: at most 16384",
     ];
-    assert_contains(&load(&bench).unwrap_err(), &parts);
+    assert_contains(&load(&sandbox).unwrap_err(), &parts);
     // Each function calls the previous one twice, which makes 2^60 calls.
     let twice: String = (1..=60)
         .map(|level| {
@@ -123,14 +123,14 @@ fn variables_and_calls_too_large_for_any_device_are_refused_on_load() {
         .collect();
     let functions = format!("fn f0_(a: f32) -> f32 {{ return a; }}\n{twice}");
     change(
-        &bench,
+        &sandbox,
         &[
             ("// declarations", &functions),
             ("// statements", "value.x = f60_(value.x);"),
         ],
     );
     assert_contains(
-        &load(&bench).unwrap_err(),
+        &load(&sandbox).unwrap_err(),
         &["mine.wgsl:", "with every call inlined", "at most 200000"],
     );
 }
@@ -153,9 +153,9 @@ fn list_finds_a_range_in_which_a_kernel_fails() {
     }
     let gpu = open_gpu();
     if gpu.loop_limit.is_some() {
-        let bench = write_mine(&[("[1, 64]", "[1, 100000]")]);
+        let sandbox = write_mine(&[("[1, 64]", "[1, 100000]")]);
         let parts = ["parameter \"samples\" = 100000", "ends all loops"];
-        assert_refused(&list(&bench), 2, &parts);
+        assert_refused(&list(&sandbox), 2, &parts);
     }
 }
 

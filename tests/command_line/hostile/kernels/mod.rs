@@ -7,7 +7,7 @@ use std::process::Output;
 
 use filters::Filter;
 
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 
 const MANIFEST: &str = r#"name = "mine"
 summary = "Averages a few samples."
@@ -57,27 +57,27 @@ fn work(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 ";
 
-/// Makes a bench with the filter `mine`, after these replacements in its files.
-fn write_mine(changes: &[(&str, &str)]) -> Bench {
-    let bench = Bench::new();
-    change(&bench, changes);
-    bench
+/// Makes a sandbox with the filter `mine`, after these replacements in its files.
+fn write_mine(changes: &[(&str, &str)]) -> Sandbox {
+    let sandbox = Sandbox::new();
+    change(&sandbox, changes);
+    sandbox
 }
 
-fn change(bench: &Bench, changes: &[(&str, &str)]) {
+fn change(sandbox: &Sandbox, changes: &[(&str, &str)]) {
     let (mut manifest, mut kernels) = (MANIFEST.to_owned(), KERNELS.to_owned());
     for (from, to) in changes {
         assert!(manifest.contains(from) || kernels.contains(from), "{from}");
         manifest = manifest.replacen(from, to, 1);
         kernels = kernels.replacen(from, to, 1);
     }
-    bench.write_filter("mine", &manifest, &kernels);
+    sandbox.write_filter("mine", &manifest, &kernels);
 }
 
-fn list(bench: &Bench) -> Output {
-    bench.shuttertruth(&["list", "--filter", "mine"])
+fn list(sandbox: &Sandbox) -> Output {
+    sandbox.shuttertruth(&["list", "--filter", "mine"])
 }
 
-fn load(bench: &Bench) -> Result<Filter, String> {
-    Filter::load(&bench.path("mine")).map_err(|error| error.to_string())
+fn load(sandbox: &Sandbox) -> Result<Filter, String> {
+    Filter::load(&sandbox.path("mine")).map_err(|error| error.to_string())
 }

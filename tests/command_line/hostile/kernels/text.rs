@@ -4,7 +4,7 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use super::{list, load, write_mine};
-use crate::bench::{Bench, assert_done, assert_refused, make_fifo, stderr};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, make_fifo, stderr};
 
 #[test]
 fn deep_kernels_load_or_are_refused_with_their_line() {
@@ -19,8 +19,8 @@ fn deep_kernels_load_or_are_refused_with_their_line() {
         |count: usize| format!("value.x = {}1.0{};", "(".repeat(count), ")".repeat(count));
     // Each term counts twice: as a sum and as a member.
     for statements in [sum(490), choices(300), brackets(150)] {
-        let bench = write_mine(&[("// statements", &statements)]);
-        assert_done(&list(&bench));
+        let sandbox = write_mine(&[("// statements", &statements)]);
+        assert_done(&list(&sandbox));
     }
     for statements in [
         sum(2_000),
@@ -30,16 +30,16 @@ fn deep_kernels_load_or_are_refused_with_their_line() {
         choices(3_000),
         brackets(100_000),
     ] {
-        let bench = write_mine(&[("// statements", &statements)]);
+        let sandbox = write_mine(&[("// statements", &statements)]);
         let parts = [
             "mine.wgsl:18: more than 1000 operators",
             "allowed: at most 1000",
         ];
-        assert_refused(&list(&bench), 2, &parts);
+        assert_refused(&list(&sandbox), 2, &parts);
     }
     // Errors from Naga's own limits name their place too.
-    let bench = write_mine(&[("// statements", &brackets(400))]);
-    assert_refused(&list(&bench), 2, &["mine.wgsl"]);
+    let sandbox = write_mine(&[("// statements", &brackets(400))]);
+    assert_refused(&list(&sandbox), 2, &["mine.wgsl"]);
     // Many declarations that refer to one another, and many statements.
     let mut constants = "const c0 = 1;\n".to_owned();
     for index in 1..10_000 {
@@ -50,38 +50,38 @@ fn deep_kernels_load_or_are_refused_with_their_line() {
 
 #[test]
 fn irregular_and_large_files_are_refused() {
-    let bench = write_mine(&[]);
+    let sandbox = write_mine(&[]);
     for (file, limit) in [("filter.toml", 1 << 20), ("mine.wgsl", 256 << 10)] {
-        let path = bench.path("mine").join(file);
+        let path = sandbox.path("mine").join(file);
         let whole = fs::read(&path).unwrap();
         let mut large = whole.clone();
         large.resize(limit + 1, b'\n');
         fs::write(&path, &large).unwrap();
         let parts = [file, "holds", &format!("at most {limit} are read")];
-        assert_refused(&list(&bench), 2, &parts);
+        assert_refused(&list(&sandbox), 2, &parts);
         fs::write(&path, b"\xff\xfe").unwrap();
-        assert_refused(&list(&bench), 2, &[file, "not UTF-8"]);
+        assert_refused(&list(&sandbox), 2, &[file, "not UTF-8"]);
         fs::remove_file(&path).unwrap();
         #[cfg(unix)]
         {
             std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
-            assert_refused(&list(&bench), 2, &[file, "is a device"]);
+            assert_refused(&list(&sandbox), 2, &[file, "is a device"]);
             fs::remove_file(&path).unwrap();
-            fs::write(bench.path("secret"), "the secret").unwrap();
+            fs::write(sandbox.path("secret"), "the secret").unwrap();
             std::os::unix::fs::symlink("../secret", &path).unwrap();
             let parts = [file, "is a link to a file outside of the filter's folder"];
-            assert_refused(&list(&bench), 2, &parts);
+            assert_refused(&list(&sandbox), 2, &parts);
             fs::remove_file(&path).unwrap();
             make_fifo(&path);
-            assert_refused(&list(&bench), 2, &[file, "is a FIFO"]);
+            assert_refused(&list(&sandbox), 2, &[file, "is a FIFO"]);
             fs::remove_file(&path).unwrap();
         }
         fs::create_dir(&path).unwrap();
-        assert_refused(&list(&bench), 2, &[file, "is a folder"]);
+        assert_refused(&list(&sandbox), 2, &[file, "is a folder"]);
         fs::remove_dir(&path).unwrap();
         fs::write(&path, whole).unwrap();
     }
-    assert_done(&list(&bench));
+    assert_done(&list(&sandbox));
 }
 
 #[test]
@@ -132,19 +132,19 @@ fn thousands_of_presets_and_parameters_are_refused_quickly() {
             format!("[[preset]]\nname = \"p{index}\"\ndoc = \"d\"\nvalues = {{ samples = 2 }}\n")
         })
         .collect();
-    let bench = write_mine(&[("[[pass]]", &format!("{presets}[[pass]]"))]);
-    assert_refused(&list(&bench), 2, &["8001 [[preset]]", "at most 256"]);
+    let sandbox = write_mine(&[("[[pass]]", &format!("{presets}[[pass]]"))]);
+    assert_refused(&list(&sandbox), 2, &["8001 [[preset]]", "at most 256"]);
     let parameters: String = (0..8_000)
         .map(|index| format!("[[parameter]]\nname = \"p{index}\"\nkind = \"integer\"\ndefault = 1\nrange = [0, 2]\ndoc = \"d\"\n"))
         .collect();
-    let bench = write_mine(&[("[[pass]]", &format!("{parameters}[[pass]]"))]);
-    assert_refused(&list(&bench), 2, &["8002 [[parameter]]", "at most 256"]);
+    let sandbox = write_mine(&[("[[pass]]", &format!("{parameters}[[pass]]"))]);
+    assert_refused(&list(&sandbox), 2, &["8002 [[parameter]]", "at most 256"]);
     assert!(start.elapsed() < Duration::from_secs(60));
 }
 
 #[test]
 fn values_out_of_range_are_refused_before_a_run() {
-    let bench = write_mine(&[]);
+    let sandbox = write_mine(&[]);
     for (value, parts) in [
         (
             "gain=nan",
@@ -166,9 +166,9 @@ fn values_out_of_range_are_refused_before_a_run() {
         ("samples=1\u{1b}[31m", &["found 1\\u{1b}[31m", "allowed"]),
     ] {
         let set = format!("mine.{value}");
-        let output = bench.run(&["--filter", "./mine", "--set", &set]);
+        let output = sandbox.run(&["--filter", "./mine", "--set", &set]);
         assert_refused(&output, 2, parts);
-        assert!(!bench.path("out").exists());
+        assert!(!sandbox.path("out").exists());
     }
 }
 
@@ -177,13 +177,13 @@ const MODULE: &str = "name = \"module\"\nsummary = \"A damaged module.\"\nalignm
 
 #[test]
 fn a_panic_of_naga_is_one_error_and_no_backtrace() {
-    let bench = Bench::new();
-    let folder = bench.path("module");
+    let sandbox = Sandbox::new();
+    let folder = sandbox.path("module");
     fs::create_dir(&folder).unwrap();
     fs::write(folder.join("filter.toml"), MODULE).unwrap();
     let damaged = tests::root().join("tests/fuzz/corpus/spirv/panic");
     fs::copy(damaged, folder.join("module.spv")).unwrap();
-    let mut command = bench.command(&["list", "--filter", "module"]);
+    let mut command = sandbox.command(&["list", "--filter", "module"]);
     let output = command.env("RUST_BACKTRACE", "1").output().unwrap();
     let parts = ["error: ./module/module.spv: naga, which translates it, fails on it: called"];
     assert_refused(&output, 2, &parts);

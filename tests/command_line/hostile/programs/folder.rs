@@ -4,15 +4,15 @@ use std::fs::{self, File, OpenOptions};
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 
-use crate::bench::{Bench, assert_done, assert_refused, files_below, split};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, files_below, split};
 
 const RUN: &str = "run --quiet --size 64x32 --samples-per-pixel 16 --filters identity --out out";
 const RENDER: &str = "truths render --quiet --samples-per-pixel 16 --out out";
 
 /// Opens the lock file that another process would hold.
-fn lock_file(bench: &Bench) -> File {
-    fs::create_dir_all(bench.path("out")).unwrap();
-    let path = bench.path("out/.shuttertruth.lock");
+fn lock_file(sandbox: &Sandbox) -> File {
+    fs::create_dir_all(sandbox.path("out")).unwrap();
+    let path = sandbox.path("out/.shuttertruth.lock");
     let mut options = OpenOptions::new();
     (options.write(true).create(true).truncate(false))
         .open(path)
@@ -21,13 +21,13 @@ fn lock_file(bench: &Bench) -> File {
 
 #[test]
 fn two_runs_cannot_share_a_folder_at_the_same_time() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let parts = [
         "another shuttertruth is writing to out",
         "another output folder",
     ];
-    bench.write_bound(1.0);
-    let other = lock_file(&bench);
+    sandbox.write_bound(1.0);
+    let other = lock_file(&sandbox);
     other.try_lock().unwrap();
     for words in [
         RUN,
@@ -38,23 +38,23 @@ fn two_runs_cannot_share_a_folder_at_the_same_time() {
         "tune serve --quiet --filter jump_flood --out out",
     ] {
         let words = split(words);
-        assert_refused(&bench.shuttertruth(&words), 2, &parts);
-        assert_eq!(files_below(&bench.path("out")).len(), 1, "{words:?}");
+        assert_refused(&sandbox.shuttertruth(&words), 2, &parts);
+        assert_eq!(files_below(&sandbox.path("out")).len(), 1, "{words:?}");
     }
     // Renders share a folder with each other and with no other command.
     other.unlock().unwrap();
     other.try_lock_shared().unwrap();
-    bench.execute(&split(RENDER));
-    assert_refused(&bench.shuttertruth(&split(RUN)), 2, &parts);
+    sandbox.execute(&split(RENDER));
+    assert_refused(&sandbox.shuttertruth(&split(RUN)), 2, &parts);
     // A process that ends releases its lock.
     drop(other);
-    bench.execute(&split(RUN));
-    bench.execute(&split(RUN));
+    sandbox.execute(&split(RUN));
+    sandbox.execute(&split(RUN));
 }
 
 #[test]
 fn the_next_run_removes_files_of_a_killed_process() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let gone = [
         "out/.shuttertruth-a.tmp",
         "out/plate/.shuttertruth-b.tmp",
@@ -63,18 +63,18 @@ fn the_next_run_removes_files_of_a_killed_process() {
     ];
     let kept = ["out/mine.tmp", "out/mine/.shuttertruth-e.tmp"];
     for name in gone.iter().chain(&kept) {
-        let path = bench.path(name);
+        let path = sandbox.path(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, "half").unwrap();
     }
-    bench.execute(&split(RUN));
+    sandbox.execute(&split(RUN));
     for name in gone {
-        assert!(!bench.path(name).exists(), "{name}");
+        assert!(!sandbox.path(name).exists(), "{name}");
     }
     for name in kept {
-        assert!(bench.path(name).exists(), "{name}");
+        assert!(sandbox.path(name).exists(), "{name}");
     }
-    let left = files_below(&bench.path("out/plate"));
+    let left = files_below(&sandbox.path("out/plate"));
     assert!(
         left.iter()
             .all(|path| path.extension().is_none_or(|it| it != "tmp"))
@@ -84,13 +84,13 @@ fn the_next_run_removes_files_of_a_killed_process() {
 #[test]
 fn the_umask_decides_who_may_read_the_files() {
     for (umask, expected) in [("022", 0o644), ("027", 0o640), ("077", 0o600)] {
-        let bench = Bench::new();
+        let sandbox = Sandbox::new();
         let program = env!("CARGO_BIN_EXE_shuttertruth");
         let line = format!("umask {umask}; exec {program} {RENDER}");
         let mut shell = Command::new("sh");
-        shell.current_dir(bench.path("")).args(["-c", &line]);
+        shell.current_dir(sandbox.path("")).args(["-c", &line]);
         assert_done(&shell.output().unwrap());
-        for path in files_below(&bench.path("out")) {
+        for path in files_below(&sandbox.path("out")) {
             let mode = fs::metadata(&path).unwrap().permissions().mode() & 0o777;
             assert_eq!(mode, expected, "{mode:o}: {}", path.display());
         }

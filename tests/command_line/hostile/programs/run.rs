@@ -8,40 +8,40 @@ use std::time::{Duration, Instant};
 use frame::{ExrFile, Raster, write_exr};
 use tests::filter_folder::write_program;
 
-use crate::bench::{Bench, assert_done, assert_refused, press_ctrl_c, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, press_ctrl_c, split, stdout};
 
 /// Writes the filter `mine`, a shell script that gets the files as $1 and $2.
-fn write_mine(bench: &Bench, lines: &str, more: &str) {
-    write_program(&bench.path("mine"), "mine", lines, more);
+fn write_mine(sandbox: &Sandbox, lines: &str, more: &str) {
+    write_program(&sandbox.path("mine"), "mine", lines, more);
 }
 
-/// Makes a bench with a frame of 16 x 16 pixels, which is quick to blur.
-fn set_up() -> Bench {
-    let bench = Bench::new();
+/// Makes a sandbox with a frame of 16 x 16 pixels, which is quick to blur.
+fn set_up() -> Sandbox {
+    let sandbox = Sandbox::new();
     let mut file = ExrFile::new(16, 16);
     file.push_color("", &Raster::filled(16, 16, [0.5; 3]));
     for name in ["velocity.X", "velocity.Y", "Z"] {
         file.push_plane(name, &Raster::filled(16, 16, 1.0));
     }
     file.set("exposure", 0.5);
-    write_exr(&bench.path("frame.exr"), &file).unwrap();
-    bench
+    write_exr(&sandbox.path("frame.exr"), &file).unwrap();
+    sandbox
 }
 
 const BLUR: &str = "engine blur --allow-commands --filter ./mine --frame frame.exr --out b.exr";
 
 /// Makes the command `blur`; a timeout of a minute fails it.
-fn blur(bench: &Bench) -> Command {
+fn blur(sandbox: &Sandbox) -> Command {
     let mut command = Command::new("timeout");
     command.arg("60").arg(env!("CARGO_BIN_EXE_shuttertruth"));
-    command.current_dir(bench.path("")).args(split(BLUR));
+    command.current_dir(sandbox.path("")).args(split(BLUR));
     command
 }
 
 #[test]
 fn no_command_runs_a_program_without_permission() {
-    let bench = set_up();
-    write_mine(&bench, "touch ran; cp $1 $2", "");
+    let sandbox = set_up();
+    write_mine(&sandbox, "touch ran; cp $1 $2", "");
     for words in [
         "run --out out --filter mine",
         "check --out out --filter mine",
@@ -56,23 +56,23 @@ fn no_command_runs_a_program_without_permission() {
             "`./blur.sh {frame} {out}`",
             "--allow-commands",
         ];
-        assert_refused(&bench.shuttertruth(&split(words)), 2, &parts);
-        assert!(!bench.path("out").exists(), "{words}");
+        assert_refused(&sandbox.shuttertruth(&split(words)), 2, &parts);
+        assert!(!sandbox.path("out").exists(), "{words}");
     }
-    let output = bench.shuttertruth(&split("list --filter mine"));
+    let output = sandbox.shuttertruth(&split("list --filter mine"));
     assert_done(&output);
     assert!(stdout(&output).contains("runs: ./blur.sh {frame} {out}"));
-    assert!(!bench.path("mine/ran").exists(), "it ran");
-    bench.execute(&split(BLUR));
-    assert!(bench.path("mine/ran").exists());
+    assert!(!sandbox.path("mine/ran").exists(), "it ran");
+    sandbox.execute(&split(BLUR));
+    assert!(sandbox.path("mine/ran").exists());
 }
 
 #[test]
 fn a_program_gets_no_secret_from_the_environment() {
-    let bench = set_up();
+    let sandbox = set_up();
     let named = "environment = [\"CUDA_VISIBLE_DEVICES\", \"NOT_SET\"]";
-    write_mine(&bench, "env > seen; cp $1 $2", named);
-    let mut command = blur(&bench);
+    write_mine(&sandbox, "env > seen; cp $1 $2", named);
+    let mut command = blur(&sandbox);
     for name in ["GITHUB_TOKEN", "ACTIONS_RUNTIME_TOKEN", "MY_SECRET"] {
         command.env(name, "hidden");
     }
@@ -81,7 +81,7 @@ fn a_program_gets_no_secret_from_the_environment() {
         .env("LC_ALL", "C")
         .env("HOME", "/somewhere");
     assert_done(&command.output().unwrap());
-    let seen = fs::read_to_string(bench.path("mine/seen")).unwrap();
+    let seen = fs::read_to_string(sandbox.path("mine/seen")).unwrap();
     assert!(
         !seen.contains("hidden") && !seen.contains("TOKEN"),
         "{seen}"
@@ -95,22 +95,22 @@ fn a_program_gets_no_secret_from_the_environment() {
         assert!(seen.contains(line), "{line} is missing from: {seen}");
     }
     assert!(!seen.contains("NOT_SET"), "{seen}");
-    let output = bench.shuttertruth(&split("list --filter mine"));
+    let output = sandbox.shuttertruth(&split("list --filter mine"));
     assert!(stdout(&output).contains("environment: CUDA_VISIBLE_DEVICES NOT_SET"));
     for (more, part) in [
         ("environment = [\"A=B\"]", "\"A=B\" names no variable"),
         ("environment = [\"\"]", "\"\" names no variable"),
         ("environment = [\"1A\"]", "\"1A\" names no variable"),
     ] {
-        write_mine(&bench, "", more);
-        let refused = bench.shuttertruth(&split(BLUR));
+        write_mine(&sandbox, "", more);
+        let refused = sandbox.shuttertruth(&split(BLUR));
         assert_refused(&refused, 2, &["mine/filter.toml:5: environment: ", part]);
     }
     let kernels = "name = \"mine\"\nsummary = \"\"\nalignment = \"trailing\"\n\
                    environment = [\"A\"]\n[[pass]]\nentry = \"blur\"\n";
-    fs::write(bench.path("mine/filter.toml"), kernels).unwrap();
+    fs::write(sandbox.path("mine/filter.toml"), kernels).unwrap();
     assert_refused(
-        &bench.shuttertruth(&split(BLUR)),
+        &sandbox.shuttertruth(&split(BLUR)),
         2,
         &["mine/filter.toml:4: environment: is for a program"],
     );
@@ -123,8 +123,8 @@ const LEAVES_ONE: &str = "(setsid sh -c 'echo $$ > pid.new; mv pid.new pid; exec
 
 /// Returns whether the process in `pid` has ended, as a zombie has.
 #[cfg(target_os = "linux")]
-fn has_ended(bench: &Bench) -> bool {
-    let pid = fs::read_to_string(bench.path("mine/pid")).unwrap();
+fn has_ended(sandbox: &Sandbox) -> bool {
+    let pid = fs::read_to_string(sandbox.path("mine/pid")).unwrap();
     let stat = Path::new("/proc").join(pid.trim_end()).join("stat");
     fs::read_to_string(stat).map_or(true, |stat| stat.contains(") Z "))
 }
@@ -137,23 +137,23 @@ fn a_child_session_ends_with_its_program() {
         ("exit 7", "", 2, "ended with exit status: 7"),
         ("sleep 300", "time_limit = 2", 2, "took longer than 2 s"),
     ] {
-        let bench = set_up();
-        write_mine(&bench, &format!("{LEAVES_ONE}\n{rest}"), more);
-        let output = blur(&bench).output().unwrap();
+        let sandbox = set_up();
+        write_mine(&sandbox, &format!("{LEAVES_ONE}\n{rest}"), more);
+        let output = blur(&sandbox).output().unwrap();
         assert_eq!(output.status.code(), Some(code), "{rest}");
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(said.contains(part), "{said}");
-        assert!(has_ended(&bench), "it lives on after: {rest}");
+        assert!(has_ended(&sandbox), "it lives on after: {rest}");
     }
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_child_session_ends_at_ctrl_c() {
-    let bench = set_up();
-    write_mine(&bench, &format!("{LEAVES_ONE}\nsleep 300"), "");
-    let mut child = bench.command(&split(BLUR)).spawn().unwrap();
-    while !bench.path("mine/pid").exists() {
+    let sandbox = set_up();
+    write_mine(&sandbox, &format!("{LEAVES_ONE}\nsleep 300"), "");
+    let mut child = sandbox.command(&split(BLUR)).spawn().unwrap();
+    while !sandbox.path("mine/pid").exists() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         std::thread::sleep(Duration::from_millis(10));
     }
@@ -161,51 +161,51 @@ fn a_child_session_ends_at_ctrl_c() {
     press_ctrl_c(&child);
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(pressed.elapsed() < Duration::from_secs(2));
-    assert!(has_ended(&bench));
+    assert!(has_ended(&sandbox));
 }
 
 #[test]
 fn an_output_that_is_not_a_regular_file_is_refused() {
-    let bench = set_up();
+    let sandbox = set_up();
     for (lines, part) in [
         ("mkfifo $2", "left a pipe or a device in the place of {out}"),
         ("ln -s /dev/zero $2", "left a link in the place of {out}"),
         ("ln -s $1 $2", "left a link in the place of {out}"),
         ("mkdir $2", "left a folder in the place of {out}"),
     ] {
-        write_mine(&bench, lines, "");
-        let output = blur(&bench).output().unwrap();
+        write_mine(&sandbox, lines, "");
+        let output = blur(&sandbox).output().unwrap();
         assert_refused(&output, 2, &[part, "a regular file"]);
     }
     // No other user may read the folder of the files.
-    write_mine(&bench, "ls -ld $(dirname $2) > mode; cp $1 $2", "");
-    assert_done(&blur(&bench).output().unwrap());
-    let mode = fs::read_to_string(bench.path("mine/mode")).unwrap();
+    write_mine(&sandbox, "ls -ld $(dirname $2) > mode; cp $1 $2", "");
+    assert_done(&blur(&sandbox).output().unwrap());
+    let mode = fs::read_to_string(sandbox.path("mine/mode")).unwrap();
     assert!(mode.starts_with("drwx------"), "{mode}");
 }
 
 #[test]
 fn the_output_of_a_program_is_limited() {
-    let bench = set_up();
+    let sandbox = set_up();
     // The limit is 16 x 16 pixels of 256 bytes, and 1 MiB.
     let parts = ["wrote an {out} of more than 1114112 bytes", "16x16 pixels"];
     for lines in [
         "head -c 20000000 /dev/zero > $2; sleep 300",
         "truncate -s 1T $2",
     ] {
-        write_mine(&bench, lines, "");
-        assert_refused(&blur(&bench).output().unwrap(), 2, &parts);
+        write_mine(&sandbox, lines, "");
+        assert_refused(&blur(&sandbox).output().unwrap(), 2, &parts);
     }
     // 300 MB on standard output, although no file may exceed 50 MB: the program keeps only the end, in memory.
     write_mine(
-        &bench,
+        &sandbox,
         "yes | head -c 300000000; echo the end >&2; exit 7",
         "",
     );
     let program = env!("CARGO_BIN_EXE_shuttertruth");
     let limited = format!("ulimit -f 100000; exec timeout 60 {program} {BLUR}");
     let mut shell = Command::new("sh");
-    shell.current_dir(bench.path("")).args(["-c", &limited]);
+    shell.current_dir(sandbox.path("")).args(["-c", &limited]);
     let output = shell.output().unwrap();
     assert_refused(
         &output,
@@ -217,8 +217,8 @@ fn the_output_of_a_program_is_limited() {
 
 #[test]
 fn a_program_that_closes_its_pipes_and_goes_on_is_stopped() {
-    let bench = set_up();
-    write_mine(&bench, "exec >&- 2>&-; sleep 300", "time_limit = 1");
-    let output = blur(&bench).output().unwrap();
+    let sandbox = set_up();
+    write_mine(&sandbox, "exec >&- 2>&-; sleep 300", "time_limit = 1");
+    let output = blur(&sandbox).output().unwrap();
     assert_refused(&output, 2, &["took longer than 1 s", "printed nothing"]);
 }

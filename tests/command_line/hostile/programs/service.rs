@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::bench::{Bench, press_ctrl_c, split};
+use crate::sandbox::{Sandbox, press_ctrl_c, split};
 use crate::serve::SERVE;
 
 /// Sends bytes, reads answers until the service ends, and checks that it ends well.
-fn converse(bench: &Bench, said: &[u8]) -> Vec<Value> {
-    let mut command = bench.command(&split(SERVE));
+fn converse(sandbox: &Sandbox, said: &[u8]) -> Vec<Value> {
+    let mut command = sandbox.command(&split(SERVE));
     command.stdin(Stdio::piped()).stdout(Stdio::piped());
     let mut child = command.spawn().unwrap();
     let mut input = child.stdin.take().unwrap();
@@ -30,7 +30,7 @@ fn converse(bench: &Bench, said: &[u8]) -> Vec<Value> {
 
 #[test]
 fn a_bad_line_gets_an_error_and_the_next_line_an_answer() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let request = b"{\"id\": 1, \"params\": {}, \"scenes\": [\"plate\", \"plate\"]}\n";
     let long = vec![b'['; 3 << 20];
     let wrong = vec![b'x'; 5000];
@@ -43,7 +43,7 @@ fn a_bad_line_gets_an_error_and_the_next_line_an_answer() {
         &wrong,
         last,
     ];
-    let heard = converse(&bench, &said.concat());
+    let heard = converse(&sandbox, &said.concat());
     let errors: Vec<&str> = heard
         .iter()
         .filter_map(|line| line["error"].as_str())
@@ -70,8 +70,8 @@ fn a_bad_line_gets_an_error_and_the_next_line_an_answer() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_ends_an_idle_service() {
-    let bench = Bench::new();
-    let mut command = bench.command(&split(SERVE));
+    let sandbox = Sandbox::new();
+    let mut command = sandbox.command(&split(SERVE));
     command.stdin(Stdio::piped()).stdout(Stdio::piped());
     let mut child = command.spawn().unwrap();
     let _silence = child.stdin.take().unwrap();

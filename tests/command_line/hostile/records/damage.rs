@@ -11,7 +11,7 @@ use report::{LARGEST_PAGE, compare_page, write_report};
 use serde_json::{Value, json};
 use suite::{Error, Run, StoredRun};
 
-use crate::bench::{Bench, assert_done, assert_refused};
+use crate::sandbox::{Sandbox, assert_done, assert_refused};
 
 /// Collects the JSON pointers of all values. Of cases and objects it takes only the first: the others are alike.
 fn pointers(value: &Value, at: &str, all: &mut Vec<String>) {
@@ -65,16 +65,16 @@ fn read_everywhere(changed: &Path, whole: &StoredRun) -> Result<(), Error> {
 
 #[test]
 fn a_changed_value_of_run_json_never_ends_the_program() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     fs::write(
-        bench.path("scenes/bounds.toml"),
+        sandbox.path("scenes/bounds.toml"),
         "[default]\nflip_moving = { limit = 0.01, why = \"it serves a test\" }\n",
     )
     .unwrap();
     // Broken and too strict bounds have evidence.
-    let check = bench.check(&["--filters", "jump_flood:paper"]);
+    let check = sandbox.check(&["--filters", "jump_flood:paper"]);
     assert!(matches!(check.status.code(), Some(1 | 2)));
-    let path = bench.path("out/run.json");
+    let path = sandbox.path("out/run.json");
     let text = fs::read_to_string(&path).unwrap();
     let mut whole: Value = serde_json::from_str(&text).unwrap();
     // One reference is enough; the filter's case is the last.
@@ -84,7 +84,7 @@ fn a_changed_value_of_run_json_never_ends_the_program() {
     cases.insert(0, last);
     fs::write(&path, whole.to_string()).unwrap();
     let side = StoredRun::read(&path).unwrap();
-    let changed = bench.path("out/changed.json");
+    let changed = sandbox.path("out/changed.json");
     read_everywhere(&path, &side).unwrap();
 
     let mut all = Vec::new();
@@ -117,9 +117,9 @@ fn a_changed_value_of_run_json_never_ends_the_program() {
 
 #[test]
 fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    let path = bench.path("out/run.json");
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    let path = sandbox.path("out/run.json");
     let text = fs::read_to_string(&path).unwrap();
     let whole: Value = serde_json::from_str(&text).unwrap();
     let mut many = whole.clone();
@@ -172,10 +172,10 @@ fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
                 "limits", "accept", "--out", "out", "--reason", "a test", "--force",
             ],
         ] {
-            let output = bench.command(words).env_remove("CI").output().unwrap();
+            let output = sandbox.command(words).env_remove("CI").output().unwrap();
             assert_refused(&output, 2, &["out/run.json", found]);
         }
-        assert!(!bench.path("base.json").exists());
+        assert!(!sandbox.path("base.json").exists());
     }
     fs::write(&path, [b'"', 0xff, b'"']).unwrap();
     assert!(
@@ -199,8 +199,8 @@ fn a_file_that_is_not_a_run_json_is_refused_with_its_name() {
 
 #[test]
 fn a_file_that_is_not_a_baseline_or_bench_is_refused_with_its_name() {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
     for (text, found) in [
         ("[1]", "no baseline"),
         (
@@ -212,13 +212,13 @@ fn a_file_that_is_not_a_baseline_or_bench_is_refused_with_its_name() {
             "unknown variant `a\\u001b[2J`",
         ),
     ] {
-        fs::write(bench.path("base.json"), text).unwrap();
-        let output = bench.check(&["--filters", "identity", "--baseline", "base.json"]);
+        fs::write(sandbox.path("base.json"), text).unwrap();
+        let output = sandbox.check(&["--filters", "identity", "--baseline", "base.json"]);
         assert_refused(&output, 2, &["base.json", found]);
     }
     for text in ["[1]", "{\"format\": 1}", "null"] {
-        fs::write(bench.path("out/bench.json"), text).unwrap();
-        let report = bench.shuttertruth(&["report", "out", "--html", "page.html"]);
+        fs::write(sandbox.path("out/bench.json"), text).unwrap();
+        let report = sandbox.shuttertruth(&["report", "out", "--html", "page.html"]);
         assert_refused(&report, 2, &["bench.json", "no bench of this program"]);
     }
 }

@@ -4,21 +4,21 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use crate::bench::{Bench, assert_refused, make_fifo, split};
+use crate::sandbox::{Sandbox, assert_refused, make_fifo, split};
 
 const TUNE: &str = "tune search --quiet --filter jump_flood --vary samples --objective flip --size 64x32 \
                     --samples-per-pixel 16 --out tuned --budget 3";
 
 #[test]
 fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchanged() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let words = TUNE.to_owned();
-    bench.execute(&split(&words));
-    let path = bench.path("tuned/journal.jsonl");
+    sandbox.execute(&split(&words));
+    let path = sandbox.path("tuned/journal.jsonl");
     let whole = fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = whole.lines().collect();
     assert_eq!(lines.len(), 4);
-    fs::remove_file(bench.path("tuned/tune.json")).unwrap();
+    fs::remove_file(sandbox.path("tuned/tune.json")).unwrap();
 
     // Line, pointer, value, expected message, and whether the report also refuses it, which knows no filter.
     for (line, pointer, value, found, in_report) in [
@@ -80,14 +80,14 @@ fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchange
         let edited = edited.join("\n") + "\n";
         fs::write(&path, &edited).unwrap();
         let place = format!("journal.jsonl:{line}");
-        assert_refused(&bench.shuttertruth(&split(&words)), 2, &[&place, found]);
+        assert_refused(&sandbox.shuttertruth(&split(&words)), 2, &[&place, found]);
         assert_eq!(
             fs::read_to_string(&path).unwrap(),
             edited,
             "the journal was changed"
         );
         if in_report {
-            let report = bench.shuttertruth(&["report", "tuned", "--html", "page.html"]);
+            let report = sandbox.shuttertruth(&["report", "tuned", "--html", "page.html"]);
             assert_refused(&report, 2, &[&place, found]);
         }
     }
@@ -97,7 +97,7 @@ fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchange
     ] {
         fs::write(&path, &text).unwrap();
         assert_refused(
-            &bench.shuttertruth(&split(&words)),
+            &sandbox.shuttertruth(&split(&words)),
             2,
             &["journal.jsonl:1", found],
         );
@@ -108,11 +108,11 @@ fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchange
         fs::remove_file(&path).unwrap();
         make_fifo(&path);
         assert_refused(
-            &bench.shuttertruth(&split(&words)),
+            &sandbox.shuttertruth(&split(&words)),
             2,
             &["journal.jsonl", "FIFO"],
         );
-        let report = bench.shuttertruth(&["report", "tuned", "--html", "page.html"]);
+        let report = sandbox.shuttertruth(&["report", "tuned", "--html", "page.html"]);
         assert_refused(&report, 2, &["journal.jsonl", "FIFO"]);
     }
 }

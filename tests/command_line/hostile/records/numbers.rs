@@ -2,11 +2,11 @@
 
 use std::fs;
 
-use crate::bench::{Bench, SCENE, assert_refused, split};
+use crate::sandbox::{SCENE, Sandbox, assert_refused, split};
 
 #[test]
 fn numbers_out_of_range_are_refused_with_the_allowed_range() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for (words, parts) in [
         (
             "run --replicates 0",
@@ -55,12 +55,15 @@ fn numbers_out_of_range_are_refused_with_the_allowed_range() {
     ] {
         let mut line = split(words);
         line.extend(["--quiet", "--out", "out"]);
-        assert_refused(&bench.shuttertruth(&line), 2, parts);
-        assert!(!bench.path("out").exists(), "{words} left something behind");
+        assert_refused(&sandbox.shuttertruth(&line), 2, parts);
+        assert!(
+            !sandbox.path("out").exists(),
+            "{words} left something behind"
+        );
     }
     let import = split("engine import scenes/plate/plate.obj --out mine --spin 1e300deg/frame");
     assert_refused(
-        &bench.shuttertruth(&import),
+        &sandbox.shuttertruth(&import),
         2,
         &["from -100000 to 100000", "20deg/frame"],
     );
@@ -68,7 +71,7 @@ fn numbers_out_of_range_are_refused_with_the_allowed_range() {
 
 #[test]
 fn every_command_refuses_a_scene_whose_exposures_show_nothing() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     for (display, parts) in [
         (
             "stops = 150",
@@ -84,25 +87,25 @@ fn every_command_refuses_a_scene_whose_exposures_show_nothing() {
         ),
     ] {
         let table = format!("[display]\n{display}\n\n[camera]");
-        bench.write("scene.toml", &SCENE.replace("[camera]", &table));
+        sandbox.write("scene.toml", &SCENE.replace("[camera]", &table));
         for command in ["run", "truths render"] {
             let words = split(command)
                 .into_iter()
                 .chain(["--quiet", "--out", "out"]);
-            assert_refused(&bench.shuttertruth(&words.collect::<Vec<_>>()), 2, parts);
+            assert_refused(&sandbox.shuttertruth(&words.collect::<Vec<_>>()), 2, parts);
         }
     }
 }
 
 #[test]
 fn a_reason_of_two_lines_is_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     fs::write(
-        bench.path("scenes/bounds.toml"),
+        sandbox.path("scenes/bounds.toml"),
         "[default]\nflip_moving = { limit = 0.2, why = \"one\\n::error::two\" }\n",
     )
     .unwrap();
-    let output = bench.check(&["--filters", "identity"]);
+    let output = sandbox.check(&["--filters", "identity"]);
     assert_refused(
         &output,
         2,

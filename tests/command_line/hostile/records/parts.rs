@@ -6,26 +6,26 @@ use std::process::Output;
 
 use frame::{AtInstant, Raster, Replicate, Support};
 
-use crate::bench::{Bench, assert_done, assert_refused, make_fifo, split};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, make_fifo, split};
 
 const SECOND: &str = "b/plate/truth_trailing/replicate_001.exr";
 
 /// Makes two parts: `a` with the frame and replicate 0, `b` with replicate 1.
-fn parts() -> Bench {
-    let bench = Bench::new();
+fn parts() -> Sandbox {
+    let sandbox = Sandbox::new();
     for (out, part) in [("a", "0..1"), ("b", "1..2")] {
         let words =
             format!("truths render --quiet --samples-per-pixel 16 --replicates {part} --out {out}");
-        bench.execute(&split(&words));
+        sandbox.execute(&split(&words));
     }
-    bench
+    sandbox
 }
 
-fn merge(bench: &Bench, parts: &[&str]) -> Output {
-    let output = bench.shuttertruth(&[&["truths", "merge"], parts, &["--out", "whole"]].concat());
+fn merge(sandbox: &Sandbox, parts: &[&str]) -> Output {
+    let output = sandbox.shuttertruth(&[&["truths", "merge"], parts, &["--out", "whole"]].concat());
     if !output.status.success() {
         assert!(
-            !bench.path("whole").exists(),
+            !sandbox.path("whole").exists(),
             "{parts:?} left something behind"
         );
     }
@@ -67,12 +67,12 @@ fn smaller(replicate: &Replicate) -> Replicate {
 
 #[test]
 fn replicates_of_different_truths_are_refused() {
-    let bench = parts();
-    let path = bench.path(SECOND);
+    let sandbox = parts();
+    let path = sandbox.path(SECOND);
     let whole = Replicate::read(&path).unwrap();
     let refused = |replicate: &Replicate, found: &[&str]| {
         replicate.write(&path).unwrap();
-        assert_refused(&merge(&bench, &["a", "b"]), 2, found);
+        assert_refused(&merge(&sandbox, &["a", "b"]), 2, found);
     };
     refused(
         &smaller(&whole),
@@ -120,8 +120,8 @@ fn replicates_of_different_truths_are_refused() {
     );
 
     whole.write(&path).unwrap();
-    assert_refused(&merge(&bench, &["a", "b", "a"]), 2, &["a is named twice"]);
-    assert_done(&merge(&bench, &["a", "b"]));
+    assert_refused(&merge(&sandbox, &["a", "b", "a"]), 2, &["a is named twice"]);
+    assert_done(&merge(&sandbox, &["a", "b"]));
 }
 
 #[cfg(unix)]
@@ -129,17 +129,17 @@ fn replicates_of_different_truths_are_refused() {
 fn circular_links_and_pipes_are_not_read_as_parts() {
     use std::os::unix::fs::symlink;
 
-    let bench = parts();
+    let sandbox = parts();
     for place in ["a/loop", "a/plate/loop", "a/plate/truth_trailing/loop"] {
-        symlink(bench.path("a"), bench.path(place)).unwrap();
+        symlink(sandbox.path("a"), sandbox.path(place)).unwrap();
     }
-    symlink(bench.path("a/itself"), bench.path("a/itself")).unwrap();
-    assert_done(&merge(&bench, &["a", "b"]));
-    fs::remove_dir_all(bench.path("whole")).unwrap();
+    symlink(sandbox.path("a/itself"), sandbox.path("a/itself")).unwrap();
+    assert_done(&merge(&sandbox, &["a", "b"]));
+    fs::remove_dir_all(sandbox.path("whole")).unwrap();
 
-    let path = bench.path(SECOND);
+    let path = sandbox.path(SECOND);
     fs::remove_file(&path).unwrap();
-    let refused = || assert_refused(&merge(&bench, &["a", "b"]), 2, &["b holds no replicates"]);
+    let refused = || assert_refused(&merge(&sandbox, &["a", "b"]), 2, &["b holds no replicates"]);
     make_fifo(&path);
     refused();
     fs::remove_file(&path).unwrap();
@@ -149,11 +149,11 @@ fn circular_links_and_pipes_are_not_read_as_parts() {
     fs::create_dir(&path).unwrap();
     refused();
     assert_refused(
-        &merge(&bench, &["a", "b/plate/none"]),
+        &merge(&sandbox, &["a", "b/plate/none"]),
         2,
         &["b/plate/none: cannot read"],
     );
-    fs::write(bench.path("file"), "").unwrap();
-    assert_refused(&merge(&bench, &["a", "file"]), 2, &["file: cannot read"]);
+    fs::write(sandbox.path("file"), "").unwrap();
+    assert_refused(&merge(&sandbox, &["a", "file"]), 2, &["file: cannot read"]);
     assert!(!Path::new("whole").exists());
 }

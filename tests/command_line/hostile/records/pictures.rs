@@ -8,7 +8,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use frame::{ExrFile, Frame, Samples, Truth, read_exr, write_exr};
 
-use crate::bench::{Bench, assert_done, assert_refused};
+use crate::sandbox::{Sandbox, assert_done, assert_refused};
 
 const TRUTH: &str = "out/plate/truth_trailing.exr";
 const FRAME: &str = "out/plate/frame.exr";
@@ -16,14 +16,14 @@ const LADDER: &str = "out/plate/ladder_trailing";
 const RUNG: &str = "out/plate/ladder_trailing/n4.exr";
 const OUTPUT: &str = "out/plate/identity_default/output.exr";
 
-fn set_up() -> Bench {
-    let bench = Bench::new();
-    assert_done(&bench.run(&["--filters", "identity"]));
-    bench
+fn set_up() -> Sandbox {
+    let sandbox = Sandbox::new();
+    assert_done(&sandbox.run(&["--filters", "identity"]));
+    sandbox
 }
 
-fn score(bench: &Bench, image: &str) -> Output {
-    bench.shuttertruth(&[
+fn score(sandbox: &Sandbox, image: &str) -> Output {
+    sandbox.shuttertruth(&[
         "score", "--truth", TRUTH, "--frame", FRAME, "--ladder", LADDER, "--image", image,
     ])
 }
@@ -54,7 +54,7 @@ impl Default for Claim {
 
 impl Claim {
     /// Writes a file of uncompressed zeros, or only `rest` bytes after the header.
-    fn write(&self, bench: &Bench, name: &str, rest: Option<usize>) {
+    fn write(&self, sandbox: &Sandbox, name: &str, rest: Option<usize>) {
         let mut bytes = vec![0x76, 0x2f, 0x31, 0x01];
         bytes.extend((2 | self.flags).to_le_bytes());
         let mut attribute = |name: &str, kind: &str, value: &[u8]| {
@@ -102,7 +102,7 @@ impl Claim {
                 }
             }
         }
-        fs::write(bench.path(name), bytes).unwrap();
+        fs::write(sandbox.path(name), bytes).unwrap();
     }
 }
 
@@ -130,10 +130,10 @@ fn png(width: u32, height: u32) -> Vec<u8> {
 
 #[test]
 fn headers_with_huge_claims_are_refused_before_allocation() {
-    let bench = set_up();
+    let sandbox = set_up();
     let whole = Claim::default;
-    whole().write(&bench, "whole.exr", None);
-    assert_done(&score(&bench, "whole.exr"));
+    whole().write(&sandbox, "whole.exr", None);
+    assert_done(&score(&sandbox, "whole.exr"));
     for (claim, rest, found) in [
         (
             Claim {
@@ -185,50 +185,50 @@ fn headers_with_huge_claims_are_refused_before_allocation() {
             "its data window of 64x32 pixels from (3, 2) is not its display window of 100x100",
         ),
     ] {
-        claim.write(&bench, "claim.exr", rest);
-        assert_refused(&score(&bench, "claim.exr"), 2, &["claim.exr", found]);
+        claim.write(&sandbox, "claim.exr", rest);
+        assert_refused(&score(&sandbox, "claim.exr"), 2, &["claim.exr", found]);
     }
-    fs::write(bench.path("bomb.png"), png(20_000, 20_000)).unwrap();
+    fs::write(sandbox.path("bomb.png"), png(20_000, 20_000)).unwrap();
     assert_refused(
-        &score(&bench, "bomb.png"),
+        &score(&sandbox, "bomb.png"),
         2,
         &["bomb.png: claims 20000x20000 pixels; allowed: up to 33554432"],
     );
-    assert_refused(&score(&bench, "out"), 2, &["out: cannot be scored"]);
+    assert_refused(&score(&sandbox, "out"), 2, &["out: cannot be scored"]);
     #[cfg(unix)]
     for (name, target) in [("zero.exr", "/dev/zero"), ("zero.png", "/dev/zero")] {
-        std::os::unix::fs::symlink(target, bench.path(name)).unwrap();
-        assert_refused(&score(&bench, name), 2, &[name, "regular file"]);
+        std::os::unix::fs::symlink(target, sandbox.path(name)).unwrap();
+        assert_refused(&score(&sandbox, name), 2, &[name, "regular file"]);
     }
 }
 
 /// Applies `change` to a file of the run, and writes it with a valid checksum.
-fn alter(bench: &Bench, path: &str, change: impl FnOnce(&mut ExrFile)) {
-    let mut file = read_exr(&bench.path(path)).unwrap();
+fn alter(sandbox: &Sandbox, path: &str, change: impl FnOnce(&mut ExrFile)) {
+    let mut file = read_exr(&sandbox.path(path)).unwrap();
     change(&mut file);
-    write_exr(&bench.path(path), &file).unwrap();
+    write_exr(&sandbox.path(path), &file).unwrap();
 }
 
 /// Asserts that both commands that read pictures of a run refuse it with these words.
-fn assert_both_refuse(bench: &Bench, found: &str) {
-    assert_refused(&score(bench, OUTPUT), 2, &[found]);
-    let report = bench.shuttertruth(&["report", "out", "--html", "page.html"]);
+fn assert_both_refuse(sandbox: &Sandbox, found: &str) {
+    assert_refused(&score(sandbox, OUTPUT), 2, &[found]);
+    let report = sandbox.shuttertruth(&["report", "out", "--html", "page.html"]);
     assert_refused(&report, 2, &[found]);
-    assert!(!bench.path("page.html").exists());
+    assert!(!sandbox.path("page.html").exists());
 }
 
 #[test]
 fn a_truth_or_frame_with_missing_or_invalid_numbers_is_refused() {
-    let bench = set_up();
+    let sandbox = set_up();
     for path in [TRUTH, FRAME] {
-        let whole = fs::read(bench.path(path)).unwrap();
-        let names: Vec<String> = (read_exr(&bench.path(path)).unwrap().channels.iter())
+        let whole = fs::read(sandbox.path(path)).unwrap();
+        let names: Vec<String> = (read_exr(&sandbox.path(path)).unwrap().channels.iter())
             .filter(|channel| matches!(channel.samples, Samples::F32(_)))
             .map(|channel| channel.name.clone())
             .collect();
         // All layers pass through the same check, so a few of each file are enough.
         for name in names.iter().step_by(7) {
-            alter(&bench, path, |file| {
+            alter(&sandbox, path, |file| {
                 let channel = file
                     .channels
                     .iter_mut()
@@ -238,15 +238,15 @@ fn a_truth_or_frame_with_missing_or_invalid_numbers_is_refused() {
                 }
             });
             let found = format!("{path}: channel \"{name}\" holds NaN at pixel (5, 1)");
-            assert_refused(&score(&bench, OUTPUT), 2, &[&found]);
-            fs::write(bench.path(path), &whole).unwrap();
+            assert_refused(&score(&sandbox, OUTPUT), 2, &[&found]);
+            fs::write(sandbox.path(path), &whole).unwrap();
         }
-        alter(&bench, path, |file| {
+        alter(&sandbox, path, |file| {
             file.channels
                 .retain(|channel| !channel.name.starts_with("coverage") && channel.name != "A.G");
         });
-        assert_refused(&score(&bench, OUTPUT), 2, &[path, "lacks the channel"]);
-        fs::write(bench.path(path), whole).unwrap();
+        assert_refused(&score(&sandbox, OUTPUT), 2, &[path, "lacks the channel"]);
+        fs::write(sandbox.path(path), whole).unwrap();
     }
     for (path, name, value, found) in [
         (
@@ -279,10 +279,10 @@ fn a_truth_or_frame_with_missing_or_invalid_numbers_is_refused() {
         (RUNG, "subframes", "", "\"subframes\" is empty"),
         (RUNG, "content_hash", "0", "belongs to another ladder"),
     ] {
-        let whole = fs::read(bench.path(path)).unwrap();
-        alter(&bench, path, |file| file.set(name, value));
-        assert_refused(&score(&bench, OUTPUT), 2, &[path, found]);
-        fs::write(bench.path(path), whole).unwrap();
+        let whole = fs::read(sandbox.path(path)).unwrap();
+        alter(&sandbox, path, |file| file.set(name, value));
+        assert_refused(&score(&sandbox, OUTPUT), 2, &[path, found]);
+        fs::write(sandbox.path(path), whole).unwrap();
     }
 }
 
@@ -307,38 +307,38 @@ fn pad(file: &mut ExrFile) {
 
 #[test]
 fn files_of_another_size_or_of_other_objects_are_refused() {
-    let bench = set_up();
+    let sandbox = set_up();
     for (path, found) in [(TRUTH, "68x36"), (FRAME, "68x36")] {
-        let whole = fs::read(bench.path(path)).unwrap();
-        alter(&bench, path, pad);
-        assert_both_refuse(&bench, found);
-        let layers = bench.shuttertruth(&["report", "out", "--exr", "layers"]);
+        let whole = fs::read(sandbox.path(path)).unwrap();
+        alter(&sandbox, path, pad);
+        assert_both_refuse(&sandbox, found);
+        let layers = sandbox.shuttertruth(&["report", "out", "--exr", "layers"]);
         assert_refused(&layers, 2, &[found]);
-        fs::write(bench.path(path), whole).unwrap();
+        fs::write(sandbox.path(path), whole).unwrap();
     }
     let page = ["report", "out", "--html", "page.html"];
     for name in ["output.exr", "errors.exr"] {
         let path = format!("out/plate/identity_default/{name}");
-        let whole = fs::read(bench.path(&path)).unwrap();
-        alter(&bench, &path, pad);
-        assert_refused(&bench.shuttertruth(&page), 2, &["68x36"]);
-        let layers = bench.shuttertruth(&["report", "out", "--exr", "layers"]);
+        let whole = fs::read(sandbox.path(&path)).unwrap();
+        alter(&sandbox, &path, pad);
+        assert_refused(&sandbox.shuttertruth(&page), 2, &["68x36"]);
+        let layers = sandbox.shuttertruth(&["report", "out", "--exr", "layers"]);
         assert_refused(&layers, 2, &["68x36"]);
-        fs::write(bench.path(&path), whole).unwrap();
+        fs::write(sandbox.path(&path), whole).unwrap();
     }
-    let path = bench.path(TRUTH);
+    let path = sandbox.path(TRUTH);
     let mut other = Truth::read(&path).unwrap();
     other.objects[1] = "other".to_owned();
     other.write(&path).unwrap();
-    assert_both_refuse(&bench, "other");
+    assert_both_refuse(&sandbox, "other");
 }
 
 #[test]
 fn pictures_with_invalid_numbers_are_refused_or_shown() {
-    let bench = set_up();
+    let sandbox = set_up();
     for (name, is_refused) in [("errors.exr", false), ("output.exr", true)] {
         alter(
-            &bench,
+            &sandbox,
             &format!("out/plate/identity_default/{name}"),
             |file| {
                 for channel in &mut file.channels {
@@ -348,7 +348,7 @@ fn pictures_with_invalid_numbers_are_refused_or_shown() {
                 }
             },
         );
-        let report = bench.shuttertruth(&["report", "out", "--html", "page.html"]);
+        let report = sandbox.shuttertruth(&["report", "out", "--html", "page.html"]);
         match is_refused {
             true => assert_refused(&report, 2, &[name, "holds NaN at pixel (30, 16)"]),
             false => assert_done(&report),
@@ -358,15 +358,15 @@ fn pictures_with_invalid_numbers_are_refused_or_shown() {
 
 #[test]
 fn radiance_whose_square_overflows_is_refused_with_its_place() {
-    let bench = set_up();
-    alter(&bench, OUTPUT, |file| {
+    let sandbox = set_up();
+    alter(&sandbox, OUTPUT, |file| {
         let red = file.channels.iter_mut().find(|channel| channel.name == "R");
         if let Samples::F32(samples) = &mut red.unwrap().samples {
             samples[2 * 64 + 9] = 1e30;
         }
     });
     assert_refused(
-        &score(&bench, OUTPUT),
+        &score(&sandbox, OUTPUT),
         2,
         &[
             "the colour of the output holds 1",
@@ -374,5 +374,5 @@ fn radiance_whose_square_overflows_is_refused_with_its_place() {
             "at most",
         ],
     );
-    assert!(Frame::read(&bench.path(FRAME)).is_ok());
+    assert!(Frame::read(&sandbox.path(FRAME)).is_ok());
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write as _;
 
 use super::{assert_render_refused, with_sky, with_texture};
-use crate::bench::Bench;
+use crate::sandbox::Sandbox;
 
 /// Makes a black grey PNG of one bit per pixel, which takes a few kilobytes at any size.
 fn black_png(width: u32, height: u32) -> Vec<u8> {
@@ -67,13 +67,13 @@ fn exr_header(channels: &[String], data_window: [i32; 4], display_window: [i32; 
 
 #[test]
 fn a_small_png_that_decodes_to_a_huge_picture_is_refused() {
-    let bench = Bench::new();
-    with_texture(&bench, "black.png");
+    let sandbox = Sandbox::new();
+    with_texture(&sandbox, "black.png");
     let png = black_png(16_384, 8_192);
     assert!(png.len() < 50_000, "{} bytes", png.len());
-    fs::write(bench.path("scenes/plate/black.png"), png).unwrap();
+    fs::write(sandbox.path("scenes/plate/black.png"), png).unwrap();
     let found = "is 16384 x 8192, 134217728 texels; allowed: 1 to 67108864; scale it down";
-    assert_render_refused(&bench, &["plate.mtl:3: texture", "black.png", found]);
+    assert_render_refused(&sandbox, &["plate.mtl:3: texture", "black.png", found]);
 }
 
 #[test]
@@ -101,9 +101,9 @@ fn small_environments_that_decode_to_huge_pictures_are_refused() {
             "holds 524681216 values in all its channels and layers",
         ),
     ] {
-        let bench = Bench::new();
-        with_sky(&bench, name);
-        fs::write(bench.path("scenes/plate").join(name), file).unwrap();
-        assert_render_refused(&bench, &["scene.toml:12: the background's image", found]);
+        let sandbox = Sandbox::new();
+        with_sky(&sandbox, name);
+        fs::write(sandbox.path("scenes/plate").join(name), file).unwrap();
+        assert_render_refused(&sandbox, &["scene.toml:12: the background's image", found]);
     }
 }

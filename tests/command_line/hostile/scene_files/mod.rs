@@ -5,31 +5,31 @@ mod headers;
 mod models;
 mod sizes;
 
-use crate::bench::{Bench, SCENE, assert_refused};
+use crate::sandbox::{SCENE, Sandbox, assert_refused};
 
 /// Loads the plate's scene in a process of its own, which renders as little as possible.
 #[track_caller]
-fn assert_render_refused(bench: &Bench, parts: &[&str]) {
-    assert_refused(&render(bench), 2, parts);
+fn assert_render_refused(sandbox: &Sandbox, parts: &[&str]) {
+    assert_refused(&render(sandbox), 2, parts);
 }
 
-fn render(bench: &Bench) -> std::process::Output {
+fn render(sandbox: &Sandbox) -> std::process::Output {
     let words =
         "truths render --quiet --scenes plate --size 16x16 --samples-per-pixel 16 --out out";
-    bench.shuttertruth(&crate::bench::split(words))
+    sandbox.shuttertruth(&crate::sandbox::split(words))
 }
 
-fn with_texture(bench: &Bench, name: &str) {
-    bench.write(
+fn with_texture(sandbox: &Sandbox, name: &str) {
+    sandbox.write(
         "plate.mtl",
         &format!("newmtl paint\nKd 1 1 1\nmap_Kd {name}\n"),
     );
-    bench.write("plate.obj", TEXTURED);
+    sandbox.write("plate.obj", TEXTURED);
 }
 
-fn with_sky(bench: &Bench, name: &str) {
+fn with_sky(sandbox: &Sandbox, name: &str) {
     let sky = format!("image = \"{name}\"");
-    bench.write(
+    sandbox.write(
         "scene.toml",
         &SCENE.replace("constant = [0.2, 0.2, 0.2]", &sky),
     );

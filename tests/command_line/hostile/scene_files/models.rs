@@ -3,18 +3,18 @@
 use std::fmt::Write as _;
 
 use super::assert_render_refused;
-use crate::bench::{Bench, MTL, OBJ};
+use crate::sandbox::{MTL, OBJ, Sandbox};
 
 #[test]
 fn a_face_with_too_many_corners_is_refused() {
-    let bench = Bench::new();
+    let sandbox = Sandbox::new();
     let mut obj = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\nf");
     for corner in 0..40_000 {
         write!(obj, " {}", 1 + corner % 3).unwrap();
     }
-    bench.write("plate.obj", &obj);
+    sandbox.write("plate.obj", &obj);
     let found = "f has 40000 corners; allowed: 3 to 4096; cut the face into triangles";
-    assert_render_refused(&bench, &["plate.obj:4:", found]);
+    assert_render_refused(&sandbox, &["plate.obj:4:", found]);
 }
 
 #[test]
@@ -55,8 +55,8 @@ fn odd_models_load_or_are_refused_and_never_panic() {
         "1".repeat(1_000_000),
         "v ".to_owned() + &"1".repeat(1_000_000) + " 0 0",
     ];
-    let bench = Bench::new();
-    let scene = bench.path("scenes/plate");
+    let sandbox = Sandbox::new();
+    let scene = sandbox.path("scenes/plate");
     for text in odd.into_iter().chain(long.iter().map(String::as_str)) {
         for (file, good) in [("plate.obj", OBJ), ("plate.mtl", MTL)] {
             for text in [
@@ -64,13 +64,13 @@ fn odd_models_load_or_are_refused_and_never_panic() {
                 format!("{good}{text}\n"),
                 format!("{text}\n{good}"),
             ] {
-                bench.write(file, &text);
+                sandbox.write(file, &text);
                 if let Err(error) = tracer::load_scene(&scene, None) {
                     let length = error.to_string().len();
                     assert!(length < 1_000, "a message of {length} bytes");
                 }
             }
-            bench.write(file, good);
+            sandbox.write(file, good);
         }
     }
 }

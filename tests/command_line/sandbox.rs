@@ -37,27 +37,27 @@ keys = [
 pub const IDENTITY: [&str; 2] = ["--filters", "identity"];
 
 /// Temporary folder with one scene, `plate`, and an `out` that does not exist yet.
-pub struct Bench {
+pub struct Sandbox {
     folder: tempfile::TempDir,
 }
 
-impl Bench {
+impl Sandbox {
     pub fn new() -> Self {
-        let bench = Self {
+        let sandbox = Self {
             folder: tempfile::tempdir().unwrap(),
         };
-        fs::create_dir_all(bench.path("scenes/plate")).unwrap();
-        bench.write("scene.toml", SCENE);
-        bench.write("plate.obj", OBJ);
-        bench.write("plate.mtl", MTL);
-        bench
+        fs::create_dir_all(sandbox.path("scenes/plate")).unwrap();
+        sandbox.write("scene.toml", SCENE);
+        sandbox.write("plate.obj", OBJ);
+        sandbox.write("plate.mtl", MTL);
+        sandbox
     }
 
-    /// Makes a bench with a second scene, which moves at half the speed.
+    /// Makes a sandbox with a second scene, which moves at half the speed.
     pub fn two_scenes() -> Self {
-        let bench = Self::new();
-        bench.add_slow_scene();
-        bench
+        let sandbox = Self::new();
+        sandbox.add_slow_scene();
+        sandbox
     }
 
     /// Adds the scene `slow`, which moves at half the plate's speed.
