@@ -181,7 +181,7 @@ fn check_refuses_bad_input_before_it_renders() {
         (
             "[default]\nflip_moving = { limit = 0.1, why = \"w\" }\n",
             &["--replicates", "2"],
-            &["--replicates 2: 4 or more are needed"],
+            &["found 2 replicates of the truth; confidence intervals need 4 or more"],
         ),
         (
             "[default]\nflip_moving = { limit = 0.1, why = \"w\" }\n",

@@ -180,6 +180,9 @@ impl Buffers {
         } else {
             0
         };
+        let velocity = file
+            .plane("velocity.X")?
+            .zip(&file.plane("velocity.Y")?, |x, y| [*x, *y]);
         let exposure = match exposure {
             Some(exposure) => exposure,
             None if has("exposure") => file.get("exposure")?,
@@ -194,9 +197,6 @@ impl Buffers {
             true => Some(Reprojection::from_exr(&file)?.moved(f64::from(guard_band))),
             false => None,
         };
-        let velocity = file
-            .plane("velocity.X")?
-            .zip(&file.plane("velocity.Y")?, |x, y| [*x, *y]);
         Ok(Self {
             color: convention.restore_color(&file.color("")?),
             velocity: convention.restore_velocity(&velocity, exposure),

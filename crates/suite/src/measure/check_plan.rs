@@ -17,7 +17,7 @@ impl RunPlan {
         let replicates = self.render.replicates;
         if self.intervals && replicates < MIN_REPLICATES {
             return Err(Error::Usage(format!(
-                "found {replicates} replicates; {MIN_REPLICATES} or more are needed to tell how sure a score is"
+                "found {replicates} replicates of the truth; confidence intervals need {MIN_REPLICATES} or more"
             )));
         }
         for scene in self.all_scenes() {
