@@ -65,7 +65,7 @@ fn trace_intervals(
     [width, height]: [u32; 2],
     samples_of_converged: u32,
 ) -> [(&'static str, Found); 4] {
-    let scene = load_scene(&tests::scenes().join(name), None).unwrap();
+    let scene = load_scene(tests::scenes().join(name), None).unwrap();
     let settings = |samples_per_pixel, seed| RenderSettings {
         width,
         height,

@@ -107,11 +107,14 @@ pub fn read_bounds_file(file: impl Into<Location>) -> Result<BoundsFile, Error> 
     })
 }
 
-/// Reads a table of entries by their scores; `read` takes the name of the score, its entry and its place.
+/// Reads the name of a score, its entry and its place.
+type ReadEntry<T, U> = fn(&str, T, String) -> Result<(Metric, U), String>;
+
+/// Reads a table of entries by their scores.
 fn read_entries<T, U>(
     entries: Tables<T>,
-    place: impl Fn(usize) -> String,
-    read: fn(&str, T, String) -> Result<(Metric, U), String>,
+    place: &dyn Fn(usize) -> String,
+    read: ReadEntry<T, U>,
 ) -> Result<BTreeMap<Metric, U>, Error> {
     (entries.into_iter())
         .map(|(name, entry)| {

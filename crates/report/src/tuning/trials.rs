@@ -9,8 +9,11 @@ use crate::charts::plot::{Axis, Plot};
 use crate::numbers::percent;
 use crate::table::{Column, scroll_table};
 
+/// Reads a measure of a trial; none where it was not measured.
+type Measure = fn(&Trial) -> Option<f64>;
+
 /// Measures that a chart shows against the error, with their titles.
-const AGAINST: [(&str, fn(&Trial) -> Option<f64>); 2] = [
+const AGAINST: [(&str, Measure); 2] = [
     ("GPU time, start = 1", |trial| trial.cost),
     ("lateral bleed, worst scene, px", |trial| {
         trial.bleed.map(round_bleed)

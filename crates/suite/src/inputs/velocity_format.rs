@@ -31,6 +31,9 @@ named! {
     }
 }
 
+/// What a buffer keeps of a velocity, in units of the format.
+type Store = fn([f64; 2]) -> [f64; 2];
+
 impl VelocityFormat {
     /// Returns the frame's velocity as it comes out of this buffer.
     pub(crate) fn apply(self, frame: &Frame) -> Vectors {
@@ -38,7 +41,7 @@ impl VelocityFormat {
         let [width, height] = [width, height].map(|side| f64::from(side - 2 * frame.guard_band));
         let to_border = [0.5 * width, 0.5 * height];
         let half_smear = 0.5 * frame.exposure;
-        let (unit, store): ([f64; 2], fn([f64; 2]) -> [f64; 2]) = match self {
+        let (unit, store): ([f64; 2], Store) = match self {
             Self::Float32 => return frame.velocity.clone(),
             Self::Float16 => {
                 let store = |part| f16::from_f32(part).to_f32();
