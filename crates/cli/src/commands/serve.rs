@@ -244,3 +244,19 @@ fn a_request_under_way_ends_when_it_is_cancelled_and_no_other_does() {
         assert_eq!(report_scene(&cancelled, 7, "fan", &score), goes_on);
     }
 }
+
+#[test]
+fn a_line_of_the_allowed_length_is_read_and_the_last_one_needs_no_end() {
+    let long = "x".repeat(LONGEST_LINE);
+    let input = format!("{long}\n{long}y\nlast");
+    let mut input = input.as_bytes();
+    let lines = [(); 3].map(|()| read_line(&mut input).unwrap());
+    assert!(read_line(&mut input).unwrap().is_empty());
+    let is_too_long = lines.map(|line| {
+        let line = line.strip_suffix(b"\n").unwrap_or(&line);
+        parse_line(line)
+            .unwrap_err()
+            .contains("more than 1048576 bytes")
+    });
+    assert_eq!(is_too_long, [false, true, false]);
+}

@@ -105,6 +105,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_ends_of_a_scale_lie_at_the_margins() {
+        let strip = Strip::over([0.0, 0.3, 0.8].into_iter());
+        assert_eq!((strip.low, strip.high), (0.0, 0.8));
+        assert_eq!(strip.place(0.0), MARGIN);
+        assert_eq!(strip.place(0.4), WIDTH / 2.0);
+        assert_eq!(strip.place(0.8), WIDTH - MARGIN);
+        assert_eq!(Strip::about_zero(0.0).place(0.0), WIDTH / 2.0);
+    }
+
+    #[test]
     fn a_value_beyond_the_scale_is_an_arrow_at_its_end() {
         let strip = Strip::about_zero(1.0);
         assert!(strip.mark(1.0, "").into_string().starts_with("<circle"));
