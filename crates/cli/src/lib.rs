@@ -63,8 +63,8 @@ pub fn run_program() -> ExitCode {
     }
 }
 
-/// Chooses the exit code: 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier than asked for
-/// or than a check needs, 128 and the number of the signal after one.
+/// Chooses the exit code: 1 where a check fails, 2 for usage and bad input, 3 where there is no adapter, 4 where a truth stayed noisier
+/// than asked for or than a check needs, 128 and the number of the signal after one.
 fn exit_code(error: &Error) -> u8 {
     match error {
         error if error.is_interruption() => interrupted_code(),

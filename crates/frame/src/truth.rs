@@ -157,8 +157,8 @@ impl Truth {
     }
 
     /// Writes the truth as OpenEXR: the mean as `R G B` and `coverage.<object>`, the channels of [`AtInstant`], the halves of both
-    /// as layers `A` and `B`, `stderr.R/G/B`, `motion`, `samples`, and the channels of [`Support`]. The attributes `noise_floor_<region>` hold
-    /// [`Truth::noise_floors`].
+    /// as layers `A` and `B`, `stderr.R/G/B`, `motion`, `samples`, and the channels of [`Support`]. The attributes `noise_floor_<region>`
+    /// hold [`Truth::noise_floors`].
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         write_small_exr(path, self.to_exr())
     }

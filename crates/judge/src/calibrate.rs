@@ -114,8 +114,8 @@ pub fn default_metrics(bounds: &SceneBounds, filter: &str, preset: &str) -> Vec<
 
 /// Proposes the limit that follows from the scores of one metric, and says why in one line. It is the worst value that any interval
 /// reaches, since a check asks that of a score, plus a margin: three standard deviations between runs, or a twentieth of the worst
-/// score if that is more. It is at least 1.2 times as far from perfect as the strictest limit that the truth's noise carries, and at least a tenth of a
-/// pixel or half a hundredth. It is rounded to two digits, away from perfect. Parts of JOD are parts of its distance from 10.
+/// score if that is more. It is at least 1.2 times as far from perfect as the strictest limit that the truth's noise carries, and at least
+/// a tenth of a pixel or half a hundredth. It is rounded to two digits, away from perfect. Parts of JOD are parts of its distance from 10.
 fn propose(metric: Metric, samples: &[Sample]) -> (f64, String) {
     let ideal = metric.ideal();
     let worst_of = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

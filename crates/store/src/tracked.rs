@@ -15,8 +15,8 @@ const ELSEWHERE: [&str; 4] = [
     "GIT_CEILING_DIRECTORIES",
 ];
 
-/// Refuses a file that git tracks, and a folder that holds such files: what a change brings along is no evidence for it. The error ends with
-/// `way_out`, which tells the user what to do instead.
+/// Refuses a file that git tracks, and a folder that holds such files: what a change brings along is no evidence for it. The error ends
+/// with `way_out`, which tells the user what to do instead.
 ///
 /// A folder that does not exist, or lies in no work tree, holds none, and no git is needed to know that. Where git cannot
 /// tell, the folder is refused too.

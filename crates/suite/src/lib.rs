@@ -1,5 +1,5 @@
-//! Rendering and measuring of filters over scenes, with their inputs as engines have them. Nothing here prints: results are data, progress goes to a
-//! [`Monitor`].
+//! Rendering and measuring of filters over scenes, with their inputs as engines have them. Nothing here prints: results are data, progress
+//! goes to a [`Monitor`].
 
 mod bench;
 mod colors;

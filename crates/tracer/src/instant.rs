@@ -53,7 +53,8 @@ impl PointLayers {
 }
 
 /// Renders the instant `t = 0`. Colour and coverage are filtered over each pixel or sampled at its centre. Velocity, depth and
-/// object id are those of the point at the centre; translucent surfaces let them pass, unless a material says otherwise. All rasters extend beyond the picture by the guard band of the settings.
+/// object id are those of the point at the centre; translucent surfaces let them pass, unless a material says otherwise. All rasters extend
+/// beyond the picture by the guard band of the settings.
 pub fn trace_frame(
     scene: &Scene,
     settings: &RenderSettings,

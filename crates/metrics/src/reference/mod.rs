@@ -48,8 +48,8 @@ pub struct Reference<'a> {
     /// The mean as a display shows it and as FLIP sees it.
     seen: SeenTruth,
     viewing: Viewing,
-    /// Noise floors of every region in the order of [`Region::ALL`], from the errors of the truth's first half against the mean: the two differ by as much as the
-    /// mean's own noise.
+    /// Noise floors of every region in the order of [`Region::ALL`], from the errors of the truth's first half against the mean: the two
+    /// differ by as much as the mean's own noise.
     noise: [Option<Pooled>; Region::ALL.len()],
     /// The instant: the picture of a filter that does nothing.
     instant: Image,

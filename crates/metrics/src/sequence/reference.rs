@@ -41,7 +41,8 @@ pub struct SequenceReference {
 }
 
 impl SequenceReference {
-    /// Prepares the truths of consecutive frames, at least one, which are shown at a number of frames per second. Panics if they have no one size.
+    /// Prepares the truths of consecutive frames, at least one, which are shown at a number of frames per second. Panics if they have no
+    /// one size.
     pub fn new(instants: Vec<Instant>, viewing: &Viewing, per_second: f64) -> Self {
         let first = instants.first().expect("a sequence has a frame");
         assert!(

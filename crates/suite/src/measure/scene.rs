@@ -186,8 +186,8 @@ impl SceneContext<'_> {
         })
     }
 
-    /// Lists the keys of cases that the plan may take, at first the one that it records by: where it asks for no ladder, it takes those that
-    /// have one as well. None where nothing is read back.
+    /// Lists the keys of cases that the plan may take, at first the one that it records by: where it asks for no ladder, it takes those
+    /// that have one as well. None where nothing is read back.
     pub(super) fn case_keys(&self, planned: &PlannedCase) -> Vec<String> {
         let adapter = self.gpu.map(|gpu| &gpu.adapter);
         let (Some(own), Some(keys)) = (planned.inputs(self.plan, adapter), &self.keys) else {

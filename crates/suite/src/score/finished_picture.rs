@@ -21,8 +21,8 @@ pub struct FinishedPicture {
 
 /// Reads a picture that was made from `frame`, to be scored against `truth`: OpenEXR or PNG, by the ending of its name.
 ///
-/// Takes an OpenEXR's colours as the convention has them. Decodes a PNG from sRGB and undoes the frame's display exposure. Crops a picture that has the frame's guard band. Refuses a
-/// file that says that it was made for another shutter.
+/// Takes an OpenEXR's colours as the convention has them. Decodes a PNG from sRGB and undoes the frame's display exposure. Crops a picture
+/// that has the frame's guard band. Refuses a file that says that it was made for another shutter.
 pub fn read_finished_picture(
     path: &Path,
     convention: &Convention,
