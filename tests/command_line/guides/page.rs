@@ -48,7 +48,7 @@ pub fn find_steps(page: &str) -> Vec<Step> {
             prose = read_paragraph(line, &mut lines);
             // A command by its name alone is spoken of, and not shown.
             let quoted = prose.split('`').skip(1).step_by(2);
-            let shown = quoted.filter(|text| text.split_whitespace().count() > 2);
+            let shown = quoted.filter(|text| !is_name(text));
             steps.extend(shown.filter_map(find_command));
         }
     }
@@ -59,6 +59,14 @@ pub fn find_steps(page: &str) -> Vec<Step> {
 fn read_paragraph<'a>(first: &str, lines: &mut impl Iterator<Item = &'a str>) -> String {
     let rest = lines.take_while(|line| !line.is_empty());
     rest.fold(first.to_owned(), |text, line| text + " " + line.trim())
+}
+
+/// Tells whether a text is at most the name of a command: `shuttertruth run`, `shuttertruth tune search`.
+fn is_name(text: &str) -> bool {
+    const GROUPS: [&str; 5] = ["tune", "engine", "truths", "limits", "people"];
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let is_in_group = words.get(1).is_some_and(|word| GROUPS.contains(word));
+    words.len() <= if is_in_group { 3 } else { 2 }
 }
 
 /// Reads a line as a command without its comment, if it is one.
@@ -87,7 +95,7 @@ x = 1
 ```
 
 Then `shuttertruth report out
---html x.html` and `shuttertruth run` work:
+--html x.html`, `shuttertruth run` and `shuttertruth tune search` work:
 
     shuttertruth run --scenes a \\
         --out b    # quick
