@@ -59,6 +59,14 @@ pub struct BlurArgs {
 /// Runs one filter on one frame file, or on those of a sequence, and writes its colours.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let out = choose_out(args)?;
+    let last = u32::MAX - (args.frames - 1);
+    if args.frame_index > last {
+        refuse!(
+            "--frame-index {}: each of the {} frames has the next one; allowed: up to {last}",
+            args.frame_index,
+            args.frames
+        );
+    }
     let names = [args.filter.clone()];
     let (preset, programs) = (args.preset.as_deref(), args.programs.programs());
     let choice = select_filters(&names, preset, &args.set, programs)?.remove(0);
@@ -93,7 +101,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
                 size.1
             );
         }
-        let index = args.frame_index.wrapping_add(frame);
+        let index = args.frame_index + frame;
         let colors = [[&now.color], [&before.color]];
         let input = now.input(&colors[0], index);
         let outputs = runner.run_after(&input, &before.input(&colors[1], index));

@@ -1,5 +1,7 @@
 //! The command `limits calibrate`.
 
+use std::ops::Range;
+
 use clap::Args;
 use judge::{BOUNDS_FILE, bound_subframes, calibrate, check_names};
 use metrics::Metric;
@@ -62,6 +64,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<(), Error> {
         bounds.values(),
         &plan.filters,
     )?;
+    list_seeds(plan.render.seed, args.runs)?;
     let _lock = lock_out(&plan)?;
     let adapters: Vec<Option<&str>> = match args.adapters.as_slice() {
         // The fastest.
@@ -101,6 +104,17 @@ fn refuse_single_frames(args: &CalibrateArgs) -> Result<(), Error> {
     }
 }
 
+/// Lists the seeds of a calibration's runs. Refuses a first one that leaves none for the last run.
+pub fn list_seeds(first: u64, runs: u32) -> Result<Range<u64>, Error> {
+    match first.checked_add(u64::from(runs)) {
+        Some(end) => Ok(first..end),
+        None => refuse!(
+            "--seed {first}: each of the {runs} runs has the next one; allowed: up to {}",
+            u64::MAX - u64::from(runs)
+        ),
+    }
+}
+
 /// Runs once per adapter and seed.
 fn run_all(
     args: &CalibrateArgs,
@@ -109,12 +123,12 @@ fn run_all(
     watch: Watch,
 ) -> Result<Vec<Run>, Error> {
     let total = adapters.len() as u64 * u64::from(args.runs);
-    let first = plan.render.seed;
+    let seeds = list_seeds(plan.render.seed, args.runs)?;
     let truths = plan.truths.clone();
     let mut runs: Vec<Run> = Vec::new();
     for adapter in adapters {
         let gpu = open_gpu(&plan.filters, *adapter, plan.monitor)?;
-        for seed in (0..args.runs).map(|run| first.wrapping_add(u64::from(run))) {
+        for seed in seeds.clone() {
             // A run that is interrupted says so itself.
             let _ = watch(Progress {
                 done: runs.len() as u64,

@@ -22,6 +22,8 @@ use crate::output::{print, was_interrupted};
 const LONGEST_LINE: usize = 1 << 20;
 /// Upper limit on requests that wait; more are read later.
 const MAX_WAITING: usize = 1024;
+/// Upper limit on cancelled requests that have not come yet.
+const MAX_CANCELLED: usize = 65_536;
 /// Characters of a line that an error shows.
 const SHOWN: usize = 200;
 /// Time between two looks for Ctrl-C while nothing comes.
@@ -114,8 +116,14 @@ fn read_requests(
         let item = match request {
             Ok(Request::Score(request)) => Ok(request),
             Ok(Request::Cancel { cancel }) => {
-                cancelled.lock().insert(cancel);
-                continue;
+                let mut cancelled = cancelled.lock();
+                if cancelled.len() < MAX_CANCELLED {
+                    cancelled.insert(cancel);
+                    continue;
+                }
+                Err(format!(
+                    "{{\"cancel\": {cancel}}}: {MAX_CANCELLED} requests that have not come are cancelled already, which is the most"
+                ))
             }
             Err(reason) => Err(reason),
         };
@@ -257,4 +265,17 @@ fn a_line_of_the_allowed_length_is_read_and_the_last_one_needs_no_end() {
         found.is_err_and(|reason| reason.contains("more than 1048576 bytes"))
     });
     assert_eq!(is_too_long, [false, true, false]);
+}
+
+#[test]
+fn no_more_requests_are_cancelled_ahead_than_allowed() {
+    let cancelled = Cancelled::default();
+    cancelled.lock().extend(1..MAX_CANCELLED as u64);
+    let (sender, requests) = sync_channel(2);
+    let lines = "{\"cancel\": 70000}\n{\"cancel\": 70001}";
+    read_requests(lines.as_bytes(), &cancelled, &sender);
+    drop(sender);
+    let refused: Vec<_> = requests.iter().filter_map(Result::err).collect();
+    assert_eq!(refused.len(), 1);
+    assert!(refused[0].contains("70001"), "{}", refused[0]);
 }

@@ -36,6 +36,10 @@ fn numbers_out_of_range_are_refused_with_the_allowed_range() {
             "run --jitter-frames 4000000000",
             &["--jitter-frames", "is not in 0..=1024"],
         ),
+        (
+            "limits calibrate --seed 18446744073709551615",
+            &["--seed 18446744073709551615", "allowed: up to"],
+        ),
         ("run --seed 18446744073709551616", &["--seed"]),
         (
             "tune search --filter jump_flood --budget 10000000000000",

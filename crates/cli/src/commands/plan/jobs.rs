@@ -12,6 +12,7 @@ use super::words::{
     words_behind,
 };
 use crate::arguments::MeasureArgs;
+use crate::commands::calibrate::list_seeds;
 use crate::commands::render::RenderArgs;
 use crate::commands::run::RunArgs;
 
@@ -110,8 +111,7 @@ impl Planner<'_> {
     fn jobs_of_calibration(&self, runs: u32) -> Result<Vec<Job>, Error> {
         let command = words(["limits", "calibrate"]);
         let (mut jobs, mut inputs) = (Vec::new(), Vec::new());
-        let first = self.plan.render.seed;
-        for seed in (0..runs).map(|run| first.wrapping_add(u64::from(run))) {
+        for seed in list_seeds(self.plan.render.seed, runs)? {
             let mut run = self.clone();
             run.seed = Some(seed);
             run.parts.push(format!("seed_{seed}"));
