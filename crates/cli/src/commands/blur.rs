@@ -59,14 +59,7 @@ pub struct BlurArgs {
 /// Runs one filter on one frame file, or on those of a sequence, and writes its colours.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let out = choose_out(args)?;
-    let last = u32::MAX - (args.frames - 1);
-    if args.frame_index > last {
-        refuse!(
-            "--frame-index {}: each of the {} frames has the next one; allowed: up to {last}",
-            args.frame_index,
-            args.frames
-        );
-    }
+    check_frame_numbers(args)?;
     let names = [args.filter.clone()];
     let (preset, programs) = (args.preset.as_deref(), args.programs.programs());
     let choice = select_filters(&names, preset, &args.set, programs)?.remove(0);
@@ -121,6 +114,19 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
         write_exr(&path, &file)?;
         print(&format!("{}\n", printable_path(&path)))?;
         before = own.unwrap_or(before);
+    }
+    Ok(())
+}
+
+/// Refuses frames whose numbers would pass the largest one.
+fn check_frame_numbers(args: &BlurArgs) -> Result<(), Error> {
+    let last = u32::MAX - (args.frames - 1);
+    if args.frame_index > last {
+        refuse!(
+            "--frame-index {}: each of the {} frames has the next one; allowed: up to {last}",
+            args.frame_index,
+            args.frames
+        );
     }
     Ok(())
 }
