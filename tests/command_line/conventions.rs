@@ -5,8 +5,10 @@ use std::path::Path;
 
 use filters::Convention;
 use frame::{ExrFile, Frame, Image, read_exr, write_exr};
+use serde_json::Value;
+use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{Sandbox, assert_done};
 
 /// Conventions, each apart from that of frames in one thing or more.
 const FORMS: [&str; 12] = [
@@ -26,9 +28,8 @@ const FORMS: [&str; 12] = [
 ];
 
 fn render(sandbox: &Sandbox) -> Frame {
-    sandbox.execute(&split(
-        "truths render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing",
-    ));
+    let words = "truths render --quiet --out r --scenes plate --samples-per-pixel 16";
+    sandbox.done(&format!("{words} --alignments trailing"));
     Frame::read(&sandbox.path("r/plate/frame.exr")).unwrap()
 }
 
@@ -56,13 +57,10 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
     let sandbox = Sandbox::new();
     let frame = render(&sandbox);
     let blur = |words: &str| {
-        sandbox.execute(&split(&format!(
-            "engine blur --filter kino --out blurred.exr {words}"
-        )));
-        read_exr(&sandbox.path("blurred.exr"))
-            .unwrap()
-            .color("")
-            .unwrap()
+        let blur = "engine blur --filter kino --out blurred.exr";
+        sandbox.done(&format!("{blur} {words}"));
+        let file = read_exr(&sandbox.path("blurred.exr")).unwrap();
+        file.color("").unwrap()
     };
     let expected = blur("--frame r/plate/frame.exr");
     let moved = largest_difference(&expected, &frame.color);
@@ -84,87 +82,50 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
 fn a_picture_of_exposed_colours_has_the_scores_of_its_radiance() {
     let sandbox = Sandbox::new();
     render(&sandbox);
-    sandbox.execute(&split(
-        "engine blur --filter velocity_gather --frame r/plate/frame.exr --out plain.exr",
-    ));
+    sandbox.done("engine blur --filter velocity_gather --frame r/plate/frame.exr --out plain.exr");
     let mut file = read_exr(&sandbox.path("plain.exr")).unwrap();
     // A power of two changes no digit.
-    let exposed = file
-        .color("")
-        .unwrap()
-        .map(|pixel| pixel.map(|value| 4.0 * value));
+    let color = file.color("").unwrap();
     file.channels.clear();
-    file.push_color("", &exposed);
+    file.push_color("", &color.map(|pixel| pixel.map(|value| 4.0 * value)));
     write_exr(&sandbox.path("exposed.exr"), &file).unwrap();
-    fs::write(
-        sandbox.path("engine.toml"),
-        "[convention]\ncolor_scale = 4\n",
-    )
-    .unwrap();
+    let convention = "[convention]\ncolor_scale = 4\n";
+    fs::write(sandbox.path("engine.toml"), convention).unwrap();
     let score = |words: &str| {
         let files = "--truth r/plate/truth_trailing.exr --frame r/plate/frame.exr";
-        let output = sandbox.shuttertruth(&split(&format!("score {files} {words}")));
-        assert_done(&output);
-        stdout(&output)
+        sandbox.done(&format!("score {files} {words}"))
     };
-    let scores = |words: &str| -> serde_json::Value {
-        let json: serde_json::Value =
-            serde_json::from_str(&score(&format!("--json {words}"))).unwrap();
+    let scores = |words: &str| {
+        let json: Value = serde_json::from_str(&score(&format!("--json {words}"))).unwrap();
         json["scores"].clone()
     };
     let plain = scores("--image plain.exr");
-    assert_eq!(
-        scores("--image exposed.exr --convention engine.toml"),
-        plain
-    );
+    let restored = "--image exposed.exr --convention engine.toml";
+    assert_eq!(scores(restored), plain);
     assert_ne!(scores("--image exposed.exr"), plain);
-    let text = score("--image exposed.exr --convention engine.toml");
-    assert!(
-        text.contains("colours divided by color_scale = 4"),
-        "{text}"
-    );
+    let text = score(restored);
+    assert_contains(&text, &["colours divided by color_scale = 4"]);
     let png = "score --truth r/plate/truth_trailing.exr --frame r/plate/frame.exr --image r/plate/frame.png \
                --convention engine.toml";
-    let output = sandbox.shuttertruth(&split(png));
-    assert_refused(&output, 2, &["frame.png: is a PNG", "OpenEXR"]);
+    sandbox.refuse(png, &["frame.png: is a PNG", "OpenEXR"]);
 }
 
 #[test]
 fn a_wrong_convention_is_refused_with_its_line() {
     let sandbox = Sandbox::new();
     render(&sandbox);
-    let words = split(
-        "engine blur --filter identity --frame r/plate/frame.exr --out b.exr --convention engine.toml",
-    );
-    assert_refused(
-        &sandbox.shuttertruth(&words),
-        2,
-        &["engine.toml: cannot read"],
-    );
-    for (text, parts) in [
-        ("", ["engine.toml", "missing field `convention`"]),
-        (
-            "[convention]\nspeed = 1\n",
-            ["engine.toml:2: ", "unknown field `speed`"],
-        ),
-        (
-            "name = \"x\"\n[convention]\n",
-            ["engine.toml:1: ", "the table [convention] alone"],
-        ),
-        (
-            "[convention]\ndepth = \"ndc\"\n",
-            [
-                "engine.toml:1: ",
-                "convention: depth of a depth buffer needs near",
-            ],
-        ),
-        (
-            "[convention]\nvelocity_per = \"second\"\n",
-            ["engine.toml:1: ", "needs frames_per_second"],
-        ),
-    ] {
-        fs::write(sandbox.path("engine.toml"), text).unwrap();
-        assert_refused(&sandbox.shuttertruth(&words), 2, &parts);
+    let words = "engine blur --filter identity --frame r/plate/frame.exr --out b.exr --convention engine.toml";
+    sandbox.refuse(words, &["engine.toml: cannot read"]);
+    for (text, parts) in read_rows(
+        r#"
+         => engine.toml | missing field `convention`
+        [convention]\nspeed = 1 => engine.toml:2: | unknown field `speed`
+        name = "x"\n[convention] => engine.toml:1: | the table [convention] alone
+        [convention]\ndepth = "ndc" => engine.toml:1: | convention: depth of a depth buffer needs near
+        [convention]\nvelocity_per = "second" => engine.toml:1: | needs frames_per_second"#,
+    ) {
+        fs::write(sandbox.path("engine.toml"), text.replace("\\n", "\n")).unwrap();
+        sandbox.refuse(words, &parts);
     }
 }
 
@@ -203,8 +164,7 @@ fn run_json_says_what_a_filter_s_shaders_got() {
     let sandbox = Sandbox::new();
     sandbox.write_filter("godot", GODOT, COPY);
     assert_done(&sandbox.run(&["--filters", "./godot,velocity_gather"]));
-    let run: serde_json::Value =
-        serde_json::from_str(&fs::read_to_string(sandbox.path("out/run.json")).unwrap()).unwrap();
+    let run: Value = sandbox.read_json("out/run.json");
     let case = |filter: &str| {
         let mut cases = run["cases"].as_array().unwrap().iter();
         cases.find(|case| case["filter"] == filter).unwrap()["convention"].clone()
@@ -229,10 +189,6 @@ fn run_json_says_what_a_filter_s_shaders_got() {
         })
     );
     for other in ["velocity_gather", "scatter_oracle"] {
-        assert_eq!(
-            case(other),
-            serde_json::Value::Null,
-            "{other} got the frame as it is"
-        );
+        assert_eq!(case(other), Value::Null, "{other} got the frame as it is");
     }
 }

@@ -7,10 +7,7 @@ use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, split, stdout}
 
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
-    found.unwrap_or_else(|| {
-        let names: Vec<String> = cases.iter().map(|case| case.name()).collect();
-        panic!("no {name} among {names:?}")
-    })
+    found.unwrap_or_else(|| panic!("no {name}"))
 }
 
 /// Measures how far to the right the middle of the plate lies in the output of one frame of a sequence, in pixels.
@@ -66,10 +63,8 @@ fn smaller_buffers_change_filters_that_read_them() {
     let whole = flip(&cases, "velocity_gather:fine");
     for size in BufferSize::ALL.iter().skip(1) {
         let change = format!("buffers={}", size.name());
-        assert_eq!(
-            flip(&cases, &format!("identity:default {change}")),
-            identity
-        );
+        let same = flip(&cases, &format!("identity:default {change}"));
+        assert_eq!(same, identity);
         let changed = flip(&cases, &format!("velocity_gather:fine {change}"));
         assert!((changed - whole).abs() > 1e-4, "{change} {changed} {whole}");
         assert!(stdout(&output).contains(&change));
@@ -133,12 +128,8 @@ fn samples_jitter_and_scale_change_what_filters_get() {
     assert_eq!(size(case), size(plain));
     // Places that the filter gathers from are in pixels of the whole picture.
     let offset = |case: &Case| case.scores.probes.gather_offset.value().unwrap();
-    assert!(
-        (offset(case) - offset(plain)).abs() < 0.5,
-        "{} {}",
-        offset(case),
-        offset(plain)
-    );
+    let [own, whole] = [case, plain].map(offset);
+    assert!((own - whole).abs() < 0.5, "{own} {whole}");
     assert!(case.scores.probes.unity.value().unwrap() < 1e-3);
     let other = find_case(&cases, "identity:default jitter=left_in");
     assert_eq!(other.input.jitter, CameraJitter::LeftIn);
@@ -150,20 +141,14 @@ fn depth_of_field_runs_before_a_filter_or_after_it() {
     let sandbox = Sandbox::new();
     let words = "--filters identity,velocity_gather:fine --input depth_of_field=before,after";
     // A scene without a lens is refused before anything is rendered.
-    let refused = sandbox.run(&split(words));
-    assert_refused(
-        &refused,
-        2,
-        &[
-            "depth_of_field=after",
-            "plate has no lens",
-            "aperture and focus",
-        ],
-    );
-    sandbox.write(
-        "scene.toml",
-        &SCENE.replace("vertical_fov", "aperture = 0.8\nfocus = 2\nvertical_fov"),
-    );
+    let parts = [
+        "depth_of_field=after",
+        "plate has no lens",
+        "aperture and focus",
+    ];
+    assert_refused(&sandbox.run(&split(words)), 2, &parts);
+    let lens = SCENE.replace("vertical_fov", "aperture = 0.8\nfocus = 2\nvertical_fov");
+    sandbox.write("scene.toml", &lens);
     let output = sandbox.run(&split(words));
     assert_done(&output);
     let cases = sandbox.read_filter_cases();

@@ -3,7 +3,7 @@
 use metrics::Measured;
 use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::sandbox::{Sandbox, assert_done, stderr};
+use crate::sandbox::{Sandbox, assert_done, split, stderr};
 
 const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
 
@@ -122,14 +122,8 @@ fn weights_that_depend_on_colour_give_no_matte_scores_and_say_why() {
     let nonlinearity = bright.nonlinearity.unwrap();
     assert!(nonlinearity > 0.01, "{nonlinearity}");
     assert!(bright.scores.moving.flip.value().is_some());
-    for metric in [
-        "label_tv",
-        "lateral_growth",
-        "energy",
-        "unity",
-        "gather_offset",
-        "n_eq_label_tv",
-    ] {
+    let metrics = "label_tv lateral_growth energy unity gather_offset n_eq_label_tv";
+    for metric in split(metrics) {
         let applies = |case: &suite::Case| case.scores.get(metric.parse().unwrap());
         assert!(applies(identity).value().is_some(), "{metric}");
         let Measured::NotApplicable { reason } = applies(bright) else {

@@ -114,12 +114,24 @@ impl Sandbox {
         self.command(words).output().unwrap()
     }
 
+    /// Runs a command line that must succeed; returns what it prints.
+    #[track_caller]
+    pub fn done(&self, line: &str) -> String {
+        self.execute(&split(line))
+    }
+
     /// Runs a command that must succeed; returns what it prints.
     #[track_caller]
     pub fn execute(&self, words: &[&str]) -> String {
         let output = self.shuttertruth(words);
         assert_done(&output);
         stdout(&output)
+    }
+
+    /// Runs a command line that must be refused with exit code 2 and with these parts of a message.
+    #[track_caller]
+    pub fn refuse(&self, line: &str, parts: &[&str]) {
+        assert_refused(&self.shuttertruth(&split(line)), 2, parts);
     }
 
     /// Runs a command as if no CI were there.

@@ -7,8 +7,11 @@ use std::time::SystemTime;
 use frame::{Image, read_exr};
 use suite::{Run, Sequence};
 use tests::filter_folder::one_kernel_without_parameters;
+use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{IDENTITY, SCENE, Sandbox, assert_done, assert_refused, files_below, stdout};
+use crate::sandbox::{
+    IDENTITY, SCENE, Sandbox, assert_done, assert_refused, files_below, split, stdout,
+};
 
 const THREE: [&str; 2] = ["--frames", "3"];
 
@@ -26,11 +29,8 @@ fn write_noisy(sandbox: &Sandbox, name: &str, index: &str) {
     let own = textureLoad(color, pixel, 0).rgb;
     textureStore(output, pixel, vec4<f32>(own * (1.0 + 1.2 * (noise - 0.5)), 1.0));"
     );
-    sandbox.write_filter(
-        name,
-        &manifest(name, ""),
-        &one_kernel_without_parameters(&body),
-    );
+    let kernels = one_kernel_without_parameters(&body);
+    sandbox.write_filter(name, &manifest(name, ""), &kernels);
 }
 
 /// Finds the sequence of a filter.
@@ -76,12 +76,8 @@ fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
     assert_eq!(text(&run), text(&single), "bit for bit");
     assert!(files.map(read) == before, "bit for bit");
     let own = find(&run, "identity");
-    let hashes: Vec<&str> = own
-        .frames
-        .iter()
-        .map(|own| own.truth_hash.as_str())
-        .collect();
-    assert_eq!(hashes[0], single.cases[0].truth_hash);
+    let hashes = [0, 1, 2].map(|at| &own.frames[at].truth_hash);
+    assert_eq!(*hashes[0], single.cases[0].truth_hash);
     assert!(hashes[1] != hashes[0] && hashes[2] != hashes[1]);
     // The plate moves at a constant speed and looks the same in every frame.
     let [first, last] = [0, 2].map(|at| own.frames[at].error.unwrap());
@@ -124,33 +120,22 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
     let sandbox = Sandbox::new();
     write_noisy(&sandbox, "changing", "frame.frame_index");
     write_noisy(&sandbox, "standing", "0u");
-    let output = sandbox.run(&[
-        "--filter",
-        "./changing",
-        "--filter",
-        "./standing",
-        "--frames",
-        "4",
-    ]);
+    let output = sandbox.run(&split(
+        "--filters ./changing,./standing --frames 4 --jitter-frames 0",
+    ));
     assert_done(&output);
     let table = stdout(&output);
-    for words in [
+    let parts = [
         "4 frames",
         "plate, trailing shutter",
         "flick",
         "along",
         "dirt",
         "standing:default",
-    ] {
-        assert!(
-            table.contains(words),
-            "\"{words}\" is missing from:\n{table}"
-        );
-    }
-    assert!(
-        table.lines().all(|line| line.chars().count() <= 80),
-        "{table}"
-    );
+    ];
+    assert_contains(&table, &parts);
+    let mut lines = table.lines();
+    assert!(lines.all(|line| line.chars().count() <= 80), "{table}");
     let run = sandbox.read_run();
     let [changing, standing] = ["changing", "standing"].map(|name| &find(&run, name).scores);
     let value = |score: &metrics::Measured| score.value().unwrap();
@@ -193,11 +178,8 @@ fn a_filter_with_history_reads_the_frame_before() {
     sandbox.write_filter("before", &manifest("before", ""), &kernels);
     let parts = ["\"color_before\" is no known input", "`history` names them"];
     assert_refused(&sandbox.run(&["--filter", "./before"]), 2, &parts);
-    sandbox.write_filter(
-        "before",
-        &manifest("before", "history = [\"color\", \"color\"]"),
-        &kernels,
-    );
+    let twice = manifest("before", "history = [\"color\", \"color\"]");
+    sandbox.write_filter("before", &twice, &kernels);
     let parts = ["filter.toml:4", "history names \"color\" twice"];
     assert_refused(&sandbox.run(&["--filter", "./before"]), 2, &parts);
 }
@@ -220,44 +202,30 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
     assert_refused(&refused, 2, &parts);
     assert!(!sandbox.path("out/plate").exists(), "nothing was rendered");
     assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
-    for (option, value, says) in [
-        ("--frames", "0", "0 is not in 1..=1000"),
-        ("--frames", "1001", "1001 is not in 1..=1000"),
-        ("--fps", "0", "a number above 0"),
-    ] {
-        assert_refused(
-            &sandbox.run(&[&IDENTITY[..], &[option, value]].concat()),
-            2,
-            &[says],
-        );
+    for (words, parts) in read_rows(
+        "
+        --frames 0 => 0 is not in 1..=1000
+        --frames 1001 => 1001 is not in 1..=1000
+        --fps 0 => a number above 0",
+    ) {
+        let refused = sandbox.run(&[&IDENTITY[..], &split(words)].concat());
+        assert_refused(&refused, 2, &parts);
     }
 }
 
 #[test]
 fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
     let sandbox = Sandbox::new();
-    let words = |part: &'static str, out: &'static str| {
-        let more = ["--replicates", part, "--frames", "2", "--out", out];
-        [
-            "truths",
-            "render",
-            "--quiet",
-            "--size",
-            "64x32",
-            "--samples-per-pixel",
-            "16",
-        ]
-        .into_iter()
-        .chain(more)
-    };
-    for (part, out) in [("0..3", "one"), ("3..8", "two")] {
-        sandbox.execute(&words(part, out).collect::<Vec<_>>());
+    for part in ["0..3 --out one", "3..8 --out two"] {
+        let words = "truths render --quiet --size 64x32 --samples-per-pixel 16 --frames 2";
+        sandbox.done(&format!("{words} --replicates {part}"));
     }
-    sandbox.execute(&["truths", "merge", "--quiet", "one", "two", "--out", "out"]);
+    sandbox.done("truths merge --quiet one two --out out");
     let truth = sandbox.path("out/plate/0001/truth_trailing.exr");
-    let before = fs::metadata(&truth).unwrap().modified().unwrap();
+    let written = || fs::metadata(&truth).unwrap().modified().unwrap();
+    let before = written();
     assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
-    assert_eq!(fs::metadata(&truth).unwrap().modified().unwrap(), before);
+    assert_eq!(written(), before);
 }
 
 #[test]
@@ -265,11 +233,7 @@ fn a_sequence_has_a_page_and_an_animation_per_case() {
     let sandbox = Sandbox::new();
     let output = sandbox.run(&[&IDENTITY[..], &THREE, &["--fps", "12"]].concat());
     assert_done(&output);
-    assert!(
-        stdout(&output).contains("out/sequences.html"),
-        "{}",
-        stdout(&output)
-    );
+    assert_contains(&stdout(&output), &["out/sequences.html"]);
     let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
     for path in [
         "plate/0001/frame.png",

@@ -1,6 +1,8 @@
 //! Kinds of frames that filters can get.
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, split};
+use tests::text::read_rows;
+
+use crate::sandbox::{IDENTITY, Sandbox, assert_done, assert_refused, split};
 
 /// Model of two colours that meet two pixels beyond the right border, where the plate moves to.
 const TWO_COLOURS: &str = "\
@@ -69,17 +71,15 @@ fn a_run_records_the_kind_of_its_frames() {
 #[test]
 fn bad_kinds_of_frames_are_refused() {
     let sandbox = Sandbox::new();
-    for (more, parts) in [
-        (
-            ["--frame-sampling", "sharp"],
-            ["sharp", "antialiased, point"],
-        ),
-        (["--color", "point"], ["--color", "auto, always, never"]),
-        (["--sky-velocity", "maybe"], ["maybe", "off"]),
-        (["--guard-band", "wide"], ["--guard-band", "wide"]),
-        (["--guard-band", "99999"], ["200062x200030", "16384"]),
-    ] {
-        let refused = sandbox.run(&[&["--filters", "identity"][..], &more].concat());
+    for (words, parts) in read_rows(
+        "
+        --frame-sampling sharp => sharp | antialiased, point
+        --color point => --color | auto, always, never
+        --sky-velocity maybe => maybe | off
+        --guard-band wide => --guard-band | wide
+        --guard-band 99999 => 200062x200030 | 16384",
+    ) {
+        let refused = sandbox.run(&[&IDENTITY[..], &split(words)].concat());
         assert_refused(&refused, 2, &parts);
     }
 }
@@ -98,16 +98,12 @@ fn a_sealed_scene_has_another_truth_and_not_the_limits_of_its_scene() {
     assert_eq!(sealed, run(&["--scenes", "plate@seal7"]));
     assert_eq!(sealed.0, "plate@seal7");
     assert_ne!(sealed.1, plain.1);
-    let check = |more: &[&str]| sandbox.check(&[&["--filters", "identity"], more].concat());
-    assert_refused(
-        &check(&["--seal", "7"]),
-        2,
-        &["plate@seal7 / identity:default: has no bound"],
-    );
-    let variant = check(&["--seal", "7", "--scenes", "plate@fast"]);
-    assert_refused(
-        &variant,
-        2,
-        &["--seal: plate@fast is a variant; allowed: scenes in their default variant"],
-    );
+    let refuse = |words: &str, says: &str| {
+        let refused = sandbox.check(&[&IDENTITY[..], &split(words)].concat());
+        assert_refused(&refused, 2, &[says]);
+    };
+    let says = "plate@seal7 / identity:default: has no bound";
+    refuse("--seal 7", says);
+    let says = "--seal: plate@fast is a variant; allowed: scenes in their default variant";
+    refuse("--seal 7 --scenes plate@fast", says);
 }

@@ -1,8 +1,10 @@
 //! The overview in a browser: the search for rows, the preview of a worst place, and sections of filters.
 
+use std::path::Path;
+
 use crate::browser::Browser;
-use crate::make_page;
 use crate::sandbox::{Sandbox, assert_done};
+use crate::{make_page, measure};
 
 /// Returns the names in the visible rows.
 fn rows(browser: &mut Browser) -> String {
@@ -80,19 +82,32 @@ fn the_search_filters_rows_and_references_show_on_request() {
 }
 
 #[test]
-fn a_link_opens_the_same_table() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+fn the_overview_leads_to_tables_filters_and_cases() {
+    let sandbox = measure("identity,velocity_gather:fine");
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
-    browser.open(&page, "");
+    for check in [
+        a_link_opens_the_same_table,
+        a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter,
+        only_the_table_that_is_seen_is_parsed_until_somebody_prints,
+        tables_have_captions_and_pictures_have_words,
+        everything_fits_a_narrow_screen,
+    ] {
+        browser.open(&page, "");
+        check(&mut browser, &page);
+    }
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+fn a_link_opens_the_same_table(browser: &mut Browser, page: &Path) {
+    browser.open(page, "");
     assert_eq!(browser.text("location.hash"), "");
     browser.value(
         "(() => { const tools = document.getElementById('tables'); tools.querySelector('[value=row_loss]').checked = true; \
          tools.querySelector('[name=search]').value = 'y_g & 100%+'; tools.dispatchEvent(new Event('input')); })()",
     );
     browser.until("location.hash === '#overview&metric=row_loss&search=y_g%20%26%20100%25%2B'");
-    assert_eq!(rows(&mut browser), "");
+    assert_eq!(rows(browser), "");
     let nothing = "document.querySelector('.nothing').checkVisibility()";
     assert_eq!(browser.value(nothing), true);
     browser.value(
@@ -106,29 +121,23 @@ fn a_link_opens_the_same_table() {
     browser.until("!document.wasSeen && document.readyState === 'complete'");
     for part in ["", &link] {
         if !part.is_empty() {
-            browser.open(&page, "");
+            browser.open(page, "");
             assert_eq!(browser.text(seen), "flip_moving,");
-            browser.open(&page, part);
+            browser.open(page, part);
         }
         browser.until(&format!("{seen} === 'row_loss,y_g'"));
-        assert_eq!(rows(&mut browser), "velocity_gather:fine");
+        assert_eq!(rows(browser), "velocity_gather:fine");
     }
     // The way back from a case keeps them.
     browser.value("location.hash = '#plate/identity:default'");
     browser.until("!document.getElementById('viewer').hidden");
     browser.press("o");
     browser.until("location.hash === '#overview&metric=row_loss&search=y_g'");
-    assert_eq!(rows(&mut browser), "velocity_gather:fine");
-    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(rows(browser), "velocity_gather:fine");
 }
 
-#[test]
-fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
-    let page = make_page(&sandbox);
-    let mut browser = Browser::new(1280, 900);
-    browser.open(&page, "");
+fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Browser, page: &Path) {
+    browser.open(page, "");
     let [x, y, width, height] = browser.place(".panel tbody:not(.group) tr:not([hidden]) a.case");
     browser.point(x + width / 2.0, y + height / 2.0);
     browser.until("!document.querySelector('.peek').hidden");
@@ -154,16 +163,10 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter() {
     browser.value("document.querySelector('article.open a.scene').click()");
     browser.until("location.hash.startsWith('#plate/velocity_gather:fine')");
     browser.until("document.getElementById('viewer').checkVisibility()");
-    assert_eq!(browser.complaints(), [""; 0]);
 }
 
-#[test]
-fn only_the_table_that_is_seen_is_parsed_until_somebody_prints() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = make_page(&sandbox);
-    let mut browser = Browser::new(1280, 900);
-    browser.open(&page, "");
+fn only_the_table_that_is_seen_is_parsed_until_somebody_prints(browser: &mut Browser, page: &Path) {
+    browser.open(page, "");
     let tables = "document.querySelectorAll('.panel table').length";
     assert_eq!(browser.value(tables), 1);
     browser.value("document.querySelector('[name=metric][value=psnr_moving]').click()");
@@ -176,6 +179,48 @@ fn only_the_table_that_is_seen_is_parsed_until_somebody_prints() {
     browser.paper();
     let panels = browser.value("document.querySelectorAll('.panel').length");
     assert_eq!(browser.value(tables), panels);
-    assert_eq!(rows(&mut browser), "velocity_gather:fine,identity:default");
-    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(rows(browser), "velocity_gather:fine,identity:default");
+}
+
+fn tables_have_captions_and_pictures_have_words(browser: &mut Browser, page: &Path) {
+    for part in ["", "#plate/identity:default", "#filter:identity:default"] {
+        browser.open(page, part);
+        browser.until("document.documentElement.classList.contains('scripted')");
+        for (elements, lacks) in [
+            ("table", "!own.caption?.textContent.trim()"),
+            ("th", "!own.scope"),
+            ("img", "!own.hasAttribute('alt')"),
+            (
+                "canvas",
+                "!own.closest('[aria-hidden=true]') && own.checkVisibility() && !own.ariaLabel",
+            ),
+            (
+                "svg",
+                "!own.closest('[aria-hidden=true]') && !own.ariaLabel",
+            ),
+            ("button", "!own.ariaLabel && !own.textContent.trim()"),
+        ] {
+            let found = browser.text(&format!(
+                "[...document.querySelectorAll('{elements}')].filter(own => {lacks}).map(own => own.outerHTML.slice(0, 200)).join('; ')"
+            ));
+            assert_eq!(found, "", "{part} {elements}");
+        }
+    }
+}
+
+fn everything_fits_a_narrow_screen(browser: &mut Browser, page: &Path) {
+    for part in ["", "#plate/identity:default", "#filter:identity:default"] {
+        browser.open(page, part);
+        let width = browser.value("document.documentElement.scrollWidth");
+        assert_eq!(
+            width, 360,
+            "the page at \"{part}\" has to be scrolled sideways"
+        );
+    }
+    // As does the paper of the overview.
+    browser.resize(794, 1123);
+    browser.print();
+    browser.open(page, "");
+    let width = browser.value("document.documentElement.scrollWidth");
+    assert_eq!(width, 794);
 }
