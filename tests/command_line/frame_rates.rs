@@ -297,7 +297,7 @@ fn rates_that_are_none_are_refused() {
         --shutter-time 48 => 48 | 1/1 to 1/100000
         --shutter-time 1/0 => 1/0 | 1/1 to 1/100000
         --shutter-time 1/48,1/48 => --shutter-time: 1/48 | named twice
-        --shutter-time 1/48 --exposure 1 => --exposure | plate@60fps_1-48s
+        --scenes plate --shutter-time 1/48 --exposure 1 => --exposure | plate@60fps_1-48s
         --scenes plate@24fps --frame-rate 30 => plate@24fps | a frame rate of its own
         --scenes plate@24fps,plate --frame-rate 24 => plate@24fps | a frame rate of its own
         --input rule=always => always | in_time_capped",

@@ -57,7 +57,7 @@ fn measure_case(sandbox: &Sandbox, more: &str) -> Case {
 #[test]
 fn a_run_scales_a_preset_to_its_width_and_reports_it() {
     let sandbox = set_up();
-    let measure = |more: &str, radius: i64, width: Option<u32>| {
+    let measure = |more: &str, radius: i32, width: Option<u32>| {
         let case = measure_case(&sandbox, more);
         assert_eq!(case.parameters["radius"], Value::Integer(radius), "{more}");
         assert_eq!(case.reference_width, width, "{more}");

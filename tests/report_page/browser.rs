@@ -108,7 +108,7 @@ impl Browser {
         let start = Instant::now();
         while self.value(expression) != true {
             assert!(start.elapsed() < PATIENCE, "never: {expression}");
-            std::thread::sleep(Duration::from_millis(20));
+            std::thread::sleep(Duration::from_millis(5));
         }
     }
 

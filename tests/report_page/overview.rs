@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use tests::text::assert_contains;
+
 use crate::browser::Browser;
-use crate::sandbox::{Sandbox, assert_done};
 use crate::{make_page, measure};
 
 /// Returns the names in the visible rows.
@@ -16,63 +17,38 @@ fn rows(browser: &mut Browser) -> String {
 
 #[test]
 fn the_search_filters_rows_and_references_show_on_request() {
-    let sandbox = Sandbox::new();
     const FILTERS: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
-    assert_done(&sandbox.run(&FILTERS));
-    let errors = sandbox.read_filter_cases();
-    let errors = errors
-        .iter()
-        .map(|case| case.scores.moving.flip.value().unwrap());
-    let limit = errors.sum::<f64>() / 2.0;
-    sandbox.write(
-        "bounds.toml",
-        &format!("[default]\nflip_moving = {{ limit = {limit}, why = \"it serves a test\" }}\n"),
-    );
+    let sandbox = measure(FILTERS[1]);
+    let errors = sandbox.read_filter_cases().into_iter();
+    let errors = errors.map(|case| case.scores.moving.flip.value().unwrap());
+    sandbox.write_bound(errors.sum::<f64>() / 2.0);
     let output = sandbox.check(&FILTERS);
-    assert_eq!(
-        output.status.code(),
-        Some(1),
-        "one of both is beyond the mean"
-    );
-    sandbox.check(&["--filters", "identity,velocity_gather:fine"]);
+    assert_eq!(output.status.code(), Some(1), "one is beyond the mean");
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
+    let browser = &mut browser;
     browser.open(&page, "");
-    assert_eq!(rows(&mut browser), "velocity_gather:fine,identity:default");
-    let set = |browser: &mut Browser, change: &str| {
+    assert_eq!(rows(browser), "velocity_gather:fine,identity:default");
+    let mut show = |change: &str| {
         browser.value(&format!(
-            "(() => {{ const tools = document.getElementById('tables'); {change}; tools.dispatchEvent(new Event('input')); }})()"
+            "(() => {{ const tools = document.getElementById('tables'); const at = (one) => tools.querySelector(one); \
+             {change}; tools.dispatchEvent(new Event('input')); }})()"
         ));
+        let shown = rows(browser);
+        let mut names: Vec<_> = shown.split(',').map(str::to_owned).collect();
+        names.sort();
+        names.join(" ")
     };
-    set(
-        &mut browser,
-        "tools.querySelector('[name=failing]').checked = true",
-    );
-    assert_eq!(rows(&mut browser), "identity:default");
-    set(
-        &mut browser,
-        "tools.querySelector('[name=failing]').checked = false",
-    );
-    set(
-        &mut browser,
-        "tools.querySelector('[name=search]').value = 'Gather'",
-    );
-    assert_eq!(rows(&mut browser), "velocity_gather:fine");
-    set(
-        &mut browser,
-        "tools.querySelector('[name=search]').value = ''; tools.querySelector('[name=references]').checked = true",
-    );
+    let failing = show("at('[name=failing]').checked = true");
+    assert_eq!(failing, "identity:default");
+    show("at('[name=failing]').checked = false");
+    let found = show("at('[name=search]').value = 'Gather'");
+    assert_eq!(found, "velocity_gather:fine");
+    let all = show("at('[name=search]').value = ''; at('[name=references]').checked = true");
     // A check has no accumulations but the one that skill is counted from.
-    let all = "scatter_oracle,accumulate:1,velocity_gather:fine,identity,identity:default";
-    let mut found: Vec<String> = rows(&mut browser).split(',').map(str::to_owned).collect();
-    let mut expected: Vec<&str> = all.split(',').collect();
-    found.sort();
-    expected.sort_unstable();
-    assert_eq!(found, expected);
-    set(
-        &mut browser,
-        "tools.querySelector('[value=psnr_moving]').checked = true",
-    );
+    let due = "accumulate:1 identity identity:default scatter_oracle velocity_gather:fine";
+    assert_eq!(all, due);
+    show("at('[value=psnr_moving]').checked = true");
     let title = browser.text("document.querySelector('.panel:not([hidden])').dataset.metric");
     assert_eq!(title, "psnr_moving");
     // The thumbnail of the truth stands above its column, whichever score is shown.
@@ -100,7 +76,6 @@ fn the_overview_leads_to_tables_filters_and_cases() {
 }
 
 fn a_link_opens_the_same_table(browser: &mut Browser, page: &Path) {
-    browser.open(page, "");
     assert_eq!(browser.text("location.hash"), "");
     browser.value(
         "(() => { const tools = document.getElementById('tables'); tools.querySelector('[value=row_loss]').checked = true; \
@@ -136,8 +111,7 @@ fn a_link_opens_the_same_table(browser: &mut Browser, page: &Path) {
     assert_eq!(rows(browser), "velocity_gather:fine");
 }
 
-fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Browser, page: &Path) {
-    browser.open(page, "");
+fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Browser, _: &Path) {
     let [x, y, width, height] = browser.place(".panel tbody:not(.group) tr:not([hidden]) a.case");
     browser.point(x + width / 2.0, y + height / 2.0);
     browser.until("!document.querySelector('.peek').hidden");
@@ -145,28 +119,24 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Bro
     assert_eq!(browser.value(different), 3);
     browser.value("document.querySelector('.winners a').click()");
     browser.until("location.hash === '#filter:velocity_gather:fine'");
-    assert_eq!(
-        browser.value("document.getElementById('overview').checkVisibility()"),
-        false
-    );
+    let shown = browser.value("document.getElementById('overview').checkVisibility()");
+    assert_eq!(shown, false);
     let text = browser.text("document.querySelector('article.open').innerText");
-    for words in [
+    let parts = [
         "velocity_gather:fine",
         "published",
         "limits",
         "Parameters",
         "Scenes, the weakest first",
         "plate",
-    ] {
-        assert!(text.contains(words), "{words}: {text}");
-    }
+    ];
+    assert_contains(&text, &parts);
     browser.value("document.querySelector('article.open a.scene').click()");
     browser.until("location.hash.startsWith('#plate/velocity_gather:fine')");
     browser.until("document.getElementById('viewer').checkVisibility()");
 }
 
-fn only_the_table_that_is_seen_is_parsed_until_somebody_prints(browser: &mut Browser, page: &Path) {
-    browser.open(page, "");
+fn only_the_table_that_is_seen_is_parsed_until_somebody_prints(browser: &mut Browser, _: &Path) {
     let tables = "document.querySelectorAll('.panel table').length";
     assert_eq!(browser.value(tables), 1);
     browser.value("document.querySelector('[name=metric][value=psnr_moving]').click()");
@@ -209,18 +179,16 @@ fn tables_have_captions_and_pictures_have_words(browser: &mut Browser, page: &Pa
 }
 
 fn everything_fits_a_narrow_screen(browser: &mut Browser, page: &Path) {
+    let width = "document.documentElement.scrollWidth";
+    browser.resize(360, 800);
     for part in ["", "#plate/identity:default", "#filter:identity:default"] {
         browser.open(page, part);
-        let width = browser.value("document.documentElement.scrollWidth");
-        assert_eq!(
-            width, 360,
-            "the page at \"{part}\" has to be scrolled sideways"
-        );
+        // It need not be scrolled sideways.
+        assert_eq!(browser.value(width), 360, "{part}");
     }
-    // As does the paper of the overview.
+    // Nor does the paper of the overview.
     browser.resize(794, 1123);
     browser.print();
     browser.open(page, "");
-    let width = browser.value("document.documentElement.scrollWidth");
-    assert_eq!(width, 794);
+    assert_eq!(browser.value(width), 794);
 }
