@@ -243,6 +243,7 @@ fn score_and_picture_are_on_the_first_screen(browser: &mut Browser, page: &Path)
 }
 
 fn printed_pages_show_both_pictures_whole(browser: &mut Browser, page: &Path) {
+    browser.resize(1000, 900);
     open_case(browser, page, "plate/velocity_gather:fine&zoom=8&at=10,10");
     browser.print();
     let [over, under] =
