@@ -8,7 +8,7 @@ use frame::{ExrFile, Frame, Image, read_exr, write_exr};
 use serde_json::Value;
 use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{Sandbox, assert_done};
+use crate::sandbox::Sandbox;
 
 /// Conventions, each apart from that of frames in one thing or more.
 const FORMS: [&str; 12] = [
@@ -129,41 +129,22 @@ fn a_wrong_convention_is_refused_with_its_line() {
     }
 }
 
-/// Kernels that expect what Godot hands over.
+/// What kernels expect as Godot hands it over.
 const GODOT: &str = "\
-name = \"godot\"
-summary = \"Averages nothing.\"
-alignment = \"trailing\"
-
 [convention]
 velocity = \"uv\"
 velocity_sign = \"previous_minus_current\"
 depth = \"reversed\"
 near = 0.05
 color_format = \"rgba16float\"
-
-[[pass]]
-entry = \"copy\"
-";
-
-const COPY: &str = "\
-@group(0) @binding(1) var color: texture_2d<f32>;
-@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
-
-@compute @workgroup_size(8, 8)
-fn copy(@builtin(global_invocation_id) id: vec3<u32>) {
-    let pixel = vec2<i32>(id.xy);
-    if inside(pixel) {
-        textureStore(output, pixel, textureLoad(color, pixel, 0));
-    }
-}
 ";
 
 #[test]
 fn run_json_says_what_a_filter_s_shaders_got() {
     let sandbox = Sandbox::new();
-    sandbox.write_filter("godot", GODOT, COPY);
-    assert_done(&sandbox.run(&["--filters", "./godot,velocity_gather"]));
+    let copy = "textureStore(output, pixel, textureLoad(color, pixel, 0));";
+    sandbox.write_kernel("godot", GODOT, &[], copy);
+    sandbox.measure("--filters ./godot,velocity_gather");
     let run: Value = sandbox.read_json("out/run.json");
     let case = |filter: &str| {
         let mut cases = run["cases"].as_array().unwrap().iter();

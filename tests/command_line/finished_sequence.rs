@@ -4,7 +4,6 @@ use std::fs;
 
 use frame::{Image, display_srgb, read_exr, write_png};
 use metrics::{SequenceMetric, SequenceScores};
-use tests::filter_folder::one_kernel_without_parameters;
 use tests::text::{assert_contains, read_rows};
 
 use crate::sandbox::{SCENE, Sandbox, assert_done, stdout};
@@ -16,15 +15,13 @@ const THREE: [&str; 2] = ["--frames", "3"];
 /// Makes a sandbox with a filter whose picture depends on the frame before and on the frame's number, and runs it on three frames.
 fn run_filter() -> Sandbox {
     let sandbox = Sandbox::new();
-    let manifest = "name = \"late\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\nhistory = [\"color\"]\n\n[[pass]]\nentry = \"work\"\n";
     let body = "let before = textureLoad(color_before, pixel, 0).rgb;
     let now = textureLoad(color, pixel, 0).rgb;
     let noise = fract(0.618 * f32(frame.frame_index) + 0.1 * f32(pixel.x));
     textureStore(output, pixel, vec4<f32>(mix(before, now, 0.5 + 0.2 * noise), 1.0));";
-    let texture = "@group(0) @binding(4) var color_before: texture_2d<f32>;\n";
-    let kernels = texture.to_owned() + &one_kernel_without_parameters(body);
-    sandbox.write_filter("late", manifest, &kernels);
-    assert_done(&sandbox.run(&[&["--filter", "./late", "--fps", "24"][..], &THREE].concat()));
+    let history = "history = [\"color\"]";
+    sandbox.write_kernel("late", history, &["color_before"], body);
+    sandbox.measure("--filter ./late --fps 24 --frames 3");
     sandbox
 }
 

@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::fs;
 
 use frame::{Image, read_exr};
-use metrics::Metric;
+use metrics::{Metric, SequenceMetric};
 use suite::{Case, Run, ShutterRule};
-use tests::filter_folder::{one_kernel_without_parameters, write_manifest, write_script};
+use tests::filter_folder::{write_manifest, write_script};
 use tests::text::read_rows;
 use tracer::{FrameRate, SceneId};
 
-use crate::sandbox::{IDENTITY, Sandbox, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{IDENTITY, Sandbox, assert_refused, split};
 
 /// The plate is at 60 frames per second, with an exposure of half a frame: 1/120 s.
 const RATES: &str = "--filters identity --frame-rate 24,60 --shutter-time 1/120";
@@ -30,8 +30,7 @@ fn read_output(sandbox: &Sandbox, case: &Case) -> Image {
 #[test]
 fn a_run_takes_every_scene_at_every_rate_and_keeps_it() {
     let sandbox = Sandbox::two_scenes();
-    let output = sandbox.run(&split(RATES));
-    assert_done(&output);
+    let printed = sandbox.measure(RATES);
     let cases = sandbox.read_filter_cases();
     let due = [
         ("plate", 0.5),
@@ -43,11 +42,9 @@ fn a_run_takes_every_scene_at_every_rate_and_keeps_it() {
         ("plate@60fps_1-120s", 0.5),
         ("slow@60fps_1-120s", 0.5),
     ];
-    let found = cases
-        .iter()
-        .map(|case| (case.scene.to_string(), case.exposure));
-    let due_names = due.map(|(scene, exposure)| (scene.to_owned(), exposure));
-    assert_eq!(found.collect::<Vec<_>>(), due_names);
+    let due = due.map(|(scene, exposure)| (scene.parse().unwrap(), exposure));
+    let found = cases.iter().map(|case| (case.scene.clone(), case.exposure));
+    assert_eq!(found.collect::<Vec<(SceneId, f64)>>(), due);
     for case in &cases {
         let json = serde_json::to_value(case).unwrap();
         let rate = case.scene.rate.map(|rate| rate.per_second);
@@ -56,10 +53,8 @@ fn a_run_takes_every_scene_at_every_rate_and_keeps_it() {
     }
     let run = sandbox.read_run();
     let alone = Sandbox::two_scenes();
-    let own = alone.run(&IDENTITY);
-    assert_done(&own);
+    let own = alone.measure("--filters identity");
     assert_holds(&run, &alone.read_run());
-    let [printed, own] = [&output, &own].map(stdout);
     let head = |text: &str| text.lines().take(4).map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(head(&printed), head(&own));
     assert!(!own.contains("frame rate"), "{own}");
@@ -120,11 +115,11 @@ fn assert_kept(sandbox: &Sandbox, first: &Run) {
         })
     };
     let before = written();
-    assert_done(&sandbox.run(&split(RATES)));
+    sandbox.measure(RATES);
     let ids = |run: &Run| -> Vec<_> { run.cases.iter().map(|case| case.id.clone()).collect() };
     assert_eq!(ids(&sandbox.read_run()), ids(first));
     // A scene is named with its rate.
-    assert_done(&sandbox.run(&[&IDENTITY[..], &["--scenes", "plate@24fps"]].concat()));
+    sandbox.measure("--filters identity --scenes plate@24fps");
     assert_eq!(sandbox.read_filter_cases().len(), 8);
     assert_eq!(written(), before);
     let compared = sandbox.done("compare out out --html compared.html");
@@ -143,10 +138,8 @@ fn assert_kept(sandbox: &Sandbox, first: &Run) {
 fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
     let sandbox = Sandbox::new();
     let rules = "--input rule=right,in_frames,in_time,in_time_capped,share_falls";
-    let words = format!(
-        "--filters velocity_gather:fine --frame-rate 24,144 --shutter-time 1/120,1/19.2 {rules}"
-    );
-    assert_done(&sandbox.run(&split(&words)));
+    let words = "--filters velocity_gather:fine --frame-rate 24,144 --shutter-time 1/120,1/19.2";
+    sandbox.measure(&format!("{words} {rules}"));
     let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 7 * 5);
     let name = "velocity_gather:fine";
@@ -188,27 +181,14 @@ fn a_rule_of_the_shutter_is_the_blur_of_another_exposure() {
 
 /// Writes filters that show the rate which they are told, and a program that logs it.
 fn write_filters(sandbox: &Sandbox) {
-    let head =
-        |name: &str| format!("name = \"{name}\"\nsummary = \"\"\nalignment = \"trailing\"\n");
-    let sixty = "[convention]\nframes_per_second = 60\n";
+    let sixty = "[convention]\nframes_per_second = 60";
     let rate = "textureStore(output, pixel, vec4<f32>(frame.frames_per_second, frame.exposure, 0.0, 1.0));";
     let speed =
         "textureStore(output, pixel, vec4<f32>(textureLoad(velocity, pixel, 0).xy, 0.0, 1.0));";
-    let velocity = "@group(0) @binding(4) var velocity: texture_2d<f32>;\n";
-    for (name, convention, texture, body) in [
-        ("knows", String::new(), "", rate),
-        ("says", sixty.to_owned(), "", rate),
-        (
-            "speed",
-            format!("{sixty}velocity_per = \"second\"\n"),
-            velocity,
-            speed,
-        ),
-    ] {
-        let manifest = head(name) + &convention + "[[pass]]\nentry = \"work\"\n";
-        let kernels = texture.to_owned() + &one_kernel_without_parameters(body);
-        sandbox.write_filter(name, &manifest, &kernels);
-    }
+    sandbox.write_kernel("knows", "", &[], rate);
+    sandbox.write_kernel("says", sixty, &[], rate);
+    let per_second = format!("{sixty}\nvelocity_per = \"second\"");
+    sandbox.write_kernel("speed", &per_second, &["velocity"], speed);
     let passes = "[[pass]]\nshader = \"bound.glsl\"\n\
          [[pass.binding]]\nbinding = 0\ntexture = \"output\"\n\
          [[pass.binding]]\npush_constants = true\nvalues = { rate = \"frames_per_second\", time = \"delta_time\" }\n";
@@ -218,9 +198,8 @@ layout(rgba32f, set = 0, binding = 0) uniform writeonly image2D output_image;
 layout(push_constant, std430) uniform Params { float rate; float time; } params;
 void main() { imageStore(output_image, ivec2(gl_GlobalInvocationID.xy), vec4(params.rate, params.time, 0.0, 1.0)); }
 ";
-    let manifest = head("bound") + sixty + passes;
-    fs::create_dir(sandbox.path("bound")).unwrap();
-    fs::write(sandbox.path("bound/filter.toml"), manifest).unwrap();
+    let manifest = format!("{sixty}\n{passes}");
+    write_manifest(&sandbox.path("bound"), "bound", &manifest);
     fs::write(sandbox.path("bound/bound.glsl"), bound).unwrap();
     let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\", \"{frames_per_second}\"]";
     write_manifest(&sandbox.path("program"), "program", command);
@@ -232,9 +211,8 @@ void main() { imageStore(output_image, ivec2(gl_GlobalInvocationID.xy), vec4(par
 fn filters_know_the_rate() {
     let sandbox = Sandbox::new();
     write_filters(&sandbox);
-    assert_done(&sandbox.run(&split(
-        "--filters ./knows,./says,./speed,./bound,./program --allow-commands --frame-rate 24,144 --jitter-frames 0",
-    )));
+    let words = "--filters ./knows,./says,./speed,./bound,./program --allow-commands";
+    sandbox.measure(&format!("{words} --frame-rate 24,144 --jitter-frames 0"));
     let cases = sandbox.read_filter_cases();
     let middle = |scene: &str, name: &str| {
         *read_output(&sandbox, find(&cases, scene, &format!("{name}:default"))).at(32, 16)
@@ -264,21 +242,17 @@ fn filters_know_the_rate() {
 fn a_sequence_is_shown_at_its_rate() {
     let sandbox = Sandbox::new();
     let words = "--frames 2 --frame-rate 24 --scenes plate --filters identity --fps";
-    let run = |fps: &str| assert_done(&sandbox.run(&[&split(words)[..], &[fps]].concat()));
-    run("60");
+    sandbox.measure(&format!("{words} 60"));
     let jod = |sandbox: &Sandbox, scene: &str| {
         let run = sandbox.read_run();
         let mut own = run.sequences.iter();
         let own = own.find(|own| own.scene == scene && own.name == "identity:default");
-        let jod = own
-            .expect("it has a sequence")
-            .scores
-            .get(metrics::SequenceMetric::Jod);
-        jod.value().unwrap()
+        let scores = &own.expect("it has a sequence").scores;
+        scores.get(SequenceMetric::Jod).value().unwrap()
     };
     let [written, slow] = ["plate", "plate@24fps"].map(|scene| jod(&sandbox, scene));
     // The rate of the scenes' files does not touch those at another.
-    run("30");
+    sandbox.measure(&format!("{words} 30"));
     assert_ne!(jod(&sandbox, "plate"), written);
     assert_eq!(jod(&sandbox, "plate@24fps"), slow);
 }

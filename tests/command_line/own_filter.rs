@@ -1,7 +1,6 @@
 //! The filter that the guide writes, and the error messages that the guide quotes.
 
 use metrics::Measured;
-use tests::filter_folder::one_kernel_without_parameters;
 
 use crate::sandbox::{Sandbox, assert_done, split, stderr};
 
@@ -100,20 +99,16 @@ fn each_mistake_prints_the_message_in_the_guide() {
 #[test]
 fn weights_that_depend_on_colour_give_no_matte_scores_and_say_why() {
     let sandbox = Sandbox::new();
-    let toml = "name = 'bright'\nsummary = 'Counts what is bright more.'\nalignment = 'trailing'\n[[pass]]\nentry = 'work'\n";
-    let wgsl = "@group(0) @binding(4) var velocity: texture_2d<f32>;\n".to_owned()
-        + &one_kernel_without_parameters(
-            "let trail = frame.exposure * textureLoad(velocity, pixel, 0).xy;
+    let body = "let trail = frame.exposure * textureLoad(velocity, pixel, 0).xy;
     var sum = vec4<f32>(0.0);
     for (var tap = 0; tap < 8; tap++) {
         let there = bilinear(color, centre(pixel) + trail * (f32(tap) + 0.5) / 8.0);
         let bright = 1.0 + there.g;
         sum += bright * vec4<f32>(there.rgb, 1.0);
     }
-    textureStore(output, pixel, sum / sum.a);",
-        );
-    sandbox.write_filter("bright", toml, &wgsl);
-    assert_done(&sandbox.run(&["--filters", "identity", "--filter", "bright"]));
+    textureStore(output, pixel, sum / sum.a);";
+    sandbox.write_kernel("bright", "", &["velocity"], body);
+    sandbox.measure("--filters identity --filter bright");
     let [identity, bright] = &sandbox.read_filter_cases()[..] else {
         panic!("two filters on one scene");
     };

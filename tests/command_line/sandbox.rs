@@ -110,6 +110,19 @@ impl Sandbox {
         filter_folder::write_filter(&self.path(name), name, manifest, kernels);
     }
 
+    /// Writes a filter with one pass; see [`filter_folder::write_kernel`].
+    pub fn write_kernel(&self, name: &str, more: &str, textures: &[&str], body: &str) {
+        filter_folder::write_kernel(&self.path(name), more, textures, body);
+    }
+
+    /// Runs `run` with few samples, which must succeed; returns what it prints.
+    #[track_caller]
+    pub fn measure(&self, line: &str) -> String {
+        let output = self.run(&split(line));
+        assert_done(&output);
+        stdout(&output)
+    }
+
     pub fn shuttertruth(&self, words: &[&str]) -> Output {
         self.command(words).output().unwrap()
     }

@@ -6,20 +6,12 @@ use std::time::SystemTime;
 
 use frame::{Image, read_exr};
 use suite::{Run, Sequence};
-use tests::filter_folder::one_kernel_without_parameters;
 use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{
-    IDENTITY, SCENE, Sandbox, assert_done, assert_refused, files_below, split, stdout,
-};
+use crate::sandbox::{IDENTITY, SCENE, Sandbox, assert_refused, files_below, split};
 
-const THREE: [&str; 2] = ["--frames", "3"];
-
-fn manifest(name: &str, more: &str) -> String {
-    format!(
-        "name = \"{name}\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\n{more}\n[[pass]]\nentry = \"work\"\n"
-    )
-}
+const TWO: &str = "--filters identity --frames 2";
+const THREE: &str = "--filters identity --frames 3";
 
 /// Multiplies the frame by noise: that of its index, or the same in every frame.
 fn write_noisy(sandbox: &Sandbox, name: &str, index: &str) {
@@ -29,8 +21,7 @@ fn write_noisy(sandbox: &Sandbox, name: &str, index: &str) {
     let own = textureLoad(color, pixel, 0).rgb;
     textureStore(output, pixel, vec4<f32>(own * (1.0 + 1.2 * (noise - 0.5)), 1.0));"
     );
-    let kernels = one_kernel_without_parameters(&body);
-    sandbox.write_filter(name, &manifest(name, ""), &kernels);
+    sandbox.write_kernel(name, "", &[], &body);
 }
 
 /// Finds the sequence of a filter.
@@ -55,7 +46,7 @@ fn read_times(sandbox: &Sandbox) -> BTreeMap<String, SystemTime> {
 #[test]
 fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&IDENTITY));
+    sandbox.measure("--filters identity");
     let single = sandbox.read_run();
     let read = |name: &str| fs::read(sandbox.path("out/plate").join(name)).unwrap();
     let files = [
@@ -64,14 +55,14 @@ fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
         "identity_default/output.exr",
     ];
     let before = files.map(read);
-    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "1"]].concat()));
+    sandbox.measure("--filters identity --frames 1");
     let text = |run: &Run| serde_json::to_string(&run.cases).unwrap();
     let one = sandbox.read_run();
     assert_eq!(text(&one), text(&single));
     assert!(one.sequences.is_empty() && one.frames.is_one());
 
     fs::remove_dir_all(sandbox.path("out")).unwrap();
-    assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
+    sandbox.measure(THREE);
     let run = sandbox.read_run();
     assert_eq!(text(&run), text(&single), "bit for bit");
     assert!(files.map(read) == before, "bit for bit");
@@ -94,11 +85,11 @@ fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
 #[test]
 fn a_sequence_is_read_back_and_goes_on_where_it_ended() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
+    sandbox.measure(TWO);
     let before = read_times(&sandbox);
-    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
+    sandbox.measure(TWO);
     assert_eq!(read_times(&sandbox), before);
-    assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
+    sandbox.measure(THREE);
     let after = read_times(&sandbox);
     let (new, kept): (BTreeMap<_, _>, BTreeMap<_, _>) = after
         .into_iter()
@@ -106,8 +97,7 @@ fn a_sequence_is_read_back_and_goes_on_where_it_ended() {
     assert_eq!(kept, before);
     assert!(new.len() > 10, "{new:?}");
     // JOD depends on the rate: sequences of two rates are no one run.
-    let other_rate = ["--filters", "velocity_gather:fine", "--fps", "24"];
-    let refused = sandbox.run(&[&other_rate[..], &THREE].concat());
+    let refused = sandbox.run(&split("--filters velocity_gather:fine --frames 3 --fps 24"));
     let parts = [
         "number of frames was 3 at 60 per second, now 3 at 24 per second",
         "--out",
@@ -120,11 +110,7 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
     let sandbox = Sandbox::new();
     write_noisy(&sandbox, "changing", "frame.frame_index");
     write_noisy(&sandbox, "standing", "0u");
-    let output = sandbox.run(&split(
-        "--filters ./changing,./standing --frames 4 --jitter-frames 0",
-    ));
-    assert_done(&output);
-    let table = stdout(&output);
+    let table = sandbox.measure("--filters ./changing,./standing --frames 4 --jitter-frames 0");
     let parts = [
         "4 frames",
         "plate, trailing shutter",
@@ -156,13 +142,10 @@ fn a_filter_with_history_reads_the_frame_before() {
     let depth = textureLoad(depth_before, pixel, 0).x;
     let now = textureLoad(color, pixel, 0).rgb;
     textureStore(output, pixel, vec4<f32>(before + 0.0 * (now + motion.x + min(depth, 1.0)), 1.0));";
-    let textures = "@group(0) @binding(4) var color_before: texture_2d<f32>;
-@group(0) @binding(5) var velocity_before: texture_2d<f32>;
-@group(0) @binding(6) var depth_before: texture_2d<f32>;\n";
-    let kernels = textures.to_owned() + &one_kernel_without_parameters(body);
-    let history = "history = [\"color\", \"velocity\", \"depth\"]";
-    sandbox.write_filter("before", &manifest("before", history), &kernels);
-    assert_done(&sandbox.run(&[&["--filter", "./before"][..], &THREE].concat()));
+    let textures = ["color_before", "velocity_before", "depth_before"];
+    let write = |history: &str| sandbox.write_kernel("before", history, &textures, body);
+    write("history = [\"color\", \"velocity\", \"depth\"]");
+    sandbox.measure("--filter ./before --frames 3");
     let color = |name: &str| -> Image {
         let file = read_exr(&sandbox.path("out/plate").join(name)).unwrap();
         file.color("").unwrap()
@@ -175,11 +158,10 @@ fn a_filter_with_history_reads_the_frame_before() {
     assert!(outputs[1] == frames[0] && outputs[2] == frames[1]);
     assert!(frames[1] != frames[0]);
 
-    sandbox.write_filter("before", &manifest("before", ""), &kernels);
+    write("");
     let parts = ["\"color_before\" is no known input", "`history` names them"];
     assert_refused(&sandbox.run(&["--filter", "./before"]), 2, &parts);
-    let twice = manifest("before", "history = [\"color\", \"color\"]");
-    sandbox.write_filter("before", &twice, &kernels);
+    write("history = [\"color\", \"color\"]");
     let parts = ["filter.toml:4", "history names \"color\" twice"];
     assert_refused(&sandbox.run(&["--filter", "./before"]), 2, &parts);
 }
@@ -201,7 +183,7 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
     ];
     assert_refused(&refused, 2, &parts);
     assert!(!sandbox.path("out/plate").exists(), "nothing was rendered");
-    assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
+    sandbox.measure(THREE);
     for (words, parts) in read_rows(
         "
         --frames 0 => 0 is not in 1..=1000
@@ -224,16 +206,15 @@ fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
     let truth = sandbox.path("out/plate/0001/truth_trailing.exr");
     let written = || fs::metadata(&truth).unwrap().modified().unwrap();
     let before = written();
-    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
+    sandbox.measure(TWO);
     assert_eq!(written(), before);
 }
 
 #[test]
 fn a_sequence_has_a_page_and_an_animation_per_case() {
     let sandbox = Sandbox::new();
-    let output = sandbox.run(&[&IDENTITY[..], &THREE, &["--fps", "12"]].concat());
-    assert_done(&output);
-    assert_contains(&stdout(&output), &["out/sequences.html"]);
+    let printed = sandbox.measure(&format!("{THREE} --fps 12"));
+    assert_contains(&printed, &["out/sequences.html"]);
     let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
     for path in [
         "plate/0001/frame.png",

@@ -1,7 +1,5 @@
 //! Commands of the pages in a form that takes no time.
 
-use tests::text::read_rows;
-
 /// Beginnings of commands that build, or that need what a test has not, and what is run instead.
 pub const REPLACED: [(&str, &str); 3] = [
     (
@@ -81,17 +79,4 @@ pub fn shorten(command: &str) -> String {
         }
     }
     format!("shuttertruth {}", words.join(" "))
-}
-
-#[test]
-fn a_long_command_becomes_quick() {
-    for (command, quick) in read_rows(
-        "
-        shuttertruth run --table => shuttertruth run --table --size 96x54 --samples-per-pixel 16 --scenes fan
-        shuttertruth limits calibrate --size 160x90 => shuttertruth limits calibrate --size 160x90
-        shuttertruth check out/run.json => shuttertruth check out/run.json
-        make run SCENES=fan => make --dry-run run SCENES=fan",
-    ) {
-        assert_eq!(shorten(command), quick[0]);
-    }
 }

@@ -89,17 +89,13 @@ impl<'a> Capture<'a> {
         capture
     }
 
-    /// Adds sub-frames at the midpoints of equal parts of the shutter, and as the engine's blur the mean of the first four.
     pub fn with_subframes(self, count: u32) -> Self {
         self.add_subframes(count, false)
     }
 
-    /// Adds sub-frames that hold object ids beside their colours.
-    pub fn with_subframes_and_ids(self, count: u32) -> Self {
-        self.add_subframes(count, true)
-    }
-
-    fn add_subframes(self, count: u32, has_ids: bool) -> Self {
+    /// Adds sub-frames at the midpoints of equal parts of the shutter, with object ids or without, and as the engine's blur the
+    /// mean of the first four.
+    pub fn add_subframes(self, count: u32, has_ids: bool) -> Self {
         fs::create_dir(self.path("subframes")).unwrap();
         let shutter = Alignment::Trailing.shutter(EXPOSURE).unwrap();
         let mut blurred = self.frame.color.map(|_| [0.0; 3]);

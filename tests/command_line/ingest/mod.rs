@@ -168,7 +168,7 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
 #[test]
 fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
     let sandbox = Sandbox::new();
-    Capture::new(&sandbox).with_subframes_and_ids(16);
+    Capture::new(&sandbox).add_subframes(16, true);
     let told = ingest(&sandbox);
     assert!(told.contains("objects: plate\n"), "{told}");
     let words = "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 64 --filter jump_flood:paper \

@@ -174,7 +174,7 @@ fn sub_frames_that_make_no_truth_are_refused() {
 #[test]
 fn ids_that_fit_no_object_or_are_missing_are_refused() {
     let sandbox = Sandbox::new();
-    let capture = Capture::new(&sandbox).with_subframes_and_ids(4);
+    let capture = Capture::new(&sandbox).add_subframes(4, true);
     let color = &capture.frame.color;
     capture.write_color("subframes/0002.exr", color);
     let parts = [
