@@ -44,7 +44,7 @@ fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
     );
     write_lines(&sandbox, "outside", &command);
     let filters = "velocity_gather:coarse,./outside:coarse";
-    assert_done(&sandbox.run(&["--filters", filters, "--allow-commands"]));
+    sandbox.measure(&format!("--filters {filters} --allow-commands"));
     let cases = sandbox.read_filter_cases();
     let [kernels, program] = &cases[..] else {
         panic!("two filters on one scene");
@@ -144,7 +144,7 @@ fn a_program_gets_the_same_inputs_as_a_kernel() {
 fn an_edited_program_runs_again() {
     let sandbox = Sandbox::new();
     write_blur(&sandbox, "copy", "cp $1 $2", "");
-    assert_done(&sandbox.run(&["--filter", "copy", "--allow-commands"]));
+    sandbox.measure("--filter copy --allow-commands");
     write_script(&sandbox.path("copy/blur.sh"), "exit 3");
     let failed = sandbox.run(&["--filter", "copy", "--allow-commands"]);
     assert_eq!(failed.status.code(), Some(1));

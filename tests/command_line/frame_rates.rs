@@ -7,6 +7,7 @@ use frame::{Image, read_exr};
 use metrics::{Metric, SequenceMetric};
 use suite::{Case, Run, ShutterRule};
 use tests::filter_folder::{write_manifest, write_script};
+use tests::root;
 use tests::text::read_rows;
 use tracer::{FrameRate, SceneId};
 
@@ -189,18 +190,12 @@ fn write_filters(sandbox: &Sandbox) {
     sandbox.write_kernel("says", sixty, &[], rate);
     let per_second = format!("{sixty}\nvelocity_per = \"second\"");
     sandbox.write_kernel("speed", &per_second, &["velocity"], speed);
-    let passes = "[[pass]]\nshader = \"bound.glsl\"\n\
-         [[pass.binding]]\nbinding = 0\ntexture = \"output\"\n\
-         [[pass.binding]]\npush_constants = true\nvalues = { rate = \"frames_per_second\", time = \"delta_time\" }\n";
-    let bound = "#[compute]\n#version 450
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba32f, set = 0, binding = 0) uniform writeonly image2D output_image;
-layout(push_constant, std430) uniform Params { float rate; float time; } params;
-void main() { imageStore(output_image, ivec2(gl_GlobalInvocationID.xy), vec4(params.rate, params.time, 0.0, 1.0)); }
-";
-    let manifest = format!("{sixty}\n{passes}");
-    write_manifest(&sandbox.path("bound"), "bound", &manifest);
-    fs::write(sandbox.path("bound/bound.glsl"), bound).unwrap();
+    let bound = sandbox.path("rate");
+    fs::create_dir(&bound).unwrap();
+    for (name, fixture) in [("filter.toml", "rate.toml"), ("rate.glsl", "rate.glsl")] {
+        let fixture = root().join("tests/fixtures/filters").join(fixture);
+        fs::copy(fixture, bound.join(name)).unwrap();
+    }
     let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\", \"{frames_per_second}\"]";
     write_manifest(&sandbox.path("program"), "program", command);
     let script = "echo $3 >> rates.txt; cp $1 $2";
@@ -211,7 +206,7 @@ void main() { imageStore(output_image, ivec2(gl_GlobalInvocationID.xy), vec4(par
 fn filters_know_the_rate() {
     let sandbox = Sandbox::new();
     write_filters(&sandbox);
-    let words = "--filters ./knows,./says,./speed,./bound,./program --allow-commands";
+    let words = "--filters ./knows,./says,./speed,./rate,./program --allow-commands";
     sandbox.measure(&format!("{words} --frame-rate 24,144 --jitter-frames 0"));
     let cases = sandbox.read_filter_cases();
     let middle = |scene: &str, name: &str| {
@@ -225,7 +220,7 @@ fn filters_know_the_rate() {
         for name in ["knows", "says"] {
             assert_eq!(middle(scene, name), [rate, 0.5, 0.0], "{scene} {name}");
         }
-        assert_eq!(middle(scene, "bound"), [rate, 1.0 / rate, 0.0], "{scene}");
+        assert_eq!(middle(scene, "rate"), [rate, 1.0 / rate, 0.0], "{scene}");
         // Pixels per second are the same at every rate.
         let [speed, plain] = [scene, "plate"].map(|scene| middle(scene, "speed")[0]);
         assert!(

@@ -2,7 +2,7 @@
 
 use metrics::Measured;
 
-use crate::sandbox::{Sandbox, assert_done, split, stderr};
+use crate::sandbox::{Sandbox, split, stderr};
 
 const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
 
@@ -69,7 +69,7 @@ fn the_guide_s_filter_runs_and_beats_the_identity() {
     let sandbox = Sandbox::new();
     write(&sandbox, None);
     assert!(block("wgsl").lines().count() <= 20);
-    assert_done(&sandbox.run(&["--filters", "identity", "--filter", "my_blur"]));
+    sandbox.measure("--filters identity --filter my_blur");
     let cases = sandbox.read_filter_cases();
     let flip = |case: usize| cases[case].scores.moving.flip.value().unwrap();
     assert_eq!(cases[1].filter, "my_blur");

@@ -11,35 +11,8 @@ use tests::text::assert_contains;
 use crate::sandbox::{Sandbox, assert_done, split, stdout};
 
 /// Manifest of a box blur. Its parameter is a radius in pixels, for pictures four times as wide as the bench's.
-const MANIFEST: &str = r#"
-name = "mine"
-summary = "Averages pixels to the right."
-alignment = "trailing"
-
-[[parameter]]
-name = "radius"
-kind = "integer"
-default = 16
-range = [1, 64]
-unit = "pixels"
-doc = "More costs more."
-
-[[preset]]
-name = "engine"
-doc = "As an engine has it."
-reference_width = 256
-
-[[pass]]
-entry = "work"
-"#;
-
-const BODY: &str = "
-    var sum = vec4<f32>(0.0);
-    for (var i = 0; i < parameters.radius; i++) {
-        sum += bilinear(color, centre(pixel) + vec2<f32>(f32(i), 0.0));
-    }
-    textureStore(output, pixel, sum / f32(parameters.radius));
-";
+const MANIFEST: &str = include_str!("../fixtures/filters/box_blur.toml");
+const BODY: &str = include_str!("../fixtures/filters/box_blur.wgsl");
 
 fn set_up() -> Sandbox {
     let sandbox = Sandbox::new();
@@ -49,7 +22,7 @@ fn set_up() -> Sandbox {
 
 /// Runs the filter and returns its case.
 fn measure_case(sandbox: &Sandbox, more: &str) -> Case {
-    assert_done(&sandbox.run(&split(&format!("--filter mine {more}"))));
+    sandbox.measure(&format!("--filter mine {more}"));
     let mut cases = sandbox.read_run().cases.into_iter();
     cases.find(|case| case.filter == "mine").unwrap()
 }
@@ -71,8 +44,7 @@ fn a_run_scales_a_preset_to_its_width_and_reports_it() {
     assert_eq!(measure("", 4, Some(256)), scaled);
 
     // A smaller frame has its own width; a guard band is not part of the width.
-    let forms = "--filter mine --input scale=50_blur_first,50_upscale_first";
-    assert_done(&sandbox.run(&split(forms)));
+    sandbox.measure("--filter mine --input scale=50_blur_first,50_upscale_first");
     let cases = sandbox.read_run().cases;
     for (form, radius) in [
         ("", 4),
@@ -102,14 +74,12 @@ fn a_run_scales_a_preset_to_its_width_and_reports_it() {
 fn bench_and_tuning_scale_presets_unless_told_not_to() {
     let sandbox = set_up();
     let json = |line: &str| -> Json { serde_json::from_str(&sandbox.done(line)).unwrap() };
-    for (more, radius, width) in [("", 4, Json::from(256)), ("--as-written", 16, Json::Null)] {
-        let words = "bench --filters ./mine --size 64x32 --json --quiet";
-        let done = json(&format!("{words} {more}"));
-        let mut cases = done["cases"].as_array().unwrap().iter();
-        let case = cases.find(|case| case["filter"] == "mine").unwrap();
-        assert_eq!(case["parameters"]["radius"], radius, "{more}");
-        assert_eq!(case["reference_width"], width, "{more}");
-    }
+    // The test of its times keeps lengths as written.
+    let done = json("bench --filters ./mine --size 32x16 --json --quiet");
+    let mut cases = done["cases"].as_array().unwrap().iter();
+    let case = cases.find(|case| case["filter"] == "mine").unwrap();
+    assert_eq!(case["parameters"]["radius"], 2);
+    assert_eq!(case["reference_width"], 256);
 
     // The preset's own radius is 4 pixels here, and 16 as written.
     let evaluate = |params: &str, more: &str| {

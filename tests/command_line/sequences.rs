@@ -44,17 +44,17 @@ fn read_times(sandbox: &Sandbox) -> BTreeMap<String, SystemTime> {
 }
 
 #[test]
-fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
+fn a_sequence_begins_with_the_frame_without_one_and_goes_on_where_it_ended() {
     let sandbox = Sandbox::new();
     sandbox.measure("--filters identity");
     let single = sandbox.read_run();
-    let read = |name: &str| fs::read(sandbox.path("out/plate").join(name)).unwrap();
-    let files = [
-        "frame.exr",
-        "truth_trailing.exr",
-        "identity_default/output.exr",
-    ];
-    let before = files.map(read);
+    let read = || {
+        let names = "frame.exr truth_trailing.exr identity_default/output.exr";
+        let files = split(names).into_iter();
+        let read = files.map(|name| fs::read(sandbox.path("out/plate").join(name)).unwrap());
+        read.collect::<Vec<_>>()
+    };
+    let before = read();
     sandbox.measure("--filters identity --frames 1");
     let text = |run: &Run| serde_json::to_string(&run.cases).unwrap();
     let one = sandbox.read_run();
@@ -62,10 +62,19 @@ fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
     assert!(one.sequences.is_empty() && one.frames.is_one());
 
     fs::remove_dir_all(sandbox.path("out")).unwrap();
-    sandbox.measure(THREE);
+    sandbox.measure(TWO);
+    let times = read_times(&sandbox);
+    sandbox.measure(TWO);
+    assert_eq!(read_times(&sandbox), times);
+    let printed = sandbox.measure(THREE);
+    let after = read_times(&sandbox).into_iter();
+    let (new, kept): (BTreeMap<_, _>, BTreeMap<_, _>) =
+        after.partition(|(name, _)| name.starts_with("0002/"));
+    assert_eq!(kept, times);
+    assert!(new.len() > 10, "{new:?}");
     let run = sandbox.read_run();
     assert_eq!(text(&run), text(&single), "bit for bit");
-    assert!(files.map(read) == before, "bit for bit");
+    assert!(read() == before, "bit for bit");
     let own = find(&run, "identity");
     let hashes = [0, 1, 2].map(|at| &own.frames[at].truth_hash);
     assert_eq!(*hashes[0], single.cases[0].truth_hash);
@@ -73,36 +82,34 @@ fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
     // The plate moves at a constant speed and looks the same in every frame.
     let [first, last] = [0, 2].map(|at| own.frames[at].error.unwrap());
     assert!((first / last - 1.0).abs() < 0.1, "{first} {last}");
-    for name in [
-        "0001/frame.exr",
-        "0002/truth_trailing.exr",
-        "0002/identity_default/case.json",
-    ] {
-        assert!(sandbox.path("out/plate").join(name).is_file(), "{name}");
-    }
-}
-
-#[test]
-fn a_sequence_is_read_back_and_goes_on_where_it_ended() {
-    let sandbox = Sandbox::new();
-    sandbox.measure(TWO);
-    let before = read_times(&sandbox);
-    sandbox.measure(TWO);
-    assert_eq!(read_times(&sandbox), before);
-    sandbox.measure(THREE);
-    let after = read_times(&sandbox);
-    let (new, kept): (BTreeMap<_, _>, BTreeMap<_, _>) = after
-        .into_iter()
-        .partition(|(name, _)| name.starts_with("0002/"));
-    assert_eq!(kept, before);
-    assert!(new.len() > 10, "{new:?}");
+    assert_page(&sandbox, &printed);
     // JOD depends on the rate: sequences of two rates are no one run.
-    let refused = sandbox.run(&split("--filters velocity_gather:fine --frames 3 --fps 24"));
+    let other = "--filters velocity_gather:fine --frames 3 --fps 24";
     let parts = [
         "number of frames was 3 at 60 per second, now 3 at 24 per second",
         "--out",
     ];
-    assert_refused(&refused, 2, &parts);
+    assert_refused(&sandbox.run(&split(other)), 2, &parts);
+}
+
+/// Three frames have a page, and an animation for each case.
+fn assert_page(sandbox: &Sandbox, printed: &str) {
+    assert_contains(printed, &["out/sequences.html"]);
+    let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
+    for path in [
+        "plate/0001/frame.png",
+        "plate/0002/identity_default/change.png",
+        "plate/truth_trailing.png",
+    ] {
+        assert!(page.contains(path), "{path}");
+        assert!(sandbox.path("out").join(path).is_file(), "{path}");
+    }
+    assert!(page.contains("img-src data: 'self' file:"));
+    let report = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
+    assert!(report.contains("href=\"sequences.html\""));
+    let animation = fs::read(sandbox.path("out/plate/identity_default/sequence.png")).unwrap();
+    let chunks = |name: &[u8]| animation.windows(4).filter(|bytes| *bytes == name).count();
+    assert_eq!((chunks(b"acTL"), chunks(b"fcTL")), (1, 3));
 }
 
 #[test]
@@ -208,26 +215,4 @@ fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
     let before = written();
     sandbox.measure(TWO);
     assert_eq!(written(), before);
-}
-
-#[test]
-fn a_sequence_has_a_page_and_an_animation_per_case() {
-    let sandbox = Sandbox::new();
-    let printed = sandbox.measure(&format!("{THREE} --fps 12"));
-    assert_contains(&printed, &["out/sequences.html"]);
-    let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
-    for path in [
-        "plate/0001/frame.png",
-        "plate/0002/identity_default/change.png",
-        "plate/truth_trailing.png",
-    ] {
-        assert!(page.contains(path), "{path}");
-        assert!(sandbox.path("out").join(path).is_file(), "{path}");
-    }
-    assert!(page.contains("img-src data: 'self' file:"));
-    let report = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
-    assert!(report.contains("href=\"sequences.html\""));
-    let animation = fs::read(sandbox.path("out/plate/identity_default/sequence.png")).unwrap();
-    let chunks = |name: &[u8]| animation.windows(4).filter(|bytes| *bytes == name).count();
-    assert_eq!((chunks(b"acTL"), chunks(b"fcTL")), (1, 3));
 }

@@ -5,23 +5,12 @@ use tests::text::read_rows;
 use crate::sandbox::{IDENTITY, Sandbox, assert_done, assert_refused, split};
 
 /// Model of two colours that meet two pixels beyond the right border, where the plate moves to.
-const TWO_COLOURS: &str = "\
-mtllib plate.mtl
-v -1 -9 0
-v 4.9 -9 0
-v 4.9 9 0
-v -1 9 0
-v 12 -9 0
-v 12 9 0
-usemtl paint
-f 1 2 3 4
-usemtl other
-f 2 5 6 3
-";
-const PAINTS: &str = "newmtl paint\nKd 0 0 0\nKe 0.7 0.4 0.2\nnewmtl other\nKd 0 0 0\nKe 0 0 1\n";
+const TWO_COLOURS: &str = include_str!("../fixtures/models/two_colours.obj");
+const PAINTS: &str = include_str!("../fixtures/models/two_colours.mtl");
 
 fn measure(sandbox: &Sandbox, more: &[&str]) -> suite::Run {
-    assert_done(&sandbox.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
+    let words = ["--filters", "velocity_gather:fine"];
+    assert_done(&sandbox.run(&[&words, more].concat()));
     sandbox.read_run()
 }
 

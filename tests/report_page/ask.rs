@@ -8,12 +8,9 @@ use study::{Clip, Question, ShownPair, Study, draw_session};
 use tests::text::assert_contains;
 
 use crate::browser::{Browser, address_of};
-use crate::sandbox::{Sandbox, assert_done};
+use crate::sandbox::Sandbox;
 
-const FILTERS: [&str; 2] = [
-    "--filters",
-    "jump_flood:paper,velocity_gather:fine,identity",
-];
+const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
 
 /// A clip as the page numbers it.
 fn code(clip: Clip) -> i64 {
@@ -65,7 +62,7 @@ fn ask(sandbox: &Sandbox, out: &str, more: &[&str]) -> Study {
 #[test]
 fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&[&FILTERS[..], &["--frames", "3", "--fps", "5"]].concat()));
+    sandbox.measure(&format!("--filters {FILTERS} --frames 3 --fps 5"));
     let study = ask(&sandbox, "a page", &[]);
     let page = sandbox.path("a page/index.html");
     let mut browser = Browser::new(1280, 800);
@@ -162,8 +159,8 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
 fn the_page_draws_the_sessions_that_the_program_expects() {
     let sandbox = Sandbox::new();
     sandbox.add_slow_scene();
-    let filters = "jump_flood:paper,velocity_gather:fine,velocity_gather:coarse,identity,bevy:high,kino,three:corrected";
-    assert_done(&sandbox.run(&["--filters", filters]));
+    let more = "velocity_gather:coarse,bevy:high,kino,three:corrected";
+    sandbox.measure(&format!("--filters {FILTERS},{more}"));
     let study = ask(&sandbox, "ask", &["--question", "better", "--pairs", "13"]);
     assert_eq!(study.shutters.len(), 2);
     let mut browser = Browser::new(390, 700);

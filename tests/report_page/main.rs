@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use browser::{Browser, address_of};
 use numbers::read_out;
 use report::{LARGEST_PAGE, write_report};
-use sandbox::{Sandbox, assert_done, split};
+use sandbox::{Sandbox, split};
 use tests::text::assert_contains;
 
 /// Makes the page of the bench's last run; returns its path.
@@ -58,14 +58,14 @@ fn press(browser: &mut Browser, key: &str) {
 /// Measures filters on the plate.
 fn measure(filters: &str) -> Sandbox {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", filters]));
+    sandbox.measure(&format!("--filters {filters}"));
     sandbox
 }
 
 #[test]
 fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
     let sandbox = Sandbox::two_scenes();
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    sandbox.measure("--filters identity,velocity_gather:fine");
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
@@ -189,7 +189,7 @@ fn a_scene_name_with_a_script_is_shown_as_text() {
     sandbox.copy_scene(NAME, |text| {
         text.replace("nothing: it serves", "<img src=x onerror=alert(2)> & it's")
     });
-    assert_done(&sandbox.run(&["--filters", "identity", "--scenes", NAME]));
+    sandbox.measure(&format!("--filters identity --scenes {NAME}"));
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     open_case(

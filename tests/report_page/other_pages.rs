@@ -3,17 +3,16 @@
 use std::fs;
 
 use crate::browser::{Browser, address_of};
-use crate::sandbox::{Sandbox, assert_done};
+use crate::sandbox::Sandbox;
 
-const GATHER: [&str; 2] = ["--filters", "velocity_gather:fine"];
+const GATHER: &str = "--filters velocity_gather:fine";
 
 #[test]
 fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&GATHER));
+    sandbox.measure(GATHER);
     fs::rename(sandbox.path("out"), sandbox.path("before")).unwrap();
-    let fewer = ["--set", "velocity_gather.samples=2"];
-    assert_done(&sandbox.run(&[GATHER, fewer].concat()));
+    sandbox.measure(&format!("{GATHER} --set velocity_gather.samples=2"));
     sandbox.done("compare before out --html page.html");
     let page = sandbox.path("page.html");
     let mut browser = Browser::new(1280, 900);
@@ -68,7 +67,7 @@ fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
 #[test]
 fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine", "--frames", "3"]));
+    sandbox.measure(&format!("{GATHER} --frames 3"));
     let page = sandbox.path("out/sequences.html");
     let mut browser = Browser::new(1280, 900);
     // The last sequence is that of the filter.

@@ -70,41 +70,9 @@ fn read_log(sandbox: &Sandbox) -> String {
 }
 
 /// Bindings of the module that fake compilers hand out.
-const BINDINGS: &str = r#"entry = "main"
-over = "tile_motion"
-
-[[pass.binding]]
-binding = 0
-texture = "velocity"
-sampler = "nearest"
-
-[[pass.binding]]
-set = 1
-binding = 3
-texture = "tile_motion"
-
-[[pass.binding]]
-push_constants = true
-values = { picture = ["width", "height"], side = 8, unused = 0 }
-
-[[pass]]
-shader = "copy.wgsl"
-"#;
-
+const BINDINGS: &str = include_str!("../../fixtures/shaders/fastest_pass.toml");
 /// The pass after it.
-const COPY: &str = r"
-@group(0) @binding(0) var color: texture_2d<f32>;
-@group(0) @binding(1) var tile_motion: texture_2d<f32>;
-@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
-
-@compute @workgroup_size(8, 8)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if all(id.xy < textureDimensions(color)) {
-        let motion = textureLoad(tile_motion, id.xy, 0);
-        textureStore(output, id.xy, textureLoad(color, id.xy, 0) + 0.001 * motion);
-    }
-}
-";
+const COPY: &str = include_str!("../../fixtures/shaders/copy.wgsl");
 
 #[test]
 fn a_language_without_its_compiler_names_the_way_out() {

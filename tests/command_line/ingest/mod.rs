@@ -72,7 +72,7 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
         "next: shuttertruth run --scenes plate,./out/engine/mine",
     ];
     assert_contains(&told, &parts);
-    sandbox.done("truths render --quiet --scenes plate --size 96x54 --samples-per-pixel 256");
+    sandbox.done("truths render --quiet --scenes plate --size 96x54 --samples-per-pixel 64");
     let read = |path: &str| Truth::read(&sandbox.path(path)).unwrap();
     let engines = read("out/engine/mine/truth_trailing.exr");
     let ours = read("out/plate/truth_trailing.exr");

@@ -148,7 +148,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
 }
 
 #[test]
-fn answers_become_a_scale_beside_the_scores_of_the_run() {
+fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
     let sandbox = Sandbox::new();
     let study = make_study(&sandbox, &[]);
     // Six people choose the better filter, but for one answer in four; the last one does so in every check, too.
@@ -225,6 +225,7 @@ fn answers_become_a_scale_beside_the_scores_of_the_run() {
         "0 of 2 checks failed",
     ];
     assert_contains(&split(&table).join(" "), &parts);
+    refusals::assert_answers_are_refused(&sandbox, &study);
 }
 
 /// Makes a page where a killed process had begun another one.

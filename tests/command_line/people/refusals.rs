@@ -2,18 +2,16 @@
 
 use std::fs;
 
-use study::{AnswerFile, Question};
+use study::{AnswerFile, Question, Study};
 
-use super::{FILTERS, answer, make_study, prefer_first, preferences, write_answers};
-use crate::sandbox::{Sandbox, assert_done, assert_refused};
+use super::{FILTERS, answer, prefer_first, preferences, write_answers};
+use crate::sandbox::{Sandbox, assert_refused};
 
-#[test]
-fn answers_that_no_page_of_this_run_asked_for_are_refused() {
-    let sandbox = Sandbox::new();
-    let study = make_study(&sandbox, &[]);
-    let session = |seed| answer(&study, Question::Truth, seed, |pair, _| prefer_first(pair));
+/// Answers that no page of this run asked for are refused.
+pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
+    let session = |seed| answer(study, Question::Truth, seed, |pair, _| prefer_first(pair));
     let refuse = |files: &[AnswerFile], parts: &[&str]| {
-        let names = write_answers(&sandbox, files);
+        let names = write_answers(sandbox, files);
         assert_refused(&sandbox.shuttertruth(&preferences(&names, &[])), 2, parts);
     };
     let parts = [
@@ -90,7 +88,7 @@ fn answers_that_no_page_of_this_run_asked_for_are_refused() {
         fs::write(sandbox.path("answers_0.json"), text).unwrap();
         sandbox.refuse("people preferences answers_0.json", parts);
     }
-    assert_runs_are_told_apart(&sandbox, &write_answers(&sandbox, &[session(1)]));
+    assert_runs_are_told_apart(sandbox, &write_answers(sandbox, &[session(1)]));
 }
 
 /// Swaps both sides of an answer. A check of one clip looks the same from both sides: it gets another scene.
@@ -111,9 +109,8 @@ fn assert_runs_are_told_apart(sandbox: &Sandbox, names: &[String]) {
     refuse(&["another run: the pictures differ"]);
     fs::write(&output, before).unwrap();
     sandbox.execute(&with_run);
-    let words = ["--filters", FILTERS, "--seed", "2", "--jitter-frames", "0"];
-    assert_done(&sandbox.run(&words));
+    sandbox.measure(&format!("--filters {FILTERS} --seed 2 --jitter-frames 0"));
     refuse(&["another run: the truths differ"]);
-    assert_done(&sandbox.run(&["--filters", "identity", "--no-cache"]));
+    sandbox.measure("--filters identity --no-cache");
     refuse(&["is not the run", "fits nothing"]);
 }
