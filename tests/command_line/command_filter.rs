@@ -1,6 +1,7 @@
 //! Filters that are programs.
 
 use std::fs;
+use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
@@ -57,7 +58,7 @@ fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
 }
 
 #[test]
-fn a_program_needs_no_adapter() {
+fn a_program_needs_no_adapter_and_runs_again_when_it_is_edited() {
     let sandbox = Sandbox::new();
     write_blur(&sandbox, "copy", "cp $1 $2", "");
     let words =
@@ -70,6 +71,13 @@ fn a_program_needs_no_adapter() {
     let asked = format!("{words} --adapter 0");
     let refused = sandbox.without_adapter(&split(&asked));
     assert_refused(&refused, 3, &["mesa-vulkan-drivers"]);
+
+    // An edited program runs again.
+    write_script(&sandbox.path("copy/blur.sh"), "exit 3");
+    let failed = sandbox.without_adapter(&split(words));
+    assert_eq!(failed.status.code(), Some(1));
+    let parts = ["filter copy on plate: ", "ended with exit status: 3"];
+    assert_contains(&sandbox.read_run().failures[0].reason, &parts);
 }
 
 #[test]
@@ -100,28 +108,19 @@ fn the_program_of_the_guide_runs() {
 fn a_program_gets_the_same_inputs_as_a_kernel() {
     let sandbox = Sandbox::new();
     render(&sandbox);
-    let more = "[[parameter]]\nname = \"gain\"\nkind = \"real\"\nrange = [0, 2]\ndefault = 0.25\ndoc = \"\"";
-    let command = "command = [\"./blur.sh\", \"{frame}\", \"{out}\", \"{exposure},{frame_index},{gain},{{}}\"]";
-    write_lines(&sandbox, "told", &format!("{command}\n{more}"));
-    write_script(
-        &sandbox.path("told/blur.sh"),
-        "pwd > where; echo $3 > words; cp $1 given.exr; cp $1 $2; echo chatter",
-    );
-    let output = sandbox.shuttertruth(&[&blur("./told")[..], &["--frame-index", "7"]].concat());
-    assert_done(&output);
-    assert_eq!(
-        stdout(&output),
-        "b.exr\n",
-        "what the program prints is kept aside"
-    );
+    let lines = "command = ['./blur.sh', '{frame}', '{out}', '{exposure},{frame_index},{gain},{{}}']\n\
+                 [[parameter]]\nname = 'gain'\nkind = 'real'\nrange = [0, 2]\ndefault = 0.25\ndoc = ''";
+    write_lines(&sandbox, "told", lines);
+    let script = "pwd > where; echo $3 > words; cp $1 given.exr; cp $1 $2; echo chatter";
+    write_script(&sandbox.path("told/blur.sh"), script);
+    let printed = sandbox.execute(&[&blur("./told")[..], &["--frame-index", "7"]].concat());
+    // What the program prints is kept aside, and it runs in its folder.
+    assert_eq!(printed, "b.exr\n");
     let read = |name: &str| fs::read_to_string(sandbox.path("told").join(name)).unwrap();
     assert_eq!(read("words"), "0.5,7,0.25,{}\n");
-    let here = fs::canonicalize(sandbox.path("told")).unwrap();
-    assert_eq!(
-        fs::canonicalize(read("where").trim_end()).unwrap(),
-        here,
-        "it runs in its folder"
-    );
+    let [here, told] = [read("where").trim_end().into(), sandbox.path("told")]
+        .map(|path: PathBuf| fs::canonicalize(path).unwrap());
+    assert_eq!(here, told);
     let given = read_exr(&sandbox.path("told/given.exr")).unwrap();
     let names: Vec<&str> = given.channels.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["B", "G", "R", "Z", "velocity.X", "velocity.Y"]);
@@ -138,19 +137,6 @@ fn a_program_gets_the_same_inputs_as_a_kernel() {
     let x = given.plane("velocity.X").unwrap();
     assert_eq!(x, frame.velocity.map(|velocity| velocity[0]));
     assert_eq!(read_blurred(&sandbox), frame.color);
-}
-
-#[test]
-fn an_edited_program_runs_again() {
-    let sandbox = Sandbox::new();
-    write_blur(&sandbox, "copy", "cp $1 $2", "");
-    sandbox.measure("--filter copy --allow-commands");
-    write_script(&sandbox.path("copy/blur.sh"), "exit 3");
-    let failed = sandbox.run(&["--filter", "copy", "--allow-commands"]);
-    assert_eq!(failed.status.code(), Some(1));
-    let failures = sandbox.read_run().failures;
-    let parts = ["filter copy on plate: ", "ended with exit status: 3"];
-    assert_contains(&failures[0].reason, &parts);
 }
 
 #[test]

@@ -8,6 +8,7 @@ use tests::text::{assert_contains, read_rows};
 
 use crate::sandbox::{SCENE, Sandbox, assert_done, stdout};
 
+const BLUR: &str = "engine blur --filter ./late --frame out/plate/frame.exr --frames 3 --out";
 const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
 const FRAME: [&str; 2] = ["--frame", "out/plate/frame.exr"];
 const THREE: [&str; 2] = ["--frames", "3"];
@@ -49,8 +50,7 @@ fn scores(sandbox: &Sandbox, images: &str, more: &[&str]) -> SequenceScores {
 #[test]
 fn blur_and_score_repeat_the_sequence_of_a_run() {
     let sandbox = run_filter();
-    let words = ["engine", "blur", "--filter", "./late", "--out", "mine"];
-    sandbox.execute(&[&words[..], &FRAME, &THREE].concat());
+    sandbox.done(&format!("{BLUR} mine"));
     let pictures = ["mine/0000.exr", "mine/0001.exr", "mine/0002.exr"];
     for (picture, folder) in pictures.iter().zip(["plate", "plate/0001", "plate/0002"]) {
         let expected = read_color(&sandbox, &format!("out/{folder}/late_default/output.exr"));
@@ -100,16 +100,13 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
     let shown = scores(&sandbox, "shown", &[]);
     let ratio = shown.flicker.value().unwrap() / slow.flicker.value().unwrap();
     assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+    assert_misfits_are_refused(&sandbox);
 }
 
-#[test]
-fn sequences_that_do_not_fit_are_refused() {
-    let sandbox = run_filter();
-    let blur = "engine blur --filter ./late --frame out/plate/frame.exr --frames 3 --out";
-    sandbox.done(&format!("{blur} mine"));
+/// Refuses sequences that do not fit.
+fn assert_misfits_are_refused(sandbox: &Sandbox) {
     let parts = "--out: mine.exr is the name of one picture, and 3 are written";
-    sandbox.refuse(&format!("{blur} mine.exr"), &[parts]);
-
+    sandbox.refuse(&format!("{BLUR} mine.exr"), &[parts]);
     let refuse = |words: &str, at: &str, parts: &[&str]| {
         let files =
             format!("--truth out/plate{at}/truth_trailing.exr --frame out/plate{at}/frame.exr");

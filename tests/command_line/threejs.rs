@@ -13,7 +13,7 @@ use tests::text::assert_contains;
 use tests::{root, scenes, unwatched};
 use tracer::{RenderSettings, load_scene, trace_frame};
 
-use crate::sandbox::{Sandbox, stderr, stdout};
+use crate::sandbox::{Sandbox, split, stderr, stdout};
 
 /// Number of pictures over the shutter.
 const SUBFRAMES: usize = 4;
@@ -108,32 +108,28 @@ impl Drawn {
         Convention::parse(&path, &fs::read_to_string(&path).unwrap()).unwrap()
     }
 
+    /// Reads velocity as three.js has it: a picture's height and width are 2, and y points up.
     fn velocity(&self) -> Vectors {
         let file = self.file("velocity.exr");
         let [x, y] = ["velocity.X", "velocity.Y"].map(|name| file.plane(name).unwrap());
-        let velocity = x.zip(&y, |x, y| [*x, *y]);
-        (self.convention()).restore_velocity(&velocity, self.frame.exposure)
+        x.zip(&y, |x, y| [*x, *y])
     }
 
     fn depth(&self) -> Plane {
-        self.convention()
-            .restore_depth(&self.file("depth.exr").plane("Z").unwrap())
+        let depth = self.file("depth.exr").plane("Z").unwrap();
+        self.convention().restore_depth(&depth)
     }
 
     /// Audits the capture; returns the exit code and what is printed.
     fn audit(&self) -> (Option<i32>, String) {
         let folder = scenes().display().to_string();
-        let words = ["engine", "audit", "capture", "--out", "audit"];
-        let words = [&words[..], &["--scenes-dir", &folder]].concat();
-        let output = self.sandbox.shuttertruth(&words);
+        let words = split("engine audit capture --out audit --scenes-dir");
+        let output = (self.sandbox).shuttertruth(&[&words[..], &[&folder]].concat());
         (output.status.code(), stdout(&output) + &stderr(&output))
     }
 
-    /// Changes velocity as three.js has it: a picture's height and width are 2, and y points up.
     fn change_velocity(&self, change: impl Fn([f32; 2]) -> [f32; 2]) {
-        let file = self.file("velocity.exr");
-        let [x, y] = ["velocity.X", "velocity.Y"].map(|name| file.plane(name).unwrap());
-        let changed = x.zip(&y, |x, y| change([*x, *y]));
+        let changed = self.velocity().map(|velocity| change(*velocity));
         let mut file = ExrFile::new(WIDTH, HEIGHT);
         file.push_plane("velocity.X", &changed.map(|it| it[0]));
         file.push_plane("velocity.Y", &changed.map(|it| it[1]));
@@ -157,7 +153,11 @@ impl Drawn {
         let difference = |own: &[f32; 2], expected: &[f32; 2]| {
             (own[0] - expected[0]).hypot(own[1] - expected[1])
         };
-        self.velocity().zip(&self.frame.velocity, difference)
+        let exposure = self.frame.exposure;
+        let own = self
+            .convention()
+            .restore_velocity(&self.velocity(), exposure);
+        own.zip(&self.frame.velocity, difference)
     }
 }
 

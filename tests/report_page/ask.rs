@@ -38,10 +38,10 @@ fn key(pair: &ShownPair) -> &'static str {
         -2 => 100,
         rank => rank,
     };
-    match rank(pair.left).cmp(&rank(pair.right)) {
-        std::cmp::Ordering::Less => "ArrowLeft",
-        std::cmp::Ordering::Greater => "ArrowRight",
-        std::cmp::Ordering::Equal => "ArrowDown",
+    match rank(pair.left) - rank(pair.right) {
+        ..0 => "ArrowLeft",
+        0 => "ArrowDown",
+        1.. => "ArrowRight",
     }
 }
 

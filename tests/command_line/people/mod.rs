@@ -73,10 +73,10 @@ fn prefer_first(pair: &ShownPair) -> Chosen {
         Clip::Filter(filter) => filter as i32,
         Clip::Sharp => 100,
     };
-    match rank(pair.left).cmp(&rank(pair.right)) {
-        std::cmp::Ordering::Less => Chosen::Left,
-        std::cmp::Ordering::Greater => Chosen::Right,
-        std::cmp::Ordering::Equal => Chosen::Neither,
+    match rank(pair.left) - rank(pair.right) {
+        ..0 => Chosen::Left,
+        0 => Chosen::Neither,
+        1.. => Chosen::Right,
     }
 }
 
