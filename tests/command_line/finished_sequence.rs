@@ -54,18 +54,13 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
     let pictures = ["mine/0000.exr", "mine/0001.exr", "mine/0002.exr"];
     for (picture, folder) in pictures.iter().zip(["plate", "plate/0001", "plate/0002"]) {
         let expected = read_color(&sandbox, &format!("out/{folder}/late_default/output.exr"));
-        assert!(
-            read_color(&sandbox, picture) == expected,
-            "{picture}: bit for bit"
-        );
+        let found = read_color(&sandbox, picture);
+        assert!(found == expected, "{picture}: bit for bit");
     }
     let run = sandbox.read_run();
     let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
-    assert_eq!(
-        scores(&sandbox, "mine", &["--fps", "24"]),
-        own.scores,
-        "bit for bit"
-    );
+    let same = scores(&sandbox, "mine", &["--fps", "24"]);
+    assert_eq!(same, own.scores, "bit for bit");
     // Only JOD depends on the rate.
     let slow = scores(&sandbox, "mine", &[]);
     for metric in SequenceMetric::ALL {

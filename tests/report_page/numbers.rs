@@ -98,7 +98,7 @@ fn assert_read_outs(browser: &mut Browser, files: &[ExrFile; 4]) {
     browser.press("ArrowRight");
     browser.press("ArrowDown");
     check(browser, 4, 3);
-    let spoken = browser.text("document.querySelector('.spoken').textContent");
+    let spoken = browser.read(".spoken");
     let due = "x 4, y 3, background; Truth 0.2 0.2 0.2";
     assert!(spoken.starts_with(due), "{spoken}");
 }

@@ -44,10 +44,8 @@ fn a_capture_in_another_convention_comes_back_as_our_own_frame() {
         assert!(std::iter::zip(found, due).all(|(found, due)| near(*found, *due)));
     }
     for (found, due) in frame.velocity.pixels.iter().zip(&ours.velocity.pixels) {
-        assert!(
-            near(found[0], due[0]) && near(found[1], due[1]),
-            "{found:?} {due:?}"
-        );
+        let is_near = near(found[0], due[0]) && near(found[1], due[1]);
+        assert!(is_near, "{found:?} {due:?}");
     }
     let mut motions = frame.velocity.pixels.iter();
     let moves = motions.any(|motion| motion[0] > 9.0 && motion[1] > 4.0);
