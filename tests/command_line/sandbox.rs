@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output};
+use std::sync::OnceLock;
+use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 use tests::filter_folder;
@@ -41,6 +43,9 @@ pub struct Sandbox {
     folder: tempfile::TempDir,
 }
 
+/// Files of a sandbox, by their names below its folder.
+pub type Files = Vec<(PathBuf, Vec<u8>)>;
+
 impl Sandbox {
     pub fn new() -> Self {
         let sandbox = Self {
@@ -63,6 +68,39 @@ impl Sandbox {
     /// Adds the scene `slow`, which moves at half the plate's speed.
     pub fn add_slow_scene(&self) {
         self.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
+    }
+
+    /// Makes a sandbox with a finished run of the identity in `out`. The program measures it once for all tests.
+    pub fn measured() -> Self {
+        static FILES: OnceLock<Files> = OnceLock::new();
+        Self::of(FILES.get_or_init(|| {
+            let sandbox = Self::new();
+            assert_done(&sandbox.run(&IDENTITY));
+            sandbox.read_files()
+        }))
+    }
+
+    /// Reads all files, for sandboxes that begin with them.
+    pub fn read_files(&self) -> Files {
+        let root = self.folder.path();
+        let read = |path: PathBuf| {
+            (
+                path.strip_prefix(root).unwrap().into(),
+                fs::read(&path).unwrap(),
+            )
+        };
+        files_below(root).into_iter().map(read).collect()
+    }
+
+    /// Makes a sandbox with these files.
+    pub fn of(files: &Files) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, bytes) in files {
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, bytes).unwrap();
+        }
+        Self { folder }
     }
 
     pub fn path(&self, below: &str) -> PathBuf {
@@ -120,6 +158,13 @@ impl Sandbox {
         let output = self.shuttertruth(words);
         assert_done(&output);
         stdout(&output)
+    }
+
+    /// Runs a line that must be refused with exit code 2 and these words.
+    #[track_caller]
+    pub fn refuse(&self, line: &str, parts: &[&str]) {
+        println!("{line}");
+        assert_refused(&self.shuttertruth(&split(line)), 2, parts);
     }
 
     /// Runs a command as if no CI were there.
@@ -241,6 +286,26 @@ pub fn send(child: &Child, signal: &str) {
     let mut kill = Command::new("kill");
     let status = kill.args([&format!("-{signal}"), &child.id().to_string()]);
     assert!(status.status().unwrap().success());
+}
+
+/// Waits until a process has computed for a number of hundredths of a second, summed over its threads, or for two seconds
+/// where the system does not tell.
+pub fn wait_until_busy(child: &mut Child, hundredths: u64) {
+    let stat = Path::new("/proc").join(child.id().to_string()).join("stat");
+    for _ in 0..if cfg!(target_os = "linux") { 6000 } else { 200 } {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        let stat = fs::read_to_string(&stat).unwrap_or_default();
+        // After the name in brackets: the state, ten numbers, and the times of the process and of the system for it.
+        let numbers = stat.rsplit(')').next().unwrap().split_whitespace();
+        let times = numbers
+            .skip(11)
+            .take(2)
+            .map(|time| time.parse::<u64>().unwrap());
+        if times.sum::<u64>() >= hundredths {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
 }
 
 /// Makes a FIFO.
