@@ -17,7 +17,7 @@ fn a_run_of_copies_is_merged_judged_and_reported() {
     assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/growth.py");
     let grow = |words: &[&str]| {
-        let mut command = Command::new(python_with("json"));
+        let mut command = Command::new(python_with(&["json"]));
         command
             .arg(&script)
             .current_dir(sandbox.path(""))

@@ -2,13 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::Path;
+use std::sync::OnceLock;
 use std::time::SystemTime;
 
 use frame::Alignment;
-use metrics::{Measured, Metric};
+use metrics::Metric;
 use tests::filter_folder::{copy_shipped_filter, write_program};
 
-use crate::sandbox::{Sandbox, assert_done, files_below, quick_command, stdout};
+use crate::sandbox::{Files, Sandbox, assert_done, files_below, quick_command, stderr, stdout};
 
 /// Two presets of a filter of the tests' own, beside the identity.
 const FILTERS: [&str; 4] = ["--filters", "identity", "--filter", "mine"];
@@ -28,11 +30,37 @@ const OF_FILTERS: [&str; 4] = [
     "velocity_gather_fine",
 ];
 
+const NONE_KEEPS_IT: &str =
+    "[default]\nflip_moving = { limit = 0.0001, why = \"none keeps it\" }\n";
+const WORST: &str = "identity_default/worst_flip_moving.png";
+
 /// Makes a sandbox whose filter `mine` is a copy of a built-in one.
 fn set_up() -> Sandbox {
     let sandbox = Sandbox::new();
     copy_shipped_filter("velocity_gather", &sandbox.path("mine"));
     sandbox
+}
+
+/// Makes a sandbox with a finished run, which is made once for all tests.
+fn measured() -> Sandbox {
+    static FILES: OnceLock<Files> = OnceLock::new();
+    Sandbox::of(FILES.get_or_init(|| {
+        let sandbox = set_up();
+        run(&sandbox, &[]);
+        sandbox.read_files()
+    }))
+}
+
+/// Makes a sandbox with a finished check, in which every case breaks its bound.
+fn checked() -> Sandbox {
+    static FILES: OnceLock<Files> = OnceLock::new();
+    Sandbox::of(FILES.get_or_init(|| {
+        let sandbox = set_up();
+        sandbox.write("bounds.toml", NONE_KEEPS_IT);
+        let output = sandbox.check(&FILTERS);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        sandbox.read_files()
+    }))
 }
 
 fn run(sandbox: &Sandbox, more: &[&str]) {
@@ -72,22 +100,6 @@ fn change(sandbox: &Sandbox, file: &str, from: &str, to: &str) {
     fs::write(sandbox.path(file), text.replacen(from, to, 1)).unwrap();
 }
 
-#[test]
-fn a_second_run_touches_no_file_and_prints_the_same() {
-    let sandbox = set_up();
-    run(&sandbox, &[]);
-    let first = fs::read(sandbox.path("out/run.json")).unwrap();
-    let before = read_times(&sandbox);
-    run(&sandbox, &[]);
-    assert_eq!(read_times(&sandbox), before);
-    assert!(fs::read(sandbox.path("out/run.json")).unwrap() == first);
-    assert!(before.len() > 60, "{} files", before.len());
-}
-
-const NONE_KEEPS_IT: &str =
-    "[default]\nflip_moving = { limit = 0.0001, why = \"none keeps it\" }\n";
-const WORST: &str = "identity_default/worst_flip_moving.png";
-
 /// Reads the modification times of all measured files. Evidence is not measured.
 fn read_measured_times(sandbox: &Sandbox) -> BTreeMap<String, SystemTime> {
     let mut times = read_times(sandbox);
@@ -96,31 +108,29 @@ fn read_measured_times(sandbox: &Sandbox) -> BTreeMap<String, SystemTime> {
 }
 
 #[test]
-fn a_kept_check_keeps_its_intervals() {
-    let sandbox = set_up();
-    sandbox.write("bounds.toml", NONE_KEEPS_IT);
-    let check = || sandbox.check(&FILTERS);
-    let first = stdout(&check());
-    assert!(first.contains("flip_moving"), "{first}");
-    let (run, before) = (sandbox.read_run(), read_measured_times(&sandbox));
-    assert_eq!(stdout(&check()), first);
-    assert_eq!(read_measured_times(&sandbox), before);
-    let text = |run: &suite::Run| serde_json::to_string(run).unwrap();
-    assert_eq!(text(&sandbox.read_run()), text(&run));
-
-    let evidence = sandbox.path("out/plate").join(WORST);
-    fs::remove_file(&evidence).unwrap();
-    check();
-    assert!(evidence.is_file(), "the evidence was not made anew");
+fn a_second_run_touches_no_file() {
+    let sandbox = measured();
+    let read = || fs::read(sandbox.path("out/run.json")).unwrap();
+    let (first, before) = (read(), read_times(&sandbox));
+    run(&sandbox, &[]);
+    assert_eq!(read_times(&sandbox), before);
+    assert!(read() == first);
+    assert!(before.len() > 60, "{} files", before.len());
 }
 
 #[test]
-fn a_changed_bound_measures_nothing_again() {
-    let sandbox = set_up();
-    sandbox.write("bounds.toml", &NONE_KEEPS_IT.replace("0.0001", "0.1"));
-    let broken = sandbox.check(&FILTERS);
-    assert_eq!(broken.status.code(), Some(1), "{}", stdout(&broken));
-    let before = read_measured_times(&sandbox);
+fn a_kept_check_keeps_its_intervals_under_any_bound() {
+    let sandbox = checked();
+    let text = || serde_json::to_string(&sandbox.read_run()).unwrap();
+    let (first, before) = (text(), read_measured_times(&sandbox));
+    let evidence = sandbox.path("out/plate").join(WORST);
+    fs::remove_file(&evidence).unwrap();
+    let printed = stdout(&sandbox.check(&FILTERS));
+    assert!(printed.contains("BROKEN flip_moving"), "{printed}");
+    assert!(text() == first);
+    assert!(evidence.is_file(), "the evidence was not made anew");
+    assert_eq!(stdout(&sandbox.check(&FILTERS)), printed);
+
     let all_keep_it = NONE_KEEPS_IT.replace("0.0001", "0.9");
     sandbox.write(
         "bounds.toml",
@@ -138,39 +148,28 @@ fn list_rungs(sandbox: &Sandbox) -> Vec<String> {
 
 #[test]
 fn a_run_takes_the_truth_of_a_check_and_adds_the_ladder() {
-    let sandbox = set_up();
-    sandbox.write("bounds.toml", NONE_KEEPS_IT);
-    sandbox.check(&FILTERS);
-    let checked = sandbox.read_run();
+    let sandbox = checked();
+    let cases = sandbox.read_run().cases;
     // Skill is counted from the sharp picture of the shutter's middle.
     assert_eq!(list_rungs(&sandbox), ["ladder_trailing/n1.exr"]);
-    let accumulations = checked.cases.iter();
-    let mut accumulations = accumulations.filter(|case| case.filter == "accumulate");
+    let mut accumulations = cases.iter().filter(|case| case.filter == "accumulate");
     assert!(accumulations.all(|case| case.preset == "1"));
-    let without = |case: &suite::Case| {
-        matches!(
-            case.scores.get(Metric::SUBFRAMES),
-            Measured::NotApplicable { .. }
-        )
-    };
-    assert!(checked.cases.iter().all(without));
+    let without = |case: &suite::Case| case.scores.get(Metric::SUBFRAMES).value().is_none();
+    assert!(cases.iter().all(without));
 
-    let truth = "truth_trailing.exr";
-    let before = read_times(&sandbox)[truth];
+    let truth = || read_times(&sandbox)["truth_trailing.exr"];
+    let before = truth();
     let words = [&quick_command("run", "64")[..], &FILTERS].concat();
     sandbox.execute(&words);
-    assert_eq!(
-        read_times(&sandbox)[truth],
-        before,
-        "the truth was rendered again"
-    );
+    assert_eq!(truth(), before, "the truth was rendered again");
     assert_eq!(list_rungs(&sandbox).len(), 7);
     // The output does not depend on what a check left.
-    let kept = fs::read_to_string(sandbox.path("out/run.json")).unwrap();
+    let read = || fs::read_to_string(sandbox.path("out/run.json")).unwrap();
+    let kept = read();
     assert!(!sandbox.read_run().cases.iter().any(without));
     fs::remove_dir_all(sandbox.path("out")).unwrap();
     sandbox.execute(&words);
-    assert!(fs::read_to_string(sandbox.path("out/run.json")).unwrap() == kept);
+    assert!(read() == kept);
 }
 
 #[test]
@@ -185,20 +184,19 @@ fn a_check_takes_the_cases_of_a_run_with_intervals() {
 
 #[test]
 fn a_check_renders_the_ladder_that_a_limit_asks_for() {
-    let sandbox = set_up();
+    let sandbox = checked();
     // The frame as it is has the error of about one sub-frame.
     let limit =
         "[filter.\"identity:default\"]\nn_eq = { limit = 100.0, why = \"none keeps it\" }\n";
     sandbox.write("bounds.toml", &format!("{NONE_KEEPS_IT}{limit}"));
-    let checked = sandbox.check(&FILTERS);
-    assert!(stdout(&checked).contains("n_eq"), "{}", stdout(&checked));
+    let printed = stdout(&sandbox.check(&FILTERS));
+    assert!(printed.contains("n_eq"), "{printed}");
     assert_eq!(list_rungs(&sandbox).len(), 7);
 }
 
 #[test]
 fn a_change_to_one_case_measures_only_that_case_again() {
-    let sandbox = set_up();
-    run(&sandbox, &[]);
+    let sandbox = measured();
     let mine = names([&OF_FILTERS[1..]]);
 
     let kernels = "mine/velocity_gather.wgsl";
@@ -228,8 +226,7 @@ fn a_change_to_one_case_measures_only_that_case_again() {
 
 #[test]
 fn a_change_to_the_truth_or_the_frame_measures_all_cases_again() {
-    let sandbox = set_up();
-    run(&sandbox, &[]);
+    let sandbox = measured();
     let all = names([&BARS[..], &OF_FILTERS]);
     for more in [["--seed", "2"], ["--velocity", "previous_frame"]] {
         assert_eq!(find_measured_again(&sandbox, &more), all, "{more:?}");
@@ -254,8 +251,7 @@ fn a_change_to_the_truth_or_the_frame_measures_all_cases_again() {
 
 #[test]
 fn another_common_shutter_measures_the_compared_cases_again() {
-    let sandbox = set_up();
-    run(&sandbox, &[]);
+    let sandbox = measured();
     assert_eq!(sandbox.read_run().common_alignment, Alignment::Trailing);
     let again = find_measured_again(&sandbox, &["--filter", "bevy:default"]);
     assert_eq!(sandbox.read_run().common_alignment, Alignment::Centred);
@@ -266,44 +262,63 @@ fn another_common_shutter_measures_the_compared_cases_again() {
     assert_eq!(sandbox.read_run().common_alignment, Alignment::Centred);
 }
 
+/// Removes a file, cuts it in half, or changes one bit of a pixel.
+fn damage(path: &Path, kind: &str) {
+    let mut bytes = fs::read(path).unwrap();
+    let middle = bytes.len() / 2;
+    match kind {
+        "missing" => return fs::remove_file(path).unwrap(),
+        "cut" => bytes.truncate(middle),
+        _ => bytes[middle] ^= 1,
+    }
+    fs::write(path, bytes).unwrap();
+}
+
 #[test]
 fn missing_truncated_and_altered_files_are_made_again() {
-    let sandbox = set_up();
-    run(&sandbox, &[]);
-    let contents = |name: &str| fs::read(sandbox.path("out/plate").join(name)).unwrap();
-    let run_json = fs::read(sandbox.path("out/run.json")).unwrap();
-    let cut = |bytes: &[u8]| bytes[..bytes.len() / 2].to_vec();
-    type Damage<'a> = &'a dyn Fn(&[u8]) -> Option<Vec<u8>>;
-    let damages: [Damage; 3] = [&|_| None, &|bytes| Some(cut(bytes)), &|bytes| {
-        let mut bytes = bytes.to_vec();
-        // Damages some bits of a pixel.
-        let middle = bytes.len() / 2;
-        bytes[middle] ^= 1;
-        Some(bytes)
-    }];
-    let one = names([&["identity_default"][..]]);
-    for (name, expected) in [
-        ("identity_default/case.json", &one),
-        ("identity_default/errors.exr", &one),
-        ("identity_default/flip.png", &one),
-        ("frame.png", &BTreeSet::new()),
-        ("frame.exr", &BTreeSet::new()),
-        ("truth_trailing.exr", &BTreeSet::new()),
-        ("ladder_trailing/n4.exr", &BTreeSet::new()),
-    ] {
-        let whole = contents(name);
+    let sandbox = measured();
+    let out = sandbox.path("out");
+    let read = |name: &str| fs::read(out.join(name)).unwrap();
+    let run_json = read("run.json");
+    // Files that one run makes again; each of the first belongs to another case.
+    let groups: [&[&str]; 5] = [
+        &[
+            "identity_default/errors.exr",
+            "velocity_gather_coarse/flip.png",
+            "velocity_gather_fine/case.json",
+        ],
+        &["frame.png"],
+        &["frame.exr"],
+        &["truth_trailing.exr"],
+        &["ladder_trailing/n4.exr"],
+    ];
+    for (group, kind) in groups
+        .iter()
+        .flat_map(|group| ["missing", "cut", "altered"].map(|kind| (group, kind)))
+    {
         // A record has the hashes of its files, and none of itself: whoever can change it can write any hash into it.
-        let noticed = if name.ends_with(".json") { 2 } else { 3 };
-        for damage in &damages[..noticed] {
-            let path = sandbox.path("out/plate").join(name);
-            match damage(&whole) {
-                None => fs::remove_file(&path).unwrap(),
-                Some(bytes) => fs::write(&path, bytes).unwrap(),
-            }
-            assert_eq!(find_measured_again(&sandbox, &[]), *expected, "{name}");
-            assert!(contents(name) == whole, "{name} is not as it was");
-            assert!(fs::read(sandbox.path("out/run.json")).unwrap() == run_json);
+        let is_noticed = |name: &&&str| kind != "altered" || !name.ends_with(".json");
+        let files: Vec<String> = group
+            .iter()
+            .filter(is_noticed)
+            .map(|name| format!("plate/{name}"))
+            .collect();
+        let whole: Vec<_> = files.iter().map(|name| read(name)).collect();
+        for name in &files {
+            damage(&out.join(name), kind);
         }
+        let cases = files
+            .iter()
+            .filter_map(|name| name["plate/".len()..].split_once('/'));
+        let due = cases
+            .map(|(case, _)| case)
+            .filter(|case| !case.starts_with("ladder"));
+        let due: BTreeSet<String> = due.map(str::to_owned).collect();
+        assert_eq!(find_measured_again(&sandbox, &[]), due, "{kind}: {files:?}");
+        for (name, whole) in files.iter().zip(whole) {
+            assert!(read(name) == whole, "{kind}: {name} is not as it was");
+        }
+        assert!(read("run.json") == run_json);
     }
 }
 

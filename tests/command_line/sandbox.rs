@@ -85,6 +85,29 @@ impl Sandbox {
         fs::write(copy.join("scene.toml"), text).unwrap();
     }
 
+    /// Reads all files, for sandboxes that begin with them.
+    pub fn read_files(&self) -> Files {
+        read_below(self.folder.path())
+    }
+
+    /// Makes a sandbox with these files.
+    pub fn of(files: &Files) -> Self {
+        let sandbox = Self {
+            folder: tempfile::tempdir().unwrap(),
+        };
+        sandbox.write_files("", files);
+        sandbox
+    }
+
+    /// Writes files below a folder.
+    pub fn write_files(&self, below: &str, files: &Files) {
+        for (name, bytes) in files {
+            let path = self.path(below).join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, bytes).unwrap();
+        }
+    }
+
     /// Bounds `flip_moving` on the plate for every filter. The identity scores about 0.3.
     pub fn write_bound(&self, limit: f64) {
         self.write(
@@ -210,6 +233,28 @@ pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
         "",
         "a refused command prints nothing on standard output"
     );
+}
+
+/// Files, by their names below a folder.
+pub type Files = Vec<(PathBuf, Vec<u8>)>;
+
+/// Reads all files below a folder.
+pub fn read_below(folder: &Path) -> Files {
+    let read = |path: PathBuf| {
+        let name = path.strip_prefix(folder).unwrap().to_owned();
+        (name, fs::read(&path).unwrap())
+    };
+    files_below(folder).into_iter().map(read).collect()
+}
+
+/// Fails with the name of a file that is missing or differs.
+#[track_caller]
+pub fn assert_same_files(one: &Files, other: &Files) {
+    let names = |files: &Files| -> Vec<PathBuf> { files.iter().map(|own| own.0.clone()).collect() };
+    assert_eq!(names(one), names(other));
+    for ((name, one), (_, other)) in one.iter().zip(other) {
+        assert!(one == other, "{} differs", name.display());
+    }
 }
 
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {

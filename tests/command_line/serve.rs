@@ -157,7 +157,7 @@ fn optuna(sandbox: &Sandbox, more: &[&str]) -> Command {
     let example = tests::root().join("examples/optuna_tune.py");
     let program = Path::new(env!("CARGO_BIN_EXE_shuttertruth"));
     let path = std::env::var("PATH").unwrap_or_default();
-    let mut command = Command::new(python_with("optuna"));
+    let mut command = Command::new(python_with(&["optuna"]));
     command
         .current_dir(sandbox.path(""))
         .arg(example)

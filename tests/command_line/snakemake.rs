@@ -14,7 +14,7 @@ const WORDS: &str =
 
 /// Runs the example's Snakefile with two jobs at a time.
 fn snakemake(sandbox: &Sandbox) -> Command {
-    let mut command = Command::new(python_with("snakemake"));
+    let mut command = Command::new(python_with(&["snakemake"]));
     let snakefile = tests::root().join("examples/snakemake/Snakefile");
     command.args([
         "-m",
