@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output};
+use std::sync::OnceLock;
 
 use serde::de::DeserializeOwned;
 use tests::filter_folder;
@@ -90,6 +91,21 @@ impl Sandbox {
         read_below(self.folder.path())
     }
 
+    /// Makes a sandbox with what `make` leaves in one. It is called once for all tests.
+    pub fn once(files: &OnceLock<Files>, make: impl FnOnce() -> Self) -> Self {
+        Self::of(files.get_or_init(|| make().read_files()))
+    }
+
+    /// Makes a sandbox with a finished run of the identity in `out`.
+    pub fn measured() -> Self {
+        static FILES: OnceLock<Files> = OnceLock::new();
+        Self::once(&FILES, || {
+            let sandbox = Self::new();
+            sandbox.measure("--filters identity");
+            sandbox
+        })
+    }
+
     /// Makes a sandbox with these files.
     pub fn of(files: &Files) -> Self {
         let sandbox = Self {
@@ -145,6 +161,19 @@ impl Sandbox {
         stdout(&output)
     }
 
+    /// Runs a command line that must succeed; returns what it prints.
+    #[track_caller]
+    pub fn done(&self, line: &str) -> String {
+        self.execute(&split(line))
+    }
+
+    /// Runs a command line that must be refused with exit code 2 and with these parts of a message.
+    #[track_caller]
+    pub fn refuse(&self, line: &str, parts: &[&str]) {
+        println!("{line}");
+        assert_refused(&self.shuttertruth(&split(line)), 2, parts);
+    }
+
     /// Runs a command as if no CI were there.
     pub fn outside_ci(&self, words: &[&str]) -> Output {
         let mut command = self.command(words);
@@ -171,6 +200,20 @@ impl Sandbox {
     pub fn run(&self, more: &[&str]) -> Output {
         let words = quick_command("run", "16");
         self.shuttertruth(&[&words, more].concat())
+    }
+
+    /// Runs `run` with few samples, which must succeed; returns what it prints.
+    #[track_caller]
+    pub fn measure(&self, line: &str) -> String {
+        self.measure_into("out", line)
+    }
+
+    /// Does the same with another folder than `out`.
+    #[track_caller]
+    pub fn measure_into(&self, out: &str, line: &str) -> String {
+        let mut words = quick_command("run", "16");
+        words[3] = out;
+        self.execute(&[&words[..], &split(line)].concat())
     }
 
     /// Runs `check` with few samples and no CI; the report is on standard output.

@@ -7,15 +7,14 @@ mod tuning;
 
 use std::fs;
 
-use crate::sandbox::{Sandbox, assert_done, stdout};
+use crate::sandbox::Sandbox;
 
-const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
+const REPORT: &str = "report out/run.json --html page/report.html";
 
 /// Makes the page of the bench's last run.
 fn make_page(sandbox: &Sandbox) -> String {
-    let output = sandbox.shuttertruth(&WORDS);
-    assert_done(&output);
-    assert!(stdout(&output).contains("written: page/report.html ("));
+    let printed = sandbox.done(REPORT);
+    assert!(printed.contains("written: page/report.html ("), "{printed}");
     fs::read_to_string(sandbox.path("page/report.html")).unwrap()
 }
 
@@ -53,7 +52,13 @@ fn address(case: &suite::Case) -> String {
         true => format!("@{}", case.alignment),
         false => String::new(),
     };
-    format!("{}/{}{reference}", case.scene, case.name())
+    let scene = case.scene.to_string();
+    // Characters that an address may not hold.
+    let scene = scene.chars().map(|letter| match letter {
+        '<' | '>' | '(' | ')' => format!("~{:x}", u32::from(letter)),
+        other => other.to_string(),
+    });
+    format!("{}/{}{reference}", scene.collect::<String>(), case.name())
 }
 
 /// Finds the part of a page that shows a case.
