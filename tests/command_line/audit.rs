@@ -20,10 +20,8 @@ fn audit(sandbox: &Sandbox, code: i32) -> (String, Value) {
         stderr(&output)
     );
     let words: Vec<&str> = told.split_whitespace().collect();
-    (
-        words.join(" "),
-        sandbox.read_json("out/audit/capture/audit.json"),
-    )
+    let audit = sandbox.read_json("out/audit/capture/audit.json");
+    (words.join(" "), audit)
 }
 
 #[test]
@@ -60,10 +58,8 @@ fn a_wrong_convention_fails_with_the_one_that_would_fit() {
     let scale = found["findings"][0]["cause"]["scale"].as_f64().unwrap();
     assert!((scale - 2.0).abs() < 0.01, "{scale}");
     let json = sandbox.shuttertruth(&split("engine audit capture -o out/told --json"));
-    assert_eq!(
-        serde_json::from_slice::<Value>(&json.stdout).unwrap(),
-        found
-    );
+    let json: Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(json, found);
     let picture = frame::read_png(&sandbox.path("out/told/worst_plate.png")).unwrap();
     let size = (picture.width, picture.height);
     assert_eq!(size, (3 * 48 * 5 + 2 * 5, 48 * 5));
@@ -95,58 +91,17 @@ fn an_audit_needs_the_scene_and_its_instant() {
     refuse(&["velocity.exr: there is no such file"]);
 }
 
-/// Audits a capture that is undecided, with its ids and without.
-fn assert_undecided(sandbox: &Sandbox, capture: &Capture, by: [&str; 2], parts: &[&str]) -> Value {
-    let [with_ids, without] = by;
-    assert_contains(&audit(sandbox, 2).0, &[&[with_ids], parts].concat());
-    fs::remove_file(capture.path("object.exr")).unwrap();
-    let (told, found) = audit(sandbox, 2);
-    assert_contains(&told, &[&[without], parts].concat());
-    found
-}
-
 #[test]
 fn a_capture_of_another_frame_is_undecided_with_ids_and_without() {
     let sandbox = Sandbox::new();
     let capture = Capture::at(&sandbox, -1.0);
-    let parts = [
-        "- picture is drawn one frame late; draw the time `instant` of manifest.json",
-        "UNDECIDED: the capture does not show the scene as it is at the instant",
-    ];
-    assert_undecided(
-        &sandbox,
-        &capture,
-        ["by their ids", "by their depth"],
-        &parts,
-    );
-}
-
-#[test]
-fn an_object_that_is_elsewhere_is_undecided_though_most_pixels_agree() {
-    let sandbox = Sandbox::new();
-    // Between two frames, which no cause explains.
-    let capture = Capture::at(&sandbox, -0.37);
-    let parts = [
-        "- picture of `plate` shows other things",
-        "needed: 90 %",
-        " plate ",
-    ];
-    let audit = assert_undecided(&sandbox, &capture, ["by its ids", "by its depth"], &parts);
-    assert_eq!(audit["shows_scene"], false);
-    assert!(audit["alike"].as_f64().unwrap() > 0.9, "{audit}");
-    let shown = audit["objects"][1]["shown"].as_f64().unwrap();
-    assert!(shown < 0.9, "{audit}");
-}
-
-#[test]
-fn a_black_object_of_an_unlit_scene_fails() {
-    let sandbox = Sandbox::new();
-    let capture = Capture::new(&sandbox);
-    let color = (capture.frame.color).zip(&capture.frame.object_id, |color, id| match id {
-        0 => *color,
-        _ => [0.0; 3],
-    });
-    capture.write_color("color.exr", &color);
-    let due = "- colour of `plate` is (0.000, 0.000, 0.000) in the mean, not (0.700, 0.400, 0.200)";
-    assert_contains(&audit(&sandbox, 1).0, &[due]);
+    for by in ["by their ids", "by their depth"] {
+        let parts = [
+            by,
+            "- picture is drawn one frame late; draw the time `instant` of manifest.json",
+            "UNDECIDED: the capture does not show the scene as it is at the instant",
+        ];
+        assert_contains(&audit(&sandbox, 2).0, &parts);
+        let _ = fs::remove_file(capture.path("object.exr"));
+    }
 }

@@ -39,9 +39,8 @@ fn run_at(sandbox: &Sandbox, size: &str, more: &str) {
 }
 
 fn accept(sandbox: &Sandbox, reason: &str) -> Output {
-    sandbox.outside_ci(&split(&format!(
-        "limits accept --out out --reason {reason}"
-    )))
+    let line = format!("limits accept --out out --reason {reason}");
+    sandbox.outside_ci(&split(&line))
 }
 
 fn check(sandbox: &Sandbox, more: &str) -> Output {
@@ -57,10 +56,8 @@ fn equal_scores_pass_and_worse_scores_are_reported() {
     let sandbox = set_up();
     let same = check(&sandbox, FINE);
     assert_done(&same);
-    assert_contains(
-        &stdout(&same),
-        &["no worse: velocity_gather:fine flip_moving"],
-    );
+    let due = "no worse: velocity_gather:fine flip_moving";
+    assert_contains(&stdout(&same), &[due]);
     let worse = check(&sandbox, COARSER);
     assert_eq!(worse.status.code(), Some(1), "{}", stdout(&worse));
     let due = "WORSE: velocity_gather:fine samples=2 flip_moving, worse by 0.0";
@@ -157,10 +154,8 @@ fn accept_refuses_bad_requests_and_incomparable_runs() {
     let other = before.replace(&format!("\"kind\": \"{kind}\""), "\"kind\": \"quantum\"");
     assert_ne!(other, before);
     fs::write(sandbox.path("base.json"), other).unwrap();
-    refuse(
-        &["--reason", "r"],
-        &["another class", "quantum", "force it"],
-    );
+    let parts = ["another class", "quantum", "force it"];
+    refuse(&["--reason", "r"], &parts);
     assert_done(&in_ci("--force"));
     let forced = baseline(&sandbox);
     assert_ne!(forced["adapter"]["kind"], "quantum");

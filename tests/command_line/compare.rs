@@ -18,10 +18,8 @@ fn two_runs() -> Sandbox {
         let sandbox = Sandbox::new();
         sandbox.copy_scene(SCRIPT, |text| text.replace("-1.6", "-0.8"));
         sandbox.measure(GATHER);
-        sandbox.measure_into(
-            "other",
-            &format!("{GATHER} --set velocity_gather.samples=2"),
-        );
+        let two_taps = format!("{GATHER} --set velocity_gather.samples=2");
+        sandbox.measure_into("other", &two_taps);
         sandbox
     })
 }
@@ -49,10 +47,8 @@ fn a_run_compared_with_itself_shows_no_change() {
     // Two filters on two scenes, each with at least FLIP, PSNR and label TV.
     assert!(all.len() >= 12, "{}", all.len());
     for change in all {
-        assert_eq!(
-            (&change["kind"], &change["worse"]),
-            (&json!("same"), &json!(0.0))
-        );
+        assert_eq!(change["kind"], "same", "{change}");
+        assert_eq!(change["worse"], 0.0);
     }
     for key in ["settings", "only_in_first", "only_in_second"] {
         assert_eq!(compared[key], json!([]), "{key}");
@@ -96,11 +92,7 @@ fn compare_names_a_changed_parameter_and_gives_intervals() {
     let metrics::Measured::Score(score) = first else {
         panic!("the metric applies");
     };
-    assert!(
-        high - low < 2.0 * score.floor,
-        "{low} {high} {}",
-        score.floor
-    );
+    assert!(high - low < 2.0 * score.floor, "{flip} {score:?}");
 }
 
 #[test]
@@ -146,10 +138,8 @@ fn floors_decide_if_replicates_are_missing_and_the_output_says_so() {
     }
     let compared = compare(&sandbox, "other");
     let flip = find_flip(&compared);
-    assert_eq!(
-        [&flip["basis"], &flip["interval"]],
-        [&json!("floor"), &Value::Null]
-    );
+    assert_eq!(flip["basis"], "floor");
+    assert!(flip["interval"].is_null());
     let table = sandbox.done("compare out other");
     assert_contains(&table, &["told from noise by their floors alone"]);
 }
@@ -160,15 +150,11 @@ fn cases_of_only_one_run_are_named_and_runs_without_a_common_ground_are_refused(
     sandbox.measure_into("more", GATHER);
     let compared = compare(&sandbox, "more");
     assert_eq!(compared["only_in_first"], json!([]));
-    assert_eq!(
-        compared["only_in_second"],
-        json!(["plate / velocity_gather:fine"])
-    );
+    let only = "plate / velocity_gather:fine";
+    assert_eq!(compared["only_in_second"], json!([only]));
     let table = sandbox.done("compare out more");
-    assert_contains(
-        &table,
-        &["only in more/run.json:\n  plate / velocity_gather:fine\n"],
-    );
+    let listed = format!("only in more/run.json:\n  {only}\n");
+    assert_contains(&table, &[&listed]);
 
     sandbox.add_slow_scene();
     let run = "run --quiet --filters identity --scenes";
@@ -182,18 +168,20 @@ fn cases_of_only_one_run_are_named_and_runs_without_a_common_ground_are_refused(
     fs::create_dir(sandbox.path("damaged")).unwrap();
     fs::write(sandbox.path("damaged/run.json"), "{}").unwrap();
     let rows: [(&str, &[&str]); 5] = [
-        ("small", &["32x16", "64x32", "at the other's size"]),
+        ("small/run.json", &["32x16", "64x32", "at the other's size"]),
         (
             "fine",
             &["truth of plate (trailing)", "same samples per pixel"],
         ),
-        ("slow", &["no case in common", "plate there and slow here"]),
-        ("damaged", &["no run of this program"]),
+        (
+            "slow/run.json",
+            &["no case in common", "plate there and slow here"],
+        ),
+        ("damaged/run.json", &["no run of this program"]),
         ("nowhere", &["cannot read"]),
     ];
     for (other, parts) in rows {
-        let name = format!("{other}/run.json");
-        let parts = [&[name.as_str()], parts].concat();
+        let parts = [&[other], parts].concat();
         sandbox.refuse(&format!("compare out {other}"), &parts);
     }
 }

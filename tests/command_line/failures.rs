@@ -43,10 +43,7 @@ fn a_run_names_the_failed_case_and_goes_on() {
     let [failure] = &failures[..] else {
         panic!("one case fails: {failures:?}");
     };
-    assert!(
-        failure.scene == "dim" && failure.filter == "torn:default",
-        "{failure:?}"
-    );
+    assert!(failure.scene == "dim" && failure.filter == "torn:default");
     assert_contains(&failure.reason, &["pass work: writes [", "to pixel (9, 4)"]);
     let measured = [
         "dim identity:default",
@@ -54,10 +51,8 @@ fn a_run_names_the_failed_case_and_goes_on() {
         "plate torn:default",
     ];
     assert_eq!(sandbox.read_case_names(), measured);
-    assert_contains(
-        &stdout(&output),
-        &["dim / torn:default\n  FAILED filter torn"],
-    );
+    let row = "dim / torn:default\n  FAILED filter torn";
+    assert_contains(&stdout(&output), &[row]);
     assert_contains(&stderr(&output), &["1 case failed"]);
     let page = fs::read_to_string(sandbox.path("page.html")).unwrap();
     assert!(page.contains("<strong>dim / torn:default</strong>"));

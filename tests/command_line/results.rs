@@ -187,9 +187,8 @@ fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
     };
     let seed = (0..).find(|seed| turns_round(*seed)).unwrap();
     let ranks = |more: &str| -> Vec<String> {
-        sandbox.measure(&format!(
-            "--no-cache --filters velocity_gather:fine,learnt:fine {more}"
-        ));
+        let filters = "--no-cache --filters velocity_gather:fine,learnt:fine";
+        sandbox.measure(&format!("{filters} {more}"));
         let results = Results::from_runs(&[sandbox.read_run()]).unwrap();
         assert_eq!(results.scenes().len(), names.len());
         let ranking = results.ranking(None).remove(0);

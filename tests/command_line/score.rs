@@ -98,10 +98,8 @@ fn mattes_that_a_file_gives_are_said_to_be_given() {
     let label_tv = scores(&sandbox, "grey.exr").get("label_tv".parse().unwrap());
     assert_eq!(label_tv.value(), Some(0.0));
     let note = "mattes, channels coverage.<object>, were given with the picture and not measured";
-    assert_contains(
-        &score(&sandbox, "grey.exr"),
-        &[&format!("grey.exr: its {note}")],
-    );
+    let text = score(&sandbox, "grey.exr");
+    assert_contains(&text, &[&format!("grey.exr: its {note}")]);
     let notes = |image: &str| score_as_json(&sandbox, image)["notes"].to_string();
     assert_contains(&notes("grey.exr"), &[note]);
     copy_without(&sandbox, "coverage", "grey.exr", "bare.exr");
@@ -155,10 +153,8 @@ fn a_png_is_converted_back_to_radiance() {
         assert!((flip - due).abs() < 0.004, "{flip} {due}");
         assert_eq!(found.full.flip_hdr.value(), None);
         let text = score(&sandbox, &png);
-        assert_contains(
-            &text,
-            &[&format!("display exposure of {stops} stops undone")],
-        );
+        let undone = format!("display exposure of {stops} stops undone");
+        assert_contains(&text, &[&undone]);
         let exceeds = "display white, which the truth exceeds in";
         assert_eq!(text.contains(exceeds), bright, "{text}");
         // The same, in decibels.

@@ -18,9 +18,8 @@ const WORDS: &str =
 fn snakemake(sandbox: &Sandbox) -> Command {
     let mut command = Command::new(python_with(&["snakemake"]));
     let snakefile = tests::root().join("examples/snakemake/Snakefile");
-    command.args(split(
-        "-m snakemake --cores 2 --rerun-incomplete --snakefile",
-    ));
+    let words = "-m snakemake --cores 2 --rerun-incomplete --snakefile";
+    command.args(split(words));
     command.arg(snakefile).arg("--config");
     command.arg(format!("program={}", env!("CARGO_BIN_EXE_shuttertruth")));
     // It keeps files there that no test needs.

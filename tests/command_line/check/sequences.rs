@@ -81,10 +81,8 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     assert_contains(&read("out/report.html"), &[limit, "sequences.html"]);
     let json = &json(&sandbox, "--filters identity --frames 3")["findings"];
     assert_eq!(json[1]["kind"], "broken");
-    assert_eq!(
-        (&json[1]["frames"], &json[2]["fps"]),
-        (&3.into(), &60.0.into())
-    );
+    assert_eq!(json[1]["frames"], 3);
+    assert_eq!(json[2]["fps"], 60.0);
 
     // The finished run is judged again, without an adapter, and refuses what it cannot measure.
     let judge = |line: &str| sandbox.without_adapter(&split(line));
@@ -102,10 +100,8 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
 /// Checks the finding about flicker against what was measured; returns the worst frame.
 fn assert_flicker(sandbox: &Sandbox) -> u32 {
     let flicker = sandbox.read_findings().remove(1);
-    assert_eq!(
-        (flicker.outcome, flicker.frames),
-        (Outcome::Broken, Some(3))
-    );
+    assert_eq!(flicker.outcome, Outcome::Broken);
+    assert_eq!(flicker.frames, Some(3));
     let run = sandbox.read_run();
     let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
     let metric = Metric::Sequence(SequenceMetric::Flicker);
@@ -125,10 +121,8 @@ fn assert_flicker(sandbox: &Sandbox) -> u32 {
 fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
     let sandbox = Sandbox::new();
     let parts = ["--metrics: flicker is a score of a sequence", "--frames"];
-    sandbox.refuse(
-        "limits calibrate --filters identity --metrics flicker",
-        &parts,
-    );
+    let line = "limits calibrate --filters identity --metrics flicker";
+    sandbox.refuse(line, &parts);
     let (_, proposed) = calibrate(&sandbox, "--frames 2 --jitter-frames 0");
     // Nothing is bounded yet: all eight scores of sequences, and four of single frames.
     assert_eq!(proposed.matches(", frames = 2, ").count(), 8, "{proposed}");

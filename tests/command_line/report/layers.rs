@@ -30,11 +30,7 @@ fn layers_equal_the_files_of_the_case() {
     sandbox.measure("--filters velocity_gather:fine --guard-band 4");
     sandbox.done("report out --exr layers --quiet");
     let files = files_below(&sandbox.path("layers"));
-    assert_eq!(
-        files.len(),
-        sandbox.read_run().cases.len(),
-        "one file a case"
-    );
+    assert_eq!(files.len(), sandbox.read_run().cases.len());
     let exr = |name: &str| read_exr(&sandbox.path(name)).unwrap();
     let layers = exr("layers/plate/velocity_gather_fine.exr");
     let output = exr("out/plate/velocity_gather_fine/output.exr");

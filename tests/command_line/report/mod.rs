@@ -28,11 +28,8 @@ fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
 
 /// Reads the planes of a page's scenes.
 fn planes(page: &str) -> Vec<Vec<String>> {
-    let texts = between(
-        page,
-        "<script type=\"application/json\" data-scene=\"",
-        "</script>",
-    );
+    let start = "<script type=\"application/json\" data-scene=\"";
+    let texts = between(page, start, "</script>");
     (texts.into_iter())
         .map(|text| serde_json::from_str(text.split_once('>').unwrap().1).unwrap())
         .collect()
@@ -52,13 +49,7 @@ fn address(case: &suite::Case) -> String {
         true => format!("@{}", case.alignment),
         false => String::new(),
     };
-    let scene = case.scene.to_string();
-    // Characters that an address may not hold.
-    let scene = scene.chars().map(|letter| match letter {
-        '<' | '>' | '(' | ')' => format!("~{:x}", u32::from(letter)),
-        other => other.to_string(),
-    });
-    format!("{}/{}{reference}", scene.collect::<String>(), case.name())
+    format!("{}/{}{reference}", case.scene, case.name())
 }
 
 /// Finds the part of a page that shows a case.

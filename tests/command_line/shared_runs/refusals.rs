@@ -8,10 +8,7 @@ use crate::sandbox::Sandbox;
 #[track_caller]
 fn refuse(sandbox: &Sandbox, parts: &str, found: &[&str]) {
     sandbox.refuse(&format!("truths merge {parts} --out whole"), found);
-    assert!(
-        !sandbox.path("whole").exists(),
-        "{parts} left something behind"
-    );
+    assert!(!sandbox.path("whole").exists(), "{parts} wrote files");
 }
 
 /// Changes the text of a run.json.
@@ -54,11 +51,8 @@ fn runs_of_other_settings_are_refused() {
     ];
     for (more, found) in rows {
         measure_other(&sandbox, &format!("--scenes slow --filter {more}"));
-        refuse(
-            &sandbox,
-            "plate other",
-            &[&["plate/run.json"], found].concat(),
-        );
+        let found = [&["plate/run.json"], found].concat();
+        refuse(&sandbox, "plate other", &found);
     }
     change(&sandbox, "slow", "\"driver\": \"", "\"driver\": \"other ");
     let found = [
@@ -128,10 +122,8 @@ fn truths_are_not_looked_for_in_vain() {
         "truths render --ladders",
     ];
     sandbox.refuse(&format!("{run} nowhere"), &found);
-    sandbox.refuse(
-        &format!("{run} scenes --no-cache"),
-        &["--truths", "--no-cache"],
-    );
+    let found = ["--truths", "--no-cache"];
+    sandbox.refuse(&format!("{run} scenes --no-cache"), &found);
     assert!(!sandbox.path("out").exists());
 }
 
@@ -142,11 +134,8 @@ fn what_holds_no_run_is_refused() {
     let found = ["empty holds no replicates", "or finished runs alone"];
     refuse(&sandbox, "plate empty", &found);
     fs::write(sandbox.path("empty/run.json"), "{").unwrap();
-    refuse(
-        &sandbox,
-        "plate empty",
-        &["empty/run.json", "no run of this program"],
-    );
+    let found = ["empty/run.json", "no run of this program"];
+    refuse(&sandbox, "plate empty", &found);
     refuse(&sandbox, "plate nowhere", &["nowhere"]);
 }
 

@@ -72,19 +72,14 @@ fn a_tuning_beats_its_start_and_records_the_way() {
         .iter()
         .filter(|it| it.outcome == TrialOutcome::Dropped);
     let dropped: Vec<_> = dropped.collect();
-    assert!(
-        !dropped.is_empty(),
-        "seven scenes allow to drop what is worse on six"
-    );
+    // Seven scenes allow to drop what is worse on six.
+    assert!(!dropped.is_empty());
     assert_eq!(dropped.len(), tuning.dropped);
     for own in dropped {
         assert!(own.scenes.len() == 6 && own.loss > tuning.chosen.loss);
     }
     let families = tuning.folds.iter().map(|fold| fold.family.as_str());
-    assert_eq!(
-        families.collect::<Vec<_>>(),
-        ["camera", "thin", "translation"]
-    );
+    assert!(families.eq(["camera", "thin", "translation"]));
     let file: Value = sandbox.read_json("out/tune.json");
     let first = &file["openings"][0];
     assert_eq!(first["opening"], 1, "keys of files stay");
