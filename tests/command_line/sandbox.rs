@@ -70,39 +70,6 @@ impl Sandbox {
         self.copy_scene("slow", |text| text.replace("-1.6", "-0.8"));
     }
 
-    /// Makes a sandbox with a finished run of the identity in `out`. The program measures it once for all tests.
-    pub fn measured() -> Self {
-        static FILES: OnceLock<Files> = OnceLock::new();
-        Self::of(FILES.get_or_init(|| {
-            let sandbox = Self::new();
-            assert_done(&sandbox.run(&IDENTITY));
-            sandbox.read_files()
-        }))
-    }
-
-    /// Reads all files, for sandboxes that begin with them.
-    pub fn read_files(&self) -> Files {
-        let root = self.folder.path();
-        let read = |path: PathBuf| {
-            (
-                path.strip_prefix(root).unwrap().into(),
-                fs::read(&path).unwrap(),
-            )
-        };
-        files_below(root).into_iter().map(read).collect()
-    }
-
-    /// Makes a sandbox with these files.
-    pub fn of(files: &Files) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        for (name, bytes) in files {
-            let path = folder.path().join(name);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, bytes).unwrap();
-        }
-        Self { folder }
-    }
-
     pub fn path(&self, below: &str) -> PathBuf {
         self.folder.path().join(below)
     }
@@ -184,6 +151,11 @@ impl Sandbox {
     /// Writes the filter `name`, with one file of kernels, to a folder of that name.
     pub fn write_filter(&self, name: &str, manifest: &str, kernels: &str) {
         filter_folder::write_filter(&self.path(name), name, manifest, kernels);
+    }
+
+    /// Writes a filter with one pass; see [`filter_folder::write_kernel`].
+    pub fn write_kernel(&self, name: &str, more: &str, textures: &[&str], body: &str) {
+        filter_folder::write_kernel(&self.path(name), more, textures, body);
     }
 
     pub fn shuttertruth(&self, words: &[&str]) -> Output {
