@@ -1,60 +1,24 @@
 //! The packed jump flood, which must equal the jump flood.
 
-use filters::{Blur, Filter, Gpu, Settings};
+use filters::{Filter, Settings};
 use frame::{FAR_DEPTH, Image, Raster};
-use tests::open_gpu;
+use tests::{ready_blur, shared_gpu};
 
 use crate::fields::{Field, noise, rectangles};
-
-/// Names of parameters and their values.
-type Changes = &'static [(&'static str, &'static str)];
+use crate::reference::change;
 
 /// Changes to every preset: each choice in each of its branches, and each number away from its default.
-const CHANGES: [Changes; 9] = [
-    &[],
-    &[("jitter", "none"), ("tap", "weighted"), ("samples", "1")],
-    &[("metric", "pixel"), ("reach_cap", "double")],
-    &[
-        ("metric", "uv"),
-        ("reach_cap", "none"),
-        ("passes", "5"),
-        ("tap", "replaced"),
-        ("behind_extent", "0.05"),
-        ("near_plane", "1.0"),
-    ],
-    &[
-        ("kernel", "with_centre"),
-        ("fetch", "bilinear"),
-        ("jitter", "start_offset"),
-        ("tap", "replaced"),
-        ("intensity", "1.7"),
-        ("probes", "5"),
-    ],
-    &[
-        ("kernel", "neighbours"),
-        ("fetch", "nearest"),
-        ("perpendicular_tolerance", "1.5"),
-        ("match_threshold", "0.05"),
-    ],
-    &[
-        ("step_multiplier", "3"),
-        ("parallel_sensitivity", "0.1"),
-        ("perpendicular_sensitivity", "3.0"),
-        ("foreground_extent", "4.0"),
-        ("mismatch_exponent", "1.3"),
-    ],
-    &[
-        ("map", "float16"),
-        ("kernel", "with_centre"),
-        ("way_back", "first_match"),
-    ],
-    &[
-        ("map", "float32"),
-        ("way_back", "third_match"),
-        ("depth_match", "0.02"),
-        ("near_plane", "0.2"),
-        ("reach_cap", "double"),
-    ],
+#[rustfmt::skip]
+const CHANGES: [&str; 9] = [
+    "",
+    "jitter=none tap=weighted samples=1",
+    "metric=pixel reach_cap=double",
+    "metric=uv reach_cap=none passes=5 tap=replaced behind_extent=0.05 near_plane=1.0",
+    "kernel=with_centre fetch=bilinear jitter=start_offset tap=replaced intensity=1.7 probes=5",
+    "kernel=neighbours fetch=nearest perpendicular_tolerance=1.5 match_threshold=0.05",
+    "step_multiplier=3 parallel_sensitivity=0.1 perpendicular_sensitivity=3.0 foreground_extent=4.0 mismatch_exponent=1.3",
+    "map=float16 kernel=with_centre way_back=first_match",
+    "map=float32 way_back=third_match depth_match=0.02 near_plane=0.2 reach_cap=double",
 ];
 
 /// Makes frames with their exposures: chaos, objects, a turning field, and a few movers far apart.
@@ -107,9 +71,9 @@ struct Painted {
     reached: Option<(usize, usize)>,
 }
 
-fn paint(gpu: &Gpu, filter: &Filter, settings: &Settings, field: &Field, exposure: f64) -> Painted {
+fn paint(filter: &Filter, settings: &Settings, field: &Field, exposure: f64) -> Painted {
     let (width, height) = (field.color.width, field.color.height);
-    let mut blur = Blur::new(gpu, filter, settings, width, height).unwrap();
+    let mut blur = ready_blur(filter, settings, (width, height));
     let output = field.blur(&mut blur, exposure, 5);
     let seeds = blur.read_texture("seeds").unwrap().pixels;
     let packed = filter.name == "jump_flood_packed";
@@ -156,66 +120,79 @@ fn both_have_the_same_parameters_and_presets() {
     assert_eq!(plain.mirror_symmetric, packed.mirror_symmetric);
 }
 
-#[test]
-fn seeds_and_pixels_equal_the_jump_flood_s() {
-    let (gpu, [plain, packed]) = (open_gpu(), floods());
+/// Runs both floods with every change to every preset, on the frames that `takes` chooses for the number of the change.
+fn compare_floods(takes: impl Fn(usize, usize) -> bool) {
+    let [plain, packed] = floods();
     let (mut carried, mut all) = (0, 0);
-    for preset in &plain.presets {
-        for changes in CHANGES {
-            let [plain_settings, packed_settings] = [&plain, &packed].map(|filter| {
-                let mut settings = filter.settings(Some(&preset.name)).unwrap();
-                for (parameter, value) in changes {
-                    settings.set(filter, parameter, value).unwrap();
-                }
-                settings
+    let presets = plain.presets.iter().map(|preset| &preset.name);
+    let changed = presets.flat_map(|preset| CHANGES.map(|changes| (preset, changes)));
+    let frames = frames();
+    for (number, (preset, changes)) in changed.enumerate() {
+        let taken = (frames.iter().enumerate()).filter(|(frame, _)| takes(number, *frame));
+        for (_, (name, field, exposure)) in taken {
+            let [expected, found] = [&plain, &packed].map(|filter| {
+                let settings = change(filter, preset, changes);
+                paint(filter, &settings, field, *exposure)
             });
-            for (name, field, exposure) in frames() {
-                let said = format!("{} {changes:?} on {name}", preset.name);
-                let expected = paint(&gpu, &plain, &plain_settings, &field, exposure);
-                let found = paint(&gpu, &packed, &packed_settings, &field, exposure);
-                let pairs = || expected.seeds.iter().zip(&found.seeds);
-                let other_seeds = pairs().filter(|(a, b)| a != b).count();
-                let pixels = expected.output.pixels.iter().zip(&found.output.pixels);
-                // Positions at 200 pixels are rounded to 1.5e-5 of a pixel. Between a surface and the background the
-                // mixed depth changes by tens of metres per pixel. That moves a tap whose position depends on it by up
-                // to 30 pixels per metre: 1e-3 of a colour in [0, 2). Another source changes taps by a tenth and more.
-                let differs = |(a, b): (&[f32; 3], &[f32; 3])| {
-                    (0..3).any(|channel| (a[channel] - b[channel]).abs() > 1e-3)
-                };
-                let other_pixels = pixels.map(differs).filter(|differs| *differs).count();
-                // The arithmetic is the same, and software adapters round it alike. Others may fuse it differently: a
-                // decision within 4e-6 of its threshold then goes either way. With 9 x 3 decisions in each of up to 8
-                // passes that is one pixel in a thousand, and a wrong pixel shows in the taps of its neighbours.
-                let count = field.color.pixels.len();
-                let allowed = match gpu.adapter.kind.as_str() {
-                    "software" => 0,
-                    _ => 1 + count / 200,
-                };
-                assert!(
-                    other_seeds <= allowed && other_pixels <= allowed,
-                    "{said}: {other_seeds} seeds and {other_pixels} pixels differ of {count}"
-                );
-                let width = field.color.width as usize;
-                let own = |index: usize| [(index % width) as u32, (index / width) as u32];
-                let moved = found.seeds.iter().enumerate();
-                carried += moved.filter(|(index, seed)| **seed != own(*index)).count();
-                all += count;
-            }
+            assert_equal(&format!("{preset} {changes} on {name}"), &expected, &found);
+            let width = field.color.width as usize;
+            let own = |index: usize| [(index % width) as u32, (index / width) as u32];
+            let moved = found.seeds.iter().enumerate();
+            carried += moved.filter(|(index, seed)| **seed != own(*index)).count();
+            all += found.seeds.len();
         }
     }
     // A flood that carries nothing proves nothing.
     assert!(8 * carried > all, "only {carried} of {all} found a source");
 }
 
+fn assert_equal(said: &str, expected: &Painted, found: &Painted) {
+    let seeds = expected.seeds.iter().zip(&found.seeds);
+    let other_seeds = seeds.filter(|(a, b)| a != b).count();
+    let pixels = expected.output.pixels.iter().zip(&found.output.pixels);
+    // Positions at 200 pixels are rounded to 1.5e-5 of a pixel. Between a surface and the background the mixed depth changes by
+    // tens of metres per pixel. That moves a tap whose position depends on it by up to 30 pixels per metre: 1e-3 of a colour in
+    // [0, 2). Another source changes taps by a tenth and more.
+    let differs = |(a, b): &(&[f32; 3], &[f32; 3])| {
+        (0..3).any(|channel| (a[channel] - b[channel]).abs() > 1e-3)
+    };
+    let other_pixels = pixels.filter(differs).count();
+    // The arithmetic is the same, and software adapters round it alike. Others may fuse it differently: a decision within 4e-6 of
+    // its threshold then goes either way. With 9 x 3 decisions in each of up to 8 passes that is one pixel in a thousand, and a
+    // wrong pixel shows in the taps of its neighbours.
+    let count = found.seeds.len();
+    let allowed = match shared_gpu().adapter.kind.as_str() {
+        "software" => 0,
+        _ => 1 + count / 200,
+    };
+    assert!(
+        other_seeds <= allowed && other_pixels <= allowed,
+        "{said}: {other_seeds} seeds and {other_pixels} pixels differ of {count}"
+    );
+}
+
+#[test]
+fn seeds_and_pixels_equal_the_jump_flood_s() {
+    // Every change meets four of the five frames, each with another preset.
+    compare_floods(|number, frame| {
+        number % CHANGES.len() % 5 == (frame + number / CHANGES.len()) % 5
+    });
+}
+
+#[test]
+#[ignore = "prove: every change to every preset on every frame"]
+fn seeds_and_pixels_equal_the_jump_flood_s_on_every_frame() {
+    compare_floods(|_, _| true);
+}
+
 #[test]
 fn tiles_that_no_trail_reaches_are_skipped() {
-    let (gpu, [_, packed]) = (open_gpu(), floods());
+    let [_, packed] = floods();
     for preset in &packed.presets {
         let settings = packed.settings(Some(&preset.name)).unwrap();
         let field = sparse(200, 120);
-        let (reached, tiles) = paint(&gpu, &packed, &settings, &field, 1.0)
-            .reached
-            .unwrap();
+        let painted = paint(&packed, &settings, &field, 1.0);
+        let (reached, tiles) = painted.reached.unwrap();
         assert_eq!(tiles, 13 * 8);
         // Each of three movers lies in at least one tile. Their trails of up to 33 pixels are widened by a third on
         // either side for the tolerance. They stay within half of the image even if they are taken for boxes around

@@ -1,10 +1,9 @@
 //! The scene `sliding_panel` with a larger panel that faces its motion, at any speed.
 
-use std::sync::LazyLock;
-
 use frame::{Alignment, Frame, Plane, Raster};
 use glam::{DQuat, DVec2, DVec3};
 use tests::kernels::Steady;
+use tests::ramp::Ramp;
 use tests::{half_plane, unwatched};
 use tracer::{Key, Motion, RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 
@@ -23,14 +22,6 @@ pub const HALF_BAND: f64 = 16.0;
 const TENT: f64 = 2.0;
 pub const EXPOSURE: f64 = 1.0;
 
-/// Two truths of one shot, which two tests need.
-pub static TRUTHS: LazyLock<(Shot, [(Alignment, Plane); 2])> = LazyLock::new(|| {
-    let shot = Shot::new(24.0, 30.0);
-    let alignments = [Alignment::Trailing, Alignment::Centred];
-    let truths = alignments.map(|alignment| (alignment, shot.true_matte(alignment)));
-    (shot, truths)
-});
-
 /// A moving panel at the middle of the picture.
 pub struct Shot {
     /// Speed, in pixels per frame.
@@ -38,6 +29,11 @@ pub struct Shot {
     /// Angle of the motion in degrees: 0 to the right, 90 upwards.
     pub degrees: f64,
     pub frame: Frame,
+    /// White behind the panel's middle and black ahead of it, as if painted on the panel and on everything beyond.
+    pub painted: Plane,
+    /// The edge that is painted, and the light along the motion of the panel at the instant.
+    pub painted_ramp: Ramp,
+    pub matte_profile: Vec<(f64, f64)>,
     scene: Scene,
 }
 
@@ -47,10 +43,8 @@ impl Shot {
         let mut scene = load_scene(&folder, None).unwrap();
         let turned = DQuat::from_rotation_z(degrees.to_radians());
         let step = turned * DVec3::X * speed * METRES_PER_PIXEL;
-        let panel = scene
-            .objects
-            .iter_mut()
-            .find(|object| object.name == "panel");
+        let mut objects = scene.objects.iter_mut();
+        let panel = objects.find(|object| object.name == "panel");
         let panel = panel.expect("the scene has a panel");
         let key = |time: f64| Key {
             time,
@@ -63,12 +57,26 @@ impl Shot {
             keys: vec![key(-1.0), key(1.0)],
             ..Motion::default()
         };
-        Self {
+        let mut shot = Self {
             speed,
             degrees,
             frame: trace_frame(&scene, &render_settings(4), &unwatched).unwrap(),
+            painted: Raster::filled(WIDTH, HEIGHT, 0.0),
+            painted_ramp: Ramp {
+                length: 0.0,
+                middle: 0.0,
+            },
+            matte_profile: Vec::new(),
             scene,
-        }
+        };
+        let normal = shot.direction();
+        shot.painted = Raster::from_fn(WIDTH, HEIGHT, |x, y| {
+            let pixel = DVec2::new(f64::from(x), f64::from(y));
+            half_plane::area(pixel, normal, normal.dot(middle())) as f32
+        });
+        shot.painted_ramp = Ramp::of(&shot.profile(&shot.painted));
+        shot.matte_profile = shot.profile(shot.matte());
+        shot
     }
 
     /// Returns the direction of the motion, +y down.
@@ -91,24 +99,13 @@ impl Shot {
         }
     }
 
-    /// Makes a picture that is white behind the panel's middle and black ahead of it, as if painted on the panel and on
-    /// everything beyond.
-    pub fn painted(&self) -> Plane {
-        let normal = self.direction();
-        let offset = normal.dot(middle());
-        Raster::from_fn(WIDTH, HEIGHT, |x, y| {
-            let pixel = DVec2::new(f64::from(x), f64::from(y));
-            half_plane::area(pixel, normal, offset) as f32
-        })
-    }
-
     /// Returns the part of each pixel that the panel covers at the instant.
     pub fn matte(&self) -> &Plane {
         &self.frame.coverage[self.panel()]
     }
 
     /// Returns the part of each pixel that the panel covers while the shutter is open.
-    fn true_matte(&self, alignment: Alignment) -> Plane {
+    pub fn true_matte(&self, alignment: Alignment) -> Plane {
         let truth = trace_truth(&self.scene, &render_settings(32), alignment, &unwatched).unwrap();
         let [first, second] = truth.halves.map(|half| half.coverage[self.panel()].clone());
         first.zip(&second, |a, b| 0.5 * (a + b))

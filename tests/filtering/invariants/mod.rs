@@ -5,10 +5,10 @@ mod repeated;
 mod smear;
 mod symmetry;
 
-use filters::{Blur, Filter, Gpu, Input, Settings};
+use filters::{Filter, Input, Settings};
 use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
-use tests::open_gpu;
 use tests::random::Random;
+use tests::ready_blur;
 
 #[derive(Clone)]
 struct Field {
@@ -20,7 +20,6 @@ struct Field {
 }
 
 const WIDTH: u32 = 71;
-
 const HEIGHT: u32 = 43;
 
 impl Field {
@@ -58,20 +57,14 @@ impl Field {
         }
     }
 
-    fn blur(&self, gpu: &Gpu, filter: &Filter, settings: &Settings) -> Image {
-        let mut outputs = self.blur_colors(gpu, filter, settings, &[&self.color]);
+    fn blur(&self, filter: &Filter, settings: &Settings) -> Image {
+        let mut outputs = self.blur_colors(filter, settings, &[&self.color]);
         outputs.remove(0)
     }
 
-    fn blur_colors(
-        &self,
-        gpu: &Gpu,
-        filter: &Filter,
-        settings: &Settings,
-        color: &[&Image],
-    ) -> Vec<Image> {
-        let (width, height) = (self.color.width, self.color.height);
-        let mut blur = Blur::new(gpu, filter, settings, width, height).unwrap();
+    fn blur_colors(&self, filter: &Filter, settings: &Settings, color: &[&Image]) -> Vec<Image> {
+        let size = (self.color.width, self.color.height);
+        let mut blur = ready_blur(filter, settings, size);
         blur.run(&self.input(color)).unwrap()
     }
 

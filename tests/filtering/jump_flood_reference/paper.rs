@@ -4,6 +4,8 @@
 //! Where a decision depends on less than 32-bit floats resolve, every result is kept: a pixel holds all sources that a
 //! correct run may choose.
 
+use tests::vector::{Vec2, dot};
+
 use crate::fields::Field;
 
 /// Parameters, with the paper's meaning.
@@ -36,7 +38,6 @@ pub struct Paper {
     pub with_centre: bool,
     /// True if velocity and depth are read without filtering.
     pub nearest: bool,
-    pub frame_index: u32,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -47,24 +48,10 @@ pub enum Jitter {
     None,
 }
 
-pub type Vec2 = [f64; 2];
-
 /// 64 rounding steps of a 32-bit float: no quantity below goes through more.
 pub const ROUNDING: f64 = 64.0 * 6e-8;
 /// Error of 32-bit floats in positions of up to 1000 pixels after a product and a sum, in pixels, with room.
 pub const POSITION: f64 = 2e-4;
-
-pub fn dot(a: Vec2, b: Vec2) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-pub fn cross(a: Vec2, b: Vec2) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-pub fn minus(a: Vec2, b: Vec2) -> Vec2 {
-    [a[0] - b[0], a[1] - b[1]]
-}
 
 #[derive(Clone, Copy, PartialEq)]
 pub enum Answer {

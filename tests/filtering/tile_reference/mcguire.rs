@@ -1,8 +1,10 @@
 //! Reconstruction of McGuire et al. 2012 in the paper's notation: Z is negative into the screen.
 
-use super::noise::{NOISE, noise};
-use super::tiles::{Vec2, length, scaled};
-use super::{Expected, FRAME_INDEX, Run};
+use tests::vector::{Vec2, length, scaled};
+
+use super::tiles::vector;
+use super::{Expected, NOISE};
+use crate::reference::{Run, noise};
 
 /// The paper's epsilon, in pixels.
 const EPSILON: f64 = 1e-4;
@@ -17,23 +19,23 @@ pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
 }
 
 fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
-    let largest = super::vector(&run.neighborhoods, run.tiles().of(pixel));
+    let largest = vector(run.texture("neighborhoods"), super::tiles(run).of(pixel));
     let limit = EPSILON + 0.5;
     if (length(largest) - limit).abs() < 1e-5 {
         return None;
     }
     if length(largest) <= limit {
-        return Some(run.color(pixel));
+        return Some(super::color(run, pixel));
     }
     let samples = run.integer("samples");
     let (jitter, uncertainty) = match run.choice("jitter").as_str() {
         "none" => (0.0, 0.0),
-        _ => (noise(pixel, FRAME_INDEX, 0.0)? - 0.5, NOISE),
+        _ => (noise(pixel, 0.0, NOISE)? - 0.5, NOISE),
     };
-    let radius = |pixel: [i64; 2]| length(run.motion(pixel)).max(0.5);
-    let z = |pixel: [i64; 2]| -run.depth(pixel);
+    let radius = |pixel: [i64; 2]| length(super::motion(run, pixel)).max(0.5);
+    let z = |pixel: [i64; 2]| -super::depth(run, pixel);
     let mut weight = 1.0 / radius(pixel);
-    let mut sum = run.color(pixel).map(|component| component * weight);
+    let mut sum = super::color(run, pixel).map(|component| component * weight);
     for i in 0..samples {
         if 2 * i == samples - 1 {
             continue;
@@ -50,7 +52,7 @@ fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
             + b * cone(distance, radius(pixel))
             + 2.0 * cylinder(distance, radius(tap)) * cylinder(distance, radius(pixel));
         weight += a;
-        let color = run.color(tap);
+        let color = super::color(run, tap);
         sum = [0, 1, 2].map(|channel| sum[channel] + a * color[channel]);
     }
     Some(sum.map(|component| component / weight))

@@ -2,7 +2,8 @@
 //!
 //! Where everything moves alike at one depth, every tap is both in front and behind: two cones and two cylinders.
 
-use super::{Steady, Tap, bilinear, length, nearest, own, scaled};
+use super::{Steady, Tap, bilinear, nearest, own};
+use crate::vector::{length, scaled};
 
 /// Places the taps of McGuire et al. 2012, and of two implementations.
 pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {

@@ -1,5 +1,7 @@
 //! Flat shapes, their motions and their smears.
 
+use crate::vector::{direction, dot};
+
 /// A flat shape around its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
@@ -148,15 +150,6 @@ fn rotate([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     [cos * x - sin * y, sin * x + cos * y]
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
 fn unit(vector: [f64; 2]) -> [f64; 2] {
-    let length = dot(vector, vector).sqrt();
-    if length == 0.0 {
-        [1.0, 0.0]
-    } else {
-        vector.map(|component| component / length)
-    }
+    direction(vector, [1.0, 0.0])
 }
