@@ -1,11 +1,12 @@
 //! Changes of pictures, in noise floors of the truth.
 
-use filters::{Blur, FilterError, Gpu, Input, Kernels};
+use filters::{Blur, FilterError, Kernels};
 use frame::{Frame, Image, Region, Regions, regions};
 use suite::{Error, FilterChoice, Monitor, Rendering};
+use tests::picture::frame_input;
 use tracer::{Scene, SceneId};
 
-use crate::bench::{Bench, SEED, mutant_place};
+use crate::bench::{Bench, SEED};
 use crate::journal::{Change, Journal};
 use crate::subject::{MutantFilter, Subject};
 
@@ -30,16 +31,14 @@ pub fn measure_changes(
     due: &dyn Fn() -> bool,
 ) -> Result<(), Error> {
     let is_new = |journal: &Journal, mutant: &MutantFilter, scene: &SceneId| {
-        journal
-            .changes
-            .get(&mutant_place(subject, mutant, scene))
-            .is_none()
+        let place = subject.place(&mutant.name, scene);
+        journal.changes.get(&place).is_none()
     };
-    let missing: Vec<&MutantFilter> = (subject.mutants.iter())
-        .filter(|mutant| {
-            (bench.scenes.iter()).any(|choice| is_new(journal, mutant, &choice.scene.id))
-        })
-        .collect();
+    let mut missing = subject.mutants.iter().collect::<Vec<_>>();
+    missing.retain(|mutant| {
+        let mut scenes = bench.scenes.iter();
+        scenes.any(|choice| is_new(journal, mutant, &choice.scene.id))
+    });
     if missing.is_empty() {
         return Ok(());
     }
@@ -50,12 +49,8 @@ pub fn measure_changes(
         if !due() {
             return Ok(());
         }
-        eprintln!(
-            "{} {number} of {}: {}",
-            subject.name,
-            missing.len(),
-            mutant.name
-        );
+        let (name, count) = (&subject.name, missing.len());
+        eprintln!("{name} {number} of {count}: {}", mutant.name);
         let new: Vec<&SoundPicture> = (scenes.iter())
             .filter(|scene| is_new(journal, mutant, &scene.scene))
             .collect();
@@ -63,9 +58,8 @@ pub fn measure_changes(
         for (scene, change) in new.iter().zip(compare(bench, &new, &mutant.choice)) {
             is_too_slow |= matches!(change, Err(FilterError::TooSlow { .. }));
             let record = change.map_err(|error| error.to_string());
-            journal
-                .changes
-                .add(mutant_place(subject, mutant, &scene.scene), record);
+            let place = subject.place(&mutant.name, &scene.scene);
+            journal.changes.add(place, record);
         }
         if is_too_slow {
             bench.reopen_gpu();
@@ -90,8 +84,7 @@ fn compare(
             return Err(error.clone());
         }
         let change = blur(&kernels, choice, &scene.frame).and_then(|picture| {
-            let change = scene.compare(&picture);
-            change.ok_or(FilterError::Input {
+            scene.compare(&picture).ok_or_else(|| FilterError::Input {
                 filter: choice.filter.name.clone(),
                 reason: "the picture is not finite".to_owned(),
             })
@@ -107,39 +100,28 @@ fn compare(
 fn blur(kernels: &Kernels, choice: &FilterChoice, frame: &Frame) -> Result<Image, FilterError> {
     let (width, height) = frame.size();
     let settings = choice.scaled_to(width).settings;
-    let outputs = Blur::with_kernels(kernels, &settings, width, height)?.run(&Input {
-        color: &[&frame.color],
-        velocity: &frame.velocity,
-        depth: &frame.depth,
-        reprojection: Some(frame.reprojection),
-        camera: frame.camera,
-        exposure: frame.exposure,
-        frames_per_second: frame.frames_per_second,
-        frame_index: 0,
-    })?;
+    let mut blur = Blur::with_kernels(kernels, &settings, width, height)?;
+    let outputs = blur.run(&frame_input(frame, &[&frame.color]))?;
     Ok(outputs.into_iter().next().expect("one image comes back"))
 }
 
 impl SoundPicture {
     fn new(bench: &Bench, scene: &Scene, sound: &FilterChoice) -> Result<Self, Error> {
-        let (out, gpu): (_, &Gpu) = (bench.truths(SEED), &bench.gpu);
-        let alignment = sound.filter.alignment;
         let rendering = Rendering {
             scene,
             settings: bench.render,
-            out: &out,
+            out: &bench.truths(SEED),
             monitor: Monitor::SILENT,
         };
         let frame = rendering.frame()?;
-        let truth = rendering.truth(alignment)?;
-        let floors = truth.noise_floors();
+        let truth = rendering.truth(sound.filter.alignment)?;
         Ok(Self {
             scene: scene.id.clone(),
             regions: regions(&truth),
-            floors: (floors.into_iter())
+            floors: (truth.noise_floors().into_iter())
                 .filter(|(region, floor)| COMPARED.contains(region) && *floor > 0.0)
                 .collect(),
-            picture: blur(&Kernels::compile(gpu, &sound.filter)?, sound, &frame)?,
+            picture: blur(&Kernels::compile(&bench.gpu, &sound.filter)?, sound, &frame)?,
             frame,
         })
     }

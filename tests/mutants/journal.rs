@@ -56,21 +56,14 @@ impl<T: Serialize + DeserializeOwned> Records<T> {
             false => String::new(),
         };
         // A run that was killed may leave half a line.
-        let lines = text
-            .lines()
-            .filter_map(|line| serde_json::from_str(line).ok());
-        let mut file = OpenOptions::new()
-            .append(true)
-            .create(true)
-            .open(path)
-            .map_err(name)?;
+        let found = (text.lines()).filter_map(|line| serde_json::from_str(line).ok());
+        let mut options = OpenOptions::new();
+        let mut file = options.append(true).create(true).open(path).map_err(name)?;
         if !text.is_empty() && !text.ends_with('\n') {
             file.write_all(b"\n").map_err(name)?;
         }
-        Ok(Self {
-            file,
-            found: lines.collect(),
-        })
+        let found = found.collect();
+        Ok(Self { file, found })
     }
 
     /// Finds a record.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use cli::SceneChoice;
 use judge::{Level, Outcome, SceneBounds, default_metrics, judge_scores};
 use metrics::Metric;
 use suite::{Case, Error, Run};
@@ -9,7 +10,7 @@ use tests::limits::calibrate_scene;
 use tracer::{Scene, SceneId};
 
 use crate::bench::{Bench, SEED};
-use crate::journal::{Journal, Place};
+use crate::journal::Journal;
 use crate::subject::Subject;
 
 /// Seeds that limits are calibrated with, if there are no shipped ones.
@@ -36,15 +37,14 @@ pub fn find_limits(
     journal: &mut Journal,
 ) -> Result<Limits, Error> {
     let mut limits = Limits::new();
-    for choice in &bench.scenes {
-        let scene = &choice.scene;
+    for SceneChoice { scene, .. } in &bench.scenes {
         let shipped = &bench.bounds[&scene.id];
-        let bounded = shipped.of(&subject.sound.filter.name, &subject.sound.preset);
+        let sound = &subject.sound;
+        let bounded = shipped.of(&sound.filter.name, &sound.preset);
         let are_shipped = bounded.values().any(|bound| bound.level == Level::Required);
         let deciding = match are_shipped {
             true => shipped.clone(),
             false => {
-                let sound = &subject.sound;
                 let metrics = default_metrics(shipped, &sound.filter.name, &sound.preset);
                 let runs = measure_sound_runs(bench, subject, scene, journal)?;
                 calibrate_scene(&runs, &metrics, &scene.id)
@@ -74,18 +74,13 @@ pub fn widen_limits(
     for choice in &bench.scenes {
         let scene = &choice.scene;
         let is_kept = |seed| {
-            journal
-                .sound
-                .get(&sound_place(subject, &scene.id, seed))
-                .is_some()
+            let place = subject.sound_place(&scene.id, seed);
+            journal.sound.get(&place).is_some()
         };
         if CALIBRATED_WITH.into_iter().all(is_kept) || due() {
             let runs = measure_sound_runs(bench, subject, scene, journal)?;
-            let widest = calibrate_scene(&runs, &metrics, &scene.id);
-            limits
-                .get_mut(&scene.id)
-                .expect("every scene has limits")
-                .widest = Some(widest);
+            let own = limits.get_mut(&scene.id).expect("every scene has limits");
+            own.widest = Some(calibrate_scene(&runs, &metrics, &scene.id));
         }
     }
     Ok(())
@@ -94,15 +89,15 @@ pub fn widen_limits(
 /// Refuses limits that the filter breaks without a change: all of its mutants would break them.
 pub fn refuse_broken(subject: &Subject, case: &Case, limits: &SceneLimits) -> Result<(), Error> {
     let broken = find_broken(case, &limits.deciding);
-    match broken.is_empty() {
-        true => Ok(()),
-        false => Err(Error::Usage(format!(
-            "{} breaks limits on {} without a change: {}; calibrate them anew",
-            subject.name,
-            case.scene,
-            broken.join(", ")
-        ))),
+    if broken.is_empty() {
+        return Ok(());
     }
+    Err(Error::Usage(format!(
+        "{} breaks limits on {} without a change: {}; calibrate them anew",
+        subject.name,
+        case.scene,
+        broken.join(", ")
+    )))
 }
 
 /// Measures the filter without a change, with every seed that limits are calibrated with.
@@ -117,15 +112,6 @@ fn measure_sound_runs(
         .collect()
 }
 
-/// Names a filter without a change on a scene.
-pub fn sound_place(subject: &Subject, scene: &SceneId, seed: u64) -> Place {
-    (
-        subject.key.clone(),
-        format!("seed {seed}"),
-        scene.to_string(),
-    )
-}
-
 /// Measures the filter without a change, unless the journal has it.
 fn measure_sound(
     bench: &Bench,
@@ -134,7 +120,7 @@ fn measure_sound(
     seed: u64,
     journal: &mut Journal,
 ) -> Result<Run, Error> {
-    let place = sound_place(subject, &scene.id, seed);
+    let place = subject.sound_place(&scene.id, seed);
     if let Some(run) = journal.sound.get(&place) {
         return Ok(run.clone());
     }

@@ -6,14 +6,11 @@ use std::fs;
 use suite::{Case, Error, FilterChoice, Run};
 use tracer::Scene;
 
-use crate::bench::{Bench, SEED, mutant_place};
+use crate::bench::{Bench, SEED};
 use crate::journal::Journal;
-use crate::limits::{Limits, SceneLimits, refuse_broken, sound_place};
+use crate::limits::{Limits, SceneLimits, refuse_broken};
 use crate::subject::{MutantFilter, Subject};
 use crate::verdict::{is_killed, is_same_picture};
-
-/// Rounds in which each mutant meets the scene that it changes most. Few survive them.
-const ROUNDS: usize = 3;
 
 /// Mutants that are measured before the journal gets their scores.
 const BATCH: usize = 16;
@@ -21,7 +18,7 @@ const BATCH: usize = 16;
 /// Label of the filter without a change.
 const SOUND: &str = "sound";
 
-/// Measures every mutant of a filter on one scene after the other, until a limit kills it.
+/// Measures every mutant of a filter on one scene after the other, the one that it changes most first, until a limit kills it.
 pub fn measure_mutants(
     bench: &mut Bench,
     subject: &Subject,
@@ -29,38 +26,36 @@ pub fn measure_mutants(
     journal: &mut Journal,
     due: &dyn Fn() -> bool,
 ) -> Result<(), Error> {
-    let scenes: Vec<Scene> = (bench.scenes.iter())
-        .map(|choice| choice.scene.clone())
-        .collect();
-    for _ in 0..ROUNDS {
+    let scenes = bench.scenes.iter().map(|choice| choice.scene.clone());
+    let scenes: Vec<Scene> = scenes.collect();
+    loop {
         let mut groups: BTreeMap<usize, Vec<&MutantFilter>> = BTreeMap::new();
         for mutant in find_alive(bench, subject, limits, journal) {
+            let change = |at: &usize| {
+                let place = subject.place(&mutant.name, &scenes[*at].id);
+                let found = journal.changes.get(&place).and_then(|it| it.as_ref().ok());
+                found.map_or(0.0, |change| change.floors)
+            };
             let missing =
                 (0..scenes.len()).filter(|at| is_missing(subject, mutant, &scenes[*at], journal));
-            let change = |at: &usize| {
-                let found = journal
-                    .changes
-                    .get(&mutant_place(subject, mutant, &scenes[*at].id));
-                found.map_or(0.0, |found| {
-                    found.as_ref().map_or(0.0, |change| change.floors)
-                })
-            };
-            let largest = missing.max_by(|a, b| change(a).total_cmp(&change(b)));
-            if let Some(at) = largest {
+            if let Some(at) = missing.max_by(|a, b| change(a).total_cmp(&change(b))) {
                 groups.entry(at).or_default().push(mutant);
             }
         }
+        if groups.is_empty() {
+            return Ok(());
+        }
         for (at, mutants) in groups {
-            measure_scene(bench, subject, &scenes[at], limits, &mutants, journal, due)?;
+            for batch in mutants.chunks(BATCH) {
+                if !due() {
+                    return Ok(());
+                }
+                let scene = &scenes[at];
+                eprintln!("{}: {} mutants of {}", scene.id, batch.len(), subject.name);
+                measure_batch(bench, subject, scene, &limits[&scene.id], batch, journal)?;
+            }
         }
     }
-    for scene in &scenes {
-        let alive = find_alive(bench, subject, limits, journal).into_iter();
-        let missing = alive.filter(|mutant| is_missing(subject, mutant, scene, journal));
-        let missing: Vec<&MutantFilter> = missing.collect();
-        measure_scene(bench, subject, scene, limits, &missing, journal, due)?;
-    }
-    Ok(())
 }
 
 /// Lists the mutants that no limit has killed so far.
@@ -77,27 +72,8 @@ fn find_alive<'s>(
 
 /// Tells whether the scores of a mutant on a scene are missing. Those of the same picture are known.
 fn is_missing(subject: &Subject, mutant: &MutantFilter, scene: &Scene, journal: &Journal) -> bool {
-    let place = mutant_place(subject, mutant, &scene.id);
+    let place = subject.place(&mutant.name, &scene.id);
     journal.cases.get(&place).is_none() && !is_same_picture(journal, &place)
-}
-
-/// Measures mutants on a scene.
-fn measure_scene(
-    bench: &mut Bench,
-    subject: &Subject,
-    scene: &Scene,
-    limits: &Limits,
-    mutants: &[&MutantFilter],
-    journal: &mut Journal,
-    due: &dyn Fn() -> bool,
-) -> Result<(), Error> {
-    for batch in mutants.chunks(BATCH) {
-        if due() {
-            eprintln!("{}: {} mutants of {}", scene.id, batch.len(), subject.name);
-            measure_batch(bench, subject, scene, &limits[&scene.id], batch, journal)?;
-        }
-    }
-    Ok(())
 }
 
 /// Measures some mutants on a scene, one by one if they fail together. The filter without a change is measured with the first.
@@ -111,7 +87,7 @@ fn measure_batch(
 ) -> Result<(), Error> {
     // Cases and failures name filter and preset, which are the same in all mutants.
     let label = |at: usize| format!("mutant_{at}");
-    let sound = sound_place(subject, &scene.id, SEED);
+    let sound = subject.sound_place(&scene.id, SEED);
     let is_new = journal.sound.get(&sound).is_none();
     let mutants = batch.iter().map(|mutant| &mutant.choice);
     let filters = (mutants.enumerate())
@@ -126,7 +102,7 @@ fn measure_batch(
         Err(error @ Error::Filter(_)) => {
             bench.reopen_gpu();
             if let [mutant] = batch {
-                let place = mutant_place(subject, mutant, &scene.id);
+                let place = subject.place(&mutant.name, &scene.id);
                 journal.cases.add(place, Err(error.to_string()));
                 return Ok(());
             }
@@ -138,15 +114,18 @@ fn measure_batch(
     if is_new {
         let case = take_case(bench, subject, &run, SOUND).map_err(Error::Usage)?;
         refuse_broken(subject, &case, limits)?;
-        let alone = Run {
-            cases: vec![case],
-            ..run.clone()
-        };
-        journal.sound.add(sound, alone);
+        let cases = vec![case];
+        journal.sound.add(
+            sound,
+            Run {
+                cases,
+                ..run.clone()
+            },
+        );
     }
     for (at, mutant) in batch.iter().enumerate() {
         let case = take_case(bench, subject, &run, &label(at)).map(Box::new);
-        let place = mutant_place(subject, mutant, &scene.id);
+        let place = subject.place(&mutant.name, &scene.id);
         journal.cases.add(place, case);
     }
     Ok(())

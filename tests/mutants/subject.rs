@@ -7,6 +7,9 @@ use cli::{Programs, select_filters};
 use suite::{Error, FilterChoice};
 use tests::filter_folder::{copy_changed_filter, shipped_filter};
 use tests::mutants::{Mutant, choose_mutants};
+use tracer::SceneId;
+
+use crate::journal::Place;
 
 /// Seconds that a pass of a mutant may take. A shipped one takes less than one.
 const TIME_LIMIT: f64 = 20.0;
@@ -38,6 +41,16 @@ pub struct MutantFilter {
 }
 
 impl Subject {
+    /// Names a mutant, or the filter without a change, on a scene.
+    pub fn place(&self, name: &str, scene: &SceneId) -> Place {
+        (self.key.clone(), name.to_owned(), scene.to_string())
+    }
+
+    /// Names the filter without a change on a scene.
+    pub fn sound_place(&self, scene: &SceneId, seed: u64) -> Place {
+        self.place(&format!("seed {seed}"), scene)
+    }
+
     /// Loads a filter preset, and chooses up to `count` of the mutants that naga accepts.
     pub fn new(name: &str, count: usize) -> Result<Self, Error> {
         let sound = select(name)?;

@@ -4,9 +4,9 @@ use metrics::Measured;
 use suite::Case;
 use tracer::SceneId;
 
-use crate::bench::{Bench, SEED, mutant_place};
+use crate::bench::{Bench, SEED};
 use crate::journal::{Change, Journal, Place};
-use crate::limits::{Limits, find_broken, sound_place};
+use crate::limits::{Limits, find_broken};
 use crate::subject::{MutantFilter, Subject};
 
 /// Change from which on a mutant is to be noticed, in noise floors.
@@ -30,59 +30,45 @@ pub struct Verdict<'s> {
     pub noticed_by: Vec<(String, SceneId)>,
 }
 
-/// Size of a mutant's change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Size {
-    /// Every picture is the same, to the last bit.
-    None,
-    /// Less than one noise floor.
-    Unseen,
-    /// One to three noise floors.
-    Small,
-    /// More than three noise floors.
-    Noticeable,
-}
-
-impl Size {
-    /// Every size.
-    pub const ALL: [Self; 4] = [Self::None, Self::Unseen, Self::Small, Self::Noticeable];
-}
-
-/// Reason why no limit kills a mutant.
+/// Reason why no limit kills a mutant, by the size of its change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// Its change is noticeable: a limit is missing or too loose, or a scene is missing.
+    /// More than three noise floors: a limit is missing or too loose, or a scene is missing.
     Hole,
-    /// Its change is noticeable, but no larger squared error comes of it where the change is largest.
+    /// More than three noise floors, but no larger squared error comes of it where the change is largest.
     NoWorse,
-    /// Its change is small.
+    /// One to three noise floors.
     Small,
-    /// Its change is less than the noise.
+    /// Less than one noise floor.
     Unseen,
-    /// It makes the same pictures.
+    /// The same pictures, to the last bit.
     Equivalent,
 }
 
+/// Columns of the table: sizes of changes.
+pub const SIZES: [&str; 4] = ["same", "below 1", "1 to 3", "above 3"];
+
 impl Reason {
     /// Every reason.
-    pub const ALL: [Self; 5] = [
-        Self::Hole,
-        Self::NoWorse,
-        Self::Small,
-        Self::Unseen,
-        Self::Equivalent,
-    ];
+    #[rustfmt::skip]
+    pub const ALL: [Self; 5] =
+        [Self::Hole, Self::NoWorse, Self::Small, Self::Unseen, Self::Equivalent];
 
-    /// Returns the title of a list of survivors.
-    pub fn title(self) -> &'static str {
+    /// Returns the column of the table, and the title of a list of survivors.
+    pub fn names(self) -> [&'static str; 2] {
+        let [same, unseen, small, noticeable] = SIZES;
         match self {
-            Self::Hole => "holes: more than three noise floors, and no limit breaks",
-            Self::NoWorse => {
-                "no worse: more than three noise floors, but the squared error does not grow"
-            }
-            Self::Small => "below the noise: one to three noise floors",
-            Self::Unseen => "below the noise: less than one noise floor",
-            Self::Equivalent => "equivalent: the same pictures to the last bit",
+            Self::Hole => [
+                noticeable,
+                "holes: more than three noise floors, and no limit breaks",
+            ],
+            Self::NoWorse => [
+                noticeable,
+                "no worse: more than three noise floors, but the squared error does not grow",
+            ],
+            Self::Small => [small, "below the noise: one to three noise floors"],
+            Self::Unseen => [unseen, "below the noise: less than one noise floor"],
+            Self::Equivalent => [same, "equivalent: the same pictures to the last bit"],
         }
     }
 }
@@ -90,25 +76,13 @@ impl Reason {
 impl Verdict<'_> {
     /// Returns the reason why a survivor survives; none if its change is not known.
     pub fn reason(&self) -> Option<Reason> {
-        Some(match self.size()? {
-            Size::None => Reason::Equivalent,
-            Size::Unseen => Reason::Unseen,
-            Size::Small => Reason::Small,
-            Size::Noticeable => match self.error {
-                Some(error) if error <= 1.0 => Reason::NoWorse,
-                _ => Reason::Hole,
-            },
-        })
-    }
-
-    /// Returns the size of the largest change; none if that is not known.
-    pub fn size(&self) -> Option<Size> {
         let (change, _) = self.change.as_ref()?;
         Some(match change.floors {
-            _ if change.share == 0.0 => Size::None,
-            floors if floors > NOTICEABLE => Size::Noticeable,
-            floors if floors >= 1.0 => Size::Small,
-            _ => Size::Unseen,
+            _ if change.share == 0.0 => Reason::Equivalent,
+            floors if floors < 1.0 => Reason::Unseen,
+            floors if floors <= NOTICEABLE => Reason::Small,
+            _ if self.error.is_some_and(|error| error <= 1.0) => Reason::NoWorse,
+            _ => Reason::Hole,
         })
     }
 }
@@ -162,7 +136,7 @@ fn find_verdict<'s>(
     let mut is_tried = true;
     for choice in &bench.scenes {
         let scene = &choice.scene.id;
-        let place = mutant_place(subject, mutant, scene);
+        let place = subject.place(&mutant.name, scene);
         match journal.changes.get(&place) {
             None => is_tried = false,
             Some(Err(reason)) => verdict.failure = Some(reason.clone()),
@@ -208,8 +182,8 @@ fn find_error(
     mutant: &MutantFilter,
     scene: &SceneId,
 ) -> Option<f64> {
-    let sound = journal.sound.get(&sound_place(subject, scene, SEED))?;
-    let case = journal.cases.get(&mutant_place(subject, mutant, scene))?;
+    let sound = journal.sound.get(&subject.sound_place(scene, SEED))?;
+    let case = journal.cases.get(&subject.place(&mutant.name, scene))?;
     let error = |case: &Case| match case.scores.get("mse_moving".parse().ok()?) {
         Measured::Score(score) => Some(score.value),
         Measured::NotApplicable { .. } => None,
