@@ -68,7 +68,7 @@ fn depth_and_the_previous_camera_give_the_camera_s_velocity() {
         // Both take the same eight taps.
         let filters = [("camera_gather", "default"), ("velocity_gather", "coarse")];
         let [rebuilt, given] = filters.map(|(filter, preset)| {
-            let mut blur = make_blur(filter, Some(preset), &[], frame.size());
+            let mut blur = make_blur(filter, Some(preset), "", frame.size());
             let mut outputs = blur.run(&frame_input(&frame, &[&frame.color])).unwrap();
             outputs.remove(0)
         });
@@ -85,7 +85,7 @@ fn depth_and_the_previous_camera_give_the_camera_s_velocity() {
 #[test]
 fn a_frame_without_the_camera_s_motion_is_refused() {
     let frame = render_frame(0);
-    let mut blur = make_blur("camera_gather", None, &[], frame.size());
+    let mut blur = make_blur("camera_gather", None, "", frame.size());
     let colors = [&frame.color];
     let input = Input {
         reprojection: None,

@@ -18,7 +18,6 @@ impl FilterFiles {
         Self::read(&root().join("tests/fixtures").join(folder))
     }
 
-    /// Reads the files of a folder.
     pub fn read(folder: &Path) -> Self {
         let paths = fs::read_dir(folder).unwrap().map(|it| it.unwrap().path());
         let files = paths.filter(|path| path.is_file()).map(|path| {
@@ -28,13 +27,11 @@ impl FilterFiles {
         Self(files.collect())
     }
 
-    /// Adds a file, or replaces it.
     pub fn with(mut self, name: &str, content: impl AsRef<[u8]>) -> Self {
         self.0.insert(name.to_owned(), content.as_ref().to_owned());
         self
     }
 
-    /// Returns the text of a file.
     pub fn text(&self, name: &str) -> String {
         String::from_utf8(self.0[name].clone()).unwrap()
     }

@@ -2,10 +2,10 @@
 
 use filters::{Filter, Settings};
 use frame::{FAR_DEPTH, Image, Raster};
+use tests::picture::change_preset;
 use tests::{ready_blur, shared_gpu};
 
 use crate::fields::{Field, noise, rectangles};
-use crate::reference::change;
 
 /// Changes to every preset: each choice in each of its branches, and each number away from its default.
 #[rustfmt::skip]
@@ -21,14 +21,15 @@ const CHANGES: [&str; 9] = [
     "map=float32 way_back=third_match depth_match=0.02 near_plane=0.2 reach_cap=double",
 ];
 
-/// Makes frames with their exposures: chaos, objects, a turning field, and a few movers far apart.
-fn frames() -> Vec<(&'static str, Field, f64)> {
+/// Makes frames: chaos, objects, a turning field, and a few movers far apart.
+fn frames() -> Vec<(&'static str, Field)> {
+    let exposed = |exposure: f64, field: Field| Field { exposure, ..field };
     vec![
-        ("noise 61x37", noise(61, 37, 11), 0.8),
-        ("rectangles 97x53", rectangles(97, 53, 12), 1.0),
-        ("rectangles 50x131", rectangles(50, 131, 13), 0.5),
-        ("turning 96x80", turning(96, 80), 1.0),
-        ("sparse 200x120", sparse(200, 120), 1.0),
+        ("noise 61x37", exposed(0.8, noise(61, 37, 11))),
+        ("rectangles 97x53", rectangles(97, 53, 12)),
+        ("rectangles 50x131", exposed(0.5, rectangles(50, 131, 13))),
+        ("turning 96x80", turning(96, 80)),
+        ("sparse 200x120", sparse(200, 120)),
     ]
 }
 
@@ -53,11 +54,10 @@ fn sparse(width: u32, height: u32) -> Field {
         (130, 60, [-12.0, 31.0], 3.0),
         (2, 100, [6.5, -8.0], 4.0),
     ] {
-        for y in top..top + 9 {
-            for x in left..left + 11 {
-                field.velocity.pixels[(y * width + x) as usize] = motion;
-                field.depth.pixels[(y * width + x) as usize] = depth;
-            }
+        for (x, y) in (top..top + 9).flat_map(|y| (left..left + 11).map(move |x| (x, y))) {
+            let pixel = (y * width + x) as usize;
+            field.velocity.pixels[pixel] = motion;
+            field.depth.pixels[pixel] = depth;
         }
     }
     field
@@ -67,42 +67,40 @@ struct Painted {
     output: Image,
     /// Column and row of the source that the flood found for each pixel.
     seeds: Vec<[u32; 2]>,
-    /// Number of tiles that a trail may reach.
-    reached: Option<(usize, usize)>,
+    /// Tiles, each 1 if a trail may reach it; empty for the plain flood.
+    tiles: Vec<u32>,
 }
 
-fn paint(filter: &Filter, settings: &Settings, field: &Field, exposure: f64) -> Painted {
+fn paint(filter: &Filter, settings: &Settings, field: &Field) -> Painted {
     let (width, height) = (field.color.width, field.color.height);
     let mut blur = ready_blur(filter, settings, (width, height));
-    let output = field.blur(&mut blur, exposure, 5);
-    let seeds = blur.read_texture("seeds").unwrap().pixels;
-    let packed = filter.name == "jump_flood_packed";
+    let output = field.blur(&mut blur, 5);
+    let seeds = blur.read_texture("seeds").unwrap().pixels.into_iter();
+    if filter.name != "jump_flood_packed" {
+        return Painted {
+            output,
+            seeds: seeds.map(|[x, y, ..]| [x as u32, y as u32]).collect(),
+            tiles: Vec::new(),
+        };
+    }
     // A map of 16 bits gives the position that it stores instead.
     let exact = settings.values["map"].to_string() == "float32";
+    let seeds = seeds.map(|texel| {
+        let seed = texel[0].to_bits();
+        let [x, y] = [seed & 0x7fff, (seed & 0x7fff_ffff) >> 16];
+        let moves = seed >> 31 == 1;
+        let expected = *field.velocity.at(x, y) != [0.0; 2];
+        assert!(
+            !exact || moves == expected,
+            "the seed of ({x}, {y}) says {moves}"
+        );
+        [x, y]
+    });
+    let tiles = blur.read_texture("reached").unwrap().pixels.into_iter();
     Painted {
         output,
-        seeds: match packed {
-            true => (seeds.iter().map(|texel| texel[0].to_bits()))
-                .map(|seed| {
-                    let [x, y] = [seed & 0x7fff, (seed & 0x7fff_ffff) >> 16];
-                    let motion = field.velocity.pixels[(y * width + x) as usize];
-                    let moves = seed >> 31 == 1;
-                    assert!(
-                        !exact || moves == (motion != [0.0; 2]),
-                        "the seed of ({x}, {y}) says {moves}"
-                    );
-                    [x, y]
-                })
-                .collect(),
-            false => (seeds.iter().map(|texel| [texel[0], texel[1]]))
-                .map(|position| position.map(|coordinate| coordinate as u32))
-                .collect(),
-        },
-        reached: packed.then(|| {
-            let tiles = blur.read_texture("reached").unwrap().pixels;
-            let reached = tiles.iter().filter(|texel| texel[0].to_bits() == 1);
-            (reached.count(), tiles.len())
-        }),
+        seeds: seeds.collect(),
+        tiles: tiles.map(|texel| texel[0].to_bits()).collect(),
     }
 }
 
@@ -129,10 +127,10 @@ fn compare_floods(takes: impl Fn(usize, usize) -> bool) {
     let frames = frames();
     for (number, (preset, changes)) in changed.enumerate() {
         let taken = (frames.iter().enumerate()).filter(|(frame, _)| takes(number, *frame));
-        for (_, (name, field, exposure)) in taken {
+        for (_, (name, field)) in taken {
             let [expected, found] = [&plain, &packed].map(|filter| {
-                let settings = change(filter, preset, changes);
-                paint(filter, &settings, field, *exposure)
+                let settings = change_preset(filter, Some(preset), changes);
+                paint(filter, &settings, field)
             });
             assert_equal(&format!("{preset} {changes} on {name}"), &expected, &found);
             let width = field.color.width as usize;
@@ -191,8 +189,11 @@ fn tiles_that_no_trail_reaches_are_skipped() {
     for preset in &packed.presets {
         let settings = packed.settings(Some(&preset.name)).unwrap();
         let field = sparse(200, 120);
-        let painted = paint(&packed, &settings, &field, 1.0);
-        let (reached, tiles) = painted.reached.unwrap();
+        let painted = paint(&packed, &settings, &field).tiles;
+        let (reached, tiles) = (
+            painted.iter().filter(|tile| **tile == 1).count(),
+            painted.len(),
+        );
         assert_eq!(tiles, 13 * 8);
         // Each of three movers lies in at least one tile. Their trails of up to 33 pixels are widened by a third on
         // either side for the tolerance. They stay within half of the image even if they are taken for boxes around
@@ -202,7 +203,6 @@ fn tiles_that_no_trail_reaches_are_skipped() {
             "tuned" => tiles * 9 / 10,
             _ => tiles / 2,
         };
-        println!("{}: {reached} of {tiles} tiles", preset.name);
         assert!(
             (3..=most).contains(&reached),
             "{}: {reached} of {tiles} tiles",

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use filters::{Blur, Filter, Settings, Value};
 use frame::{Image, Raster};
+use tests::picture::change_preset;
 use tests::ready_blur;
 
 use crate::fields::{self, Field, rectangles};
@@ -18,20 +19,9 @@ pub struct Run {
     pub name: String,
     pub filter: &'static str,
     pub settings: Settings,
-    pub exposure: f64,
     pub field: Field,
     pub output: Image,
     textures: BTreeMap<&'static str, Raster<[f32; 4]>>,
-}
-
-/// Sets parameters to values: `samples=9 jitter=none`.
-pub fn change(filter: &Filter, preset: &str, changes: &str) -> Settings {
-    let mut settings = filter.settings(Some(preset)).unwrap();
-    for change in changes.split_whitespace() {
-        let (parameter, value) = change.split_once('=').unwrap();
-        settings.set(filter, parameter, value).unwrap();
-    }
-    settings
 }
 
 /// Runs every case on fields of odd sizes, wide and tall, none a multiple of a tile; two of random pixels, two of objects over a
@@ -40,16 +30,17 @@ pub fn run_cases(cases: &[Case], textures: &[&'static str]) -> Vec<Run> {
     let mut runs = Vec::new();
     for (name, preset, changes, exposure) in cases {
         let filter = Filter::builtin(name).unwrap();
-        for (kind, field) in [
+        for (kind, mut field) in [
             ("noise 61x37", fields::noise(61, 37, 1)),
             ("noise 31x71", fields::noise(31, 71, 2)),
             ("rectangles 97x53", rectangles(97, 53, 3)),
             ("rectangles 61x67", rectangles(61, 67, 4)),
         ] {
-            let settings = change(&filter, preset, changes);
+            let settings = change_preset(&filter, Some(preset), changes);
             let size = (field.color.width, field.color.height);
             let mut blur: Blur = ready_blur(&filter, &settings, size);
-            let output = field.blur(&mut blur, *exposure, FRAME_INDEX);
+            field.exposure = *exposure;
+            let output = field.blur(&mut blur, FRAME_INDEX);
             let read = |name: &&'static str| (*name, blur.read_texture(name).unwrap());
             runs.push(Run {
                 name: format!("{name} {preset} {changes} at {exposure} on {kind}"),
@@ -57,7 +48,6 @@ pub fn run_cases(cases: &[Case], textures: &[&'static str]) -> Vec<Run> {
                 textures: textures.iter().map(read).collect(),
                 output,
                 settings,
-                exposure: *exposure,
                 field,
             });
         }

@@ -16,22 +16,16 @@ use crate::subject::Subject;
 /// Seed of the truth that mutants are checked against: the one that `check` takes.
 pub const SEED: u64 = 1;
 
-/// Scenes, their settings, and the adapter.
 pub struct Bench {
     /// Scenes in the order in which mutants meet them.
     pub scenes: Vec<SceneChoice>,
-    /// Shipped bounds.
     pub bounds: RunBounds,
-    /// Settings of frames and truths.
     pub render: RenderSettings,
-    /// Adapter of the filters.
     pub gpu: Gpu,
-    /// Folder of these settings.
     pub out: PathBuf,
 }
 
 impl Bench {
-    /// Loads the scenes, and opens the adapter and the folder.
     pub fn open(options: &Options, subjects: &[Subject]) -> Result<Self, Error> {
         let scenes = select_scenes(scenes(), &options.scenes)?;
         let mut bounds = RunBounds::new();
@@ -69,7 +63,6 @@ impl Bench {
         })
     }
 
-    /// Returns the folder of the truths of a seed.
     pub fn truths(&self, seed: u64) -> PathBuf {
         self.out.join(format!("seed_{seed}"))
     }

@@ -10,7 +10,6 @@ use crate::bench::{Bench, SEED};
 use crate::journal::{Change, Journal};
 use crate::subject::{MutantFilter, Subject};
 
-/// Regions whose change counts.
 const COMPARED: [Region; 2] = [Region::Moving, Region::Full];
 
 /// A scene's frame, and the picture that the filter makes of it without a change.
@@ -23,7 +22,6 @@ struct SoundPicture {
     picture: Image,
 }
 
-/// Measures how much each mutant of a filter changes the picture of each scene.
 pub fn measure_changes(
     bench: &mut Bench,
     subject: &Subject,

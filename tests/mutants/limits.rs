@@ -16,12 +16,9 @@ use crate::subject::Subject;
 /// Seeds that limits are calibrated with, if there are no shipped ones.
 const CALIBRATED_WITH: [u64; 2] = [SEED, SEED + 1];
 
-/// Limits on one filter preset, by scene.
 pub type Limits = BTreeMap<SceneId, SceneLimits>;
 
-/// Limits on one filter preset on one scene.
 pub struct SceneLimits {
-    /// Limits that decide.
     pub deciding: SceneBounds,
     /// True if they are those of bounds.toml.
     pub are_shipped: bool,
@@ -60,7 +57,6 @@ pub fn find_limits(
     Ok(limits)
 }
 
-/// Calibrates limits on every metric that can have one.
 pub fn widen_limits(
     bench: &Bench,
     subject: &Subject,
@@ -100,7 +96,6 @@ pub fn refuse_broken(subject: &Subject, case: &Case, limits: &SceneLimits) -> Re
     )))
 }
 
-/// Measures the filter without a change, with every seed that limits are calibrated with.
 fn measure_sound_runs(
     bench: &Bench,
     subject: &Subject,

@@ -15,7 +15,6 @@ use crate::verdict::{is_killed, is_same_picture};
 /// Mutants that are measured before the journal gets their scores.
 const BATCH: usize = 16;
 
-/// Label of the filter without a change.
 const SOUND: &str = "sound";
 
 /// Measures every mutant of a filter on one scene after the other, the one that it changes most first, until a limit kills it.
@@ -58,7 +57,6 @@ pub fn measure_mutants(
     }
 }
 
-/// Lists the mutants that no limit has killed so far.
 fn find_alive<'s>(
     bench: &Bench,
     subject: &'s Subject,

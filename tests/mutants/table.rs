@@ -10,7 +10,6 @@ use crate::limits::Limits;
 use crate::subject::Subject;
 use crate::verdict::{NOTICEABLE, Reason, SIZES, Verdict};
 
-/// Formats the score of one filter, and its survivors.
 pub fn format_subject(
     bench: &Bench,
     subject: &Subject,
@@ -33,7 +32,6 @@ pub fn format_subject(
     )
 }
 
-/// Formats the counts and the score of all filters together.
 pub fn format_total(verdicts: &[Verdict]) -> String {
     format!(
         "all filters\n\n{}{}",
@@ -68,7 +66,6 @@ fn format_counts(verdicts: &[Verdict]) -> String {
     text + "\n"
 }
 
-/// Counts the killed mutants with a change of that size, and all.
 fn count(verdicts: &[&Verdict], size: &str) -> [usize; 2] {
     let own = || {
         let decided = (verdicts.iter()).filter(|it| it.is_decided && it.failure.is_none());

@@ -12,9 +12,7 @@ use crate::subject::{MutantFilter, Subject};
 /// Change from which on a mutant is to be noticed, in noise floors.
 pub const NOTICEABLE: f64 = 3.0;
 
-/// Everything that is known of a mutant.
 pub struct Verdict<'s> {
-    /// The mutant.
     pub mutant: &'s MutantFilter,
     /// Error of a mutant that makes no picture, on which a check fails by itself.
     pub failure: Option<String>,
@@ -49,7 +47,6 @@ pub enum Reason {
 pub const SIZES: [&str; 4] = ["same", "below 1", "1 to 3", "above 3"];
 
 impl Reason {
-    /// Every reason.
     #[rustfmt::skip]
     pub const ALL: [Self; 5] =
         [Self::Hole, Self::NoWorse, Self::Small, Self::Unseen, Self::Equivalent];
@@ -104,7 +101,6 @@ pub fn is_killed(
     verdict.killed.is_some() || verdict.failure.is_some()
 }
 
-/// Finds the verdict on every mutant of a filter.
 pub fn find_verdicts<'s>(
     bench: &Bench,
     subject: &'s Subject,

@@ -1,6 +1,6 @@
 //! Small frames of surfaces, each with its own motion, and their blurs.
 
-use filters::{Blur, Filter, Input};
+use filters::{Blur, Filter, Input, Settings};
 use frame::{Frame, Image, Plane, Raster, Vectors};
 
 use crate::ramp::Ramp;
@@ -129,52 +129,45 @@ impl Picture {
         }
     }
 
-    /// Runs a filter with parameters set as on the command line, and returns its output.
-    pub fn blur(&self, filter: &str, preset: &str, overrides: &[(&str, &str)]) -> Image {
+    /// Runs a filter with parameters set to other values, such as `samples=9`, and returns its output.
+    pub fn blur(&self, filter: &str, preset: &str, overrides: &str) -> Image {
         self.run(filter, Some(preset), overrides).1
     }
 
     /// Runs a filter with its first preset; returns one of its textures.
-    pub fn texture(
-        &self,
-        filter: &str,
-        overrides: &[(&str, &str)],
-        texture: &str,
-    ) -> Raster<[f32; 4]> {
+    pub fn texture(&self, filter: &str, overrides: &str, texture: &str) -> Raster<[f32; 4]> {
         let (blur, _) = self.run(filter, None, overrides);
         blur.read_texture(texture).unwrap()
     }
 
-    fn run(
-        &self,
-        filter: &str,
-        preset: Option<&str>,
-        overrides: &[(&str, &str)],
-    ) -> (Blur<'static>, Image) {
-        let mut blur = make_blur(
-            filter,
-            preset,
-            overrides,
-            (self.color.width, self.color.height),
-        );
+    fn run(&self, filter: &str, preset: Option<&str>, overrides: &str) -> (Blur<'static>, Image) {
+        let size = (self.color.width, self.color.height);
+        let mut blur = make_blur(filter, preset, overrides, size);
         let mut outputs = blur.run(&self.input(&[&self.color])).unwrap();
         (blur, outputs.remove(0))
     }
 }
 
-/// Makes a built-in filter ready with parameters set as on the command line.
+/// Makes a built-in filter ready with parameters set to values: `samples=9 jitter=none`.
 pub fn make_blur(
     filter: &str,
     preset: Option<&str>,
-    overrides: &[(&str, &str)],
+    overrides: &str,
     size: (u32, u32),
 ) -> Blur<'static> {
     let filter = Filter::builtin(filter).unwrap();
-    let mut settings = filter.settings(preset).unwrap();
-    for (parameter, value) in overrides {
-        settings.set(&filter, parameter, value).unwrap();
-    }
+    let settings = change_preset(&filter, preset, overrides);
     ready_blur(&filter, &settings, size)
+}
+
+/// Makes the settings of a preset, or of the first one, with other values: `samples=9 jitter=none`.
+pub fn change_preset(filter: &Filter, preset: Option<&str>, overrides: &str) -> Settings {
+    let mut settings = filter.settings(preset).unwrap();
+    for change in overrides.split_whitespace() {
+        let (parameter, value) = change.split_once('=').unwrap();
+        settings.set(filter, parameter, value).unwrap();
+    }
+    settings
 }
 
 /// Makes the input of a filter from a rendered frame, with these colours in place of its own.

@@ -50,8 +50,13 @@ pub fn blur_shots(shots: &[Shot]) -> Vec<Outcome<'_>> {
 
 impl Outcome<'_> {
     pub fn describe(&self) -> String {
-        let Shot { speed, degrees, .. } = self.shot;
+        let Shot {
+            speed,
+            degrees,
+            exposure,
+            ..
+        } = self.shot;
         let Self { filter, preset, .. } = self;
-        format!("{filter} {preset} at {speed} px and {degrees} degrees")
+        format!("{filter} {preset} at {speed} px, {degrees} degrees and {exposure} frames")
     }
 }

@@ -20,7 +20,6 @@ pub const HALF_BAND: f64 = 16.0;
 /// Half the width of the tent, in pixels. The rows of pixels in a tilted band lie up to 0.7 apart; a narrower tent
 /// would resolve them.
 const TENT: f64 = 2.0;
-pub const EXPOSURE: f64 = 1.0;
 
 /// A moving panel at the middle of the picture.
 pub struct Shot {
@@ -28,6 +27,8 @@ pub struct Shot {
     pub speed: f64,
     /// Angle of the motion in degrees: 0 to the right, 90 upwards.
     pub degrees: f64,
+    /// Exposure, in frames.
+    pub exposure: f64,
     pub frame: Frame,
     /// White behind the panel's middle and black ahead of it, as if painted on the panel and on everything beyond.
     pub painted: Plane,
@@ -38,7 +39,7 @@ pub struct Shot {
 }
 
 impl Shot {
-    pub fn new(speed: f64, degrees: f64) -> Self {
+    pub fn new(speed: f64, degrees: f64, exposure: f64) -> Self {
         let folder = tests::scenes().join("sliding_panel");
         let mut scene = load_scene(&folder, None).unwrap();
         let turned = DQuat::from_rotation_z(degrees.to_radians());
@@ -60,7 +61,8 @@ impl Shot {
         let mut shot = Self {
             speed,
             degrees,
-            frame: trace_frame(&scene, &render_settings(4), &unwatched).unwrap(),
+            exposure,
+            frame: trace_frame(&scene, &render_settings(4, exposure), &unwatched).unwrap(),
             painted: Raster::filled(WIDTH, HEIGHT, 0.0),
             painted_ramp: Ramp {
                 length: 0.0,
@@ -94,7 +96,7 @@ impl Shot {
     pub fn steady(&self) -> Steady {
         Steady {
             velocity: (self.speed * self.direction()).to_array(),
-            exposure: EXPOSURE,
+            exposure: self.exposure,
             size: [WIDTH, HEIGHT],
         }
     }
@@ -106,7 +108,8 @@ impl Shot {
 
     /// Returns the part of each pixel that the panel covers while the shutter is open.
     pub fn true_matte(&self, alignment: Alignment) -> Plane {
-        let truth = trace_truth(&self.scene, &render_settings(32), alignment, &unwatched).unwrap();
+        let settings = render_settings(32, self.exposure);
+        let truth = trace_truth(&self.scene, &settings, alignment, &unwatched).unwrap();
         let [first, second] = truth.halves.map(|half| half.coverage[self.panel()].clone());
         first.zip(&second, |a, b| 0.5 * (a + b))
     }
@@ -146,11 +149,11 @@ impl Shot {
     }
 }
 
-fn render_settings(samples_per_pixel: u32) -> RenderSettings {
+fn render_settings(samples_per_pixel: u32, exposure: f64) -> RenderSettings {
     RenderSettings {
         width: WIDTH,
         height: HEIGHT,
-        exposure: Some(EXPOSURE),
+        exposure: Some(exposure),
         samples_per_pixel,
         replicates: 2,
         ..RenderSettings::default()

@@ -125,7 +125,7 @@ pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
 /// is wrong.
 pub fn check_growth(outcome: &Outcome, light: Light) -> Option<String> {
     let (filter, preset) = (outcome.filter.as_str(), outcome.preset.as_str());
-    let speed = outcome.shot.speed;
+    let speed = outcome.shot.speed * outcome.shot.exposure;
     let is_right = match (filter, preset) {
         ("mcguire", "motion_blur_demo") => true,
         // 24 pixels are the longest that is not cut. The truth has an eighth in all four places: its smear takes as much from the

@@ -10,7 +10,7 @@ use super::super::camera_gather::render_frame;
 fn the_longest_trail_has_as_many_pixels_as_there_are_samples() {
     for (speed, samples, expected) in [(90.0, "32", 32.0), (90.0, "64", 64.0), (24.0, "32", 24.0)] {
         let picture = moving_edge(256, 16, [speed, 0.0]);
-        let found = ramp_length(&picture.blur("babylon", "default", &[("samples", samples)]));
+        let found = ramp_length(&picture.blur("babylon", "default", &format!("samples={samples}")));
         // The step from one pixel to the next, 8 bits of velocity, and the first tap, which the pixel itself replaces.
         assert_near(found, expected, 3.0);
     }
@@ -22,7 +22,7 @@ fn a_wide_picture_turns_diagonals_upright() {
         let dot = (x, y) == (80, 40);
         white(0.0).moving(20.0, -20.0).gray(dot.into())
     });
-    let output = picture.blur("babylon", "default", &[("fetch", "filtered")]);
+    let output = picture.blur("babylon", "default", "fetch=filtered");
     let lit = (0..160).flat_map(|x| (0..80).map(move |y| (x, y)));
     let lit = lit.filter(|(x, y)| output.at(*x, *y)[0] > 1e-3);
     let [mut across, mut up] = [0.0f64; 2];
@@ -40,11 +40,7 @@ fn eight_bits_of_velocity_change_the_length_by_their_step() {
     let picture = moving_edge(160, 16, [31.1, 0.0]);
     // The spread of the pixel itself and 30 taps from -14 to 15, or 29 from -13.5 to 14.5, which lie between two pixels each.
     for (storage, expected) in [("exact", 29.497), ("packed", 28.548)] {
-        let changes = [
-            ("storage", storage),
-            ("fetch", "filtered"),
-            ("samples", "64"),
-        ];
+        let changes = format!("storage={storage} fetch=filtered samples=64");
         let output = picture.blur("babylon", "default", &changes);
         assert_near(ramp_length(&output), expected, 0.01);
     }
@@ -54,7 +50,7 @@ fn eight_bits_of_velocity_change_the_length_by_their_step() {
 fn neither_mode_blurs_the_sky() {
     let sky = white(12.0).at(FAR_DEPTH);
     let picture = Picture::new(40, 20, |x, _| sky.gray((x % 2) as f32));
-    assert!(picture.blur("babylon", "default", &[]) == picture.color);
+    assert!(picture.blur("babylon", "default", "") == picture.color);
     let frame = render_frame(0);
     let output = by_camera(&frame);
     let sky = (0..frame.depth.pixels.len()).filter(|i| frame.depth.pixels[*i] == FAR_DEPTH);
@@ -66,8 +62,8 @@ fn neither_mode_blurs_the_sky() {
 
 fn by_camera(frame: &Frame) -> Image {
     // Between pixels, so that rounding decides nothing.
-    let changes = [("fetch", "filtered")];
-    let mut blur = make_blur("babylon_screen", None, &changes, frame.size());
+    let changes = "fetch=filtered";
+    let mut blur = make_blur("babylon_screen", None, changes, frame.size());
     blur.run(&frame_input(frame, &[&frame.color]))
         .unwrap()
         .remove(0)

@@ -5,7 +5,6 @@ use tests::picture::{
     BLACK_WALL, Picture, Surface, column, light, moving_edge, ramp_length, white,
 };
 
-/// Background that moves right.
 const BACKGROUND: Surface = BLACK_WALL.moving(24.0, 0.0);
 
 /// Makes a picture of stripes, one pixel wide, that moves right.
@@ -15,7 +14,7 @@ fn stripes(speed: f32) -> Picture {
 
 /// Fails unless every pixel is a mean of this many zeros and ones.
 fn assert_mean_of(picture: &Picture, taps: f32) {
-    for pixel in &picture.blur("jimenez", "hdrp", &[]).pixels {
+    for pixel in &picture.blur("jimenez", "hdrp", "").pixels {
         let ones = taps * pixel[0];
         assert_near(ones, ones.round(), 1e-5);
     }
@@ -25,7 +24,7 @@ fn assert_mean_of(picture: &Picture, taps: f32) {
 fn an_intensity_of_one_is_a_shutter_of_180_degrees() {
     let picture = moving_edge(160, 64, [24.0, 0.0]);
     for (intensity, expected) in [("1", 12.0), ("2", 24.0)] {
-        let output = picture.blur("jimenez", "hdrp", &[("strength", intensity)]);
+        let output = picture.blur("jimenez", "hdrp", &format!("strength={intensity}"));
         // A quarter of the motion to each side. Nearest fetches round by half a pixel.
         assert_near(ramp_length(&output), expected, 0.5);
     }
@@ -35,7 +34,7 @@ fn an_intensity_of_one_is_a_shutter_of_180_degrees() {
 fn the_noise_of_hdrp_shifts_all_taps_of_a_pixel_to_one_side() {
     // Brightness is the column, so a mean of taps is their mean position.
     let picture = Picture::new(200, 64, |x, _| white(24.0).gray(x as f32));
-    let output = picture.blur("jimenez", "hdrp", &[]);
+    let output = picture.blur("jimenez", "hdrp", "");
     let pixels = (50..150).flat_map(|x| (0..48).map(move |y| (x, y)));
     let shifts: Vec<f32> = pixels.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
     let mean = shifts.iter().map(|shift| shift.abs()).sum::<f32>() / shifts.len() as f32;
@@ -62,7 +61,7 @@ fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
     // Something white in front moves half as fast as the background.
     let picture = Picture::halves(160, 64, BACKGROUND, white(12.0));
     let [weighted, ignored] = ["weighted", "ignored"].map(|direction| {
-        let overrides = [("direction", direction), ("plain_tiles", "never")];
+        let overrides = format!("direction={direction} plain_tiles=never");
         picture.blur("jimenez", "hdrp", &overrides)
     });
     let pairs = weighted.pixels.iter().zip(&ignored.pixels);
@@ -79,7 +78,7 @@ fn directions_count_only_where_the_pixel_itself_moves() {
             (80.., _) => white(0.0).moving(0.0, 9.0),
             _ => BLACK_WALL.moving(wall, 0.0),
         });
-        let output = picture.blur("jimenez", "hdrp", &[("plain_tiles", "never")]);
+        let output = picture.blur("jimenez", "hdrp", "plain_tiles=never");
         (32..38).map(|y| output.at(76, y)[0]).fold(0.0, f32::max)
     };
     // 4 of the 12 pixels that trails reach.
@@ -95,7 +94,12 @@ fn a_pixel_that_moves_like_the_fastest_shows_only_its_taps() {
         80 => BACKGROUND.gray(1.0),
         _ => BACKGROUND,
     });
-    let seen = |rest: &str| column(&picture.blur("jimenez", "hdrp", &[("rest", rest)]), 80);
+    let seen = |rest: &str| {
+        column(
+            &picture.blur("jimenez", "hdrp", &format!("rest={rest}")),
+            80,
+        )
+    };
     // The white thing keeps half of itself beside the wall's black.
     assert_within(seen("own"), 0.5..);
     // One of about four taps may read the pixel itself.
@@ -112,7 +116,7 @@ fn still_in_front() -> Picture {
 fn hdrp_leaves_moving_background_sharp_beside_a_still_foreground() {
     let picture = still_in_front();
     let change = |mirror: &str| {
-        let output = picture.blur("jimenez", "hdrp_mirrored", &[("mirror", mirror)]);
+        let output = picture.blur("jimenez", "hdrp_mirrored", &format!("mirror={mirror}"));
         let changes = (0..64).map(|y| output.at(80, y)[0] - picture.color.at(80, y)[0]);
         changes.map(|change| f64::from(change.abs())).sum::<f64>() / 64.0
     };
@@ -129,11 +133,7 @@ fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
     // A background pixel beside something still in front; a step is 3 pixels.
     let picture = Picture::halves(160, 64, white(0.0), BACKGROUND);
     let seen = |spread: &str| {
-        let overrides = [
-            ("mirror", "off"),
-            ("spread", spread),
-            ("direction", "ignored"),
-        ];
+        let overrides = format!("mirror=off spread={spread} direction=ignored");
         column(&picture.blur("jimenez", "hdrp", &overrides), 80)
     };
     // One of eight taps lies less than a step to the left, and counts for the remaining part of the step.
@@ -145,11 +145,7 @@ fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
 fn late_steps_equal_normal_steps_after_the_first() {
     let picture = still_in_front();
     let output = |placement: &str, spread: &str| {
-        let overrides = [
-            ("placement", placement),
-            ("spread", spread),
-            ("noise", "none"),
-        ];
+        let overrides = format!("placement={placement} spread={spread} noise=none");
         picture.blur("jimenez", "hdrp", &overrides)
     };
     // Taps at the ends of steps lie one step away or more.
@@ -163,11 +159,7 @@ fn weighted_directions_exclude_motion_across_the_trail() {
     let [left, right] = [BLACK_WALL.moving(25.0, 0.0), white(0.0).moving(0.0, 9.0)];
     let picture = Picture::halves(160, 64, left, right);
     let seen = |direction: &str| {
-        let overrides = [
-            ("direction", direction),
-            ("plain_tiles", "never"),
-            ("mirror", "off"),
-        ];
+        let overrides = format!("direction={direction} plain_tiles=never mirror=off");
         column(&picture.blur("jimenez", "hdrp", &overrides), 76)
     };
     // A third of the right half of the taps lies beyond 4 of 12 pixels.
@@ -179,11 +171,11 @@ fn weighted_directions_exclude_motion_across_the_trail() {
 fn a_still_foreground_stays_sharp() {
     let picture = still_in_front();
     for preset in ["slides_2014", "hdrp", "hdrp_mirrored"] {
-        let output = picture.blur("jimenez", preset, &[]);
+        let output = picture.blur("jimenez", preset, "");
         // Up to one step, 12 / pairs pixels, where a still pixel's spread ends.
         assert_eq!(light(&output, 0..76), 0.0, "{preset}");
     }
     // Late steps end at once.
-    let output = picture.blur("jimenez", "hdrp", &[]);
+    let output = picture.blur("jimenez", "hdrp", "");
     assert_within(light(&output, 0..80), ..0.01);
 }

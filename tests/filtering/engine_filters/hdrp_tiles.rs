@@ -9,7 +9,7 @@ fn plain_tiles_forget_depth_where_motions_are_alike() {
     // quarter.
     let picture = Picture::halves(160, 64, BLACK_WALL.moving(24.0, 0.0), white(8.0));
     let seen = |plain: &str| {
-        let overrides = [("plain_tiles", plain), ("mirror", "off")];
+        let overrides = format!("plain_tiles={plain} mirror=off");
         column(&picture.blur("jimenez", "hdrp", &overrides), 72)
     };
     // It moves 4 pixels to each side; a distance of 8 is more than a step of 3 beyond that.
@@ -23,7 +23,7 @@ fn neighbouring_tiles_cut_long_smears_and_tiles_along_the_motion_do_not() {
     // Half of 160 pixels to each side. Unity HDRP cuts twice that at 200, in parts of the picture's diagonal.
     let picture = Picture::halves(320, 64, BLACK_WALL, white(160.0));
     let reach = |preset: &str| {
-        let output = picture.blur("jimenez", preset, &[("tile_dither", "0")]);
+        let output = picture.blur("jimenez", preset, "tile_dither=0");
         (0..160).filter(|x| column(&output, *x) > 0.0).count()
     };
     // One tile of 20 pixels beside the mover's.
@@ -38,12 +38,8 @@ fn tiles_told_of(speed: f32) -> Vec<(u32, u32)> {
         (160, 72) => white(speed),
         _ => BLACK_WALL,
     });
-    let overrides = [
-        ("tile_size", "16"),
-        ("tile_reach", "9"),
-        ("dilation", "walk"),
-    ];
-    let tiles = picture.texture("jimenez", &overrides, "near_motion");
+    let overrides = "tile_size=16 tile_reach=9 dilation=walk";
+    let tiles = picture.texture("jimenez", overrides, "near_motion");
     let places = (0..10).flat_map(|y| (0..20).map(move |x| (x, y)));
     let is_told = |x: u32, y: u32| tiles.at(x, y)[..2] != [0.0, 0.0];
     places.filter(|(x, y)| is_told(*x, *y)).collect()
@@ -67,7 +63,7 @@ fn the_last_tiles_of_unity_know_only_the_pixel_in_their_corner() {
             (at, 40) if at == x => white(24.0),
             _ => BLACK_WALL,
         });
-        let overrides = [("tile_size", "16"), ("last_tiles", last_tiles)];
+        let overrides = format!("tile_size=16 last_tiles={last_tiles}");
         let tiles = picture.texture("jimenez", &overrides, "tile_motion");
         tiles.at(x / 16, 2)[0] > 0.0
     };

@@ -8,7 +8,7 @@ use tests::picture::{
 #[test]
 fn kajiya_smears_seven_sixteenths_of_the_motion() {
     let picture = moving_edge(160, 64, [48.0, 0.0]);
-    let length = |preset: &str| ramp_length(&picture.blur("jimenez", preset, &[]));
+    let length = |preset: &str| ramp_length(&picture.blur("jimenez", preset, ""));
     // Seven steps of a sixteenth; half a pixel for 32 shifts in 64 rows.
     assert_near(length("kajiya"), 21.0, 0.5);
     assert_near(length("kajiya_scaled"), 48.0, 1.0);
@@ -19,7 +19,7 @@ fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
     // To each side the slow thing should smear 12 * 3.5 / 16 = 2.6 pixels; steps are 9 / 16 pixels.
     let picture = slow_above_fast(12.0, 48.0);
     let smear = |spread: &str| {
-        let overrides = [("pairs", "16"), ("spread", spread)];
+        let overrides = format!("pairs=16 spread={spread}");
         picture.blur("jimenez", "kajiya", &overrides)
     };
     // Three of 33 taps, half of which count.
@@ -34,7 +34,7 @@ fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
 fn kajiya_shifts_taps_by_one_of_32_numbers() {
     // Brightness is the column, so a mean of taps is their mean position.
     let picture = Picture::new(256, 64, |x, _| white(-48.0).gray(x as f32));
-    let output = picture.blur("jimenez", "kajiya", &[]);
+    let output = picture.blur("jimenez", "kajiya", "");
     let mut shifts: Vec<i32> = (64..192)
         .flat_map(|x| (0..64).map(move |y| (x, y)))
         // Taps lie 3 pixels apart; the centre, one of seven, reads whole pixels.
@@ -62,7 +62,7 @@ fn kajiya_displaces_still_pixels_near_a_mover() {
         |_, y| if y < 40 { BLACK_WALL } else { white(48.0) },
     )
     .speckled(7, |_, y| y < 40);
-    let changed = |overrides: &[(&str, &str)]| {
+    let changed = |overrides: &str| {
         let output = picture.blur("jimenez", "kajiya", overrides);
         let wall = (0..38).flat_map(|y| (0..160).map(move |x| (x, y)));
         wall.filter(|(x, y)| (output.at(*x, *y)[0] - picture.color.at(*x, *y)[0]).abs() > 0.05)
@@ -70,16 +70,21 @@ fn kajiya_displaces_still_pixels_near_a_mover() {
     };
     // The wall has 6080 pixels. Those change that lie in tiles that know the mover and shift by at least half a pixel
     // of 1.5.
-    assert!(changed(&[]) > 2000, "{}", changed(&[]));
+    assert!(changed("") > 2000, "{}", changed(""));
     // Without noise the pixel does not shift, and a still pixel has no spread.
-    assert_eq!(changed(&[("noise", "none")]), 0);
+    assert_eq!(changed("noise=none"), 0);
 }
 
 #[test]
 fn taps_off_the_picture_are_dropped_or_read_its_border() {
     // A white column at the border, which moves with everything else.
     let picture = Picture::new(80, 64, |x, _| white(48.0).gray((x == 0).into()));
-    let seen = |border: &str| column(&picture.blur("jimenez", "kajiya", &[("border", border)]), 4);
+    let seen = |border: &str| {
+        column(
+            &picture.blur("jimenez", "kajiya", &format!("border={border}")),
+            4,
+        )
+    };
     // Two of seven taps, 3 pixels apart around 4.5, lie off the picture; one is in the first three columns.
     let one = 1.0 / 3.0;
     assert_near(seen("clamp"), (2.0 + one) / 7.0, 0.05);

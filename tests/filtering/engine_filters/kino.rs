@@ -1,26 +1,7 @@
 //! KinoMotion.
 
 use tests::near::{assert_near, assert_within};
-use tests::picture::{BLACK_WALL, Picture, column, moving_edge, ramp_length, white};
-
-#[test]
-fn falling_weights_make_the_smear_shorter_than_the_exposure() {
-    // 5 % of 480 rows are 24 pixels, so half of 24 is not cut.
-    let picture = moving_edge(120, 480, [24.0, 0.0]);
-    let found = ramp_length(&picture.blur("kino", "default", &[])) / 24.0;
-    // Four taps on each side, spread evenly over a quarter of the half trail each, with falling weights.
-    let taps: Vec<(f64, f64)> = (0..4)
-        .map(|pair| 1.0 - (f64::from(pair) + 0.5) / 4.0)
-        .map(|along| (along * along + 1.0 / 192.0, 2.0 * (1.2 - along) / 12.0))
-        .collect();
-    let pixel = 1.2 / (12.0 * 8.0);
-    let total: f64 = pixel + taps.iter().map(|(_, weight)| weight).sum::<f64>();
-    let square = (taps.iter().map(|(square, weight)| square * weight)).sum::<f64>() / total;
-    // An even ramp of half length 1 has the mean square 1/3. Weights fall to zero in the last pixel of the trail, which
-    // the formula leaves out: up to 1/24.
-    assert_near(found, (3.0 * square).sqrt(), 0.04);
-    assert_within(found, ..0.85);
-}
+use tests::picture::{BLACK_WALL, Picture, column, moving_edge, white};
 
 /// Makes a white bar of 40 pixels that moves right, in the right or left half of a still black picture.
 fn bar(right: bool) -> Picture {
@@ -35,14 +16,10 @@ fn bar(right: bool) -> Picture {
 
 #[test]
 fn the_order_of_taps_makes_a_mover_s_two_sides_differ() {
-    let overrides = [
-        ("jitter", "none"),
-        ("storage", "exact"),
-        ("radius_percent", "40"),
-    ];
+    let overrides = "jitter=none storage=exact radius_percent=40";
     // The still pixels beside the bar: 1 to 18 of the 20 that its smear covers.
     let light = |is_right: bool, pixel: fn(u32) -> u32| -> f64 {
-        let output = bar(is_right).blur("kino", "default", &overrides);
+        let output = bar(is_right).blur("kino", "default", overrides);
         (0..18).map(|i| column(&output, pixel(i))).sum()
     };
     // The right tap is the first of each pair. If the bar is seen first, the background counts as moving as far, and
@@ -57,7 +34,7 @@ fn packed_motion_has_steps_and_no_zero() {
     });
     // 5 % of 360 rows are 18 pixels.
     let step = 2.0 * 18.0 / 1023.0;
-    let packed = picture.texture("kino", &[], "motion");
+    let packed = picture.texture("kino", "", "motion");
     // Zero lies half-way between two of 1024 values.
     let still = packed.at(0, 7);
     assert_near(still[0], 0.5 * step, 1e-5);
@@ -69,7 +46,7 @@ fn packed_motion_has_steps_and_no_zero() {
         // Half of the motion, to the nearest step; 1e-5 for rounding.
         assert_near(found, f64::from(x) / 100.0, 0.5 * step + 1e-5);
     }
-    let exact = picture.texture("kino", &[("storage", "exact")], "motion");
+    let exact = picture.texture("kino", "storage=exact", "motion");
     assert_eq!(exact.at(0, 7)[0], 0.0);
     // A depth of 20 metres, of 1000, to the nearest of 1024 values.
     assert_eq!(packed.at(0, 7)[2], 20.0 / 1023.0);
@@ -83,8 +60,8 @@ fn a_tile_is_the_radius_rounded_up_to_eight() {
             (100, 50) => white(400.0),
             _ => BLACK_WALL,
         });
-        let overrides = [("storage", "exact"), ("tiles", "partial")];
-        let tiles = picture.texture("kino", &overrides, "tile_max");
+        let overrides = "storage=exact tiles=partial";
+        let tiles = picture.texture("kino", overrides, "tile_max");
         let radius = (rows * 5 / 100) as f32;
         let [column, row] = [100 / tile, 50 / tile];
         // Motion is cut at the radius.
@@ -92,7 +69,7 @@ fn a_tile_is_the_radius_rounded_up_to_eight() {
         let moving = tiles.pixels.iter().filter(|motion| motion[0] > 0.0).count();
         assert_eq!(moving, 1);
         // A tile's own motion counts 1.01 times, so neighbours' motion arrives shorter by that factor.
-        let near = picture.texture("kino", &overrides, "neighbor_max");
+        let near = picture.texture("kino", overrides, "neighbor_max");
         assert_near(near.at(column, row)[0], radius, 1e-4);
         assert_near(near.at(column - 1, row)[0], radius / 1.01, 1e-4);
     }
@@ -102,7 +79,7 @@ fn a_tile_is_the_radius_rounded_up_to_eight() {
 fn half_motion_under_two_pixels_stays_sharp() {
     for (speed, blurs) in [(3.9, false), (4.1, true)] {
         let picture = moving_edge(60, 360, [speed, 0.0]);
-        let output = picture.blur("kino", "default", &[("storage", "exact")]);
+        let output = picture.blur("kino", "default", "storage=exact");
         assert_eq!(output != picture.color, blurs, "{speed} pixels per frame");
     }
 }

@@ -6,7 +6,7 @@ use tests::picture::{BLACK_WALL, Picture, column, moving_edge, ramp_length, whit
 #[test]
 fn o3de_smears_ten_times_as_far_as_the_exposure() {
     let picture = moving_edge(400, 64, [24.0, 0.0]);
-    let found = ramp_length(&picture.blur("jimenez", "o3de", &[]));
+    let found = ramp_length(&picture.blur("jimenez", "o3de", ""));
     // 24 pairs, a quarter of a step to and fro, at whole pixels of the 120 to each side.
     let steps = (0..24).flat_map(|i| [f64::from(i) - 0.25, f64::from(i) + 0.25]);
     let square = steps
@@ -23,7 +23,7 @@ fn o3de_cuts_offsets_to_whole_pixels() {
     // Motion that it takes for 1.05 pixels to each side.
     let picture = moving_edge(60, 64, [0.21, 0.0]);
     let seen = |placement: &str| {
-        let overrides = [("placement", placement)];
+        let overrides = format!("placement={placement}");
         column(&picture.blur("jimenez", "o3de", &overrides), 29)
     };
     // At the edge, at most two of 24 pairs reach a whole pixel.
@@ -43,7 +43,7 @@ fn post_above_motion() -> Picture {
 
 #[test]
 fn o3de_keeps_the_sign_of_its_innermost_offset() {
-    let output = post_above_motion().blur("jimenez", "o3de", &[("pairs", "24")]);
+    let output = post_above_motion().blur("jimenez", "o3de", "pairs=24");
     // Beside the post, and in odd rows, taps lie at i - 1/4 steps of 5 pixels, cut: -1, 3, 8 .. and the same to the
     // left. The first tap on the post is at -1/4 steps, within a still thing's spread of one step: it counts whole. At
     // 3/4 steps it counts a quarter, and farther ones do not count.
@@ -56,7 +56,7 @@ fn o3de_keeps_the_sign_of_its_innermost_offset() {
 fn o3de_mixes_the_motion_of_tiles() {
     let picture = Picture::halves(400, 200, BLACK_WALL, white(24.0)).speckled(11, |x, _| x < 200);
     let changes = |lookup: &str, x: u32| {
-        let overrides = [("tile_dither", "0"), ("tile_lookup", lookup)];
+        let overrides = format!("tile_dither=0 tile_lookup={lookup}");
         let output = picture.blur("jimenez", "o3de_scaled", &overrides);
         (0..200).any(|y| output.at(x, y) != picture.color.at(x, y))
     };
@@ -69,13 +69,13 @@ fn o3de_mixes_the_motion_of_tiles() {
 fn o3de_mixes_still_things_near_a_mover_with_their_background() {
     let picture = post_above_motion();
     // The rows above the mover, within reach of its tiles.
-    let darkest = |overrides: &[(&str, &str)]| {
+    let darkest = |overrides: &str| {
         let output = picture.blur("jimenez", "o3de", overrides);
         let post = (22..38).flat_map(|y| (60..70).map(move |x| (x, y)));
         post.map(|(x, y)| output.at(x, y)[0]).fold(1.0, f32::min)
     };
-    assert_within(darkest(&[]), ..0.5);
+    assert_within(darkest(""), ..0.5);
     // With the pixel's own motion in place of the tile's, only taps within a step of a still pixel count: one pair of
     // 24.
-    assert_within(darkest(&[("spread", "steps")]), 0.9..);
+    assert_within(darkest("spread=steps"), 0.9..);
 }

@@ -1,7 +1,5 @@
 //! Values that engines set every frame: matrices of the camera, the picture's size, jitter and times.
 
-use std::fmt::Write;
-
 use filters::{Blur, Filter, Input};
 use frame::{Camera, CameraPose, Frame, Image};
 use tests::near::{assert_near, assert_within};
@@ -95,38 +93,15 @@ fn every_value_of_a_frame_has_the_number_that_its_name_says() {
         ..CameraPose::at_origin(43.0)
     };
     let before = CameraPose::at_origin(86.0);
-    let expected: [(&str, f32); 22] = [
-        ("width", 61.0),
-        ("height", 43.0),
-        ("resolution[1]", 43.0),
-        ("jitter[0]", 0.0),
-        ("frame_index", 3.0),
-        ("exposure", 0.7),
-        ("delta_time", 0.02),
-        ("frames_per_second", 50.0),
-        ("color_scale", 2.0),
-        ("near", 0.5),
-        ("iteration", 0.0),
-        ("iterations", 1.0),
-        ("inverse_view[12]", 5.0),
-        ("inverse_view[13]", 6.0),
-        ("inverse_view[2]", 1.0),
-        ("view[8]", 1.0),
-        ("projection[5]", 2.0),
-        ("projection[11]", -1.0),
-        ("previous_projection[5]", 4.0),
-        ("previous_inverse_view[12]", 0.0),
-        ("inverse_projection[5]", 0.5),
-        ("previous_inverse_view_projection[5]", 0.25),
-    ];
-    let mut members = String::new();
-    let mut values = String::new();
-    for (index, (name, _)) in expected.iter().enumerate() {
-        writeln!(members, "    value_{index}: f32,").unwrap();
-        write!(values, "value_{index} = \"{name}\", ").unwrap();
-    }
-    let sums: Vec<String> = (0..expected.len())
-        .map(|index| format!("select(0.0, values.value_{index}, id.x == {index}u)"))
+    let rows = include_str!("frame_values.txt").lines();
+    let expected: Vec<(&str, &str)> = rows.map(|row| row.split_once(' ').unwrap()).collect();
+    let names = || expected.iter().map(|(name, _)| name).enumerate();
+    let members: String =
+        (names().map(|(index, _)| format!("    value_{index}: f32,\n"))).collect();
+    let values: Vec<String> =
+        (names().map(|(index, name)| format!("value_{index} = \"{name}\""))).collect();
+    let sums: Vec<String> = (names())
+        .map(|(index, _)| format!("select(0.0, values.value_{index}, id.x == {index}u)"))
         .collect();
     let shader = format!(
         "struct Values {{\n{members}}}\n@group(0) @binding(0) var<uniform> values: Values;\n\
@@ -138,7 +113,7 @@ fn every_value_of_a_frame_has_the_number_that_its_name_says() {
     let declarations = format!(
         "[convention]\nframes_per_second = 50\ncolor_scale = 2\ndepth = \"reversed\"\nnear = 0.5\n\
          [[pass]]\nshader = \"show.wgsl\"\n[[pass.binding]]\nbinding = 0\nvalues = {{ {} }}\n",
-        values.trim_end_matches(", ")
+        values.join(", ")
     );
     let files = make("camera", &declarations).with("show.wgsl", &shader);
     let picture = busy_picture();
@@ -152,6 +127,7 @@ fn every_value_of_a_frame_has_the_number_that_its_name_says() {
     for (index, (name, expected)) in expected.into_iter().enumerate() {
         println!("{name}");
         // Colours are divided by their scale.
+        let expected: f64 = expected.parse().unwrap();
         assert_near(2.0 * output.at(index as u32, 3)[0], expected, 1e-5);
     }
 }

@@ -62,7 +62,6 @@ fn blur_busy(files: &FilterFiles) -> Image {
     blur(&filter, &filter.settings(None).unwrap(), &busy_picture())
 }
 
-/// Blurs the picture.
 fn blur(filter: &Filter, settings: &Settings, picture: &Picture) -> Image {
     let (width, height) = (picture.color.width, picture.color.height);
     let mut blur = Blur::new(shared_gpu(), filter, settings, width, height).unwrap();
@@ -89,7 +88,6 @@ fn assert_as_documented(filter: &Filter, tolerance: f32) {
     }
 }
 
-/// Returns the largest difference of a channel.
 fn largest_difference(a: &Image, b: &Image) -> f32 {
     let pixels = a.pixels.iter().zip(&b.pixels);
     let channels = pixels.flat_map(|(a, b)| [0, 1, 2].map(|i| (a[i] - b[i]).abs()));

@@ -59,7 +59,7 @@ fn sizes_beyond_the_adapter_are_refused_before_allocation() {
 
 #[test]
 fn frames_that_cannot_be_blurred_are_refused() {
-    let mut blur = make_blur("identity", None, &[], (4, 3));
+    let mut blur = make_blur("identity", None, "", (4, 3));
     let picture = Picture::uniform(4, 3, gray_moving_by(1.0));
     let own = [&picture.color];
     let input = picture.input(&own);

@@ -5,7 +5,8 @@ use frame::{Raster, Reprojection};
 use tests::presets::{every_preset, preset_name};
 use tests::random::Random;
 
-use super::Field;
+use super::{blur, random};
+use crate::fields::Field;
 
 fn mirror(field: &Field, horizontal: bool) -> Field {
     fn turn<T: Copy>(raster: &Raster<T>, horizontal: bool) -> Raster<T> {
@@ -25,27 +26,24 @@ fn mirror(field: &Field, horizontal: bool) -> Field {
 }
 
 /// Mirrors the reprojection: x = side - x' on both sides, along one axis.
-fn mirror_camera(field: &Field, axis: usize) -> Reprojection {
+fn mirror_camera(field: &Field, axis: usize) -> Option<Reprojection> {
     let side = f64::from([field.color.width, field.color.height][axis]);
-    let mut rows = field.reprojection.rows.map(|mut row| {
+    let mut rows = field.reprojection?.rows.map(|mut row| {
         row[2] += side * row[axis];
         row[axis] = -row[axis];
         row
     });
-    let common = rows[2];
-    for (value, common) in rows[axis].iter_mut().zip(common) {
-        *value = side * common - *value;
-    }
-    Reprojection { rows }
+    rows[axis] = [0, 1, 2, 3].map(|column| side * rows[2][column] - rows[axis][column]);
+    Some(Reprojection { rows })
 }
 
 /// Counts pixels that differ by more than 1e-3 of the brightest tap. That is many times the rounding of positions (1e-5
 /// pixels) times the contrast of neighbours, and far below the weight of one tap of twenty.
 fn asymmetric_pixels(field: &Field, filter: &Filter, settings: &Settings) -> usize {
-    let output = field.blur(filter, settings);
+    let output = blur(field, filter, settings);
     let count = [true, false].map(|horizontal| {
         let turned = mirror(field, horizontal);
-        let color = turned.blur(filter, settings);
+        let color = blur(&turned, filter, settings);
         let back = mirror(&Field { color, ..turned }, horizontal);
         let pairs = output.pixels.iter().zip(&back.color.pixels);
         pairs
@@ -57,7 +55,7 @@ fn asymmetric_pixels(field: &Field, filter: &Filter, settings: &Settings) -> usi
 
 /// Makes colours up to 1 and depths that are all different, so that only the geometry decides.
 fn distinct_depths(seed: u64) -> Field {
-    let mut field = Field::random(seed);
+    let mut field = random(seed);
     let mut random = Random::new(seed);
     field.color = field.color.map(|pixel| pixel.map(|value| value.min(1.0)));
     field.depth = field.depth.map(|_| random.real(0.2, 40.0));

@@ -114,17 +114,14 @@ fn the_kernel_keeps_the_candidate_of_the_published_comparison() {
         color: Raster::filled(width, height, [0.5; 3]),
         velocity: Raster::from_fn(width, height, |_, _| [whole(-9.0, 10.0), whole(-9.0, 10.0)]),
         depth: Raster::from_fn(width, height, |_, _| whole(1.0, 4.0)),
+        reprojection: None,
+        exposure: 1.0,
     };
-    let changes = [
-        ("passes", "1"),
-        ("step_multiplier", "3"),
-        ("metric", "pixel"),
-        ("fetch", "nearest"),
-        // No quotient of whole pixels below 10 equals it.
-        ("perpendicular_tolerance", "0.3017"),
-    ];
-    let mut blur = make_blur("jump_flood", Some("paper"), &changes, (width, height));
-    field.blur(&mut blur, 1.0, 0);
+    // No quotient of whole pixels below 10 equals the tolerance.
+    let changes =
+        "passes=1 step_multiplier=3 metric=pixel fetch=nearest perpendicular_tolerance=0.3017";
+    let mut blur = make_blur("jump_flood", Some("paper"), changes, (width, height));
+    field.blur(&mut blur, 0);
     let seeds = blur.read_texture("seeds").unwrap();
 
     let mut carried = 0;

@@ -12,12 +12,8 @@ fn weight_in_front(preset: &str, other: f32) -> f64 {
     let picture = Picture::halves(160, 24, BACKGROUND, white(other));
     // One step of 64 pixels carries nothing, so every pixel is its own source. Taps lie 3 pixels apart, on pixel
     // centres.
-    let overrides = [
-        ("jitter", "none"),
-        ("passes", "1"),
-        ("step_multiplier", "64"),
-    ];
-    let output = picture.blur("jump_flood", preset, &overrides);
+    let overrides = "jitter=none passes=1 step_multiplier=64";
+    let output = picture.blur("jump_flood", preset, overrides);
     // Only the seventh tap lies beyond. All others weigh 1, so it gets w / (7 + w).
     let share = f64::from(output.at(80 - 21, 12)[0]);
     7.0 * share / (1.0 - share)
@@ -65,7 +61,7 @@ fn a_still_surface_in_front_neither_blurs_nor_is_smeared() {
             90..110 => white(0.0).at(depth),
             _ => BACKGROUND,
         });
-        let output = picture.blur("jump_flood", "paper", &[("jitter", "none")]);
+        let output = picture.blur("jump_flood", "paper", "jitter=none");
         let post = (90..110).map(|x| column(&output, x));
         [column(&output, 80), post.fold(1.0, f64::min)]
     };

@@ -10,7 +10,7 @@ fn beside_a_mover(map: &str) -> f64 {
         80 => white(0.0).gray(0.0),
         _ => white(0.0),
     });
-    let overrides = [("jitter", "none"), ("map", map)];
+    let overrides = format!("jitter=none map={map}");
     column(&picture.blur("jump_flood", "july_2024", &overrides), 80)
 }
 

@@ -23,7 +23,7 @@ fn bar() -> Picture {
 /// Returns the part of a column that shows the mover; the rest shows the background ahead.
 fn share(x: u32) -> f64 {
     // Taps 3 pixels apart lie on pixel centres.
-    let output = bar().blur("jump_flood", "paper", &[("jitter", "none")]);
+    let output = bar().blur("jump_flood", "paper", "jitter=none");
     (column(&output, x) - AHEAD) / (1.0 - AHEAD)
 }
 
@@ -42,7 +42,7 @@ fn the_leading_edge_fades_and_does_not_stay_hard() {
 
 #[test]
 fn the_leading_part_takes_its_background_from_ahead() {
-    let output = bar().blur("jump_flood", "paper", &[("jitter", "none")]);
+    let output = bar().blur("jump_flood", "paper", "jitter=none");
     // Seven of eight taps lie beyond the edge; 32-bit floats.
     let expected = (1.0 + 7.0 * AHEAD) / 8.0;
     assert_near(column(&output, MOVER_END - 1), expected, 1e-5);

@@ -8,7 +8,7 @@ use tests::picture::{Picture, column, moving_edge, white};
 fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
     // A pixel's brightness is its column.
     let slope = Picture::new(200, 32, |x, _| white(speed).gray(x as f32));
-    let output = slope.blur("jump_flood", preset, &[("jitter", jitter)]);
+    let output = slope.blur("jump_flood", preset, &format!("jitter={jitter}"));
     let inner = (0..120).flat_map(|x| (0..32).map(move |y| (x, y)));
     let mut found: Vec<f32> = inner.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
     found.sort_by(f32::total_cmp);
@@ -28,7 +28,7 @@ fn noise_scales_whole_trails_evenly_by_a_half_to_one_and_a_half() {
 
 /// Returns the brightness this many pixels behind an edge from black to white. Everything moves right by 24 pixels.
 fn behind_an_edge(preset: &str, distance: u32) -> f64 {
-    let output = moving_edge(240, 64, [24.0, 0.0]).blur("jump_flood", preset, &[]);
+    let output = moving_edge(240, 64, [24.0, 0.0]).blur("jump_flood", preset, "");
     column(&output, 120 - distance)
 }
 
@@ -64,7 +64,7 @@ fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
         picture.color = Raster::from_fn(256, 144, |_, y| [if y < 72 { 0.0 } else { 1.0 }; 3]);
     }
     picture.exposure = exposure;
-    let output = picture.blur("jump_flood", preset, &[("jitter", "none")]);
+    let output = picture.blur("jump_flood", preset, "jitter=none");
     let lit = |distance: &u32| {
         let pixel = match vertical {
             true => output.at(20, 72 - distance),

@@ -53,7 +53,7 @@ fn read_paper(run: &Run) -> Paper {
     let (integer, real) = (|name| run.integer(name), |name| run.real(name));
     let is = |name: &str, choice: &str| run.choice(name) == choice;
     Paper {
-        m: run.exposure * real("intensity"),
+        m: run.field.exposure * real("intensity"),
         passes: integer("passes") as u32,
         step_multiplier: integer("step_multiplier"),
         perpendicular_tolerance: real("perpendicular_tolerance"),

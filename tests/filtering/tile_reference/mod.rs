@@ -71,7 +71,7 @@ fn half_velocities_equal_the_papers() {
     for run in RUNS.iter() {
         for pixel in run.pixels() {
             let full = run.field.velocity.at(pixel[0] as u32, pixel[1] as u32);
-            let half = full.map(|component| 0.5 * run.exposure * f64::from(component));
+            let half = full.map(|component| 0.5 * run.field.exposure * f64::from(component));
             let longest = run.integer("tile_size") as f64;
             let expected = tiles::half_velocity(half, longest);
             let found = motion(run, pixel);
