@@ -189,11 +189,9 @@ fn tiles_that_no_trail_reaches_are_skipped() {
     for preset in &packed.presets {
         let settings = packed.settings(Some(&preset.name)).unwrap();
         let field = sparse(200, 120);
-        let painted = paint(&packed, &settings, &field).tiles;
-        let (reached, tiles) = (
-            painted.iter().filter(|tile| **tile == 1).count(),
-            painted.len(),
-        );
+        let found = paint(&packed, &settings, &field).tiles;
+        let reached = found.iter().filter(|tile| **tile == 1).count();
+        let tiles = found.len();
         assert_eq!(tiles, 13 * 8);
         // Each of three movers lies in at least one tile. Their trails of up to 33 pixels are widened by a third on
         // either side for the tolerance. They stay within half of the image even if they are taken for boxes around

@@ -3,7 +3,7 @@
 use filters::{Blur, FilterError, Gpu};
 use frame::Image;
 use tests::filter_folder::{load_filter, one_kernel};
-use tests::picture::{Picture, gray_moving_by};
+use tests::picture::{Picture, white};
 use tests::text::assert_contains;
 use tests::{open_gpu, shared_gpu};
 
@@ -31,7 +31,7 @@ fn blur(gpu: &Gpu, body: &str, steps: i64, limit: f64) -> Result<Image, FilterEr
     let mut settings = filter.settings(None).unwrap();
     settings.set(&filter, "steps", &steps.to_string()).unwrap();
     let (width, height) = (40, 20);
-    let picture = Picture::uniform(width, height, gray_moving_by(3.0));
+    let picture = Picture::uniform(width, height, white(3.0));
     let mut blur = Blur::new(gpu, &filter, &settings, width, height)?;
     Ok(blur.run(&picture.input(&[&picture.color]))?.remove(0))
 }

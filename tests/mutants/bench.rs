@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use cli::{SceneChoice, select_scenes};
 use filters::Gpu;
@@ -18,7 +19,7 @@ pub const SEED: u64 = 1;
 
 pub struct Bench {
     /// Scenes in the order in which mutants meet them.
-    pub scenes: Vec<SceneChoice>,
+    pub scenes: Rc<Vec<Scene>>,
     pub bounds: RunBounds,
     pub render: RenderSettings,
     pub gpu: Gpu,
@@ -56,7 +57,7 @@ impl Bench {
             bounds: (bounds.into_iter())
                 .map(|(scene, bounds)| (scene, bounds.at(size)))
                 .collect(),
-            scenes,
+            scenes: Rc::new(scenes.into_iter().map(|choice| choice.scene).collect()),
             render,
             gpu: tests::open_gpu(),
             out,

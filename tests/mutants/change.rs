@@ -7,8 +7,9 @@ use tests::picture::frame_input;
 use tracer::{Scene, SceneId};
 
 use crate::bench::{Bench, SEED};
-use crate::journal::{Change, Journal};
-use crate::subject::{MutantFilter, Subject};
+use crate::journal::Change;
+use crate::study::Study;
+use crate::subject::MutantFilter;
 
 const COMPARED: [Region; 2] = [Region::Moving, Region::Full];
 
@@ -22,48 +23,49 @@ struct SoundPicture {
     picture: Image,
 }
 
-pub fn measure_changes(
-    bench: &mut Bench,
-    subject: &Subject,
-    journal: &mut Journal,
-    due: &dyn Fn() -> bool,
-) -> Result<(), Error> {
-    let is_new = |journal: &Journal, mutant: &MutantFilter, scene: &SceneId| {
-        let place = subject.place(&mutant.name, scene);
-        journal.changes.get(&place).is_none()
-    };
-    let mut missing = subject.mutants.iter().collect::<Vec<_>>();
-    missing.retain(|mutant| {
-        let mut scenes = bench.scenes.iter();
-        scenes.any(|choice| is_new(journal, mutant, &choice.scene.id))
-    });
-    if missing.is_empty() {
-        return Ok(());
+impl Study<'_, '_> {
+    fn lacks_change(&self, mutant: &MutantFilter, scene: &SceneId) -> bool {
+        let place = self.subject.place(&mutant.name, scene);
+        self.journal.changes.get(&place).is_none()
     }
-    let scenes = (bench.scenes.iter())
-        .map(|choice| SoundPicture::new(bench, &choice.scene, &subject.sound))
-        .collect::<Result<Vec<_>, _>>()?;
-    for (number, mutant) in missing.iter().enumerate() {
-        if !due() {
+
+    /// Measures how much each mutant changes the picture of each scene.
+    pub fn measure_changes(&mut self) -> Result<(), Error> {
+        let subject = self.subject;
+        let mut missing: Vec<&MutantFilter> = subject.mutants.iter().collect();
+        missing.retain(|mutant| {
+            let mut scenes = self.bench.scenes.iter();
+            scenes.any(|scene| self.lacks_change(mutant, &scene.id))
+        });
+        if missing.is_empty() {
             return Ok(());
         }
-        let (name, count) = (&subject.name, missing.len());
-        eprintln!("{name} {number} of {count}: {}", mutant.name);
-        let new: Vec<&SoundPicture> = (scenes.iter())
-            .filter(|scene| is_new(journal, mutant, &scene.scene))
-            .collect();
-        let mut is_too_slow = false;
-        for (scene, change) in new.iter().zip(compare(bench, &new, &mutant.choice)) {
-            is_too_slow |= matches!(change, Err(FilterError::TooSlow { .. }));
-            let record = change.map_err(|error| error.to_string());
-            let place = subject.place(&mutant.name, &scene.scene);
-            journal.changes.add(place, record);
+        let scenes = (self.bench.scenes.iter())
+            .map(|scene| SoundPicture::new(self.bench, scene, &subject.sound))
+            .collect::<Result<Vec<_>, _>>()?;
+        for (number, mutant) in missing.iter().enumerate() {
+            if !(self.due)() {
+                return Ok(());
+            }
+            let (name, count) = (&subject.name, missing.len());
+            eprintln!("{name} {number} of {count}: {}", mutant.name);
+            let new: Vec<&SoundPicture> = (scenes.iter())
+                .filter(|scene| self.lacks_change(mutant, &scene.scene))
+                .collect();
+            let changes = compare(self.bench, &new, &mutant.choice);
+            let is_too_slow =
+                |change: &Result<_, _>| matches!(change, Err(FilterError::TooSlow { .. }));
+            if changes.iter().any(is_too_slow) {
+                self.bench.reopen_gpu();
+            }
+            for (scene, change) in new.iter().zip(changes) {
+                let place = subject.place(&mutant.name, &scene.scene);
+                let record = change.map_err(|error| error.to_string());
+                self.journal.changes.add(place, record);
+            }
         }
-        if is_too_slow {
-            bench.reopen_gpu();
-        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// Compares the pictures of a mutant with those of the sound filter. Once one of them takes too long, no other is tried.

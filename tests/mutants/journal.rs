@@ -39,6 +39,11 @@ impl Journal {
             cases: Records::open(&folder.join("cases.jsonl"))?,
         })
     }
+
+    /// Tells whether a mutant makes the same picture of a scene as the filter without a change.
+    pub fn is_same_picture(&self, place: &Place) -> bool {
+        matches!(self.changes.get(place), Some(Ok(change)) if change.share == 0.0)
+    }
 }
 
 impl<T: Serialize + DeserializeOwned> Records<T> {

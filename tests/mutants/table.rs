@@ -5,18 +5,12 @@ use std::collections::BTreeMap;
 use judge::number;
 use tests::mutants::Operator;
 
-use crate::bench::Bench;
-use crate::limits::Limits;
+use crate::study::Study;
 use crate::subject::Subject;
 use crate::verdict::{NOTICEABLE, Reason, SIZES, Verdict};
 
-pub fn format_subject(
-    bench: &Bench,
-    subject: &Subject,
-    limits: &Limits,
-    verdicts: &[Verdict],
-) -> String {
-    let render = &bench.render;
+pub fn format_subject(study: &Study, verdicts: &[Verdict]) -> String {
+    let (subject, render, limits) = (study.subject, &study.bench.render, &study.limits);
     let shipped = limits.values().filter(|limits| limits.are_shipped).count();
     format!(
         "{} at {}x{}, {} samples per pixel: {} scenes, shipped limits on {shipped}, calibrated ones on {}\n\n{}{}{}\n",

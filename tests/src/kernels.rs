@@ -10,6 +10,7 @@ mod tiles;
 
 pub use babylon::babylon_trail;
 pub use gathers::{jump_flood_trail, three_trail};
+pub use tiles::{cone, cylinder, half_velocity};
 
 use crate::ramp::Ramp;
 use crate::vector::{direction, dot, scaled};

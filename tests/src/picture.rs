@@ -54,15 +54,6 @@ pub const fn white(speed: f32) -> Surface {
     }
 }
 
-/// Makes a grey surface that moves right by `speed` pixels per frame.
-pub const fn gray_moving_by(speed: f32) -> Surface {
-    Surface {
-        gray: 0.5,
-        velocity: [speed, 0.0],
-        depth: 3.0,
-    }
-}
-
 /// Input of a filter.
 pub struct Picture {
     /// Colours, scene-linear.

@@ -128,8 +128,9 @@ pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
 
 /// Makes a pose that never changes.
 pub fn placed(at: DVec3) -> Motion {
+    let translation = at;
     Motion::still(Key {
-        translation: at,
+        translation,
         ..Key::REST
     })
 }
@@ -166,22 +167,18 @@ pub fn disc(radius: f32, sides: u32) -> Mesh {
         let (sine, cosine) = (angle * f64::from(side)).sin_cos();
         Vec3::new((reach * cosine) as f32, (reach * sine) as f32, 0.0)
     });
-    mesh(
-        std::iter::once(Vec3::ZERO).chain(rim).collect(),
-        (0..sides)
-            .map(|side| [0, 1 + side, 1 + (side + 1) % sides])
-            .collect(),
-    )
+    let positions = [Vec3::ZERO].into_iter().chain(rim).collect();
+    let triangles = (0..sides).map(|side| [0, 1 + side, 1 + (side + 1) % sides]);
+    mesh(positions, triangles.collect())
 }
 
 /// Makes a closed box around the origin, wound outwards.
 pub fn cuboid(size: Vec3) -> Mesh {
-    let positions = (0..8)
-        .map(|corner: u32| {
-            let side = |bit: u32| (corner >> bit & 1) as f32 - 0.5;
-            size * Vec3::new(side(0), side(1), side(2))
-        })
-        .collect();
+    let corner = |corner: u32| {
+        let side = |bit: u32| (corner >> bit & 1) as f32 - 0.5;
+        size * Vec3::new(side(0), side(1), side(2))
+    };
+    let positions = (0..8).map(corner).collect();
     #[rustfmt::skip]
     let quads = [
         [0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5],

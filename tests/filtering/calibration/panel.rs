@@ -35,6 +35,8 @@ pub struct Shot {
     /// The edge that is painted, and the light along the motion of the panel at the instant.
     pub painted_ramp: Ramp,
     pub matte_profile: Vec<(f64, f64)>,
+    /// Index of the panel among the objects.
+    panel: usize,
     scene: Scene,
 }
 
@@ -58,33 +60,29 @@ impl Shot {
             keys: vec![key(-1.0), key(1.0)],
             ..Motion::default()
         };
-        let mut shot = Self {
+        let direction = direction(degrees);
+        let painted = Raster::from_fn(WIDTH, HEIGHT, |x, y| {
+            let pixel = DVec2::new(f64::from(x), f64::from(y));
+            half_plane::area(pixel, direction, direction.dot(middle())) as f32
+        });
+        let frame = trace_frame(&scene, &render_settings(4, exposure), &unwatched).unwrap();
+        let panel = frame.objects.iter().position(|name| name == "panel");
+        let panel = panel.expect("the frame lists the panel");
+        Self {
             speed,
             degrees,
             exposure,
-            frame: trace_frame(&scene, &render_settings(4, exposure), &unwatched).unwrap(),
-            painted: Raster::filled(WIDTH, HEIGHT, 0.0),
-            painted_ramp: Ramp {
-                length: 0.0,
-                middle: 0.0,
-            },
-            matte_profile: Vec::new(),
+            painted_ramp: Ramp::of(&measure_profile(&painted, direction, speed)),
+            painted,
+            matte_profile: measure_profile(&frame.coverage[panel], direction, speed),
+            frame,
+            panel,
             scene,
-        };
-        let normal = shot.direction();
-        shot.painted = Raster::from_fn(WIDTH, HEIGHT, |x, y| {
-            let pixel = DVec2::new(f64::from(x), f64::from(y));
-            half_plane::area(pixel, normal, normal.dot(middle())) as f32
-        });
-        shot.painted_ramp = Ramp::of(&shot.profile(&shot.painted));
-        shot.matte_profile = shot.profile(shot.matte());
-        shot
+        }
     }
 
-    /// Returns the direction of the motion, +y down.
     pub fn direction(&self) -> DVec2 {
-        let (sine, cosine) = self.degrees.to_radians().sin_cos();
-        DVec2::new(cosine, -sine)
+        direction(self.degrees)
     }
 
     /// Returns the distance from the middle of the picture to its border along the motion, in pixels.
@@ -103,50 +101,53 @@ impl Shot {
 
     /// Returns the part of each pixel that the panel covers at the instant.
     pub fn matte(&self) -> &Plane {
-        &self.frame.coverage[self.panel()]
+        &self.frame.coverage[self.panel]
     }
 
     /// Returns the part of each pixel that the panel covers while the shutter is open.
     pub fn true_matte(&self, alignment: Alignment) -> Plane {
         let settings = render_settings(32, self.exposure);
         let truth = trace_truth(&self.scene, &settings, alignment, &unwatched).unwrap();
-        let [first, second] = truth.halves.map(|half| half.coverage[self.panel()].clone());
+        let [first, second] = truth.halves.map(|half| half.coverage[self.panel].clone());
         first.zip(&second, |a, b| 0.5 * (a + b))
     }
 
-    fn panel(&self) -> usize {
-        let index = self.frame.objects.iter().position(|name| name == "panel");
-        index.expect("the frame lists the panel")
-    }
-
-    /// Measures the brightness along the motion, at every whole pixel from the panel's middle: the mean over a band,
-    /// smoothed by a tent.
     pub fn profile(&self, plane: &Plane) -> Vec<(f64, f64)> {
-        let direction = self.direction();
-        let reach = (HALF_PANEL + self.speed + 16.0).ceil() as i32;
-        let mut sums = vec![(0.0, 0.0); (2 * reach + 1) as usize];
-        for (index, value) in plane.pixels.iter().enumerate() {
-            let (x, y) = (index as u32 % WIDTH, index as u32 / WIDTH);
-            let from_middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - middle();
-            if direction.perp_dot(from_middle).abs() > HALF_BAND {
-                continue;
-            }
-            let along = direction.dot(from_middle);
-            let first = (along - TENT).ceil() as i32;
-            let last = (along + TENT).floor() as i32;
-            for position in first.max(-reach)..=last.min(reach) {
-                let share = TENT - (f64::from(position) - along).abs();
-                let sum = &mut sums[(position + reach) as usize];
-                *sum = (sum.0 + share, sum.1 + share * f64::from(*value));
-            }
-        }
-        let positions = (-reach..=reach).map(f64::from).zip(sums);
-        // Samples beyond the picture show nothing.
-        positions
-            .filter(|(_, (share, _))| *share > HALF_BAND)
-            .map(|(position, (share, sum))| (position, sum / share))
-            .collect()
+        measure_profile(plane, self.direction(), self.speed)
     }
+}
+
+/// Returns the direction of a motion, +y down.
+fn direction(degrees: f64) -> DVec2 {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    DVec2::new(cosine, -sine)
+}
+
+/// Measures the brightness along the motion, at every whole pixel from the panel's middle: the mean over a band, smoothed by a tent.
+fn measure_profile(plane: &Plane, direction: DVec2, speed: f64) -> Vec<(f64, f64)> {
+    let reach = (HALF_PANEL + speed + 16.0).ceil() as i32;
+    let mut sums = vec![(0.0, 0.0); (2 * reach + 1) as usize];
+    for (index, value) in plane.pixels.iter().enumerate() {
+        let (x, y) = (index as u32 % WIDTH, index as u32 / WIDTH);
+        let from_middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - middle();
+        if direction.perp_dot(from_middle).abs() > HALF_BAND {
+            continue;
+        }
+        let along = direction.dot(from_middle);
+        let first = (along - TENT).ceil() as i32;
+        let last = (along + TENT).floor() as i32;
+        for position in first.max(-reach)..=last.min(reach) {
+            let share = TENT - (f64::from(position) - along).abs();
+            let sum = &mut sums[(position + reach) as usize];
+            *sum = (sum.0 + share, sum.1 + share * f64::from(*value));
+        }
+    }
+    let positions = (-reach..=reach).map(f64::from).zip(sums);
+    // Samples beyond the picture show nothing.
+    positions
+        .filter(|(_, (share, _))| *share > HALF_BAND)
+        .map(|(position, (share, sum))| (position, sum / share))
+        .collect()
 }
 
 fn render_settings(samples_per_pixel: u32, exposure: f64) -> RenderSettings {

@@ -20,37 +20,18 @@ fn a_shader_sees_what_its_engine_would_show_it() {
     let (x, y, z) = (9.5, -4.25, 14.0);
     let gray = f64::from(picture.color.at(12, 9)[0]);
     // (convention, expected velocity and depth, expected factor on colour)
-    let cases: [(&str, [f64; 3], f64); 6] = [
+    #[rustfmt::skip]
+    let cases = [
         ("", [x, y, z], 1.0),
-        (
-            "[convention]\nvelocity = \"uv\"\nvelocity_sign = \"previous_minus_current\"",
-            [-x / width, -y / height, z],
-            1.0,
-        ),
-        (
-            "[convention]\nvelocity = \"ndc\"\nvelocity_y = \"up\"\nvelocity_per = \"shutter\"",
-            [2.0 * x / width * exposure, -2.0 * y / height * exposure, z],
-            1.0,
-        ),
-        (
-            "[convention]\nvelocity_per = \"second\"\nframes_per_second = 60",
-            [60.0 * x, 60.0 * y, z],
-            1.0,
-        ),
-        (
-            "[convention]\nvelocity_scale = 0.5\ndepth = \"reversed\"\nnear = 0.1",
-            [0.5 * x, 0.5 * y, 0.1 / z],
-            1.0,
-        ),
-        (
-            "[convention]\ncolor_scale = 4.0\ndepth = \"forward\"\nnear = 1\nfar = 29",
-            [x, y, 1.0 - (29.0 - z) / (z * 28.0)],
-            4.0,
-        ),
+        ("velocity = \"uv\"\nvelocity_sign = \"previous_minus_current\"", [-x / width, -y / height, z], 1.0),
+        ("velocity = \"ndc\"\nvelocity_y = \"up\"\nvelocity_per = \"shutter\"", [2.0 * x / width * exposure, -2.0 * y / height * exposure, z], 1.0),
+        ("velocity_per = \"second\"\nframes_per_second = 60", [60.0 * x, 60.0 * y, z], 1.0),
+        ("velocity_scale = 0.5\ndepth = \"reversed\"\nnear = 0.1", [0.5 * x, 0.5 * y, 0.1 / z], 1.0),
+        ("color_scale = 4.0\ndepth = \"forward\"\nnear = 1\nfar = 29", [x, y, 1.0 - (29.0 - z) / (z * 28.0)], 4.0),
     ];
     for (convention, seen, scale) in cases {
         println!("{convention}");
-        let output = blur_busy(&declare(convention));
+        let output = blur_busy(&declare(&format!("[convention]\n{convention}")));
         for (found, seen) in output.at(12, 9).iter().zip(seen) {
             // The output is divided by the factor that colours were multiplied by.
             assert_near(*found, seen / scale + 100.0 * gray, 1e-3);

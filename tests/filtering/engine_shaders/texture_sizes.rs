@@ -34,27 +34,25 @@ fn textures_are_divided_by_what_an_engine_computes_of_the_picture() {
         make("texture_sizes", &declarations)
     };
     // 61 x 43 pixels, divided and rounded up.
-    for (divided_by, size) in [
+    #[rustfmt::skip]
+    let divided = [
         ("\"ceil(height / 20) * unit\"", [3.0, 2.0]),
-        (
-            "\"ceil(max(1, floor(height / 20)) / 8) * unit\"",
-            [8.0, 6.0],
-        ),
+        ("\"ceil(max(1, floor(height / 20)) / 8) * unit\"", [8.0, 6.0]),
         ("[\"min(width, 2 * unit)\", \"height - unit\"]", [4.0, 2.0]),
         ("\"unit\"", [8.0, 6.0]),
-    ] {
+    ];
+    for (divided_by, size) in divided {
         let shown = blur_busy(&declare(divided_by));
         assert_eq!(shown.at(3, 5)[..2], size, "{divided_by}");
     }
-    for (divided_by, parts) in [
-        ("\"ceil(height / 20\"", &["divided_by", "bracket"][..]),
-        (
-            "\"height / depth\"",
-            &["unknown name \"depth\"", "width, height"],
-        ),
+    #[rustfmt::skip]
+    let refused: [(&str, &[&str]); 4] = [
+        ("\"ceil(height / 20\"", &["divided_by", "bracket"]),
+        ("\"height / depth\"", &["unknown name \"depth\"", "width, height"]),
         ("\"exposure\"", &["\"exposure\" is no parameter"]),
         ("\"2 * unit *\"", &["operator without a value"]),
-    ] {
+    ];
+    for (divided_by, parts) in refused {
         println!("{divided_by}");
         let error = declare(divided_by).load().unwrap_err();
         assert_contains(&error.to_string(), parts);

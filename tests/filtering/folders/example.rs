@@ -37,11 +37,6 @@ fn the_documented_example_loads_from_a_folder_and_blurs() {
 #[test]
 fn the_smallest_reach_that_covers_a_trail_is_set() {
     let flood = Filter::builtin("jump_flood").unwrap();
-    let passes = |preset: &str, pixels: u32| {
-        let settings = flood.settings(Some(preset)).unwrap();
-        let reaching = settings.with_reach(&flood, pixels).unwrap();
-        reaching.values["passes"].clone()
-    };
     // Largest steps of 8, 16 and 128 pixels; then of 1, 16 and 128.
     for (preset, pixels, expected) in [
         ("paper", 1, 1),
@@ -52,21 +47,14 @@ fn the_smallest_reach_that_covers_a_trail_is_set() {
         ("corrected", 16, 5),
         ("corrected", 128, 8),
     ] {
-        assert_eq!(
-            passes(preset, pixels),
-            Value::Integer(expected),
-            "{preset}, {pixels}"
-        );
+        let settings = flood.settings(Some(preset)).unwrap();
+        let reaching = settings.with_reach(&flood, pixels).unwrap();
+        let expected = Value::Integer(expected);
+        assert_eq!(reaching.values["passes"], expected, "{preset}, {pixels}");
     }
-    let settings = flood.settings(None).unwrap();
-    let message = settings
-        .with_reach(&flood, 1 << 20)
-        .unwrap_err()
-        .to_string();
-    assert_eq!(
-        message,
-        "jump_flood.passes: found 18; allowed: a whole number from 1 to 12"
-    );
+    let error = flood.settings(None).unwrap().with_reach(&flood, 1 << 20);
+    let says = "jump_flood.passes: found 18; allowed: a whole number from 1 to 12";
+    assert_eq!(error.unwrap_err().to_string(), says);
     let gather = Filter::builtin("velocity_gather").unwrap();
     let settings = gather.settings(None).unwrap();
     assert_eq!(settings.with_reach(&gather, 256).unwrap(), settings);
@@ -84,23 +72,18 @@ fn built_in_filters_load_from_disk_unchanged() {
     assert!(names.len() > 1);
     assert_eq!(Filter::builtin_names(), names);
     for name in Filter::builtin_names() {
-        let (built_in, on_disk) = (
-            Filter::builtin(&name).unwrap(),
-            Filter::load(&shaders.join(&name)).unwrap(),
-        );
+        let built_in = Filter::builtin(&name).unwrap();
+        let on_disk = Filter::load(&shaders.join(&name)).unwrap();
         assert_eq!(built_in.name, name);
         assert_eq!(built_in.parameters, on_disk.parameters);
         assert_eq!(built_in.presets, on_disk.presets);
-        for said in [
-            &built_in.summary,
-            &built_in.source,
-            &built_in.reach,
-            &built_in.cannot,
-        ] {
-            assert!(
-                !said.is_empty(),
-                "{name} says what it is and what it cannot do"
-            );
-        }
+        let says = [
+            built_in.summary,
+            built_in.source,
+            built_in.reach,
+            built_in.cannot,
+        ];
+        let says_all = says.iter().all(|text| !text.is_empty());
+        assert!(says_all, "{name} says what it is and what it cannot do");
     }
 }

@@ -2,7 +2,7 @@
 
 use filters::{Blur, Filter, FilterError, Gpu, Input, Value, list_adapters};
 use frame::Raster;
-use tests::picture::{Picture, gray_moving_by, make_blur};
+use tests::picture::{Picture, make_blur, white};
 use tests::shared_gpu;
 use tests::text::assert_contains;
 
@@ -60,7 +60,7 @@ fn sizes_beyond_the_adapter_are_refused_before_allocation() {
 #[test]
 fn frames_that_cannot_be_blurred_are_refused() {
     let mut blur = make_blur("identity", None, "", (4, 3));
-    let picture = Picture::uniform(4, 3, gray_moving_by(1.0));
+    let picture = Picture::uniform(4, 3, white(1.0));
     let own = [&picture.color];
     let input = picture.input(&own);
     blur.run(&input).expect("this frame can be blurred");

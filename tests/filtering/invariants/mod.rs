@@ -6,11 +6,11 @@ mod smear;
 mod symmetry;
 
 use filters::{Filter, Settings};
-use frame::{FAR_DEPTH, Image, Raster, Reprojection};
+use frame::{Image, Reprojection};
 use tests::random::Random;
 use tests::ready_blur;
 
-use crate::fields::Field;
+use crate::fields::{Field, noise};
 
 const WIDTH: u32 = 71;
 const HEIGHT: u32 = 43;
@@ -18,21 +18,11 @@ const FRAME_INDEX: u32 = 3;
 
 /// Makes highlights of up to 10000, still pixels, motion of up to 60 pixels, near surfaces and far background.
 fn random(seed: u64) -> Field {
+    let field = noise(WIDTH, HEIGHT, seed);
     let mut random = Random::new(seed);
-    let color = Raster::from_fn(WIDTH, HEIGHT, |_, _| {
+    let color = field.color.map(|pixel| {
         let highlight = random.real(0.0, 20.0) < 1.0;
-        let top = if highlight { 1e4 } else { 1.0 };
-        std::array::from_fn(|_| random.real(0.0, top))
-    });
-    let velocity = Raster::from_fn(WIDTH, HEIGHT, |_, _| {
-        let still = random.real(0.0, 4.0) < 1.0;
-        let top = if still { 0.0 } else { 60.0 };
-        std::array::from_fn(|_| random.real(-1.0, 1.0) * top)
-    });
-    let depth = Raster::from_fn(WIDTH, HEIGHT, |_, _| {
-        let far = random.real(0.0, 8.0) < 1.0;
-        let near = random.real(0.2, 40.0);
-        if far { FAR_DEPTH } else { near }
+        pixel.map(|value| value * if highlight { 5e3 } else { 0.5 })
     });
     // A pan, a zoom and a step aside.
     let rows = [
@@ -42,10 +32,12 @@ fn random(seed: u64) -> Field {
     ];
     Field {
         color,
-        velocity,
-        depth,
+        velocity: field
+            .velocity
+            .map(|motion| motion.map(|pixels| 1.5 * pixels)),
         reprojection: Some(Reprojection { rows }),
         exposure: 0.8,
+        ..field
     }
 }
 

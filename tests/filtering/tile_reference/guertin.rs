@@ -3,43 +3,33 @@
 //! Depths are compared relative to each other as inverse depths, which are larger for nearer surfaces, as the paper's
 //! operands require.
 
+use tests::kernels::{cone, cylinder};
 use tests::vector::{Vec2, dot, length, scaled};
 
-use super::mcguire::{cone, cylinder, on_image};
-use super::tiles::vector;
-use super::{Expected, NOISE};
+use super::NOISE;
+use super::mcguire::on_image;
+use super::tiles::{texel, vector};
 use crate::reference::{Run, noise};
 
-/// Computes a pixel from the GPU's neighbourhoods; none where rounding decides which texel is read.
-pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
+/// Computes a pixel from the GPU's neighbourhoods.
+pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<([f64; 3], f64)> {
     let tile = asked_tile(run, pixel)?;
-    let noise = match run.real("jitter") {
-        0.0 => {
-            return color(run, pixel, tile, 0.5).map(|color| Expected {
-                color,
-                tolerance: 0.0,
-            });
-        }
-        _ => noise(pixel, 0.0, NOISE)?,
-    };
     let color = |noise: f64| color(run, pixel, tile, noise);
+    if run.real("jitter") == 0.0 {
+        return Some((color(0.5)?, 0.0));
+    }
+    let noise = noise(pixel, 0.0, NOISE)?;
     let (expected, less, more) = (color(noise)?, color(noise - NOISE)?, color(noise + NOISE)?);
     let differences = (0..3).map(|channel| {
         let [less, more] = [less, more].map(|other| (other[channel] - expected[channel]).abs());
         less.max(more)
     });
-    Some(Expected {
-        color: expected,
-        tolerance: differences.fold(0.0, f64::max),
-    })
+    Some((expected, differences.fold(0.0, f64::max)))
 }
 
 fn color(run: &Run, pixel: [i64; 2], tile: [i64; 2], noise: f64) -> Option<[f64; 3]> {
     let largest = vector(run.texture("neighborhoods"), tile);
-    let variance = f64::from(
-        run.texture("neighborhoods")
-            .at(tile[0] as u32, tile[1] as u32)[2],
-    );
+    let variance = texel(run.texture("neighborhoods"), tile)[2];
     if (length(largest) - 0.5001).abs() < 1e-5 {
         return None;
     }

@@ -1,31 +1,24 @@
 //! Reconstruction of McGuire et al. 2012 in the paper's notation: Z is negative into the screen.
 
+use tests::kernels::{cone, cylinder};
 use tests::vector::{Vec2, length, scaled};
 
+use super::NOISE;
 use super::tiles::vector;
-use super::{Expected, NOISE};
 use crate::reference::{Run, noise};
 
 /// The paper's epsilon, in pixels.
 const EPSILON: f64 = 1e-4;
 
-/// Computes a pixel from the GPU's neighbourhoods; none where rounding decides which texel a tap reads.
-pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
-    // Distances are between pixels, so noise cannot change a weight.
-    color(run, pixel).map(|color| Expected {
-        color,
-        tolerance: 0.0,
-    })
-}
-
-fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
+/// Computes a pixel from the GPU's neighbourhoods. Distances are between pixels, so noise cannot change a weight.
+pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<([f64; 3], f64)> {
     let largest = vector(run.texture("neighborhoods"), super::tiles(run).of(pixel));
     let limit = EPSILON + 0.5;
     if (length(largest) - limit).abs() < 1e-5 {
         return None;
     }
     if length(largest) <= limit {
-        return Some(super::color(run, pixel));
+        return Some((super::color(run, pixel), 0.0));
     }
     let samples = run.integer("samples");
     let (jitter, uncertainty) = match run.choice("jitter").as_str() {
@@ -55,7 +48,7 @@ fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
         let color = super::color(run, tap);
         sum = [0, 1, 2].map(|channel| sum[channel] + a * color[channel]);
     }
-    Some(sum.map(|component| component / weight))
+    Some((sum.map(|component| component / weight), 0.0))
 }
 
 /// Rounds to the nearest whole pixel; none where `margin` decides.
@@ -73,13 +66,4 @@ pub fn on_image(run: &Run, pixel: [i64; 2], offset: [i64; 2]) -> [i64; 2] {
 
 fn soft_depth_compare(za: f64, zb: f64, extent: f64) -> f64 {
     (1.0 - (za - zb) / extent).clamp(0.0, 1.0)
-}
-
-pub fn cone(distance: f64, radius: f64) -> f64 {
-    (1.0 - distance / radius).clamp(0.0, 1.0)
-}
-
-pub fn cylinder(distance: f64, radius: f64) -> f64 {
-    let part = ((distance - 0.95 * radius) / (0.1 * radius)).clamp(0.0, 1.0);
-    1.0 - part * part * (3.0 - 2.0 * part)
 }

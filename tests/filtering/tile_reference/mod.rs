@@ -8,8 +8,9 @@ mod tiles;
 use std::sync::LazyLock;
 
 use filters::Value;
+use tests::kernels::half_velocity;
 use tests::vector::{Vec2, length};
-use tiles::{Tiles, vector};
+use tiles::{Tiles, texel, vector};
 
 use crate::reference::{Case, Run, run_cases};
 
@@ -37,12 +38,8 @@ const ROUNDING: f64 = 16.0 * 6e-8;
 /// Error of the gradient noise in 32-bit floats: 53 times the rounding of a number up to 64, twice.
 const NOISE: f64 = 4e-4;
 
-/// Value of a pixel by a reference, where rounding does not decide.
-struct Expected {
-    color: [f64; 3],
-    /// Error that 32-bit noise may cause.
-    tolerance: f64,
-}
+/// Reference for a pixel: its colour and the error that 32-bit noise may cause; none where rounding decides which texel is read.
+type Reference = fn(&Run, [i64; 2]) -> Option<([f64; 3], f64)>;
 
 /// Returns the half-velocity that the first pass wrote, in pixels.
 fn motion(run: &Run, pixel: [i64; 2]) -> Vec2 {
@@ -73,7 +70,7 @@ fn half_velocities_equal_the_papers() {
             let full = run.field.velocity.at(pixel[0] as u32, pixel[1] as u32);
             let half = full.map(|component| 0.5 * run.field.exposure * f64::from(component));
             let longest = run.integer("tile_size") as f64;
-            let expected = tiles::half_velocity(half, longest);
+            let expected = half_velocity(half, longest);
             let found = motion(run, pixel);
             let is_near =
                 |axis: usize| (found[axis] - expected[axis]).abs() <= ROUNDING * length(expected);
@@ -115,7 +112,7 @@ fn full_and_partial_tiles_hold_their_longest_half_velocity() {
                 "{}: tile {tile:?} holds {found:?}; its longest has {longest} pixels",
                 run.name
             );
-            let least = f64::from(held.at(tile[0] as u32, tile[1] as u32)[2]);
+            let least = texel(held, tile)[2];
             assert!(
                 (least - shortest).abs() <= ROUNDING * shortest,
                 "{}: tile {tile:?} says {least} is shortest; it is {shortest}",
@@ -163,10 +160,7 @@ fn tile_variance_follows_the_directions_of_neighbouring_tiles() {
         let tiles = tiles(run);
         for tile in tiles.all() {
             let expected = tiles.variance(tile);
-            let texel = run
-                .texture("neighborhoods")
-                .at(tile[0] as u32, tile[1] as u32);
-            let found = f64::from(texel[2]);
+            let found = texel(run.texture("neighborhoods"), tile)[2];
             // A mean of nine cosines, each of two quotients.
             assert!(
                 (found - expected).abs() < 1e-5,
@@ -190,19 +184,19 @@ fn guertin_s_reconstruction_equals_the_paper() {
     expect_pictures("guertin", guertin::reconstruct);
 }
 
-fn expect_pictures(filter: &str, reference: fn(&Run, [i64; 2]) -> Option<Expected>) {
+fn expect_pictures(filter: &str, reference: Reference) {
     let (mut unblurred, mut blurred, mut all) = (0, 0, 0);
     for run in RUNS.iter().filter(|run| run.filter == filter) {
         let mut compared = 0;
         for pixel in run.pixels() {
-            let Some(expected) = reference(run, pixel) else {
+            let Some((expected, error)) = reference(run, pixel) else {
                 continue;
             };
             // Colours lie in [0, 2). A weight is off by 1e-4 at most, where a depth of 20 m in 32-bit floats is divided
             // by an extent of 0.1 m.
-            run.assert_color(pixel, expected.color, 1e-3 + expected.tolerance);
+            run.assert_color(pixel, expected, 1e-3 + error);
             compared += 1;
-            match expected.color == color(run, pixel) {
+            match expected == color(run, pixel) {
                 true => unblurred += 1,
                 false => blurred += 1,
             }

@@ -3,16 +3,14 @@
 use frame::Raster;
 use tests::vector::{Vec2, direction, dot, length, scaled};
 
-/// Computes V of both papers for half the motion over the exposure, in pixels, with their epsilon of 1e-5.
-pub fn half_velocity(half: Vec2, longest: f64) -> Vec2 {
-    let speed = length(half);
-    scaled(half, speed.min(longest).max(0.5) / (speed + 1e-5))
+pub fn texel(raster: &Raster<[f32; 4]>, [x, y]: [i64; 2]) -> [f64; 4] {
+    raster.at(x as u32, y as u32).map(f64::from)
 }
 
 /// Returns the first two components of a texel.
-pub fn vector(raster: &Raster<[f32; 4]>, [x, y]: [i64; 2]) -> Vec2 {
-    let [horizontal, vertical, ..] = *raster.at(x as u32, y as u32);
-    [horizontal.into(), vertical.into()]
+pub fn vector(raster: &Raster<[f32; 4]>, pixel: [i64; 2]) -> Vec2 {
+    let [horizontal, vertical, ..] = texel(raster, pixel);
+    [horizontal, vertical]
 }
 
 /// Tiles of `side` pixels over an image, and the half-velocity that each holds.
