@@ -6,6 +6,7 @@ use filters::{Blur, Filter, Settings, Value};
 use frame::{Image, Raster};
 use tests::picture::change_preset;
 use tests::ready_blur;
+use tests::vector::Vec2;
 
 use crate::fields::{self, Field, rectangles};
 
@@ -109,4 +110,24 @@ pub fn noise(pixel: [i64; 2], offset: f64, error: f64) -> Option<f64> {
     let noise = (52.982_918_9 * inner).fract();
     let clear = |value: f64, margin: f64| value > margin && value < 1.0 - margin;
     (clear(inner, error / 50.0) && clear(noise, error)).then_some(noise)
+}
+
+/// Reads a texel, or the one at the edge that is nearest to it.
+pub fn read_clamped<T: Copy>(raster: &Raster<T>, x: i64, y: i64) -> T {
+    let x = x.clamp(0, i64::from(raster.width) - 1);
+    let y = y.clamp(0, i64::from(raster.height) - 1);
+    *raster.at(x as u32, y as u32)
+}
+
+/// Samples as a linear sampler does, at a place in pixels.
+pub fn sample_linear(place: Vec2, texel: impl Fn(i64, i64) -> f64) -> f64 {
+    // Snaps to a texel's centre if only the last bits of a 64-bit float miss it.
+    let [x, y] = place.map(|c| match c - 0.5 {
+        c if (c - c.round()).abs() < 1e-9 => c.round(),
+        c => c,
+    });
+    let (left, top) = (x.floor() as i64, y.floor() as i64);
+    let mix = |a: f64, b: f64, part: f64| a + part * (b - a);
+    let row = |y: i64| mix(texel(left, y), texel(left + 1, y), x - x.floor());
+    mix(row(top), row(top + 1), y - y.floor())
 }

@@ -46,8 +46,6 @@ pub fn expect_what_every_triangle_gives(
             }
         }
     }
-    assert!(
-        hits > count / 10,
-        "only {hits} of {count} rays hit anything: the test shows little"
-    );
+    // Rays that miss everything show little.
+    assert!(hits > count / 10, "only {hits} of {count} rays hit");
 }

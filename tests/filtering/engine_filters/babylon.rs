@@ -5,6 +5,7 @@ use tests::near::{assert_near, assert_within};
 use tests::picture::{Picture, frame_input, make_blur, moving_edge, ramp_length, white};
 
 use super::super::camera_gather::render_frame;
+use crate::reference::{read_clamped, sample_linear};
 
 #[test]
 fn the_longest_trail_has_as_many_pixels_as_there_are_samples() {
@@ -69,20 +70,6 @@ fn by_camera(frame: &Frame) -> Image {
         .remove(0)
 }
 
-/// Reads between pixel centres, in 64 bits.
-fn linear(image: &Image, x: f64, y: f64) -> f64 {
-    let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
-    let (across, down) = (x - 0.5 - left, y - 0.5 - top);
-    let at = |dx: f64, dy: f64| {
-        let column = (left + dx).clamp(0.0, f64::from(image.width - 1));
-        let row = (top + dy).clamp(0.0, f64::from(image.height - 1));
-        f64::from(image.at(column as u32, row as u32)[0])
-    };
-    let above = at(0.0, 0.0) * (1.0 - across) + at(1.0, 0.0) * across;
-    let below = at(0.0, 1.0) * (1.0 - across) + at(1.0, 1.0) * across;
-    above * (1.0 - down) + below * down
-}
-
 #[test]
 fn the_screen_based_mode_equals_its_source_in_64_bits() {
     let frame = render_frame(0);
@@ -104,10 +91,12 @@ fn the_screen_based_mode_equals_its_source_in_64_bits() {
         }
         let samples = speed.clamp(1.0, 32.0) as i32;
         let (u, v) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let mut result = linear(&frame.color, u, v);
+        let linear =
+            |x, y| sample_linear([x, y], |x, y| read_clamped(&frame.color, x, y)[0].into());
+        let mut result = linear(u, v);
         for i in 1..samples {
             let part = f64::from(i) / f64::from(samples - 1) - 0.5;
-            result += linear(&frame.color, u + velocity[0] * part, v + velocity[1] * part);
+            result += linear(u + velocity[0] * part, v + velocity[1] * part);
         }
         result /= f64::from(samples);
         let found = f64::from(output.at(x, y)[0]);

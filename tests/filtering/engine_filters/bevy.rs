@@ -1,7 +1,7 @@
 //! The blur of the Bevy engine.
 
 use tests::near::{assert_near, assert_within};
-use tests::picture::{BLACK_WALL, Picture, column, moving_edge, white};
+use tests::picture::{BLACK_WALL, Picture, column, light, moving_edge, white};
 
 #[test]
 fn each_sample_is_two_taps_and_none_is_the_pixel_itself() {
@@ -23,6 +23,14 @@ fn each_sample_is_two_taps_and_none_is_the_pixel_itself() {
         assert_within(share_of(taps as f32), 0.8..);
         assert_within(share_of((taps + 1) as f32), ..0.1);
     }
+}
+
+#[test]
+fn nothing_blurs_outside_a_movers_silhouette() {
+    let output = Picture::halves(120, 40, BLACK_WALL, white(24.0)).blur("bevy", "high", "");
+    assert_eq!(light(&output, 0..60), 0.0);
+    // The inside is blurred, so the edge keeps half its height.
+    assert_within(column(&output, 61), ..0.6);
 }
 
 #[test]
@@ -62,7 +70,7 @@ fn a_wide_picture_skews_weights_on_diagonals() {
             _ => white(30.0),
         });
         let output = picture.blur("bevy", "high", &format!("metric={metric}"));
-        (0..60).map(|x| column(&output, x)).sum()
+        light(&output, 0..60)
     };
     // Measured in pixels, three tenths: 7.5 of the ten pixels that taps reach count, as a ramp.
     assert_within(light(120, "pixel"), 1.0..);

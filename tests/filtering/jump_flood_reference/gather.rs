@@ -3,7 +3,7 @@
 use tests::vector::{Vec2, dot, minus};
 
 use super::paper::{Jitter, POSITION, ROUNDING, Reference};
-use crate::reference::noise;
+use crate::reference::{noise, read_clamped};
 
 /// Error of the gradient noise in 32-bit floats: 53 times the rounding of a number up to 32, twice.
 const NOISE: f64 = 2e-4;
@@ -82,7 +82,7 @@ impl Reference<'_> {
     fn color(&self, uv: Vec2) -> [f64; 3] {
         [0, 1, 2].map(|c| {
             self.sample(uv, false, |x, y| {
-                f64::from(self.read_clamped(&self.field.color, x, y)[c])
+                f64::from(read_clamped(&self.field.color, x, y)[c])
             })
         })
     }
