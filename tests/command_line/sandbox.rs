@@ -43,9 +43,6 @@ pub struct Sandbox {
     folder: tempfile::TempDir,
 }
 
-/// Files of a sandbox, by their names below its folder.
-pub type Files = Vec<(PathBuf, Vec<u8>)>;
-
 impl Sandbox {
     pub fn new() -> Self {
         let sandbox = Self {
