@@ -66,8 +66,13 @@ pub fn shipped_filter(name: &str) -> PathBuf {
 
 /// Copies a built-in filter.
 pub fn copy_shipped_filter(name: &str, copy: &Path) {
+    copy_folder(&shipped_filter(name), copy);
+}
+
+/// Copies the files of a folder.
+pub fn copy_folder(folder: &Path, copy: &Path) {
     fs::create_dir_all(copy).unwrap();
-    for entry in fs::read_dir(shipped_filter(name)).unwrap() {
+    for entry in fs::read_dir(folder).unwrap() {
         let file = entry.unwrap();
         fs::copy(file.path(), copy.join(file.file_name())).unwrap();
     }
