@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use frame::{Image, read_exr};
+use frame::Image;
 use metrics::{Metric, SequenceMetric};
 use suite::{Case, Run, ShutterRule};
 use tests::filter_folder::{write_manifest, write_script};
@@ -24,8 +24,7 @@ fn find<'a>(cases: &'a [Case], scene: &str, name: &str) -> &'a Case {
 }
 
 fn read_output(sandbox: &Sandbox, case: &Case) -> Image {
-    let file = sandbox.path("out").join(&case.folder).join("output.exr");
-    read_exr(&file).unwrap().color("").unwrap()
+    sandbox.read_color(&format!("out/{}/output.exr", case.folder.display()))
 }
 
 #[test]

@@ -238,6 +238,12 @@ impl Sandbox {
         serde_json::from_slice(&fs::read(self.path(below)).unwrap()).unwrap()
     }
 
+    /// Reads the colour of an OpenEXR file.
+    pub fn read_color(&self, below: &str) -> frame::Image {
+        let file = frame::read_exr(&self.path(below)).unwrap();
+        file.color("").unwrap()
+    }
+
     /// Reads the findings about the last run.
     pub fn read_findings(&self) -> Vec<judge::Finding> {
         let judgement = judge::Judgement::read(&self.read_run(), &self.path("out")).unwrap();

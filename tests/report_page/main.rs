@@ -31,14 +31,6 @@ fn make_page_within(sandbox: &Sandbox, largest: usize) -> PathBuf {
     html
 }
 
-/// Returns the case of a filter on the only scene.
-fn case_of(sandbox: &Sandbox, name: &str) -> suite::Case {
-    let mut cases = sandbox.read_run().cases.into_iter();
-    cases
-        .find(|case| case.name() == name && !case.is_reference)
-        .unwrap()
-}
-
 /// Opens a case by its address, `plate/bevy:high`, and waits for its pictures.
 fn open_case(browser: &mut Browser, page: &Path, case: &str) {
     browser.open(page, &format!("#{case}"));
