@@ -58,8 +58,7 @@ fn any_filter_can_be_compared_with_any_other(browser: &mut Browser, page: &Path)
     let tags = "[...document.querySelectorAll('.stack .tag')].map(tag => tag.textContent).join()";
     assert_eq!(browser.text(tags), "velocity_gather:fine,identity:default");
     pick(browser, "right", "identity:default");
-    let same = canvas(browser, "under");
-    assert_eq!(same, own);
+    assert_eq!(canvas(browser, "under"), own);
     // A picture does not differ from itself; the instant differs from the truth.
     press(browser, "5");
     let colors = "(() => { const own = document.querySelector('[data-place=under] canvas'); \
