@@ -56,23 +56,13 @@ fn broken_pixels_and_endless_loops_are_reported_with_their_pass() {
     let picture = Picture::uniform(8, 8, white(3.0));
     let colors = [&picture.color];
     // (text of gather.frag, replacement, expected part of the message)
-    for (from, to, says) in [
-        (
-            "result = vec4(0.0);",
-            "result = vec4(0.0); if (pixel == ivec2(3, 4)) discard;",
-            "leaves pixel (3, 4) of the output unwritten",
-        ),
-        (
-            "result = vec4(0.0);",
-            "result = vec4(0.0); result.y = pixel == ivec2(3, 4) ? sqrt(uv.x - 9.0) : 0.0;",
-            "to pixel (3, 4); every value must be finite",
-        ),
-        (
-            "for (int i = 0; i < params.samples; i++)",
-            "for (int i = 0; params.samples > 0; i++)",
-            "loop",
-        ),
-    ] {
+    #[rustfmt::skip]
+    let wrong = [
+        ("result = vec4(0.0);", "result = vec4(0.0); if (pixel == ivec2(3, 4)) discard;", "leaves pixel (3, 4) of the output unwritten"),
+        ("result = vec4(0.0);", "result = vec4(0.0); result.y = pixel == ivec2(3, 4) ? sqrt(uv.x - 9.0) : 0.0;", "to pixel (3, 4); every value must be finite"),
+        ("for (int i = 0; i < params.samples; i++)", "for (int i = 0; params.samples > 0; i++)", "loop"),
+    ];
+    for (from, to, says) in wrong {
         let filter = declare("").changed("gather.frag", from, to).load().unwrap();
         let settings = filter.settings(None).unwrap();
         let mut blur = Blur::new(shared_gpu(), &filter, &settings, 8, 8).unwrap();
