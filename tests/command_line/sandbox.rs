@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output};
 use std::sync::OnceLock;
+use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 use tests::filter_folder;
@@ -149,6 +150,11 @@ impl Sandbox {
         filter_folder::write_filter(&self.path(name), name, manifest, kernels);
     }
 
+    /// Writes a filter with one pass; see [`filter_folder::write_kernel`].
+    pub fn write_kernel(&self, name: &str, more: &str, textures: &[&str], body: &str) {
+        filter_folder::write_kernel(&self.path(name), more, textures, body);
+    }
+
     pub fn shuttertruth(&self, words: &[&str]) -> Output {
         self.command(words).output().unwrap()
     }
@@ -167,7 +173,7 @@ impl Sandbox {
         self.execute(&split(line))
     }
 
-    /// Runs a command line that must be refused with exit code 2 and with these parts of a message.
+    /// Runs a line that must be refused with exit code 2 and these words.
     #[track_caller]
     pub fn refuse(&self, line: &str, parts: &[&str]) {
         println!("{line}");
@@ -345,6 +351,26 @@ pub fn send(child: &Child, signal: &str) {
     let mut kill = Command::new("kill");
     let status = kill.args([&format!("-{signal}"), &child.id().to_string()]);
     assert!(status.status().unwrap().success());
+}
+
+/// Waits until a process has computed for a number of hundredths of a second, summed over its threads, or for two seconds
+/// where the system does not tell.
+pub fn wait_until_busy(child: &mut Child, hundredths: u64) {
+    let stat = Path::new("/proc").join(child.id().to_string()).join("stat");
+    for _ in 0..if cfg!(target_os = "linux") { 6000 } else { 200 } {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        let stat = fs::read_to_string(&stat).unwrap_or_default();
+        // After the name in brackets: the state, ten numbers, and the times of the process and of the system for it.
+        let numbers = stat.rsplit(')').next().unwrap().split_whitespace();
+        let times = numbers
+            .skip(11)
+            .take(2)
+            .map(|time| time.parse::<u64>().unwrap());
+        if times.sum::<u64>() >= hundredths {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
 }
 
 /// Makes a FIFO.
