@@ -74,10 +74,8 @@ fn the_generator_reproduces_the_shipped_files() {
         let found = std::fs::read(scenes().join(&file.path));
         let path = file.path;
         let found = found.unwrap_or_else(|error| panic!("{path}: {error}"));
-        assert!(
-            found == file.bytes,
-            "{path} differs; run `cargo run -p generator`"
-        );
+        let is_same = found == file.bytes;
+        assert!(is_same, "{path} differs; run `cargo run -p generator`");
     }
 }
 

@@ -98,9 +98,7 @@ fn an_unlit_scene_is_exported_with_colours_alone() {
             .collect();
         assert_eq!(base[..3], [0.0; 3], "{material}");
         let emitted = material["emissiveFactor"].as_array().unwrap();
-        assert!(
-            emitted.iter().any(|part| part.as_f64() > Some(0.0)),
-            "{material}"
-        );
+        let shines = emitted.iter().any(|part| part.as_f64() > Some(0.0));
+        assert!(shines, "{material}");
     }
 }

@@ -138,11 +138,8 @@ fn assert_about_95_percent(scene: &Scene, blur: &Blur) {
                  deficit energy object_label_tv label_tv";
     for metric in names.split_whitespace() {
         let held = count_holding(metric, &measured);
-        println!("{metric}: {held} of {SEEDS}");
-        assert!(
-            about_95_percent.contains(&held),
-            "{blur:?}, {metric}: {held} of {SEEDS} intervals hold it"
-        );
+        let is_right = about_95_percent.contains(&held);
+        assert!(is_right, "{blur:?}, {metric}: {held} of {SEEDS} hold it");
     }
     // Intervals of percentiles are wider than necessary.
     for metric in [
@@ -151,10 +148,8 @@ fn assert_about_95_percent(scene: &Scene, blur: &Blur) {
         "label_tv_p95",
     ] {
         let held = count_holding(metric, &measured);
-        assert!(
-            held >= about_95_percent.start,
-            "{blur:?}, {metric}: {held} of {SEEDS} intervals hold it"
-        );
+        let is_right = held >= about_95_percent.start;
+        assert!(is_right, "{blur:?}, {metric}: {held} of {SEEDS} hold it");
     }
 }
 
@@ -202,11 +197,8 @@ fn assert_traced(scene: &str, size: [u32; 2], seeds: u64, of_moved: &str) {
     let least = (0.95 * seeds - 4.0 * (0.95 * 0.05 * seeds).sqrt()).ceil() as usize;
     let assert_held = |picture: &str, metric: &str, measured: &Found| {
         let held = count_holding(metric, measured);
-        println!("{scene}, {picture}, {metric}: {held} of {seeds}");
-        assert!(
-            held >= least,
-            "{scene}, {picture}, {metric}: {held} of {seeds}"
-        );
+        let what = format!("{scene}, {picture}, {metric}");
+        assert!(held >= least, "{what}: {held} of {seeds}");
     };
     for (picture, measured) in &traced {
         for metric in RAISED_BY_NOISE {

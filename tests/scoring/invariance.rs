@@ -6,7 +6,7 @@ use frame::{AtInstant, Frame, Image, Picture, Raster, Support, Truth};
 use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, Viewing, measure};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
-use crate::{clean_truth, measure_blur};
+use crate::{assert_near, clean_truth, measure_blur};
 
 /// Blur that every score sees as wrong.
 const WRONG: Blur = Blur {
@@ -101,9 +101,8 @@ fn remap(
         ..truth
     };
     let output = picture(&output);
-    measure(&output, &frame, &truth, None, &VIEWING)
-        .expect("they agree")
-        .scores
+    let measured = measure(&output, &frame, &truth, None, &VIEWING);
+    measured.expect("they agree").scores
 }
 
 fn take<T: Clone>(
@@ -125,13 +124,8 @@ fn assert_same_scores(found: &Scores, expected: &Scores, metrics: &[Metric], tol
         match (found.get(*metric), expected.get(*metric)) {
             (Measured::Score(found), Measured::Score(expected)) => {
                 compared += 1;
-                let difference = (found.value - expected.value).abs();
-                assert!(
-                    difference <= tolerance * expected.value.abs().max(1.0),
-                    "{metric}: {} instead of {}",
-                    found.value,
-                    expected.value
-                );
+                let tolerance = tolerance * expected.value.abs().max(1.0);
+                assert_near(&metric.name(), found.value, expected.value, tolerance);
             }
             (found, expected) => assert_eq!(found, expected, "{metric}"),
         }

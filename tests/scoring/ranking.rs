@@ -7,6 +7,7 @@ use frame::Alignment;
 use metrics::{ImageMetric, Measured, Metric, Reference, Region, Scores};
 use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
+use tests::text::assert_contains;
 use tracer::{Family, RenderSettings, SceneId};
 
 /// Difficulty of a run's scenes relative to one another.
@@ -175,11 +176,8 @@ fn a_filter_worse_than_doing_nothing_ranks_below_it() {
     let ranking = print_means(&run, 2, "Skill is by");
     // The trailing frame lags: it is worse still, and its lag is told apart.
     let (above, below) = ranking.split_once("jimenez:wicked").unwrap();
-    assert!(above.contains("[accumulate:1]"), "{ranking}");
-    assert!(
-        above.contains("[identity]") && below.contains("[identity]"),
-        "{ranking}"
-    );
+    assert_contains(above, &["[accumulate:1]", "[identity]"]);
+    assert_contains(below, &["[identity]"]);
     assert_eq!(
         judge::lag_text(&run.cases).unwrap(),
         // 0.270 - 0.156, since the scenes' difficulties average 1.
@@ -221,10 +219,8 @@ fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
         assert_eq!(found, names);
     }
     let text = print_table(&run);
-    assert!(
-        text.lines().all(|line| line.chars().count() <= 80),
-        "{text}"
-    );
+    let fits = text.lines().all(|line| line.chars().count() <= 80);
+    assert!(fits, "{text}");
 }
 
 #[test]
@@ -265,10 +261,7 @@ fn scenes_without_skill_are_counted() {
     }
     run.overall = overall(&run.cases);
     let text = print_table(&run);
-    assert!(
-        text.contains("Scenes that skill applies to: 4 of 5 centred."),
-        "{text}"
-    );
+    assert_contains(&text, &["Scenes that skill applies to: 4 of 5 centred."]);
 }
 
 #[test]

@@ -195,7 +195,7 @@ fn popping_is_the_largest_jump_of_an_objects_error() {
 fn accumulations_get_better_with_their_subframes() {
     let speed = [24.0, 4.0];
     let (instants, _) = slide(speed);
-    let scores = [1, 4, 16].map(|count| {
+    let scores = [1, 2, 4, 8, 16].map(|count| {
         let pictures: Vec<Image> = (0..FRAMES)
             .map(|frame| {
                 let blur = Blur::accumulation(count);

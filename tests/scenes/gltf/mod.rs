@@ -109,10 +109,8 @@ fn a_texture_of_holes_is_joined_with_that_of_the_color() {
     for (own, given) in joined.pixels().zip(original.pixels()) {
         assert_eq!(own.0[..3], given.0[..]);
     }
-    assert_eq!(
-        [joined.get_pixel(0, 0).0[3], joined.get_pixel(1, 0).0[3]],
-        [64, 255]
-    );
+    let opacity = |x| joined.get_pixel(x, 0).0[3];
+    assert_eq!([opacity(0), opacity(1)], [64, 255]);
     assert!(Played::read(folder.path()).has_holes(&name));
 }
 
@@ -179,11 +177,8 @@ fn assert_close(scene: &Scene, what: &str, time: f64, own: DAffine3, played: DAf
     for point in [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z] {
         let [own, played] = [own, played].map(|pose| pose.transform_point3(point));
         let error = (own - played).length() / own.length().max(1.0);
-        assert!(
-            error < TOLERANCE,
-            "{}: {what} at frame {time}: {own} in the tracer, {played} in glTF",
-            scene.id
-        );
+        let place = format!("{}: {what} at frame {time}", scene.id);
+        assert!(error < TOLERANCE, "{place}: {own} traced, {played} in glTF");
     }
 }
 

@@ -55,10 +55,8 @@ fn a_dilated_slanted_outline_grows_beside_its_rows_and_gains_inside() {
             let [growth, gain, loss] = ROW_MASS.map(|name| find_value(scores, name));
             let what = format!("dilation of a slanted bar at {degrees} degrees");
             assert_near(&what, growth + gain, dilation, 0.1);
-            assert!(
-                growth > 0.05 * dilation && gain > 0.05 * dilation,
-                "{what}: {growth} and {gain}"
-            );
+            let least = growth.min(gain);
+            assert!(least > 0.05 * dilation, "{what}: {growth} and {gain}");
             assert_near(&what, loss, 0.0, ROWS);
         }
     }
@@ -97,10 +95,7 @@ fn hard_bleed_sees_a_wide_dilation_only_beside_the_support() {
         let [scores] = disc.score_blurs([wide]);
         // The border allows one pixel, and the faint ends of the smear hide more of six.
         let lateral = find_value(&scores, "bleed_lateral");
-        assert!(
-            (1.0..4.0).contains(&lateral),
-            "{lateral} at {degrees} degrees"
-        );
+        assert_near(&format!("at {degrees} degrees"), lateral, 2.5, 1.5);
         // The rounded ends: a few pixels at the limit of 45 degrees.
         let ends = ["bleed_leading", "bleed_trailing"];
         assert_scores("6 px", &scores, &ends.map(|name| (name, 0.0, 0.1)));

@@ -2,6 +2,7 @@
 
 use metrics::{Group, Ideal, ImageMetric, Metric, Region, Scores, SequenceMetric};
 use tests::synthetic::Blur;
+use tests::text::assert_contains;
 
 use super::{BEFORE, small_scene};
 use crate::measure_blur;
@@ -19,10 +20,7 @@ fn every_metric_is_found_by_its_one_name() {
     let error = "flip_mooving"
         .parse::<Metric>()
         .expect_err("no such metric");
-    assert!(
-        error.contains("\"flip_mooving\"") && error.contains("flip_moving"),
-        "{error}"
-    );
+    assert_contains(&error, &["\"flip_mooving\"", "flip_moving"]);
 }
 
 #[test]
@@ -57,11 +55,9 @@ fn scores_survive_being_written_as_json() {
     let text = serde_json::to_string(&scores).expect("scores are plain data");
     let back: Scores = serde_json::from_str(&text).expect("as written");
     assert_eq!(back, scores);
-    assert!(text.contains(r#""static":{"mse":{"value":"#), "{text}");
-    assert!(
-        text.contains(r#""lateral_growth":{"not_applicable":"rows do not"#),
-        "{text}"
-    );
+    let value = r#""static":{"mse":{"value":"#;
+    let reason = r#""lateral_growth":{"not_applicable":"rows do not"#;
+    assert_contains(&text, &[value, reason]);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use metrics::{Measured, Metric, ObjectMetric, Viewing, measure, regions};
 use tests::synthetic::{Blur, Object, Shape, VIEWING};
 
 use super::{BESIDE, small_scene};
-use crate::{clean_truth, find_value, measure_blur};
+use crate::{assert_near, clean_truth, find_value, measure_blur};
 
 #[test]
 fn the_moving_region_extends_a_fifteenth_of_the_height_beyond_movers() {
@@ -89,10 +89,7 @@ fn the_bleed_map_holds_coverage_outside_the_support() {
     let [beside, behind] = ["bleed_lateral", "bleed_trailing"].map(|name| find_value(scores, name));
     // The disc's silhouette is 16 px wide across the motion and twice 16 px along it, to the 2 % of its gradients.
     let expected = 32.0 * beside + 16.0 * behind;
-    assert!(
-        (total / expected - 1.0).abs() < 0.02,
-        "{total} px, expected {expected}"
-    );
+    assert_near("pixels", total, expected, 0.02 * expected);
     assert!(total > 16.0);
 }
 

@@ -67,10 +67,7 @@ fn turning_too_far_bleeds_ahead_of_the_local_motion() {
     assert!(leading > 0.2, "{leading}");
     // The two ends of the arm swing towards opposite sides. Judged by one direction, half of this would be trailing.
     let trailing = find_value(&scores, "bleed_trailing");
-    assert!(
-        trailing < 0.1 * leading,
-        "{trailing} trailing, {leading} leading"
-    );
+    assert!(trailing < 0.1 * leading, "{trailing}, {leading} leading");
 }
 
 #[test]
@@ -107,10 +104,8 @@ fn an_object_with_an_id_but_no_coverage_has_no_outline_to_measure_by() {
         .expect("they agree")
         .scores;
     for metric in ["lateral_growth", "bleed_lateral"] {
-        assert!(
-            find_reason(&scores, metric).contains("no silhouette"),
-            "{metric}"
-        );
+        let reason = find_reason(&scores, metric);
+        assert!(reason.contains("no silhouette"), "{metric}: {reason}");
     }
 }
 
