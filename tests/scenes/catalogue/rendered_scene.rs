@@ -4,8 +4,7 @@ use std::cell::OnceCell;
 
 use filters::{Blur, Filter, Gpu, Input};
 use frame::{Alignment, Frame, Image, Picture, Truth};
-use metrics::{Metric, Reference, Scores};
-use suite::scatter_oracle;
+use metrics::{Metric, Reference, Scores, scatter_oracle};
 use tests::{open_gpu, unwatched};
 use tracer::{RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 

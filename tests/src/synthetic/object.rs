@@ -1,5 +1,7 @@
 //! Flat shapes, their motions and their smears.
 
+use crate::vector::{direction, dot, length};
+
 /// A flat shape around its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
@@ -100,11 +102,10 @@ impl Posed {
     pub(crate) fn new(object: &Object, blur: &Blur) -> Self {
         let (size, tilt) = match object.shape {
             Shape::Disc(radius) => (radius, 0.0),
-            Shape::Bar { half, tilt } => (half[0].hypot(half[1]), tilt),
+            Shape::Bar { half, tilt } => (length(half), tilt),
         };
-        let travel = object.displacement[0].hypot(object.displacement[1])
-            * blur.from.abs().max(blur.to.abs());
-        let shift = blur.shift[0].hypot(blur.shift[1]) + blur.dilation;
+        let travel = length(object.displacement) * blur.from.abs().max(blur.to.abs());
+        let shift = length(blur.shift) + blur.dilation;
         let along = unit(object.displacement);
         let across = [-along[1], along[0]];
         let tilt = (-tilt).sin_cos().into();
@@ -185,15 +186,6 @@ fn rotate([x, y]: [f64; 2], [sin, cos]: [f64; 2]) -> [f64; 2] {
     [cos * x - sin * y, sin * x + cos * y]
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
 fn unit(vector: [f64; 2]) -> [f64; 2] {
-    let length = dot(vector, vector).sqrt();
-    if length == 0.0 {
-        [1.0, 0.0]
-    } else {
-        vector.map(|component| component / length)
-    }
+    direction(vector, [1.0, 0.0])
 }
