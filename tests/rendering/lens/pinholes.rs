@@ -47,7 +47,7 @@ fn spheres() -> Scene {
 fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
     let lens = with_lens(spheres(), APERTURE, FOCUS);
     let own = render_frame(&lens, &settings_of_two(SIZE, 1024));
-    let pinholes = lens_points(160).zip(1..).map(|(point, seed)| {
+    let pinholes = lens_points(256).zip(1..).map(|(point, seed)| {
         let mut scene = spheres();
         let key = &mut scene.camera.motion.keys[0];
         key.translation += key.orientation * point.extend(0.0);
@@ -60,7 +60,7 @@ fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
         // With one seed their noise would be the same, and stay in the mean.
         let settings = RenderSettings {
             seed,
-            ..settings_of_two(SIZE, 16)
+            ..settings_of_two(SIZE, 64)
         };
         trace_frame_part(&scene, &settings, &grid, None, &unwatched).unwrap()
     });
