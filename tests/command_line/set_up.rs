@@ -5,7 +5,7 @@ use std::process::Command;
 
 use tests::root;
 
-use crate::sandbox::{Sandbox, assert_refused};
+use crate::sandbox::Sandbox;
 
 /// Lists the commands, as the page of commands has them: `tune search`.
 fn list_commands() -> Vec<String> {
@@ -20,14 +20,8 @@ fn list_commands() -> Vec<String> {
 fn the_version_says_which_source_and_which_target() {
     let version = Sandbox::new().execute(&["--version"]);
     let own = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"), " (");
-    let rest = version
-        .strip_prefix(own)
-        .unwrap_or_else(|| panic!("{version}"));
-    let (source, target) = rest
-        .trim_end()
-        .trim_end_matches(')')
-        .split_once(", ")
-        .unwrap();
+    let rest = version.trim_end().strip_prefix(own).expect(&version);
+    let (source, target) = rest.trim_end_matches(')').split_once(", ").unwrap();
     let known = ["development build", "unknown commit: built without git"];
     assert!(
         known.contains(&source) || source.starts_with("commit "),
@@ -46,27 +40,17 @@ fn completions_know_every_command_in_every_shell() {
             let word = command.rsplit(' ').next().unwrap();
             assert!(script.contains(word), "{shell} does not complete {command}");
         }
-        assert!(
-            script.contains("scenes-dir"),
-            "{shell} does not complete options"
-        );
+        assert!(script.contains("scenes-dir"), "{shell} knows no options");
     }
-    assert_refused(
-        &sandbox.shuttertruth(&["completions", "csh"]),
-        2,
-        &["csh", "zsh"],
-    );
+    sandbox.refuse("completions csh", &["csh", "zsh"]);
 }
 
 #[cfg(unix)]
 #[test]
 fn bash_completes_a_command() {
     let sandbox = Sandbox::new();
-    fs::write(
-        sandbox.path("completions"),
-        sandbox.execute(&["completions", "bash"]),
-    )
-    .unwrap();
+    let completions = sandbox.done("completions bash");
+    fs::write(sandbox.path("completions"), completions).unwrap();
     let script = "source completions; COMP_WORDS=(shuttertruth compl); COMP_CWORD=1; _shuttertruth shuttertruth compl shuttertruth; \
                   echo \"${COMPREPLY[@]}\"";
     let output = Command::new("bash")

@@ -1,9 +1,10 @@
 //! Intervals of scores, counted over many noisy truths: they contain the score's limit.
 
 use frame::{Alignment, Frame, Picture, Raster, Replicate, Truth};
+use metrics::scatter_oracle;
 use metrics::{Metric, Reference, Scores};
 use rayon::prelude::*;
-use suite::{Intervals, intervals, scatter_oracle, truths_without_pairs};
+use suite::{Intervals, intervals, truths_without_pairs};
 use tests::synthetic::{Blur, Object, Scene, Shape};
 use tests::unwatched;
 use tracer::{RenderSettings, TruthTracer, load_scene, trace_frame, trace_ladder, trace_truth};

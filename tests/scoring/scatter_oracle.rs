@@ -1,7 +1,7 @@
 //! The reference `scatter_oracle`, which is right wherever one frame with straight motion decides the result.
 
 use frame::{Efficiency, Frame, Image, Picture, Raster, Shutter, ShutterProfile, Vectors};
-use suite::scatter_oracle;
+use metrics::scatter_oracle;
 use tests::synthetic::{Object, Scene, Shape};
 
 fn scene(objects: Vec<Object>) -> Scene {

@@ -17,6 +17,8 @@ pub use sampling::Sampling;
 
 use sampling::{pixel_offsets, sequence};
 
+use crate::vector::minus;
+
 /// Exposure of every synthetic frame, in frames. It is not 1, so that a forgotten factor shows.
 pub const EXPOSURE: f64 = 0.5;
 
@@ -54,11 +56,8 @@ impl Scene {
         let mut coverage: Vec<Plane> =
             vec![Raster::filled(self.width, self.height, 0.0); self.objects.len() + 1];
         let color = Raster::from_fn(self.width, self.height, |x, y| {
-            if !self
-                .objects
-                .iter()
-                .any(|object| object.reaches([x, y], blur))
-            {
+            let mut objects = self.objects.iter();
+            if !objects.any(|object| object.reaches([x, y], blur)) {
                 coverage[0].pixels[(y * self.width + x) as usize] = 1.0;
                 return ground([x, y]).map(|value| value as f32);
             }
@@ -97,11 +96,9 @@ impl Scene {
             0 => [0.0, 0.0],
             id => {
                 let object = &self.objects[id - 1];
-                let [right, down] = [0, 1].map(|axis| center(x, y)[axis] - object.center[axis]);
-                [
-                    ((object.displacement[0] - object.turn * down) / EXPOSURE) as f32,
-                    ((object.displacement[1] + object.turn * right) / EXPOSURE) as f32,
-                ]
+                let [right, down] = minus(center(x, y), object.center);
+                let turned = [-object.turn * down, object.turn * right];
+                [0, 1].map(|axis| ((object.displacement[axis] + turned[axis]) / EXPOSURE) as f32)
             }
         });
         Frame {
@@ -126,12 +123,10 @@ impl Scene {
     /// Renders the truth of a trailing shutter, twice.
     pub fn truth(&self, samplings: [Sampling; 2]) -> Truth {
         let first = self.render(&Blur::TRUE, samplings[0]);
-        let second = if samplings[0] == samplings[1] {
-            first.clone()
-        } else {
-            self.render(&Blur::TRUE, samplings[1])
+        let halves = match samplings[0] == samplings[1] {
+            true => [first.clone(), first],
+            false => [first, self.render(&Blur::TRUE, samplings[1])],
         };
-        let halves = [first, second];
         let mut motion = Raster::filled(self.width, self.height, 0.0);
         for (object, index) in self.objects.iter().zip(1..) {
             if object.moves() {
@@ -179,10 +174,8 @@ impl Scene {
 
     /// Renders a replicate of the truth of a trailing shutter for each sampling.
     pub fn replicates(&self, samplings: impl IntoIterator<Item = Sampling>) -> Vec<Replicate> {
-        let still = std::iter::once(false);
-        let moving: Vec<bool> = still
-            .chain(self.objects.iter().map(Object::moves))
-            .collect();
+        let moving = self.objects.iter().map(Object::moves);
+        let moving: Vec<bool> = [false].into_iter().chain(moving).collect();
         let support = self.support();
         (0..)
             .zip(samplings)
@@ -229,7 +222,8 @@ impl Scene {
 
     fn names(&self) -> Vec<String> {
         let objects = (1..=self.objects.len()).map(|id| format!("object{id}"));
-        std::iter::once("background".to_owned())
+        ["background".to_owned()]
+            .into_iter()
             .chain(objects)
             .collect()
     }
@@ -238,10 +232,9 @@ impl Scene {
     fn sees(&self, point: [f64; 2], pixel: [u32; 2], time: f64, blur: &Blur) -> (usize, [f64; 3]) {
         for (object, id) in self.objects.iter().zip(1..) {
             let still = Blur::IDENTITY;
-            let (time, blur) = if object.moves() {
-                (time, blur)
-            } else {
-                (0.0, &still)
+            let (time, blur) = match object.moves() {
+                true => (time, blur),
+                false => (0.0, &still),
             };
             let local = object.local(point, time, blur);
             if object.holds(local, blur.dilation) {
@@ -254,41 +247,31 @@ impl Scene {
 
 /// Makes a picture whose colour and labels are everywhere the mean of another's.
 pub fn constant(picture: &Picture) -> Picture {
+    let count = picture.color.pixels.len() as f64;
+    let mean =
+        |values: &mut dyn Iterator<Item = f32>| (values.map(f64::from).sum::<f64>() / count) as f32;
+    let pixels = &picture.color.pixels;
+    let color = [0, 1, 2].map(|c| mean(&mut pixels.iter().map(|pixel| pixel[c])));
+    let planes = picture.coverage.iter().map(|plane| {
+        let mean = mean(&mut plane.pixels.iter().copied());
+        plane.map(|_| mean)
+    });
     Picture {
-        color: constant_color(&picture.color),
-        coverage: picture
-            .coverage
-            .iter()
-            .map(|plane| {
-                let sum: f64 = plane.pixels.iter().map(|value| f64::from(*value)).sum();
-                let mean = (sum / plane.pixels.len() as f64) as f32;
-                plane.map(|_| mean)
-            })
-            .collect(),
+        color: picture.color.map(|_| color),
+        coverage: planes.collect(),
     }
 }
 
-fn constant_color(image: &Image) -> Image {
-    let mean: [f32; 3] = std::array::from_fn(|c| {
-        let sum: f64 = image.pixels.iter().map(|pixel| f64::from(pixel[c])).sum();
-        (sum / image.pixels.len() as f64) as f32
-    });
-    image.map(|_| mean)
-}
-
 fn shutter() -> Shutter {
-    Alignment::Trailing
-        .shutter(EXPOSURE)
-        .expect("the synthetic exposure is positive")
+    let shutter = Alignment::Trailing.shutter(EXPOSURE);
+    shutter.expect("the synthetic exposure is positive")
 }
 
 /// Returns the radiance on an object: bands fixed to it, 8 pixels wide.
 fn texture(local: [f64; 2]) -> [f64; 3] {
-    let bright = (local[0] / 8.0).floor() as i64 % 2 == 0;
-    if bright {
-        [0.9, 0.6, 0.2]
-    } else {
-        [0.5, 0.2, 0.1]
+    match (local[0] / 8.0).floor() as i64 % 2 {
+        0 => [0.9, 0.6, 0.2],
+        _ => [0.5, 0.2, 0.1],
     }
 }
 

@@ -12,7 +12,6 @@ const PROGRAMS: [&str; 7] = [
 ];
 
 /// One thing that the reader of a page does.
-#[derive(Debug, PartialEq)]
 pub enum Step {
     /// Writes a file, which the page names before a block of code.
     Write { path: String, text: String },
@@ -81,38 +80,4 @@ fn find_file_name(paragraph: &str) -> Option<String> {
     let path = paragraph.strip_prefix('`')?.split('`').next()?;
     let is_file = path.contains('/') && path.contains('.') && !path.contains(' ');
     (is_file && paragraph.ends_with(':')).then(|| path.to_owned())
-}
-
-#[test]
-fn a_page_shows_files_and_commands() {
-    let page = "\
-# Title
-
-`a/b.toml` says it:
-
-```toml
-x = 1
-```
-
-Then `shuttertruth report out
---html x.html`, `shuttertruth run` and `shuttertruth tune search` work:
-
-    shuttertruth run --scenes a \\
-        --out b    # quick
-    it prints this
-
-| a | `cargo test -p b` |
-";
-    let run = |text: &str| Step::Run(text.to_owned());
-    let write = Step::Write {
-        path: "a/b.toml".to_owned(),
-        text: "x = 1\n".to_owned(),
-    };
-    let steps = [
-        write,
-        run("shuttertruth report out --html x.html"),
-        run("shuttertruth run --scenes a --out b"),
-        run("cargo test -p b"),
-    ];
-    assert_eq!(find_steps(page), steps);
 }

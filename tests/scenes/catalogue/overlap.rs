@@ -36,7 +36,7 @@ fn movers_that_share_a_tile_take_one_another_s_motion() {
     // A filter that moves every pixel by itself finds both places equally easy: measured 0.99.
     let [here, there] = [&together, &apart].map(|scene| {
         let (truth, frame) = (scene.truth(Alignment::Centred), &scene.frame);
-        let oracle = suite::scatter_oracle(frame, truth.shutter, &truth.shutter_profile);
+        let oracle = metrics::scatter_oracle(frame, truth.shutter, &truth.shutter_profile);
         value(&scene.measure(&oracle, Alignment::Centred), "label_tv")
     });
     assert!(here < 1.3 * there, "{here} {there}");

@@ -1,5 +1,7 @@
 //! Flat shapes, their motions and their smears.
 
+use crate::vector::{direction, dot, length};
+
 /// A flat shape around its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
@@ -86,12 +88,9 @@ impl Object {
     pub(crate) fn local(&self, point: [f64; 2], time: f64, blur: &Blur) -> [f64; 2] {
         let along = unit(self.displacement);
         let across = [-along[1], along[0]];
-        let moved: [f64; 2] = std::array::from_fn(|axis| {
-            point[axis]
-                - self.center[axis]
-                - self.displacement[axis] * time
-                - along[axis] * blur.shift[0]
-                - across[axis] * blur.shift[1]
+        let moved = [0, 1].map(|axis| {
+            let shift = along[axis] * blur.shift[0] + across[axis] * blur.shift[1];
+            point[axis] - self.center[axis] - self.displacement[axis] * time - shift
         });
         rotate(moved, -self.turn * time)
     }
@@ -100,13 +99,12 @@ impl Object {
     pub(crate) fn reaches(&self, pixel: [u32; 2], blur: &Blur) -> bool {
         let size = match self.shape {
             Shape::Disc(radius) => radius,
-            Shape::Bar { half, .. } => half[0].hypot(half[1]),
+            Shape::Bar { half, .. } => length(half),
         };
-        let travel =
-            self.displacement[0].hypot(self.displacement[1]) * blur.from.abs().max(blur.to.abs());
-        let shift = blur.shift[0].hypot(blur.shift[1]) + blur.dilation;
+        let travel = length(self.displacement) * blur.from.abs().max(blur.to.abs());
+        let shift = length(blur.shift) + blur.dilation;
         let distance = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 - self.center[axis]);
-        distance[0].hypot(distance[1]) <= size + travel + shift + 1.0
+        length(distance) <= size + travel + shift + 1.0
     }
 
     /// Returns whether a point in the object's own coordinates is inside it, after a dilation across its motion by
@@ -126,15 +124,13 @@ impl Object {
                 let (at, step) = (rotate(local, -tilt), rotate(across, -tilt));
                 let mut steps = [-dilation, dilation];
                 for axis in [0, 1] {
-                    if step[axis].abs() < 1e-12 {
-                        if at[axis].abs() > half[axis] {
-                            return false;
-                        }
-                    } else {
+                    if step[axis].abs() >= 1e-12 {
                         let ends =
                             [-half[axis], half[axis]].map(|end| (end - at[axis]) / step[axis]);
                         steps[0] = steps[0].max(ends[0].min(ends[1]));
                         steps[1] = steps[1].min(ends[0].max(ends[1]));
+                    } else if at[axis].abs() > half[axis] {
+                        return false;
                     }
                 }
                 steps[0] <= steps[1]
@@ -148,15 +144,6 @@ fn rotate([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     [cos * x - sin * y, sin * x + cos * y]
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
 fn unit(vector: [f64; 2]) -> [f64; 2] {
-    let length = dot(vector, vector).sqrt();
-    if length == 0.0 {
-        [1.0, 0.0]
-    } else {
-        vector.map(|component| component / length)
-    }
+    direction(vector, [1.0, 0.0])
 }
