@@ -13,27 +13,7 @@ use tests::text::assert_contains;
 
 /// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so that 0.4 m is about 2.7 px of 32 px
 /// rows.
-pub const SCENE: &str = "\
-exposes = \"nothing: it serves the tests of the command line\"
-family = \"translation\"
-exposure = 0.5
-size = [64, 32]
-
-[camera]
-position = [0, 0, 4]
-look_at = [0, 0, 0]
-vertical_fov = 60.0
-
-[background]
-constant = [0.2, 0.2, 0.2]
-
-[object.plate]
-mesh = \"plate.obj\"
-keys = [
-    { time = -1, translation = [-1.6, 0, 0] },
-    { time = 0, translation = [0, 0, 0] },
-]
-";
+pub const SCENE: &str = include_str!("plate.toml");
 
 /// Words that choose the identity alone.
 pub const IDENTITY: [&str; 2] = ["--filters", "identity"];
@@ -83,13 +63,11 @@ impl Sandbox {
     /// Reads all files, for sandboxes that begin with them.
     pub fn read_files(&self) -> Files {
         let root = self.folder.path();
-        let read = |path: PathBuf| {
-            (
-                path.strip_prefix(root).unwrap().into(),
-                fs::read(&path).unwrap(),
-            )
-        };
-        files_below(root).into_iter().map(read).collect()
+        let name = |path: &PathBuf| path.strip_prefix(root).unwrap().to_owned();
+        let files = files_below(root).into_iter();
+        files
+            .map(|path| (name(&path), fs::read(&path).unwrap()))
+            .collect()
     }
 
     /// Makes a sandbox with these files.
@@ -125,22 +103,15 @@ impl Sandbox {
 
     /// Bounds `flip_moving` on the plate for every filter. The identity scores about 0.3.
     pub fn write_bound(&self, limit: f64) {
-        self.write(
-            "bounds.toml",
-            &format!(
-                "[default]\nflip_moving = {{ limit = {limit:?}, why = \"it serves a test\" }}\n"
-            ),
-        );
+        let bound = format!("flip_moving = {{ limit = {limit:?}, why = \"it serves a test\" }}");
+        self.write("bounds.toml", &format!("[default]\n{bound}\n"));
     }
 
     /// Bounds the same score of another scene.
     pub fn copy_bound(&self, scene: &str) {
-        let scenes = self.path("scenes");
-        fs::copy(
-            scenes.join("plate/bounds.toml"),
-            scenes.join(scene).join("bounds.toml"),
-        )
-        .unwrap();
+        let folders = ["plate", scene].map(|name| self.path("scenes").join(name));
+        let [from, to] = folders.map(|folder| folder.join("bounds.toml"));
+        fs::copy(from, to).unwrap();
     }
 
     /// Writes the filter `name`, with one file of kernels, to a folder of that name.
@@ -165,6 +136,12 @@ impl Sandbox {
     pub fn refuse(&self, line: &str, parts: &[&str]) {
         println!("{line}");
         assert_refused(&self.shuttertruth(&split(line)), 2, parts);
+    }
+
+    pub fn git(&self, line: &str) {
+        let mut git = Command::new("git");
+        let status = git.current_dir(self.path("")).args(split(line)).status();
+        assert!(status.unwrap().success(), "git {line}");
     }
 
     /// Runs a command as if no CI were there.
@@ -225,10 +202,11 @@ impl Sandbox {
 
     /// Names the last run's cases without the references: `plate identity:default`.
     pub fn read_case_names(&self) -> Vec<String> {
-        let cases = self.read_filter_cases().into_iter();
-        cases
-            .map(|case| format!("{} {}", case.scene, case.name()))
-            .collect()
+        let cases = self.read_filter_cases();
+        let names = cases
+            .iter()
+            .map(|case| format!("{} {}", case.scene, case.name()));
+        names.collect()
     }
 }
 
@@ -250,28 +228,18 @@ pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(code), "{message}");
     assert_contains(&message, parts);
-    assert_eq!(
-        stdout(output),
-        "",
-        "a refused command prints nothing on standard output"
-    );
+    assert_eq!(stdout(output), "", "a refused command prints nothing");
 }
 
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().path())
-        {
-            if entry.is_dir() {
-                folders.push(entry)
-            } else {
-                files.push(entry)
-            }
-        }
-    }
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let below = |path: PathBuf| match path.is_dir() {
+        true => files_below(&path),
+        false => vec![path],
+    };
+    let mut files: Vec<PathBuf> = entries.flat_map(below).collect();
     files.sort();
     files
 }
@@ -297,11 +265,8 @@ pub fn wait_until_busy(child: &mut Child, hundredths: u64) {
         let stat = fs::read_to_string(&stat).unwrap_or_default();
         // After the name in brackets: the state, ten numbers, and the times of the process and of the system for it.
         let numbers = stat.rsplit(')').next().unwrap().split_whitespace();
-        let times = numbers
-            .skip(11)
-            .take(2)
-            .map(|time| time.parse::<u64>().unwrap());
-        if times.sum::<u64>() >= hundredths {
+        let times = numbers.skip(11).take(2).map(|time| time.parse::<u64>());
+        if times.map(Result::unwrap).sum::<u64>() >= hundredths {
             return;
         }
         std::thread::sleep(Duration::from_millis(10));
