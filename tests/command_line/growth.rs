@@ -17,7 +17,7 @@ fn a_run_of_copies_is_merged_judged_and_reported() {
     std::fs::write(sandbox.path("scenes/bounds.toml"), "").unwrap();
     assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
     let grow = || {
-        let mut command = Command::new(python_with("json"));
+        let mut command = Command::new(python_with(&["json"]));
         command.arg(tests::root().join("examples/growth.py"));
         command.args(split("out --scenes 3 --filters 4 --out grown --program"));
         command.arg(env!("CARGO_BIN_EXE_shuttertruth"));

@@ -1,18 +1,24 @@
-//! Determinism: equal inputs give equal bytes.
+//! Determinism: equal inputs give equal bytes, and hashes tell inputs apart.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use frame::{Alignment, Frame, FrameOptions, Ladder, Truth, VelocityKind};
+use frame::{Alignment, Efficiency, Frame, FrameOptions, Ladder, Truth, VelocityKind};
 use glam::{DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
-    Background, Progress, RenderSettings, Scene, Sun, TraceError, frame_hash, ladder_hash,
-    trace_frame, trace_ladder, trace_truth, truth_hash,
+    Background, Lens, Material, Progress, RenderSettings, Scene, TraceError, frame_hash,
+    ladder_hash, replicate_hash, trace_ladder, trace_truth, truth_hash,
 };
 
-/// Makes a scene with everything that draws random numbers: sky, sun disc, lamp, bounces, motion.
+use crate::renders::{render_frame, render_ladder, render_truth, settings};
+use crate::scenery::sun;
+use crate::translucency::{film, glass};
+
+const RUNGS: [u32; 3] = [1, 4, 16];
+
+/// Makes a scene with everything that draws random numbers: sky, sun disc, lamps, bounces, films, glass, motion.
 fn busy_scene() -> Scene {
     let mut scene = empty_scene("busy");
     scene.background = Background::Gradient {
@@ -20,55 +26,41 @@ fn busy_scene() -> Scene {
         horizon: Vec3::new(0.5, 0.6, 0.7),
         zenith: Vec3::new(0.2, 0.3, 0.9),
     };
-    scene.sun = Some(Sun {
-        direction: DVec3::new(0.6, 0.8, 0.0),
-        irradiance: Vec3::ONE,
-        angular_radius: 0.02,
-    });
-    let at = |x: f64| DVec3::new(x, 0.0, -4.0);
-    add(
-        &mut scene,
-        icosphere(1.0, 2),
-        diffuse(0.7),
-        drift(at(-1.0), DVec3::X),
-    );
-    add(
-        &mut scene,
-        cuboid(Vec3::ONE),
-        glowing(2.0),
-        spin(at(1.0), DVec3::Y, 2.0),
-    );
-    add(
-        &mut scene,
-        rectangle(9.0, 9.0),
-        diffuse(0.5),
-        placed(at(0.0) - DVec3::Z),
-    );
+    scene.sun = sun(DVec3::new(0.6, 0.8, 0.0), 1.0, 0.02);
+    let at = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+    let smoke = Material {
+        diffuse: Vec3::splat(0.8),
+        ..film(Vec3::ZERO, 0.4, Vec3::new(0.8, 0.9, 1.0))
+    };
+    let lamp = film(Vec3::splat(4.0), 0.6, Vec3::ONE);
+    let tinted = glass(1.6, Vec3::new(0.9, 1.0, 0.8));
+    let turning = spin(at(1.0, -4.0), DVec3::Y, 2.0);
+    for (mesh, material, motion) in [
+        (
+            icosphere(1.0, 2),
+            diffuse(0.7),
+            drift(at(-1.0, -4.0), DVec3::X),
+        ),
+        (cuboid(Vec3::ONE), glowing(2.0), turning),
+        (rectangle(9.0, 9.0), diffuse(0.5), placed(at(0.0, -5.0))),
+        (icosphere(0.5, 1), smoke, spin(at(0.0, -3.0), DVec3::Y, 1.0)),
+        (cuboid(Vec3::ONE), lamp, drift(at(-2.0, -3.5), DVec3::X)),
+        (rectangle(1.0, 1.0), tinted, drift(at(1.0, -2.0), DVec3::X)),
+    ] {
+        add(&mut scene, mesh, material, motion);
+    }
     scene
 }
 
-fn render_settings() -> RenderSettings {
-    RenderSettings {
-        width: 33,
-        height: 19,
-        samples_per_pixel: 64,
-        ..RenderSettings::default()
-    }
+fn own_settings() -> RenderSettings {
+    settings([33, 19], 64)
 }
 
 fn everything(scene: &Scene, settings: &RenderSettings) -> (Frame, Truth, Ladder) {
-    let frame = trace_frame(scene, settings, &unwatched).expect("allowed");
-    let truth = trace_truth(scene, settings, Alignment::Centred, &unwatched).expect("allowed");
-    let ladder = trace_ladder(scene, settings, &truth, &[1, 4, 16], &unwatched).expect("allowed");
+    let frame = render_frame(scene, settings);
+    let truth = render_truth(scene, settings, Alignment::Centred);
+    let ladder = render_ladder(scene, settings, &truth, &RUNGS);
     (frame, truth, ladder)
-}
-
-fn on_threads(threads: usize) -> (Frame, Truth, Ladder) {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .expect("threads are available")
-        .install(|| everything(&busy_scene(), &render_settings()))
 }
 
 #[test]
@@ -78,31 +70,30 @@ fn frame_and_truth_do_not_share_their_noise() {
         object.motion.keys.truncate(1);
     }
     // Nothing moves: with shared numbers the frame would equal the truth's first replicate, pixel by pixel.
-    let settings = RenderSettings {
-        samples_per_pixel: 32,
-        replicates: 2,
-        ..render_settings()
-    };
-    let frame = trace_frame(&scene, &settings.with_replicates(1), &unwatched).expect("allowed");
-    let truth = trace_truth(&scene, &settings, Alignment::Centred, &unwatched).expect("allowed");
+    let settings = own_settings().with_replicates(2);
+    let frame = render_frame(&scene, &settings.with_replicates(1));
+    let truth = render_truth(&scene, &settings, Alignment::Centred);
     for half in &truth.halves {
         let pairs = frame.color.pixels.iter().zip(&half.color.pixels);
         let equal = pairs.filter(|(a, b)| a == b).count();
         // Only pixels of the even lamp are naturally equal; the rest is lit and noisy.
-        assert!(
-            equal * 2 < frame.color.pixels.len(),
-            "{equal} pixels are equal"
-        );
+        assert!(equal * 2 < frame.color.pixels.len(), "{equal} are equal");
     }
 }
 
 #[test]
 fn one_thread_and_several_give_the_same_bytes() {
+    let scene = busy_scene();
+    let on_threads = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.expect("threads are available");
+        pool.install(|| everything(&scene, &own_settings()))
+    };
     let alone = on_threads(1);
     // No value is NaN (it would differ from itself), so equality means equal bits except for the sign of zero.
-    assert_eq!(alone, on_threads(1));
-    assert_eq!(alone, on_threads(2));
-    assert_eq!(alone, on_threads(5));
+    for threads in [1, 2, 5] {
+        assert_eq!(alone, on_threads(threads));
+    }
 }
 
 #[test]
@@ -110,78 +101,84 @@ fn another_seed_gives_other_noise() {
     let scene = busy_scene();
     let other = RenderSettings {
         seed: 2,
-        ..render_settings()
+        ..own_settings()
     };
-    let [a, b] = [render_settings(), other].map(|settings| everything(&scene, &settings));
+    let [a, b] = [own_settings(), other].map(|settings| everything(&scene, &settings));
     assert_ne!(a.1.halves, b.1.halves);
     assert_ne!(a.1.halves[0], a.1.halves[1]);
     assert_ne!(a.2.rungs[2].halves, b.2.rungs[2].halves);
 }
 
+/// Returns the hashes of a scene's frame, truth, replicates and ladder.
+fn hashes(scene: &Scene, settings: &RenderSettings) -> [String; 4] {
+    let centred = Alignment::Centred;
+    [
+        frame_hash(scene, settings),
+        truth_hash(scene, settings, centred),
+        replicate_hash(scene, settings, centred),
+        ladder_hash(scene, settings, centred, &RUNGS),
+    ]
+}
+
+#[test]
+fn pictures_bear_the_hashes_of_their_inputs() {
+    let (scene, settings) = (busy_scene(), own_settings());
+    let (frame, truth, ladder) = everything(&scene, &settings);
+    let found = [frame.provenance, truth.provenance, ladder.provenance];
+    let [frame, truth, _, ladder] = hashes(&scene, &settings);
+    assert_eq!(found.map(|it| it.content_hash), [frame, truth, ladder]);
+}
+
 #[test]
 fn hashes_change_with_everything_that_changes_pixels() {
-    let scene = busy_scene();
-    let settings = render_settings();
-    let (frame, truth, ladder) = everything(&scene, &settings);
-    assert_eq!(frame.provenance.content_hash, frame_hash(&scene, &settings));
-    assert_eq!(
-        truth.provenance.content_hash,
-        truth_hash(&scene, &settings, Alignment::Centred)
-    );
-    assert_eq!(
-        ladder.provenance.content_hash,
-        ladder_hash(&scene, &settings, Alignment::Centred, &[1, 4, 16])
-    );
-    let hash = |settings: RenderSettings| truth_hash(&scene, &settings, Alignment::Centred);
-    let mut hashes = vec![
-        hash(settings),
-        truth_hash(&scene, &settings, Alignment::Leading),
-        hash(RenderSettings {
-            width: 34,
-            ..settings
-        }),
-        hash(RenderSettings {
-            exposure: Some(0.25),
-            ..settings
-        }),
-        hash(RenderSettings {
-            samples_per_pixel: 128,
-            ..settings
-        }),
-        hash(RenderSettings {
-            replicates: 4,
-            ..settings
-        }),
-        hash(RenderSettings {
-            seed: 7,
-            ..settings
-        }),
-        truth_hash(
-            &Scene {
-                hash: "other".into(),
-                ..scene.clone()
-            },
-            &settings,
-            Alignment::Centred,
-        ),
+    let (scene, settings) = (busy_scene(), own_settings());
+    let leading = truth_hash(&scene, &settings, Alignment::Leading);
+    let mut all = vec![
+        leading,
         ladder_hash(&scene, &settings, Alignment::Centred, &[1, 4]),
-        ladder_hash(&scene, &settings, Alignment::Centred, &[1, 4, 16]),
-        frame_hash(&scene, &settings),
     ];
-    let count = hashes.len();
-    hashes.sort();
-    hashes.dedup();
-    assert_eq!(
-        hashes.len(),
-        count,
-        "two different renders have the same hash"
-    );
+    all.extend(hashes(&scene, &settings));
+    let changes: [fn(&mut RenderSettings); 4] = [
+        |settings| settings.width = 34,
+        |settings| settings.exposure = Some(0.25),
+        |settings| settings.samples_per_pixel = 128,
+        |settings| settings.seed = 7,
+    ];
+    for change in changes {
+        let mut settings = settings;
+        change(&mut settings);
+        all.extend(hashes(&scene, &settings));
+    }
+    all.push(truth_hash(
+        &scene,
+        &settings.with_replicates(4),
+        Alignment::Centred,
+    ));
+    let lens = |aperture, focus| Some(Lens { aperture, focus });
+    let changes: [&dyn Fn(&mut Scene); 6] = [
+        &|scene| scene.hash = "other".into(),
+        &|scene| scene.camera.lens = lens(0.3, 3.0),
+        &|scene| scene.camera.lens = lens(0.31, 3.0),
+        &|scene| scene.camera.lens = lens(0.3, 3.1),
+        &|scene| scene.shutter_profile.rolling = 0.1,
+        &|scene| scene.shutter_profile.efficiency = Efficiency::Table(vec![1.0, 1.0]),
+    ];
+    for (number, change) in changes.into_iter().enumerate() {
+        let mut scene = scene.clone();
+        change(&mut scene);
+        let own = hashes(&scene, &settings);
+        // A frame has no shutter.
+        all.extend(own.into_iter().skip(usize::from(number > 3)));
+    }
+    let count = all.len();
+    all.sort();
+    all.dedup();
+    assert_eq!(all.len(), count, "two different renders have the same hash");
 }
 
 #[test]
 fn hashes_leave_out_what_changes_no_pixel() {
-    let scene = busy_scene();
-    let settings = render_settings();
+    let (scene, settings) = (busy_scene(), own_settings());
     let named = RenderSettings {
         exposure: Some(scene.exposure),
         ..settings
@@ -194,20 +191,25 @@ fn hashes_leave_out_what_changes_no_pixel() {
         guard_band: 3,
         ..named
     };
-    let hash = |settings| truth_hash(&scene, settings, Alignment::Centred);
-    assert_eq!(hash(&settings), hash(&of_frame));
+    let own = hashes(&scene, &settings);
+    assert_eq!(own[1..], hashes(&scene, &of_frame)[1..]);
+    assert_ne!(own[0], frame_hash(&scene, &of_frame));
     let of_truth = RenderSettings {
         replicates: 2,
         ..named
     };
-    assert_eq!(frame_hash(&scene, &settings), frame_hash(&scene, &of_truth));
-    assert_ne!(frame_hash(&scene, &settings), frame_hash(&scene, &of_frame));
+    assert_eq!(own[0], frame_hash(&scene, &of_truth));
+    let mut lens = scene.clone();
+    lens.camera.lens = Some(Lens {
+        aperture: 0.3,
+        focus: 3.0,
+    });
+    assert_eq!(own, hashes(&lens.pinhole(), &settings));
 }
 
 #[test]
 fn progress_rises_to_the_whole_and_break_cancels() {
-    let scene = busy_scene();
-    let settings = render_settings();
+    let (scene, settings) = (busy_scene(), own_settings());
     let greatest = AtomicU64::new(0);
     let total = AtomicU64::new(0);
     let watch = |progress: Progress| {
@@ -225,82 +227,48 @@ fn progress_rises_to_the_whole_and_break_cancels() {
         calls.fetch_add(1, Ordering::Relaxed);
         ControlFlow::Break(())
     };
-    assert_eq!(
-        trace_truth(&scene, &settings, Alignment::Centred, &stop),
-        Err(TraceError::Cancelled)
-    );
+    let cancelled = trace_truth(&scene, &settings, Alignment::Centred, &stop);
+    assert_eq!(cancelled, Err(TraceError::Cancelled));
     assert!(calls.into_inner() < 20, "work went on after the break");
 }
 
 #[test]
 fn bad_settings_are_refused_with_the_allowed_values() {
     let scene = busy_scene();
-    let message = |settings: RenderSettings| {
-        trace_truth(&scene, &settings, Alignment::Centred, &unwatched)
-            .expect_err("refused")
-            .to_string()
+    let settings = own_settings();
+    let refusal = |scene: &Scene, settings: RenderSettings, alignment: Alignment| {
+        let refused = trace_truth(scene, &settings, alignment, &unwatched);
+        refused.expect_err("refused").to_string()
     };
-    let settings = render_settings();
-    for (found, expected) in [
-        (
-            message(RenderSettings {
-                samples_per_pixel: 100,
-                ..settings
-            }),
-            "samples per pixel is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128",
-        ),
-        (
-            message(RenderSettings {
-                samples_per_pixel: 4,
-                ..settings
-            }),
-            "samples per pixel is 4 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 8",
-        ),
-        (
-            message(RenderSettings {
-                replicates: 3,
-                ..settings
-            }),
-            "replicates is 3; allowed: even numbers from 2, such as 8",
-        ),
-        (
-            message(RenderSettings {
-                replicates: 0,
-                ..settings
-            }),
-            "replicates is 0; allowed: even numbers from 2, such as 8",
-        ),
-        (
-            message(RenderSettings {
-                height: 0,
-                ..settings
-            }),
-            "size is 33x0; allowed: 1 to 16384 pixels on either side, 67108864 in all",
-        ),
-        (
-            message(RenderSettings {
-                exposure: Some(-0.5),
-                ..settings
-            }),
-            "exposure is -0.5 frames; allowed: above 0 and finite (0.5 frames = 180 degrees)",
-        ),
-    ] {
-        assert_eq!(found, expected);
+    let changes: [fn(&mut RenderSettings); 6] = [
+        |settings| settings.samples_per_pixel = 100,
+        |settings| settings.samples_per_pixel = 4,
+        |settings| settings.replicates = 3,
+        |settings| settings.replicates = 0,
+        |settings| settings.height = 0,
+        |settings| settings.exposure = Some(-0.5),
+    ];
+    let expected = [
+        "is 100 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 128",
+        "is 4 over 8 replicates; allowed: 8 times a power of two up to 65536, such as 8",
+        "replicates is 3; allowed: even numbers from 2, such as 8",
+        "replicates is 0; allowed: even numbers from 2, such as 8",
+        "size is 33x0; allowed: 1 to 16384 pixels on either side, 67108864 in all",
+        "exposure is -0.5 frames; allowed: above 0 and finite (0.5 frames = 180 degrees)",
+    ];
+    for (change, expected) in changes.into_iter().zip(expected) {
+        let mut settings = settings;
+        change(&mut settings);
+        let refused = refusal(&scene, settings, Alignment::Centred);
+        assert!(refused.ends_with(expected), "{refused}");
     }
-    let mut zoom = busy_scene();
+    let mut zoom = scene.clone();
     zoom.camera.vertical_fov = vec![(0.0, 1.0), (0.1, 2.0)];
-    let wide = RenderSettings {
-        exposure: Some(0.5),
-        ..settings
-    };
-    let refused =
-        trace_truth(&zoom, &wide, Alignment::Leading, &unwatched).expect_err("beyond 180 degrees");
-    assert!(
-        refused
-            .to_string()
-            .contains("scene busy: the camera's vertical field of view is 343.775")
-    );
-    let truth = trace_truth(&scene, &settings, Alignment::Centred, &unwatched).expect("allowed");
+    zoom.exposure = 0.5;
+    let refused = refusal(&zoom, settings, Alignment::Leading);
+    let expected = "scene busy: the camera's vertical field of view is 343.775";
+    assert!(refused.contains(expected), "{refused}");
+    let truth = render_truth(&scene, &settings, Alignment::Centred);
     for subframes in [vec![], vec![0, 1], vec![4, 2], vec![2, 2]] {
         let refused = trace_ladder(&scene, &settings, &truth, &subframes, &unwatched);
         assert_eq!(refused, Err(TraceError::Subframes(subframes)));

@@ -1,67 +1,72 @@
-//! Hundreds of objects that share one mesh, moving and standing still.
+//! Rays against trees of many meshes and objects in every motion, compared with brute force.
 
-use glam::{DQuat, DVec3};
+use glam::Vec3;
 use tests::brute_force::expect_what_every_triangle_gives;
 use tests::random::Numbers;
 use tests::shapes::*;
-use tracer::{Interpolation, Key, Motion, Object, Parent, Scene, Turn};
+use tracer::{Interpolation, Object, Parent, Scene};
+
+use crate::motion::random_motion;
+
+/// Makes meshes of every kind in every motion; `scale` multiplies all sizes and distances.
+fn crowd(scale: f64) -> Scene {
+    let mut numbers = Numbers(6 << 32);
+    let mut scene = empty_scene("crowd");
+    let size = scale as f32;
+    let meshes = [
+        icosphere(size, 2),
+        cuboid(Vec3::new(size, 0.1 * size, 2.0 * size)),
+        disc(size, 40),
+        rectangle(size, 3.0 * size),
+    ];
+    for mesh in meshes.iter().cycle().take(12) {
+        let far = [3.0 * scale, 4.0];
+        let motion = random_motion(&mut numbers, Interpolation::Linear, &[-1.0, 0.5], far);
+        add(&mut scene, mesh.clone(), glowing(1.0), motion);
+    }
+    scene
+}
+
+#[test]
+fn a_crowd_of_every_size_is_met_as_by_brute_force() {
+    for scale in [1e-4, 1e-2, 1.0, 1e3] {
+        expect_what_every_triangle_gives(&crowd(scale), [-0.8, 0.7], 3.0 * scale, 4000);
+    }
+}
 
 /// Makes a scene of `count` objects of one mesh, each with its own motion; every third has another as its parent.
 fn swarm(count: usize) -> Scene {
     let mut numbers = Numbers(8 << 32);
     let mut scene = empty_scene("swarm");
+    scene.meshes.push(icosphere(1.0, 2));
+    scene.materials.push(glowing(1.0));
     for index in 0..count {
-        let mut orientation = DQuat::IDENTITY;
-        let keys = [-1.0, -0.4, 0.3].map(|time| {
-            let turn = Turn {
-                axis: numbers.vector().normalize(),
-                angle: 2.0 * numbers.next(),
-            };
-            let key = Key {
-                time,
-                translation: 10.0 * numbers.vector(),
-                orientation,
-                scale: DVec3::ONE + 0.5 * numbers.vector(),
-                turn,
-            };
-            orientation = DQuat::from_axis_angle(turn.axis, turn.angle) * orientation;
-            key
-        });
         let interpolation = match index % 2 {
             0 => Interpolation::Linear,
             _ => Interpolation::Cubic,
         };
-        let motion = Motion {
-            keys: keys.to_vec(),
-            interpolation,
-        };
-        if index == 0 {
-            add(&mut scene, icosphere(1.0, 2), glowing(1.0), motion);
-            continue;
-        }
-        let parent = match index % 3 {
-            2 => Parent::Object(index - 1),
-            _ => Parent::World,
-        };
+        let times = [-1.0, -0.4, 0.3];
         scene.objects.push(Object {
             name: format!("object{index}"),
             mesh: 0,
             materials: vec![0],
-            motion,
-            parent,
+            motion: random_motion(&mut numbers, interpolation, &times, [10.0, 2.0]),
+            parent: match index % 3 {
+                2 => Parent::Object(index - 1),
+                _ => Parent::World,
+            },
         });
     }
     scene
 }
 
 #[test]
-fn rays_at_four_hundred_objects_of_one_mesh_agree_with_brute_force() {
-    let scene = swarm(400);
-    expect_what_every_triangle_gives(&scene, [-0.9, 0.5], 10.0, 600);
+fn four_hundred_objects_of_one_mesh_are_met_as_by_brute_force() {
+    expect_what_every_triangle_gives(&swarm(400), [-0.9, 0.5], 10.0, 600);
 }
 
 #[test]
-fn rays_at_still_objects_among_moving_ones_agree_with_brute_force() {
+fn still_objects_among_moving_ones_are_met_as_by_brute_force() {
     let mut scene = swarm(60);
     for (index, object) in scene.objects.iter_mut().enumerate() {
         // Some still objects have moving parents, and some moving objects have still ones.

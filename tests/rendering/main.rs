@@ -3,7 +3,6 @@
 mod accumulation;
 mod at_instant;
 mod coverage;
-mod crowd;
 mod deforming;
 mod determinism;
 mod files;
@@ -17,8 +16,9 @@ mod motion;
 mod moving_shapes;
 mod pixel_grid;
 mod regions;
+mod renders;
+mod scenery;
 mod shutter;
-mod small_truths;
 mod tiles;
 mod translucency;
 mod truth;

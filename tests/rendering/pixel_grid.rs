@@ -1,80 +1,59 @@
 //! Frames on other pixels than the picture's own: moved by a part of a pixel, or fewer.
 
-use frame::{ColorSampling, Frame, FrameOptions, VelocityKind};
+use frame::{ColorSampling, Frame, VelocityKind};
 use glam::{DVec3, Vec3};
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{
-    Background, Key, Motion, PixelGrid, PointMotion, RenderSettings, Scene, TraceError, frame_hash,
-    trace_frame, trace_frame_part, trace_motion_on,
+    Background, Key, PixelGrid, PointMotion, RenderSettings, Scene, TraceError, frame_hash,
+    trace_frame_part, trace_motion_on,
 };
+
+use crate::renders::{self, render_frame};
+use crate::scenery::{key, through};
 
 const WIDTH: u32 = 36;
 const HEIGHT: u32 = 24;
 
-fn render_settings(width: u32, height: u32) -> RenderSettings {
-    RenderSettings {
-        width,
-        height,
-        samples_per_pixel: 4,
-        options: FrameOptions {
-            velocity: VelocityKind::PreviousFrame,
-            color: ColorSampling::Point,
-            sky_velocity: true,
-        },
-        ..RenderSettings::default()
-    }
+fn settings(size: [u32; 2]) -> RenderSettings {
+    let mut settings = renders::settings(size, 4);
+    settings.options.velocity = VelocityKind::PreviousFrame;
+    settings.options.color = ColorSampling::Point;
+    settings
 }
 
 /// Makes a glowing sphere that drifts before a camera that drifts the other way.
 fn drifting_sphere() -> Scene {
     let mut scene = empty_scene("sphere");
     scene.background = Background::Constant(Vec3::splat(0.25));
-    add(
-        &mut scene,
-        icosphere(1.0, 3),
-        glowing(1.0),
-        drift(DVec3::new(0.2, 0.1, -3.5), DVec3::new(0.3, -0.1, 0.2)),
-    );
-    let key = |time, translation| Key {
-        time,
-        translation,
-        ..Key::REST
-    };
-    scene.camera.motion = Motion {
-        keys: vec![key(-1.0, DVec3::new(0.1, 0.0, 0.0)), key(0.0, DVec3::ZERO)],
-        ..Motion::still(Key::REST)
-    };
+    let motion = drift(DVec3::new(0.2, 0.1, -3.5), DVec3::new(0.3, -0.1, 0.2));
+    add(&mut scene, icosphere(1.0, 3), glowing(1.0), motion);
+    scene.camera.motion = through([key(-1.0, DVec3::new(0.1, 0.0, 0.0)), Key::REST]);
     scene
 }
 
 fn render_on(size: [u32; 2], offset: [f64; 2]) -> Frame {
     let grid = PixelGrid { size, offset };
-    let settings = render_settings(WIDTH, HEIGHT);
+    let settings = settings([WIDTH, HEIGHT]);
     trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched).expect("allowed")
 }
 
 #[test]
 fn a_grid_that_is_off_by_whole_pixels_shows_what_lies_beside() {
     let own = render_on([WIDTH, HEIGHT], [0.0; 2]);
-    let settings = render_settings(WIDTH, HEIGHT);
-    let plain = trace_frame(&drifting_sphere(), &settings, &unwatched).expect("allowed");
+    let settings = settings([WIDTH, HEIGHT]);
+    let plain = render_frame(&drifting_sphere(), &settings);
     assert_eq!(own, plain);
-    assert_eq!(
-        own.provenance.content_hash,
-        frame_hash(&drifting_sphere(), &settings)
-    );
+    let hash = frame_hash(&drifting_sphere(), &settings);
+    assert_eq!(own.provenance.content_hash, hash);
     let moved = render_on([WIDTH, HEIGHT], [2.0, -1.0]);
     assert_ne!(moved.provenance.content_hash, own.provenance.content_hash);
     for (x, y) in (1..HEIGHT).flat_map(|y| (0..WIDTH - 2).map(move |x| (x, y))) {
-        let beside = (x + 2, y - 1);
-        assert_eq!(moved.color.at(x, y), own.color.at(beside.0, beside.1));
-        assert_eq!(moved.velocity.at(x, y), own.velocity.at(beside.0, beside.1));
-        assert_eq!(moved.depth.at(x, y), own.depth.at(beside.0, beside.1));
-        assert_eq!(
-            moved.object_id.at(x, y),
-            own.object_id.at(beside.0, beside.1)
-        );
+        let (beside, above) = (x + 2, y - 1);
+        assert_eq!(moved.color.at(x, y), own.color.at(beside, above));
+        assert_eq!(moved.velocity.at(x, y), own.velocity.at(beside, above));
+        assert_eq!(moved.depth.at(x, y), own.depth.at(beside, above));
+        assert_eq!(moved.object_id.at(x, y), own.object_id.at(beside, above));
     }
     // Half a pixel changes the silhouette, and the layers alone are those of the frame.
     let half = render_on([WIDTH, HEIGHT], [0.5, 0.5]);
@@ -92,8 +71,7 @@ fn a_grid_that_is_off_by_whole_pixels_shows_what_lies_beside() {
 #[test]
 fn a_grid_of_half_the_size_is_the_picture_at_half_the_size() {
     let half = render_on([WIDTH / 2, HEIGHT / 2], [0.0; 2]);
-    let settings = render_settings(WIDTH / 2, HEIGHT / 2);
-    let own = trace_frame(&drifting_sphere(), &settings, &unwatched).expect("allowed");
+    let own = render_frame(&drifting_sphere(), &settings([WIDTH / 2, HEIGHT / 2]));
     assert_eq!(half.color, own.color);
     assert_eq!(half.depth, own.depth);
     assert_eq!(half.camera, own.camera);
@@ -123,10 +101,10 @@ fn pixels_that_are_not_square_cover_the_whole_picture() {
             let rows = [2 * y, 2 * y + 1].map(|row| whole.velocity.at(x, row));
             let middle = [0, 1].map(|axis| 0.5 * (rows[0][axis] + rows[1][axis]));
             let found = squeezed.velocity.at(x, y);
-            assert!((found[0] - middle[0]).abs() < 0.03, "{found:?} {middle:?}");
             // Its pixels are twice as high.
+            let off = [found[0] - middle[0], found[1] - 0.5 * middle[1]];
             assert!(
-                (found[1] - 0.5 * middle[1]).abs() < 0.03,
+                off.iter().all(|axis| axis.abs() < 0.03),
                 "{found:?} {middle:?}"
             );
         }
@@ -139,13 +117,7 @@ fn a_grid_without_pixels_is_refused() {
         size: [0, 4],
         offset: [0.0; 2],
     };
-    let settings = render_settings(WIDTH, HEIGHT);
+    let settings = settings([WIDTH, HEIGHT]);
     let refused = trace_frame_part(&drifting_sphere(), &settings, &grid, None, &unwatched);
-    assert!(matches!(
-        refused,
-        Err(TraceError::Size {
-            width: 0,
-            height: 4
-        })
-    ));
+    assert!(matches!(refused, Err(TraceError::Size { width: 0, .. })));
 }

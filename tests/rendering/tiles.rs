@@ -1,21 +1,16 @@
 //! Tiles of frames, replicates and rungs, rendered alone: they hold what the whole holds there.
 
-use frame::{Alignment, Tile, VelocityKind};
-use tests::{scenes, unwatched};
-use tracer::{
-    LadderTracer, PixelGrid, RenderSettings, TruthTracer, load_scene, trace_frame,
-    trace_frame_part, trace_truth,
-};
+use frame::{Alignment, AtInstant, Replicate, Tile, Truth, VelocityKind};
+use tests::unwatched;
+use tracer::{LadderTracer, PixelGrid, RenderSettings, TruthTracer, trace_frame_part};
+
+use crate::lens::with_lens;
+use crate::renders::{load_shipped, render_frame, render_truth, settings_of_two};
 
 fn settings() -> RenderSettings {
-    let mut settings = RenderSettings {
-        width: 40,
-        height: 24,
-        samples_per_pixel: 32,
-        replicates: 2,
-        guard_band: 3,
-        ..RenderSettings::default()
-    };
+    let mut settings = settings_of_two([40, 24], 32);
+    settings.guard_band = 3;
+    settings.exposure = Some(0.3);
     settings.options.velocity = VelocityKind::PreviousFrame;
     settings
 }
@@ -37,59 +32,68 @@ fn tiles(width: u32, height: u32) -> [Tile; 5] {
     ]
 }
 
+/// Cuts a tile out of a replicate.
+fn part(whole: &Replicate, tile: Tile) -> Replicate {
+    let all = &whole.at_instant;
+    Replicate {
+        picture: whole.picture.part(tile),
+        samples: whole.samples.part(tile),
+        support: whole.support.part(tile),
+        at_instant: AtInstant {
+            frozen: all.frozen.part(tile),
+            unknowable: all.unknowable.part(tile),
+            placed: all.placed.part(tile),
+            offset: all.offset.part(tile),
+            spread: all.spread.part(tile),
+        },
+        ..whole.clone()
+    }
+}
+
 #[test]
 fn a_tile_of_a_replicate_holds_what_the_replicate_holds_there() {
-    for scene in ["fan", "two_spheres"] {
-        let scene = load_scene(scenes().join(scene), None).unwrap();
-        let alignments = [Alignment::Trailing, Alignment::Centred];
-        let trace = |tile: Option<Tile>| {
-            // Each has a pilot and a support of its own.
-            let tracer = TruthTracer::new(&scene, &settings(), &alignments).unwrap();
-            match tile {
-                None => tracer.trace(1, &unwatched).unwrap(),
-                Some(tile) => tracer.trace_tile(1, tile, &unwatched).unwrap(),
-            }
+    let fan = load_shipped("fan");
+    for scene in [with_lens(fan.clone(), 0.3, 3.0), fan] {
+        // Each has a pilot and a support of its own.
+        let tracer = |alignments: &[Alignment]| {
+            TruthTracer::new(&scene, &settings(), alignments).expect("settings are allowed")
         };
-        let whole = trace(None);
+        let both = [Alignment::Trailing, Alignment::Centred];
+        let whole = tracer(&both).trace(1, &unwatched).unwrap();
         for tile in tiles(40, 24) {
-            for (part, whole) in trace(Some(tile)).iter().zip(&whole) {
-                assert_eq!(part.picture, whole.picture.part(tile), "{tile:?}");
-                assert_eq!(part.samples, whole.samples.part(tile));
-                assert_eq!(part.support, whole.support.part(tile));
-                let [own, all] = [&part.at_instant, &whole.at_instant];
-                assert_eq!(own.frozen, all.frozen.part(tile));
-                assert_eq!(own.offset, all.offset.part(tile));
-                assert_eq!(own.spread, all.spread.part(tile));
-                assert_eq!(own.placed, all.placed.part(tile));
-                assert_eq!(own.unknowable, all.unknowable.part(tile));
-                assert_eq!(part.provenance, whole.provenance);
-                assert_eq!(part.moving, whole.moving);
+            let found = tracer(&both).trace_tile(1, tile, &unwatched).unwrap();
+            for (found, whole) in found.iter().zip(&whole) {
+                assert_eq!(*found, part(whole, tile), "{tile:?}");
             }
         }
+        // So does an alignment alone, and replicates join to a truth.
+        let [trailing, centred] = [0, 1].map(|index| tracer(&both[index..=index]));
+        assert_eq!(trailing.trace(1, &unwatched).unwrap(), whole[..1]);
+        assert_eq!(centred.trace(1, &unwatched).unwrap(), whole[1..]);
+        assert_ne!(whole[0].picture, whole[1].picture);
+        let first = trailing.trace(0, &unwatched).unwrap().remove(0);
+        let truth = render_truth(&scene, &settings(), Alignment::Trailing);
+        let joined = Truth::of(&[first, whole[0].clone()]).unwrap();
+        assert_eq!(joined.mean(), truth.mean());
+        assert_eq!(joined.standard_error, truth.standard_error);
     }
 }
 
 #[test]
 fn a_tile_of_a_frame_holds_what_the_frame_holds_there() {
-    let scene = load_scene(scenes().join("fan"), None).unwrap();
+    let scene = load_shipped("fan");
     let settings = RenderSettings {
         replicates: 1,
         ..settings()
     };
-    let whole = trace_frame(&scene, &settings, &unwatched).unwrap();
+    let whole = render_frame(&scene, &settings);
     let grid = PixelGrid::of_picture(settings.width, settings.height);
     for tile in tiles(46, 30) {
         let part = trace_frame_part(&scene, &settings, &grid, Some(tile), &unwatched).unwrap();
-        assert_eq!(part.color, whole.color.part(tile), "{tile:?}");
+        assert_eq!(part.picture(), whole.picture().part(tile), "{tile:?}");
         assert_eq!(part.velocity, whole.velocity.part(tile));
         assert_eq!(part.depth, whole.depth.part(tile));
         assert_eq!(part.object_id, whole.object_id.part(tile));
-        let coverage: Vec<_> = whole
-            .coverage
-            .iter()
-            .map(|plane| plane.part(tile))
-            .collect();
-        assert_eq!(part.coverage, coverage);
         let samples = whole.samples.as_ref().map(|plane| plane.part(tile));
         assert_eq!(part.samples, samples);
         assert_eq!(part.provenance, whole.provenance);
@@ -100,9 +104,9 @@ fn a_tile_of_a_frame_holds_what_the_frame_holds_there() {
 
 #[test]
 fn a_tile_of_a_rung_holds_what_the_rung_holds_there() {
-    let scene = load_scene(scenes().join("fan"), None).unwrap();
+    let scene = load_shipped("fan");
     let settings = settings();
-    let truth = trace_truth(&scene, &settings, Alignment::Trailing, &unwatched).unwrap();
+    let truth = render_truth(&scene, &settings, Alignment::Trailing);
     let tracer = LadderTracer::new(&scene, &settings, &truth, &[2, 8]).unwrap();
     let whole = tracer.trace(8, &unwatched).unwrap();
     // Some of these pixels are rendered, and others hold the truth's mean.

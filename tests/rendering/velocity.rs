@@ -1,10 +1,12 @@
 //! Velocity and depth, against formulas.
 
-use frame::{FAR_DEPTH, Frame, FrameOptions, VelocityKind};
+use frame::{FAR_DEPTH, Frame, VelocityKind};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::shapes::*;
-use tests::unwatched;
-use tracer::{Interpolation, Key, Motion, Parent, RenderSettings, Scene, Turn, trace_frame};
+use tracer::{Interpolation, Key, Motion, Parent, Scene, Turn};
+
+use crate::renders::{self, expect_near, settings};
+use crate::scenery::{key, through, turned};
 
 const WIDTH: u32 = 33;
 const HEIGHT: u32 = 21;
@@ -14,17 +16,9 @@ const FOCAL: f64 = 0.5 * HEIGHT as f64;
 const TOLERANCE: f64 = 1e-3;
 
 fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
-    let settings = RenderSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        options: FrameOptions {
-            velocity,
-            ..FrameOptions::default()
-        },
-        samples_per_pixel: 1,
-        ..RenderSettings::default()
-    };
-    trace_frame(scene, &settings, &unwatched).expect("allowed")
+    let mut settings = settings([WIDTH, HEIGHT], 1);
+    settings.options.velocity = velocity;
+    renders::render_frame(scene, &settings)
 }
 
 /// Returns the centre of a pixel, in pixels from the picture's centre, +x right, +y **up**.
@@ -45,18 +39,21 @@ fn project(point: DVec3) -> DVec2 {
     FOCAL * DVec2::new(point.x, point.y) / -point.z
 }
 
+/// Returns the velocity on screen of a point that moves relative to the camera.
+fn screen_motion(place: DVec2, depth: f64, velocity: DVec3) -> DVec2 {
+    (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
+}
+
 /// Compares every pixel's velocity with the exact one at its place, y up.
-fn expect_velocity(what: &str, frame: &Frame, exact: impl Fn(DVec2) -> DVec2) {
-    for y in 0..HEIGHT {
-        for x in 0..WIDTH {
-            let [right, down] = frame.velocity.at(x, y).map(f64::from);
-            let expected = exact(pixel_center(x, y));
-            let off = DVec2::new(right, -down).distance(expected);
-            assert!(
-                off < TOLERANCE,
-                "{what}: pixel ({x}, {y}) has {right} right, {down} down, not {expected} (y up)"
-            );
-        }
+fn expect_velocity(scene: &Scene, kind: VelocityKind, exact: impl Fn(DVec2) -> DVec2) {
+    let frame = render_frame(scene, kind);
+    for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
+        let [right, down] = frame.velocity.at(x, y).map(f64::from);
+        let expected = exact(pixel_center(x, y));
+        assert!(
+            DVec2::new(right, -down).distance(expected) < TOLERANCE,
+            "{kind}: pixel ({x}, {y}) has {right} right, {down} down, not {expected} (y up)"
+        );
     }
 }
 
@@ -66,13 +63,8 @@ fn expect_velocities(
     derivative: impl Fn(DVec2) -> DVec2,
     previous: impl Fn(DVec2) -> DVec2,
 ) {
-    let render = |kind| render_frame(scene, kind);
-    expect_velocity(
-        "derivative",
-        &render(VelocityKind::Instantaneous),
-        derivative,
-    );
-    expect_velocity("previous", &render(VelocityKind::PreviousFrame), previous);
+    expect_velocity(scene, VelocityKind::Instantaneous, derivative);
+    expect_velocity(scene, VelocityKind::PreviousFrame, previous);
 }
 
 /// Makes a wall that fills the view, `depth` metres away at `t = 0`.
@@ -90,10 +82,7 @@ fn a_translated_wall_moves_by_perspective() {
     let scene = wall_scene(depth, |at| drift(at, velocity));
     expect_velocities(
         &scene,
-        |place| {
-            // d/dt of focal x / depth, where the depth shrinks by velocity.z.
-            (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
-        },
+        |place| screen_motion(place, depth, velocity),
         |place| place - project(point_at(place, depth) - velocity),
     );
 }
@@ -116,17 +105,10 @@ fn a_tilted_turning_box_moves_as_its_points_do() {
     let rate = 1.7;
     let centre = DVec3::new(0.3, -0.2, -6.0);
     let mut scene = empty_scene("box");
-    add(
-        &mut scene,
-        cuboid(Vec3::new(30.0, 30.0, 2.0)),
-        glowing(1.0),
-        spin(centre, axis, rate),
-    );
-    let frame = render_frame(&scene, VelocityKind::Instantaneous);
-    expect_velocity("box", &frame, |place| {
-        let point = point_at(place, 5.0);
-        let velocity = rate * axis.cross(point - centre);
-        (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / 5.0
+    let (mesh, motion) = (cuboid(Vec3::new(30.0, 30.0, 2.0)), spin(centre, axis, rate));
+    add(&mut scene, mesh, glowing(1.0), motion);
+    expect_velocity(&scene, VelocityKind::Instantaneous, |place| {
+        screen_motion(place, 5.0, rate * axis.cross(point_at(place, 5.0) - centre))
     });
 }
 
@@ -134,79 +116,12 @@ fn a_tilted_turning_box_moves_as_its_points_do() {
 fn a_child_moves_with_its_parent() {
     let mut scene = wall_scene(5.0, placed);
     let rate = 0.9;
-    add(
-        &mut scene,
-        rectangle(0.001, 0.001),
-        glowing(1.0),
-        spin(DVec3::ZERO, DVec3::Z, rate),
-    );
+    let turning = spin(DVec3::ZERO, DVec3::Z, rate);
+    add(&mut scene, rectangle(0.001, 0.001), glowing(1.0), turning);
     scene.objects.swap(0, 1);
     scene.objects[1].parent = Parent::Object(0);
-    expect_velocity(
-        "child",
-        &render_frame(&scene, VelocityKind::Instantaneous),
-        |place| rate * place.perp(),
-    );
-}
-
-#[test]
-fn a_dolly_makes_everything_stream_from_the_centre() {
-    let (depth, speed) = (4.0, 0.6);
-    let mut scene = wall_scene(depth, placed);
-    scene.camera.motion = drift(DVec3::ZERO, speed * DVec3::NEG_Z);
-    expect_velocities(
-        &scene,
-        |place| place * speed / depth,
-        |place| place * (1.0 - depth / (depth + speed)),
-    );
-}
-
-#[test]
-fn a_pan_moves_near_and_infinite_things_alike() {
-    let rate = 0.2;
-    let wall = wall_scene(4.0, placed);
-    for mut scene in [wall, empty_scene("background")] {
-        scene.camera.motion = spin(DVec3::ZERO, DVec3::Y, rate);
-        // The camera turns left, so that pictures move right.
-        expect_velocities(
-            &scene,
-            |place| {
-                let slope = place / FOCAL;
-                FOCAL * rate * DVec2::new(1.0 + slope.x * slope.x, slope.x * slope.y)
-            },
-            |place| {
-                let before = DQuat::from_rotation_y(-rate).inverse() * point_at(place, 1.0);
-                place - project(before)
-            },
-        );
-    }
-}
-
-#[test]
-fn a_roll_turns_the_picture_the_other_way() {
-    let rate = 0.7;
-    let mut scene = wall_scene(4.0, placed);
-    scene.camera.motion = spin(DVec3::ZERO, DVec3::Z, rate);
-    expect_velocities(
-        &scene,
-        |place| -rate * place.perp(),
-        |place| place - DVec2::from_angle(rate).rotate(place),
-    );
-}
-
-#[test]
-fn a_zoom_scales_the_picture_by_the_focal_length() {
-    let mut scene = wall_scene(4.0, placed);
-    let half_pi = std::f64::consts::FRAC_PI_2;
-    scene.camera.vertical_fov = vec![(-1.0, half_pi + 0.1), (1.0, half_pi - 0.1)];
-    expect_velocities(
-        &scene,
-        |place| {
-            // d/dt of 1 / tan(angle / 2) at 45 degrees, where the angle shrinks by 0.1 per frame.
-            place * 0.1
-        },
-        |place| place * (1.0 - 1.0 / (0.5 * (half_pi + 0.1)).tan()),
-    );
+    let turned = |place: DVec2| rate * place.perp();
+    expect_velocity(&scene, VelocityKind::Instantaneous, turned);
 }
 
 /// Makes a cubic motion through keys at -1, 0 and 1, with places and angles about one axis.
@@ -228,41 +143,46 @@ fn smooth_motion(axis: DVec3, angle: impl Fn(f64) -> f64, place: impl Fn(f64) ->
 }
 
 #[test]
-fn a_braking_dolly_has_the_speed_of_its_parabola() {
-    let (depth, speed, brake) = (4.0, 0.6, 0.2);
-    let mut scene = wall_scene(depth, placed);
-    let place = |time: f64| (speed * time - brake * time * time) * DVec3::NEG_Z;
-    scene.camera.motion = smooth_motion(DVec3::Y, |_| 0.0, place);
-    expect_velocities(
-        &scene,
-        |place| place * speed / depth,
-        |place| place * (1.0 - depth / (depth + speed + brake)),
-    );
-}
-
-#[test]
-fn accelerating_pans_and_rolls_have_the_rate_of_the_instant() {
-    let (rate, growth) = (0.2, 0.05);
-    for axis in [DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
-        let wall = wall_scene(4.0, placed);
-        for mut scene in [wall, empty_scene("background")] {
-            let angle = |time: f64| rate * time + growth * time * time;
-            scene.camera.motion = smooth_motion(axis, angle, |_| DVec3::ZERO);
-            expect_velocities(
-                &scene,
-                |place| screen_motion(place, 4.0, -rate * axis.cross(point_at(place, 4.0))),
-                |place| {
-                    let before = DQuat::from_axis_angle(axis, angle(-1.0));
-                    place - project(before.inverse() * point_at(place, 4.0))
-                },
-            );
-        }
+fn a_dolly_makes_everything_stream_from_the_centre() {
+    let (depth, speed) = (4.0, 0.6);
+    for brake in [0.0, 0.2] {
+        let mut scene = wall_scene(depth, placed);
+        let place = |time: f64| (speed * time - brake * time * time) * DVec3::NEG_Z;
+        scene.camera.motion = match brake {
+            0.0 => drift(DVec3::ZERO, speed * DVec3::NEG_Z),
+            _ => smooth_motion(DVec3::Y, |_| 0.0, place),
+        };
+        expect_velocities(
+            &scene,
+            |place| place * speed / depth,
+            |place| place * (1.0 - depth / (depth + speed + brake)),
+        );
     }
 }
 
-/// Returns the velocity on screen of a point that moves relative to the camera.
-fn screen_motion(place: DVec2, depth: f64, velocity: DVec3) -> DVec2 {
-    (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
+#[test]
+fn pans_and_rolls_move_near_and_infinite_things_alike() {
+    let rate = 0.2;
+    for axis in [DVec3::Y, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
+        for growth in [0.0, 0.05] {
+            let angle = |time: f64| rate * time + growth * time * time;
+            let motion = match growth {
+                0.0 => spin(DVec3::ZERO, axis, rate),
+                _ => smooth_motion(axis, angle, |_| DVec3::ZERO),
+            };
+            for mut scene in [wall_scene(4.0, placed), empty_scene("background")] {
+                scene.camera.motion = motion.clone();
+                expect_velocities(
+                    &scene,
+                    |place| screen_motion(place, 4.0, -rate * axis.cross(point_at(place, 4.0))),
+                    |place| {
+                        let before = DQuat::from_axis_angle(axis, angle(-1.0));
+                        place - project(before.inverse() * point_at(place, 4.0))
+                    },
+                );
+            }
+        }
+    }
 }
 
 #[test]
@@ -291,17 +211,20 @@ fn an_orbit_moves_and_turns_the_camera_at_once() {
 }
 
 #[test]
-fn a_smooth_zoom_has_the_rate_of_its_parabola() {
-    let mut scene = wall_scene(4.0, placed);
-    let half_pi = std::f64::consts::FRAC_PI_2;
-    let angle = |time: f64| half_pi - 0.1 * time + 0.05 * time * time;
-    scene.camera.motion.interpolation = Interpolation::Cubic;
-    scene.camera.vertical_fov = [-1.0, 0.0, 1.0].map(|time| (time, angle(time))).to_vec();
-    expect_velocities(
-        &scene,
-        |place| place * 0.1,
-        |place| place * (1.0 - 1.0 / (0.5 * angle(-1.0)).tan()),
-    );
+fn a_zoom_scales_the_picture_by_the_focal_length() {
+    for (interpolation, growth) in [(Interpolation::Linear, 0.0), (Interpolation::Cubic, 0.05)] {
+        let mut scene = wall_scene(4.0, placed);
+        let half_pi = std::f64::consts::FRAC_PI_2;
+        let angle = |time: f64| half_pi - 0.1 * time + growth * time * time;
+        scene.camera.motion.interpolation = interpolation;
+        scene.camera.vertical_fov = [-1.0, 0.0, 1.0].map(|time| (time, angle(time))).to_vec();
+        expect_velocities(
+            &scene,
+            // d/dt of 1 / tan(angle / 2) at 45 degrees, where the angle shrinks by 0.1 per frame.
+            |place| place * 0.1,
+            |place| place * (1.0 - 1.0 / (0.5 * angle(-1.0)).tan()),
+        );
+    }
 }
 
 #[test]
@@ -310,30 +233,18 @@ fn objects_carried_by_the_camera_stand_still() {
     scene.camera.motion = spin(DVec3::new(1.0, 2.0, 3.0), DVec3::Y, 2.0);
     scene.objects[0].parent = Parent::Camera;
     // With velocity from only the camera, a dashboard counts as part of the world.
-    for kind in [VelocityKind::Instantaneous, VelocityKind::PreviousFrame] {
-        expect_velocity("dashboard", &render_frame(&scene, kind), |_| DVec2::ZERO);
-    }
+    expect_velocities(&scene, |_| DVec2::ZERO, |_| DVec2::ZERO);
 }
 
 #[test]
 fn the_velocity_at_a_turning_point_is_that_before_it() {
     let depth = 4.0;
+    let keys = [(-2.0, -1.0), (0.0, 0.0), (1.0, -3.0)];
     let scene = wall_scene(depth, |at| {
-        let key = |time, x| Key {
-            time,
-            translation: at + x * DVec3::X,
-            ..Key::REST
-        };
-        Motion {
-            keys: vec![key(-2.0, -1.0), key(0.0, 0.0), key(1.0, -3.0)],
-            ..Motion::default()
-        }
+        through(keys.map(|(time, x)| key(time, at + x * DVec3::X)))
     });
-    expect_velocity(
-        "reversal",
-        &render_frame(&scene, VelocityKind::Instantaneous),
-        |_| DVec2::new(0.5 * FOCAL / depth, 0.0),
-    );
+    let before = DVec2::new(0.5 * FOCAL / depth, 0.0);
+    expect_velocity(&scene, VelocityKind::Instantaneous, |_| before);
 }
 
 #[test]
@@ -341,48 +252,35 @@ fn points_behind_the_previous_camera_get_the_derivative() {
     let (depth, speed) = (1.0, 3.0);
     // The wall comes from behind, through the camera.
     let scene = wall_scene(depth, |at| drift(at, speed * DVec3::NEG_Z));
-    expect_velocity(
-        "through",
-        &render_frame(&scene, VelocityKind::PreviousFrame),
-        |place| -place * speed / depth,
-    );
+    let derivative = |place: DVec2| -place * speed / depth;
+    expect_velocity(&scene, VelocityKind::PreviousFrame, derivative);
 }
 
 #[test]
 fn depth_is_the_distance_along_the_view_axis() {
     let mut scene = empty_scene("tilted");
-    let turned = DQuat::from_axis_angle(DVec3::new(0.0, 0.8, 0.6), 0.7);
+    let tilt = DQuat::from_axis_angle(DVec3::new(0.0, 0.8, 0.6), 0.7);
     let centre = DVec3::new(2.0, 1.0, -9.0);
-    let eye = Key {
-        translation: DVec3::new(100.0, 3.0, -20.0),
-        orientation: DQuat::from_axis_angle(DVec3::new(0.6, 0.8, 0.0), 2.1),
-        ..Key::REST
-    };
-    scene.camera.motion = Motion::still(eye);
-    let object = add(&mut scene, rectangle(12.0, 7.0), glowing(1.0), {
-        Motion::still(Key {
-            translation: centre,
-            orientation: turned,
-            turn: Turn::NONE,
-            ..Key::REST
-        })
-    });
-    scene.objects[object].parent = Parent::Camera;
+    scene.camera.motion = turned(
+        DVec3::new(100.0, 3.0, -20.0),
+        DQuat::from_axis_angle(DVec3::new(0.6, 0.8, 0.0), 2.1),
+    );
+    let panel = turned(centre, tilt);
+    add(&mut scene, rectangle(12.0, 7.0), glowing(1.0), panel);
+    scene.objects[0].parent = Parent::Camera;
     let frame = render_frame(&scene, VelocityKind::Instantaneous);
-    let normal = turned * DVec3::Z;
+    let normal = tilt * DVec3::Z;
     let mut hits = 0;
-    for y in 0..HEIGHT {
-        for x in 0..WIDTH {
-            let direction = point_at(pixel_center(x, y), 1.0);
-            let depth = centre.dot(normal) / direction.dot(normal);
-            let inside = turned.inverse() * (depth * direction - centre);
-            if inside.x.abs() < 6.0 && inside.y.abs() < 3.5 {
-                hits += 1;
-                let found = f64::from(*frame.depth.at(x, y));
-                assert!((found / depth - 1.0).abs() < 1e-5, "{found} is not {depth}");
-            } else {
-                assert_eq!(*frame.depth.at(x, y), FAR_DEPTH);
-            }
+    for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
+        let direction = point_at(pixel_center(x, y), 1.0);
+        let depth = centre.dot(normal) / direction.dot(normal);
+        let inside = tilt.inverse() * (depth * direction - centre);
+        let found = *frame.depth.at(x, y);
+        if inside.x.abs() < 6.0 && inside.y.abs() < 3.5 {
+            hits += 1;
+            expect_near("depth", f64::from(found), depth, 1e-5 * depth);
+        } else {
+            assert_eq!(found, FAR_DEPTH);
         }
     }
     assert!(hits > 50, "only {hits} pixels show the panel");

@@ -48,12 +48,13 @@ impl Input<'_> {
                 self.exposure
             ));
         }
-        check_raster("velocity", self.velocity, size, "finite", |v| is_finite(v))?;
-        check_raster("depth", self.depth, size, "finite and above 0", |z| {
-            z.is_finite() && *z > 0.0
+        check_raster("velocity", self.velocity, size, "finite", find_broken)?;
+        check_raster("depth", self.depth, size, "finite and above 0", |depth| {
+            let index = frame::find_broken(&depth.pixels, 0.0)?;
+            Some(place_of(depth, index))
         })?;
         (self.color.iter())
-            .try_for_each(|color| check_raster("color", color, size, "finite", |c| is_finite(c)))
+            .try_for_each(|color| check_raster("color", color, size, "finite", find_broken))
     }
 
     fn check_camera(&self, reads: CameraUse) -> Result<(), String> {
@@ -75,17 +76,12 @@ impl Input<'_> {
     }
 }
 
-/// Returns true if no value is infinite or NaN.
-pub(crate) fn is_finite(values: &[f32]) -> bool {
-    values.iter().all(|value| value.is_finite())
-}
-
 fn check_raster<T>(
     name: &str,
     raster: &Raster<T>,
     [width, height]: [u32; 2],
     allowed: &str,
-    is_allowed: impl Fn(&T) -> bool,
+    find_broken: impl Fn(&Raster<T>) -> Option<[u32; 2]>,
 ) -> Result<(), String> {
     if [raster.width, raster.height] != [width, height] {
         return Err(format!(
@@ -93,17 +89,20 @@ fn check_raster<T>(
             raster.width, raster.height
         ));
     }
-    match find_pixel(raster, |pixel| !is_allowed(pixel)) {
+    match find_broken(raster) {
         None => Ok(()),
         Some([x, y]) => Err(format!("{name} at ({x}, {y}) is not {allowed}")),
     }
 }
 
-/// Finds the first pixel that `is_wanted`.
-pub(crate) fn find_pixel<T>(
-    raster: &Raster<T>,
-    is_wanted: impl Fn(&T) -> bool,
-) -> Option<[u32; 2]> {
-    let index = raster.pixels.iter().position(is_wanted)? as u32;
-    Some([index % raster.width, index / raster.width])
+/// Finds the first pixel with a number that is infinite or NaN.
+pub(crate) fn find_broken<const N: usize>(raster: &Raster<[f32; N]>) -> Option<[u32; 2]> {
+    let index = frame::find_broken(raster.pixels.as_flattened(), f32::NEG_INFINITY)?;
+    Some(place_of(raster, index / N))
+}
+
+/// Returns the column and the row of a pixel.
+fn place_of<T>(raster: &Raster<T>, index: usize) -> [u32; 2] {
+    let index = index as u32;
+    [index % raster.width, index / raster.width]
 }

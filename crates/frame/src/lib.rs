@@ -62,7 +62,7 @@ pub use png::{
     MAX_PNG_PIXELS, check_png_palette, png_bytes, read_png, write_animated_png, write_png,
 };
 pub use provenance::Provenance;
-pub use raster::{Image, Plane, Raster, Vectors};
+pub use raster::{Image, Plane, Raster, Vectors, find_broken};
 pub use region::{Region, Regions};
 pub use replicate::Replicate;
 pub use reprojection::Reprojection;

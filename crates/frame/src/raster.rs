@@ -130,6 +130,26 @@ impl<T> Raster<T> {
     }
 }
 
+impl Image {
+    /// Makes an image of the first three of each pixel's four components.
+    pub fn from_texels(texels: &Raster<[f32; 4]>) -> Self {
+        texels.map(|[r, g, b, _]| [*r, *g, *b])
+    }
+
+    /// Makes four components per pixel: the colour times `scale`, and 1.
+    pub fn to_texels(&self, scale: f32) -> Vec<f32> {
+        let pixels = self.pixels.iter();
+        (pixels.flat_map(|[r, g, b]| [scale * r, scale * g, scale * b, 1.0])).collect()
+    }
+}
+
+/// Finds the first number that is infinite, NaN, or not above `least`.
+pub fn find_broken(values: &[f32], least: f32) -> Option<usize> {
+    values
+        .iter()
+        .position(|value| !(value.is_finite() && *value > least))
+}
+
 /// Averages at least one plane, all of one size; sums in `f64`, in their order.
 pub(crate) fn mean_plane<'a>(planes: impl IntoIterator<Item = &'a Plane>) -> Plane {
     let planes: Vec<&Plane> = planes.into_iter().collect();

@@ -12,6 +12,7 @@
 //! | `picture` | errors of a whole picture, pooled over regions |
 //! | `skill`, `subframes` | error put into proportion: skill and equivalent sub-frames |
 //! | `reference` | the truth, ready to measure pictures against |
+//! | `scatter_oracle` | about the best picture that one frame can give |
 //! | `sequence` | errors from frame to frame |
 //! | `math` | means, convolutions and powers |
 
@@ -28,6 +29,7 @@ mod parity;
 mod picture;
 mod probe;
 mod reference;
+mod scatter_oracle;
 mod score;
 mod scores;
 mod sequence;
@@ -50,6 +52,7 @@ pub use metric::{
 pub use object::sides::{Side, object_sides};
 pub use probe::{ProbeMeasurement, Probes};
 pub use reference::{ColorReference, Jitter, Measurement, Reference};
+pub use scatter_oracle::{make_oracle, scatter_oracle};
 pub use score::{Ideal, Measured, Score};
 pub use scores::Scores;
 pub use sequence::{

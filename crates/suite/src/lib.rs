@@ -59,7 +59,6 @@ pub use random::Random;
 pub use render::ladders::{SHARP, sharp_picture};
 pub use render::merge::{Merged, merge};
 pub use render::rendering::Rendering;
-pub use render::scatter_oracle::{make_oracle, scatter_oracle};
 pub use render::settings::{SIDES, list_settings};
 pub use render::truths::deciding_floor;
 pub use run::case::{ACCUMULATE, Case, Drawn, IDENTITY, Intervals};

@@ -8,8 +8,9 @@ mod placement;
 use frame::{Alignment, Truth};
 use glam::DVec3;
 use tests::shapes::*;
-use tests::unwatched;
-use tracer::{RenderSettings, Scene, trace_truth};
+use tracer::{RenderSettings, Scene};
+
+use crate::renders::{render_truth, settings_of_two};
 
 const WIDTH: u32 = 32;
 const HEIGHT: u32 = 12;
@@ -23,34 +24,21 @@ const EXPOSURE: f64 = 0.75;
 /// coverage: 0.0022 rms in the worst).
 const STEP_ERROR: f64 = 0.012;
 
-fn render_truth(scene: &Scene, alignment: Alignment) -> Truth {
-    render_truth_with(scene, alignment, 1024)
-}
-
-fn render_truth_with(scene: &Scene, alignment: Alignment, samples_per_pixel: u32) -> Truth {
+fn render(scene: &Scene, alignment: Alignment, samples_per_pixel: u32) -> Truth {
     let settings = RenderSettings {
-        width: WIDTH,
-        height: HEIGHT,
         exposure: Some(EXPOSURE),
-        samples_per_pixel,
-        replicates: 2,
-        ..RenderSettings::default()
+        ..settings_of_two([WIDTH, HEIGHT], samples_per_pixel)
     };
-    trace_truth(scene, &settings, alignment, &unwatched).expect("allowed")
+    render_truth(scene, &settings, alignment)
 }
 
 /// Makes an unlit wall, `gap` metres behind an unlit panel whose middle passes `at` at `t = 0`. Both are higher than
 /// any blur.
 fn panel_over_wall(gap: f64, at: f64, width: f32) -> Scene {
     let mut scene = empty_scene("panel");
-    let place = |x: f64, z: f64| DVec3::new(x, 0.0, z);
-    add(
-        &mut scene,
-        rectangle(200.0, 200.0),
-        glowing(0.2),
-        placed(place(0.0, -DISTANCE - gap)),
-    );
-    let motion = drift(place(at, -DISTANCE), DVec3::X * SPEED);
+    let wall = placed(DVec3::new(0.0, 0.0, -DISTANCE - gap));
+    add(&mut scene, rectangle(200.0, 200.0), glowing(0.2), wall);
+    let motion = drift(DVec3::new(at, 0.0, -DISTANCE), DVec3::X * SPEED);
     add(&mut scene, rectangle(width, 100.0), glowing(0.8), motion);
     scene
 }
@@ -72,4 +60,9 @@ fn mean_over(left: f64, alignment: Alignment, value: impl Fn(f64, f64) -> f64) -
     let places =
         (0..STEPS).flat_map(|x| (0..STEPS).map(move |t| (left + middle(x), shutter.at(middle(t)))));
     places.map(|(x, t)| value(x, t)).sum::<f64>() / f64::from(STEPS * STEPS)
+}
+
+/// Means of the first component over a raster of colours.
+fn mean_of(pixels: &[[f32; 3]]) -> f64 {
+    pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / pixels.len() as f64
 }

@@ -1,9 +1,9 @@
-//! Frames, truths and ladders of made-up numbers.
+//! Frames, truths, replicates and ladders of made-up numbers.
 
 use frame::{
-    Alignment, AtInstant, Camera, CameraPose, ColorSampling, Display, Efficiency, FlipExposures,
-    Frame, FrameOptions, Image, Picture, Plane, Provenance, Raster, Reprojection, ShutterProfile,
-    Support, Truth, VelocityKind,
+    Accumulation, Alignment, AtInstant, Camera, CameraPose, ColorSampling, Display, Efficiency,
+    FlipExposures, Frame, FrameOptions, Image, Ladder, Picture, Plane, Provenance, Raster,
+    Replicate, Reprojection, ShutterProfile, Support, Truth, VelocityKind,
 };
 
 pub const WIDTH: u32 = 13;
@@ -23,25 +23,27 @@ pub fn plane(salt: u32) -> Plane {
     })
 }
 
-pub fn image(salt: u32) -> Image {
-    let [r, g, b] = [plane(salt), plane(salt + 1), plane(salt + 2)];
-    Raster::from_fn(WIDTH, HEIGHT, |x, y| {
-        [*r.at(x, y), *g.at(x, y), *b.at(x, y)]
-    })
+/// Makes a plane of pairs.
+fn pairs(salt: u32) -> Raster<[f32; 2]> {
+    plane(salt).zip(&plane(salt + 1), |x, y| [*x, *y])
 }
 
-pub fn picture(salt: u32) -> Picture {
+pub fn image(salt: u32) -> Image {
+    pairs(salt).zip(&plane(salt + 2), |[r, g], b| [*r, *g, *b])
+}
+
+fn picture(salt: u32) -> Picture {
     Picture {
         color: image(salt),
         coverage: vec![plane(salt + 3), plane(salt + 4)],
     }
 }
 
-pub fn objects() -> Vec<String> {
+fn objects() -> Vec<String> {
     vec!["background".into(), "front-wheel_2".into()]
 }
 
-pub fn provenance() -> Provenance {
+fn provenance() -> Provenance {
     Provenance {
         scene: "fan@20deg".into(),
         program: "shuttertruth test".into(),
@@ -54,7 +56,7 @@ pub fn provenance() -> Provenance {
     }
 }
 
-pub fn pose(number: f64) -> CameraPose {
+fn pose(number: f64) -> CameraPose {
     CameraPose {
         focal: number,
         to_world: [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| number * f64::from(row - column))),
@@ -89,9 +91,7 @@ pub fn a_frame() -> Frame {
         },
         objects: objects(),
         color: image(1),
-        velocity: Raster::from_fn(WIDTH, HEIGHT, |x, y| {
-            [*plane(8).at(x, y), *plane(9).at(x, y)]
-        }),
+        velocity: pairs(8),
         depth: plane(10),
         object_id: Raster::from_fn(WIDTH, HEIGHT, |x, y| u32::MAX - x * y),
         coverage: vec![plane(11), plane(12)],
@@ -99,12 +99,12 @@ pub fn a_frame() -> Frame {
     }
 }
 
-pub fn at_instant(salt: u32) -> AtInstant {
+fn at_instant(salt: u32) -> AtInstant {
     AtInstant {
         frozen: image(salt),
         unknowable: plane(salt + 3),
         placed: plane(salt + 4),
-        offset: plane(salt + 5).zip(&plane(salt + 6), |x, y| [*x, *y]),
+        offset: pairs(salt + 5),
         spread: image(salt + 7),
     }
 }
@@ -125,7 +125,42 @@ pub fn a_truth() -> Truth {
     }
 }
 
-pub fn support() -> Support {
+pub fn a_replicate() -> Replicate {
+    let truth = a_truth();
+    let [picture, _] = truth.halves;
+    let [at_instant, _] = truth.at_instant;
+    Replicate {
+        provenance: truth.provenance,
+        index: 3,
+        shutter: truth.shutter,
+        shutter_profile: truth.shutter_profile,
+        alignment: truth.alignment,
+        objects: truth.objects,
+        moving: vec![false, true],
+        picture,
+        at_instant,
+        samples: truth.samples,
+        support: truth.support,
+    }
+}
+
+pub fn a_ladder() -> Ladder {
+    let truth = a_truth();
+    let rungs = [1, 2, 64].map(|subframes| Accumulation {
+        subframes,
+        halves: [picture(subframes), picture(subframes + 100)],
+    });
+    Ladder {
+        provenance: truth.provenance,
+        shutter: truth.shutter,
+        shutter_profile: truth.shutter_profile,
+        alignment: truth.alignment,
+        objects: truth.objects,
+        rungs: rungs.into(),
+    }
+}
+
+fn support() -> Support {
     let mask = |salt: u32| Raster::from_fn(WIDTH, HEIGHT, |x, y| (x + salt * y).is_multiple_of(3));
     Support {
         seen: vec![mask(1), mask(2)],

@@ -8,7 +8,7 @@ mod pinholes;
 use tracer::{Lens, Scene};
 
 /// Gives a scene's camera a lens.
-fn with_lens(mut scene: Scene, aperture: f64, focus: f64) -> Scene {
+pub fn with_lens(mut scene: Scene, aperture: f64, focus: f64) -> Scene {
     scene.camera.lens = Some(Lens { aperture, focus });
     scene
 }

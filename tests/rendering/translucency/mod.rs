@@ -10,7 +10,7 @@ use tests::shapes::{add, glowing, placed, rectangle};
 use tracer::{Material, Scene, Translucency};
 
 /// Makes an unlit film of an opacity, which lets `filter` of the rest pass.
-fn film(radiance: Vec3, opacity: f32, filter: Vec3) -> Material {
+pub fn film(radiance: Vec3, opacity: f32, filter: Vec3) -> Material {
     Material {
         emission: radiance,
         opacity,
@@ -23,7 +23,7 @@ fn film(radiance: Vec3, opacity: f32, filter: Vec3) -> Material {
 }
 
 /// Makes clean glass of this index, which takes `1 - filter` from light inside it.
-fn glass(index: f32, filter: Vec3) -> Material {
+pub fn glass(index: f32, filter: Vec3) -> Material {
     Material {
         opacity: 0.0,
         translucency: Some(Translucency {

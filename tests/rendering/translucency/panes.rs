@@ -1,15 +1,16 @@
 //! Films and stacks of films, still and moving.
 
 use frame::{Alignment, ColorSampling, Frame};
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
+use tests::half_plane::half_plane;
 use tests::random::Random;
 use tests::shapes::*;
 use tests::statistics::{estimate_pixels, expect_agreement};
-use tests::unwatched;
-use tracer::{Background, RenderSettings, Scene, trace_frame, trace_truth};
+use tracer::{Background, Scene};
 
 use super::{assert_near, film, hang};
-use crate::small_truths::render_truth;
+use crate::moving_shapes::{SPEED, half_plane_scene, pixel_corner, truth_settings};
+use crate::renders::{self, render_small_truth, render_truth, settings};
 
 const SKY: Vec3 = Vec3::new(0.4, 0.8, 1.2);
 
@@ -20,59 +21,54 @@ fn sky_scene(name: &str) -> Scene {
 }
 
 /// Renders a frame; at the pixels' centres, if `sampling` says so.
-fn render_frame(scene: &Scene, [width, height]: [u32; 2], sampling: ColorSampling) -> Frame {
-    let mut settings = RenderSettings {
-        width,
-        height,
-        samples_per_pixel: 16,
-        ..RenderSettings::default()
-    };
+fn render_frame(scene: &Scene, size: [u32; 2], sampling: ColorSampling) -> Frame {
+    let mut settings = settings(size, 16);
     settings.options.color = sampling;
-    trace_frame(scene, &settings, &unwatched).expect("settings are allowed")
+    renders::render_frame(scene, &settings)
 }
 
 #[test]
-fn a_film_mixes_its_own_light_with_what_it_lets_pass() {
-    let (own, filter) = (Vec3::new(2.0, 0.1, 0.5), Vec3::new(0.9, 0.5, 0.1));
-    for opacity in [0.0, 0.3, 0.8] {
-        let mut scene = sky_scene("film");
-        hang(&mut scene, film(own, opacity, filter), -4.0);
-        let expected = opacity * own + (1.0 - opacity) * filter * SKY;
-        let mean = render_truth(&scene, 16).mean();
-        let frame = render_frame(&scene, [16, 9], ColorSampling::Antialiased);
-        // Rounding of 16 sums: no sample differs from another.
-        for pixel in mean.color.pixels.iter().chain(&frame.color.pixels) {
-            assert_near(*pixel, expected, 2e-6, "film");
-        }
+fn films_mix_their_own_light_with_what_they_let_pass() {
+    let blue = Vec3::new(0.9, 0.5, 0.1);
+    let grey = |level: f32| Vec3::splat(level);
+    let own = Vec3::new(2.0, 0.1, 0.5);
+    // Opacity, radiance and filter, from the farthest to the nearest.
+    let stacks = [
+        vec![(0.0, own, blue)],
+        vec![(0.3, own, blue)],
+        vec![(0.8, own, blue)],
+        vec![
+            (0.25, grey(0.0), grey(0.9)),
+            (0.5, grey(1.0), grey(0.8)),
+            (0.1, own, grey(0.5)),
+            (0.6, grey(3.0), grey(1.0)),
+            (0.0, grey(4.0), blue),
+        ],
+    ];
+    for films in stacks {
+        let mut scene = sky_scene("films");
+        let mut expected = SKY;
         // A film covers what its opacity says, whatever its colour.
-        for coverage in [&mean.coverage, &frame.coverage] {
-            for (id, share) in [1.0 - opacity, opacity].into_iter().enumerate() {
-                let found = coverage[id].pixels.iter();
-                assert!(found.into_iter().all(|own| (own - share).abs() < 1e-6));
+        let mut shares = vec![1.0];
+        for (index, (opacity, own, filter)) in films.into_iter().enumerate() {
+            hang(&mut scene, film(own, opacity, filter), -10.0 + index as f64);
+            expected = opacity * own + (1.0 - opacity) * filter * expected;
+            shares.iter_mut().for_each(|share| *share *= 1.0 - opacity);
+            shares.push(opacity);
+        }
+        let mean = render_small_truth(&scene, 16).mean();
+        let frame = render_frame(&scene, [16, 9], ColorSampling::Antialiased);
+        for picture in [mean, frame.picture()] {
+            // Rounding of 16 sums: no sample differs from another.
+            for pixel in &picture.color.pixels {
+                assert_near(*pixel, expected, 5e-6, "films");
+            }
+            for (coverage, share) in picture.coverage.iter().zip(&shares) {
+                let mut found = coverage.pixels.iter();
+                assert!(found.all(|own| (own - share).abs() < 1e-6));
             }
         }
     }
-}
-
-#[test]
-fn stacked_films_let_the_product_pass() {
-    let parts = [(0.25, 0.9), (0.5, 0.8), (0.1, 0.5), (0.6, 1.0), (0.0, 0.7)];
-    let mut scene = sky_scene("stack");
-    let mut expected = SKY;
-    // From the farthest to the nearest.
-    for (index, (opacity, filter)) in parts.into_iter().enumerate() {
-        let (own, filter) = (Vec3::splat(index as f32), Vec3::splat(filter));
-        hang(&mut scene, film(own, opacity, filter), -10.0 + index as f64);
-        expected = opacity * own + (1.0 - opacity) * filter * expected;
-    }
-    let mean = render_truth(&scene, 16).mean();
-    for pixel in &mean.color.pixels {
-        assert_near(*pixel, expected, 5e-6, "stack");
-    }
-    let sum: f32 = mean.coverage.iter().map(|plane| plane.pixels[0]).sum();
-    assert!((sum - 1.0).abs() < 1e-6, "{sum}");
-    let left: f32 = parts.iter().map(|(opacity, _)| 1.0 - opacity).product();
-    assert!((mean.coverage[0].pixels[0] - left).abs() < 1e-6);
 }
 
 #[test]
@@ -129,59 +125,28 @@ fn films_at_random_look_as_a_painter_puts_them_on() {
 
 #[test]
 fn a_film_that_moves_counts_for_the_time_that_it_covers() {
-    const HEIGHT: u32 = 6;
-    const WIDTH: u32 = 32;
     let (own, opacity, filter) = (Vec3::splat(3.0), 0.4, Vec3::splat(0.5));
-    let mut scene = sky_scene("moving film");
-    // One metre is one pixel; 10 pixels per frame to the right, 5.5 wide.
-    let (speed, wide) = (10.0, 5.5);
-    let motion = drift(
-        DVec3::new(0.0, 0.0, -0.5 * f64::from(HEIGHT)),
-        speed * DVec3::X,
-    );
-    add(
-        &mut scene,
-        rectangle(wide as f32, 100.0),
-        film(own, opacity, filter),
-        motion,
-    );
-    let settings = RenderSettings {
-        width: WIDTH,
-        height: HEIGHT,
-        exposure: Some(0.7),
-        samples_per_pixel: 512,
-        ..RenderSettings::default()
-    };
-    let truth = trace_truth(&scene, &settings, Alignment::Trailing, &unwatched).expect("allowed");
-    let covered = |x: u32| {
-        let left = f64::from(x) - 0.5 * f64::from(WIDTH);
-        let steps = 20_000;
-        let share = |step: u32| {
-            let time = -0.7 * (f64::from(step) + 0.5) / f64::from(steps);
-            let [from, to] = [-0.5, 0.5].map(|side| speed * time + side * wide);
-            (to.min(left + 1.0) - from.max(left)).max(0.0)
-        };
-        (0..steps).map(share).sum::<f64>() / f64::from(steps)
-    };
-    let shares: Vec<f64> = (0..WIDTH).map(covered).collect();
-    let [sky, through] =
-        [SKY, opacity * own + (1.0 - opacity) * filter * SKY].map(|color| f64::from(color.x));
-    let mut estimates = estimate_pixels(&truth, |x, _| sky + shares[x as usize] * (through - sky));
+    let normal = DVec2::from_angle(0.3);
+    let mut scene = half_plane_scene(normal, &[-1.0, 1.0], |time| 2.3 + SPEED * time);
+    scene.background = Background::Constant(SKY);
+    scene.materials[0] = film(own, opacity, filter);
+    let truth = render_truth(&scene, &truth_settings(), Alignment::Trailing);
+    let mixed = opacity * own + (1.0 - opacity) * filter * SKY;
+    let [sky, through] = [SKY, mixed].map(|color| f64::from(color.x));
+    let mut estimates = estimate_pixels(&truth, |x, y| {
+        let share = half_plane(pixel_corner(x, y), normal, 2.3, SPEED, truth.shutter);
+        sky + share * (through - sky)
+    });
     for estimate in &mut estimates {
         if estimate.expected != sky && estimate.expected != through {
             // Eight replicates may agree and be off by a sample: see `coverage_estimates`.
-            estimate.floor = (0.21_f64 / 8.0).sqrt() / 64.0 * (through - sky);
+            estimate.floor = (0.21_f64 / 8.0).sqrt() / 128.0 * (through - sky);
         }
     }
     expect_agreement("moving film", &estimates, 8);
-    let matte = &truth.mean().coverage[1];
-    for x in 0..WIDTH {
-        let found: f32 = (0..HEIGHT).map(|y| matte.at(x, y)).sum();
-        let expected = f64::from(HEIGHT) * f64::from(opacity) * shares[x as usize];
-        // 3072 stratified samples in a column.
-        assert!(
-            (f64::from(found) - expected).abs() < 0.02,
-            "{x}: {found} {expected}"
-        );
+    let mean = truth.mean();
+    for (color, matte) in mean.color.pixels.iter().zip(&mean.coverage[1].pixels) {
+        let share = (f64::from(color[0]) - sky) / (through - sky);
+        assert!((f64::from(opacity) * share - f64::from(*matte)).abs() < 1e-5);
     }
 }

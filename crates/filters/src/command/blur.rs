@@ -10,7 +10,7 @@ use frame::{ExrFile, FileError, Image, read_exr, write_exr};
 use super::environment::collect_environment;
 use super::process::{End, run_process};
 use crate::filter::fill_placeholders;
-use crate::input::{FRAMES_PER_SECOND, find_pixel, is_finite};
+use crate::input::{FRAMES_PER_SECOND, find_broken};
 use crate::{Command, Filter, FilterError, Input, Settings};
 
 /// Upper limit on the bytes per pixel that a program may write: 64 channels of 32 bits.
@@ -189,7 +189,7 @@ impl CommandBlur {
                 color.width, color.height
             ));
         }
-        match find_pixel(&color, |pixel| !is_finite(pixel)) {
+        match find_broken(&color) {
             None => Ok(color),
             Some([x, y]) => Err(format!(
                 "wrote {:?} at pixel ({x}, {y}); every value must be finite",

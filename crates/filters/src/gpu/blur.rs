@@ -9,10 +9,10 @@ use super::device::Gpu;
 use super::dispatch::Dispatch;
 use super::kernels::{Kernels, Specialised};
 use super::place::Place;
-use super::transfer::{row_bytes, to_texels, velocity_texels};
+use super::transfer::{row_bytes, velocity_texels};
 use super::uniforms::FrameValues;
 use crate::filter::History;
-use crate::input::{find_pixel, is_finite};
+use crate::input::find_broken;
 use crate::{Filter, FilterError, Format, Input, Settings};
 
 /// A filter ready to run on images of one size.
@@ -132,12 +132,13 @@ impl<'g> Blur<'g> {
     /// Reads the output; fails if a pixel was not written or is not finite.
     fn read_output(&self) -> Result<Image, FilterError> {
         let target = self.passes.target("output");
-        let output = self.gpu.download(target, self.place("read back"))?;
-        match find_pixel(&output, |texel| !is_finite(&texel[..3])) {
-            None => {
-                let scale = self.color_scale();
-                Ok(output.map(|[r, g, b, _]| [*r / scale, *g / scale, *b / scale]))
-            }
+        let texels = self.gpu.download(target, self.place("read back"))?;
+        let output = Image::from_texels(&texels);
+        match find_broken(&output) {
+            None => match self.color_scale() {
+                1.0 => Ok(output),
+                scale => Ok(output.map(|pixel| pixel.map(|part| part / scale))),
+            },
             Some([x, y]) => {
                 // If a loop was ended early, the broken pixel is its effect.
                 self.check_loops()?;
@@ -146,7 +147,7 @@ impl<'g> Blur<'g> {
         }
     }
 
-    fn refuse_pixel(&self, [x, y]: [u32; 2], [r, g, b, _]: &[f32; 4]) -> FilterError {
+    fn refuse_pixel(&self, [x, y]: [u32; 2], [r, g, b]: &[f32; 3]) -> FilterError {
         let mut dispatches = self.passes.dispatches.iter();
         let writer = dispatches.rfind(|dispatch| dispatch.writes("output"));
         let place = self.place(writer.map_or("output", |dispatch| &dispatch.entry));
@@ -171,7 +172,7 @@ impl<'g> Blur<'g> {
                 .filter(|(name, target)| name != "output" && target.format != Format::R32Uint);
             for (name, target) in between {
                 let texels = self.gpu.download(target, self.place("read back")).ok()?;
-                let broken = find_pixel(&texels, |texel| !is_finite(texel));
+                let broken = find_broken(&texels);
                 if let Some([x, y]) = broken {
                     return Some(format!(
                         "; pass {} writes the first that is not, to texel ({x}, {y}) of \"{name}\"",
@@ -237,8 +238,8 @@ impl<'g> Blur<'g> {
 
     /// Uploads a colour, and that of the frame before if the filter reads it.
     fn upload_color(&self, color: &Image, before: &Image) -> Result<(), FilterError> {
-        let upload = |name, color| {
-            let texels = to_texels(color, self.color_scale());
+        let upload = |name, color: &Image| {
+            let texels = color.to_texels(self.color_scale());
             self.gpu.upload(self.passes.target(name), &texels);
         };
         self.gpu.catch_errors(self.place("upload"), || {

@@ -1,6 +1,6 @@
 //! Textures on the GPU, and transfers to and from them.
 
-use frame::{Image, Raster};
+use frame::Raster;
 use half::f16;
 
 use super::device::Gpu;
@@ -127,12 +127,6 @@ pub(super) fn count_texels(width: u32, height: u32, levels: std::ops::Range<u32>
         .sum()
 }
 
-/// Converts a colour image to texels with a fourth component of 1; multiplies colours by `scale`.
-pub(super) fn to_texels(color: &Image, scale: f32) -> Vec<f32> {
-    let pixels = color.pixels.iter();
-    (pixels.flat_map(|[r, g, b]| [scale * r, scale * g, scale * b, 1.0])).collect()
-}
-
 /// Converts the velocity of an input as a shader expects it, with as many components as its format has.
 pub(super) fn velocity_texels(convention: &Convention, input: &Input) -> Vec<f32> {
     let convention = convention.at_rate(input.frames_per_second);
@@ -249,14 +243,21 @@ impl Gpu {
         let bytes: Vec<u8> = self.read_buffer(&buffer, place)?;
         let components = target.format.components();
         let row = (u64::from(width) * target.format.texel_bytes()) as usize;
-        let rows: Vec<Vec<f32>> = (bytes.chunks(padded as usize))
-            .map(|padded| target.format.decode(&padded[..row]))
-            .collect();
-        Ok(Raster::from_fn(width, height, |x, y| {
-            let start = x as usize * components;
-            let texel = &rows[y as usize][start..start + components];
-            std::array::from_fn(|component| texel.get(component).copied().unwrap_or(0.0))
-        }))
+        let mut pixels = Vec::with_capacity(width as usize * height as usize);
+        for padded in bytes.chunks(padded as usize) {
+            let numbers = target.format.decode(&padded[..row]);
+            match components {
+                4 => pixels.extend_from_slice(bytemuck::cast_slice(&numbers)),
+                _ => pixels.extend(numbers.chunks_exact(components).map(|texel| {
+                    std::array::from_fn(|index| texel.get(index).copied().unwrap_or(0.0))
+                })),
+            }
+        }
+        Ok(Raster {
+            width,
+            height,
+            pixels,
+        })
     }
 
     /// Waits for the GPU and reads a whole buffer.

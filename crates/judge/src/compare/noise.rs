@@ -5,12 +5,10 @@ use std::path::{Path, PathBuf};
 use frame::{FileError, Frame, Ladder, Picture, Replicate, Truth, read_exr};
 use metrics::{
     ImageMetric, LabelMetric, Metric, ObjectMetric, Reference, Region, Scores, SkillMetric,
-    jackknife,
+    jackknife, make_oracle,
 };
 use store::RenderFile;
-use suite::{
-    Error, MIN_REPLICATES, SHARP, StoredRun, make_oracle, sharp_picture, truths_without_pairs,
-};
+use suite::{Error, MIN_REPLICATES, SHARP, StoredRun, sharp_picture, truths_without_pairs};
 use tracer::{Progress, Watch};
 
 use crate::compare::change::{Change, Uncertainty};

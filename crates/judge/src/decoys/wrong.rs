@@ -1,7 +1,7 @@
 //! Pictures of wrong blurs.
 
 use frame::{Alignment, Frame, Picture, Plane, Raster, Truth};
-use suite::scatter_oracle;
+use metrics::scatter_oracle;
 
 /// Number of sub-frames whose mean shows bands.
 pub const FEW_SUBFRAMES: u32 = 4;

@@ -9,6 +9,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use frame::{Image, Plane};
 use half::f16;
+use half::slice::{HalfBitsSliceExt, HalfFloatSliceExt};
 use rayon::prelude::*;
 
 /// Most differences that a browser adds up for one plane.
@@ -28,10 +29,8 @@ pub struct Planes {
 impl Planes {
     /// Adds a plane, unless an equal one is there, and returns its number.
     pub fn add(&mut self, plane: &Plane) -> usize {
-        let values = plane.pixels.iter();
-        let bits: Vec<u16> = values
-            .map(|value| f16::from_f32(*value).to_bits())
-            .collect();
+        let mut bits = vec![0; plane.pixels.len()];
+        (bits.reinterpret_cast_mut::<f16>()).convert_from_f32_slice(&plane.pixels);
         let next = self.planes.len();
         let number = *self.numbers.entry(bits.clone()).or_insert(next);
         if number == next {

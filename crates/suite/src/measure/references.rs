@@ -5,7 +5,7 @@ use metrics::{Reference, Viewing};
 
 use crate::Error;
 use crate::render::ladders::sharp_picture;
-use crate::render::scatter_oracle::make_oracle;
+use metrics::make_oracle;
 
 /// The truth of one shutter, with everything that pictures are measured against.
 pub(crate) struct TruthReferences<'a> {

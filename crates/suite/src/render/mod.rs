@@ -6,6 +6,5 @@ pub mod memory;
 pub mod merge;
 pub mod rendering;
 pub mod replicates;
-pub mod scatter_oracle;
 pub mod settings;
 pub mod truths;

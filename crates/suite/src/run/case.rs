@@ -124,7 +124,7 @@ impl Deref for Case {
 
 /// Name of the reference picture that is the frame itself.
 pub const IDENTITY: &str = "identity";
-/// Name of the reference picture of [`crate::scatter_oracle`].
+/// Name of the reference picture of [`metrics::scatter_oracle`].
 pub const SCATTER_ORACLE: &str = "scatter_oracle";
 /// Name of the reference pictures that are means of sub-frames.
 pub const ACCUMULATE: &str = "accumulate";

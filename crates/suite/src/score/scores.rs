@@ -5,7 +5,7 @@ use metrics::{ImageScores, MeasureError, Measured, Metric, Reference, Scores};
 
 use super::finished_picture::FinishedPicture;
 use crate::render::ladders::{SHARP, sharp_picture};
-use crate::render::scatter_oracle::make_oracle;
+use metrics::make_oracle;
 
 const NO_MATTES: &str = "the picture has no mattes, channels coverage.<object> that say which share of a pixel it gives \
                          to each object";
