@@ -35,7 +35,7 @@ fn ctrl_c_ends_work_on_the_gpu_within_two_seconds() {
     for words in [blur, run] {
         let mut child = sandbox.command(&words).spawn().unwrap();
         // Neither command takes half of this without the kernel.
-        wait_until_busy(&mut child, 150);
+        wait_until_busy(&mut child, 80);
         let pressed = Instant::now();
         press_ctrl_c(&child);
         let status = child.wait().unwrap();

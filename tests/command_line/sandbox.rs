@@ -13,27 +13,7 @@ use tests::text::assert_contains;
 
 /// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so that 0.4 m is about 2.7 px of 32 px
 /// rows.
-pub const SCENE: &str = "\
-exposes = \"nothing: it serves the tests of the command line\"
-family = \"translation\"
-exposure = 0.5
-size = [64, 32]
-
-[camera]
-position = [0, 0, 4]
-look_at = [0, 0, 0]
-vertical_fov = 60.0
-
-[background]
-constant = [0.2, 0.2, 0.2]
-
-[object.plate]
-mesh = \"plate.obj\"
-keys = [
-    { time = -1, translation = [-1.6, 0, 0] },
-    { time = 0, translation = [0, 0, 0] },
-]
-";
+pub const SCENE: &str = include_str!("plate.toml");
 
 /// Words that choose the identity alone.
 pub const IDENTITY: [&str; 2] = ["--filters", "identity"];
@@ -127,22 +107,15 @@ impl Sandbox {
 
     /// Bounds `flip_moving` on the plate for every filter. The identity scores about 0.3.
     pub fn write_bound(&self, limit: f64) {
-        self.write(
-            "bounds.toml",
-            &format!(
-                "[default]\nflip_moving = {{ limit = {limit:?}, why = \"it serves a test\" }}\n"
-            ),
-        );
+        let bound = format!("flip_moving = {{ limit = {limit:?}, why = \"it serves a test\" }}");
+        self.write("bounds.toml", &format!("[default]\n{bound}\n"));
     }
 
     /// Bounds the same score of another scene.
     pub fn copy_bound(&self, scene: &str) {
-        let scenes = self.path("scenes");
-        fs::copy(
-            scenes.join("plate/bounds.toml"),
-            scenes.join(scene).join("bounds.toml"),
-        )
-        .unwrap();
+        let folders = ["plate", scene].map(|name| self.path("scenes").join(name));
+        let [from, to] = folders.map(|folder| folder.join("bounds.toml"));
+        fs::copy(from, to).unwrap();
     }
 
     /// Writes the filter `name`, with one file of kernels, to a folder of that name.
@@ -178,6 +151,12 @@ impl Sandbox {
     pub fn refuse(&self, line: &str, parts: &[&str]) {
         println!("{line}");
         assert_refused(&self.shuttertruth(&split(line)), 2, parts);
+    }
+
+    pub fn git(&self, line: &str) {
+        let mut git = Command::new("git");
+        let status = git.current_dir(self.path("")).args(split(line)).status();
+        assert!(status.unwrap().success(), "git {line}");
     }
 
     /// Does it for a table, one row a line: more words of the command, and behind each `|` a part of the message. A line that
@@ -274,10 +253,11 @@ impl Sandbox {
 
     /// Names the last run's cases without the references: `plate identity:default`.
     pub fn read_case_names(&self) -> Vec<String> {
-        let cases = self.read_filter_cases().into_iter();
-        cases
-            .map(|case| format!("{} {}", case.scene, case.name()))
-            .collect()
+        let cases = self.read_filter_cases();
+        let names = cases
+            .iter()
+            .map(|case| format!("{} {}", case.scene, case.name()));
+        names.collect()
     }
 }
 
@@ -299,11 +279,7 @@ pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(code), "{message}");
     assert_contains(&message, parts);
-    assert_eq!(
-        stdout(output),
-        "",
-        "a refused command prints nothing on standard output"
-    );
+    assert_eq!(stdout(output), "", "a refused command prints nothing");
 }
 
 /// Files, by their names below a folder.
@@ -329,20 +305,14 @@ pub fn assert_same_files(one: &Files, other: &Files) {
 }
 
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().path())
-        {
-            if entry.is_dir() {
-                folders.push(entry)
-            } else {
-                files.push(entry)
-            }
-        }
-    }
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let below = |path: PathBuf| match path.is_dir() {
+        true => files_below(&path),
+        false => vec![path],
+    };
+    let mut files: Vec<PathBuf> = entries.flat_map(below).collect();
     files.sort();
     files
 }
@@ -368,11 +338,8 @@ pub fn wait_until_busy(child: &mut Child, hundredths: u64) {
         let stat = fs::read_to_string(&stat).unwrap_or_default();
         // After the name in brackets: the state, ten numbers, and the times of the process and of the system for it.
         let numbers = stat.rsplit(')').next().unwrap().split_whitespace();
-        let times = numbers
-            .skip(11)
-            .take(2)
-            .map(|time| time.parse::<u64>().unwrap());
-        if times.sum::<u64>() >= hundredths {
+        let times = numbers.skip(11).take(2).map(|time| time.parse::<u64>());
+        if times.map(Result::unwrap).sum::<u64>() >= hundredths {
             return;
         }
         std::thread::sleep(Duration::from_millis(10));

@@ -70,7 +70,8 @@ fn names_of_files_are_printed_without_control_codes() {
     let scenes = sandbox.path("scenes");
     fs::rename(scenes.join("plate"), scenes.join(HOSTILE)).unwrap();
     let named = sandbox.run(&["--filters", "identity"]);
-    let parts = ["the folder's name is the scene's", "rename the folder"];
+    let found = "the folder's name is the scene's, and it holds the control character U+000A";
+    let parts = [found, "rename the folder"];
     assert_refused(&named, 2, &parts);
     assert_tame(&named);
 }

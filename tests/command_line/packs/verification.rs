@@ -5,10 +5,7 @@ use std::fs;
 use frame::{Frame, Ladder, Replicate};
 use serde_json::Value;
 
-use super::{
-    REPLICATES, change_replicate, pack_forged, packed, refuse_forged, renew_truth, replicate_file,
-    replicate_files, run,
-};
+use super::{REPLICATES, change_replicate, pack_forged, packed, renew_truth, replicate_file, run};
 use crate::sandbox::{Sandbox, assert_refused, split, stdout};
 
 /// Verifies and returns what is printed as JSON.
@@ -145,23 +142,6 @@ fn a_frame_and_a_rung_are_verified_too() {
     rung.write(&path).unwrap();
     let place = format!("{file}: pixel ({x}, {y}) of its channel n");
     find(&sandbox, "--seed 3", &[&place]);
-}
-
-#[test]
-fn a_run_takes_nothing_from_a_pack_of_forged_truths() {
-    let sandbox = packed();
-    // Every pixel of every replicate, so that any tile finds it.
-    for file in replicate_files() {
-        change_replicate(&sandbox.path("out/plate").join(file), |replicate| {
-            for pixel in &mut replicate.picture.color.pixels {
-                pixel[1] += 0.01;
-            }
-        });
-    }
-    renew_truth(&sandbox);
-    pack_forged(&sandbox);
-    let replicate = "forged.tar.zst/plate/truth_trailing/replicate_00";
-    refuse_forged(&sandbox, 1, &[replicate, "channel G", "seed"]);
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Files in `--out` that a check must not believe.
 
 use std::fs;
-use std::process::Command;
 
 use metrics::Measured;
 use serde_json::{Value, json};
@@ -31,13 +30,6 @@ fn forge(sandbox: &Sandbox) {
     fs::write(sandbox.path(RECORD), record.to_string()).unwrap();
 }
 
-fn git(sandbox: &Sandbox, words: &[&str]) {
-    let mut git = Command::new("git");
-    git.current_dir(sandbox.path("")).args(words);
-    let output = git.output().unwrap();
-    assert!(output.status.success(), "git {words:?}: {output:?}");
-}
-
 #[test]
 fn a_check_without_cache_ignores_a_forged_record() {
     let sandbox = set_up();
@@ -61,27 +53,25 @@ fn a_check_without_cache_ignores_a_forged_record() {
 fn a_check_refuses_a_folder_tracked_by_git() {
     let sandbox = set_up();
     let first = sandbox.check(&IDENTITY);
-    git(&sandbox, &["init", "-q"]);
+    sandbox.git("init -q");
     // The folder lies below a work tree without being part of it.
     assert_eq!(stdout(&sandbox.check(&IDENTITY)), stdout(&first));
     forge(&sandbox);
-    git(&sandbox, &["add", "-f", RECORD]);
+    sandbox.git(&format!("add -f {RECORD}"));
     let parts = [RECORD, "is tracked by git", "--no-cache"];
     assert_refused(&sandbox.check(&IDENTITY), 2, &parts);
-    sandbox.refuse(
-        "check out/run.json",
-        &[RECORD, "is tracked by git", "measure it now"],
-    );
+    let parts = [RECORD, "is tracked by git", "measure it now"];
+    sandbox.refuse("check out/run.json", &parts);
 
-    git(&sandbox, &["rm", "-q", "--cached", RECORD]);
+    sandbox.git(&format!("rm -q --cached {RECORD}"));
     fs::create_dir(sandbox.path("kept")).unwrap();
     fs::write(sandbox.path("kept/frame.exr"), "a change brings it").unwrap();
-    git(&sandbox, &["add", "-f", "kept/frame.exr"]);
+    sandbox.git("add -f kept/frame.exr");
     let with_truths = [&IDENTITY[..], &["--truths", "kept"]].concat();
     let parts = ["kept/frame.exr", "is tracked by git", "--truths"];
     assert_refused(&sandbox.check(&with_truths), 2, &parts);
 
-    git(&sandbox, &["add", "-f", RECORD]);
+    sandbox.git(&format!("add -f {RECORD}"));
     let words = [&quick_command("check", "64")[..], &IDENTITY].concat();
     let mut without_git = sandbox.command(&words);
     without_git.env("PATH", "/nowhere").env_remove("CI");
@@ -97,16 +87,11 @@ fn a_check_refuses_a_folder_tracked_by_git() {
 #[test]
 fn a_nested_repository_starts_no_program() {
     let sandbox = set_up();
-    git(&sandbox, &["init", "-q"]);
-    git(&sandbox, &["init", "-q", "--bare", "out"]);
+    sandbox.git("init -q");
+    sandbox.git("init -q --bare out");
     let hook = format!("touch {}", sandbox.path("ran").display());
-    for (name, value) in [
-        ("core.bare", "false"),
-        ("core.worktree", "."),
-        ("core.fsmonitor", &hook),
-    ] {
-        git(&sandbox, &["config", "--file", "out/config", name, value]);
-    }
+    let config = format!("[core]\nbare = false\nworktree = .\nfsmonitor = {hook}\n");
+    fs::write(sandbox.path("out/config"), config).unwrap();
     assert_refused(&sandbox.check(&IDENTITY), 2, &["cannot tell whether"]);
     assert!(!sandbox.path("ran").exists(), "a program ran");
 }

@@ -55,17 +55,6 @@ fn a_large_file_is_refused_before_it_is_read() {
     sandbox.refuse(RENDER, &["scene.toml:15: mesh", "plate.obj", found]);
 }
 
-#[test]
-fn a_folder_name_has_letters_of_any_language_and_no_control_characters() {
-    let sandbox = Sandbox::new();
-    sandbox.copy_scene("été_桜", |scene| scene.replace("nothing:", "Ничего:"));
-    let scene = tracer::load_scene(sandbox.path("scenes/été_桜"), None).unwrap();
-    assert_eq!(scene.id, "été_桜");
-    sandbox.copy_scene("turn\u{1b}[31med", |scene| scene.replace("0.5", "1"));
-    let found = "the folder's name is the scene's, and it holds the control character U+001B";
-    sandbox.refuse("list", &[found, "rename the folder"]);
-}
-
 #[cfg(unix)]
 fn link(target: &str, path: &Path) {
     std::os::unix::fs::symlink(target, path).unwrap();
