@@ -248,10 +248,9 @@ fn intervals_of_nearly_perfect_pictures_contain_the_converged_score() {
     }
 }
 
-/// Prints for every metric how many intervals hold the converged score, over both scenes and all pictures.
-/// `cargo test -p tests --test scoring -- --ignored --nocapture coverage_of_every_metric`
+/// Prints for every metric how many intervals hold the converged score, over both scenes and all pictures. Takes a quarter of an hour.
 #[test]
-#[ignore = "takes a quarter of an hour"]
+#[ignore = "prove: every metric, at 160x90"]
 fn coverage_of_every_metric_at_160x90() {
     let all: Vec<Found> = (["two_spheres", "sliding_panel"].into_iter())
         .flat_map(|scene| trace_intervals(scene, [160, 90], 4096))
