@@ -13,12 +13,8 @@ use crate::sandbox::{Sandbox, split, stderr, stdout};
 fn audit(sandbox: &Sandbox, code: i32) -> (String, Value) {
     let output = sandbox.shuttertruth(&split("engine audit capture"));
     let told = stdout(&output);
-    assert_eq!(
-        output.status.code(),
-        Some(code),
-        "{told}{}",
-        stderr(&output)
-    );
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(code), "{told}{said}");
     let words: Vec<&str> = told.split_whitespace().collect();
     let audit = sandbox.read_json("out/audit/capture/audit.json");
     (words.join(" "), audit)
@@ -52,7 +48,8 @@ fn a_wrong_convention_fails_with_the_one_that_would_fit() {
         "the convention may be wrong: `velocity_scale` 2.000 times what it is",
     ];
     assert_contains(&told, &parts);
-    let end = "FAIL worst place of plate: out/audit/capture/worst_plate.png written: out/audit/capture/audit.json";
+    let end = "FAIL worst place of plate: out/audit/capture/worst_plate.png \
+        written: out/audit/capture/audit.json";
     assert!(told.ends_with(end), "{told}");
     assert_eq!(found["findings"][0]["object"], "plate");
     let scale = found["findings"][0]["cause"]["scale"].as_f64().unwrap();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use frame::{ExrFile, Frame, Image, Raster, Reprojection, read_exr, write_exr};
+use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
 use tests::filter_folder::{write_manifest, write_program, write_script};
 use tests::text::{assert_contains, read_rows};
 
@@ -27,10 +27,6 @@ fn render(sandbox: &Sandbox) {
 fn blur(filter: &str) -> Vec<&str> {
     let words = "engine blur --allow-commands --frame r/plate/frame.exr --out b.exr --filter";
     [split(words), vec![filter]].concat()
-}
-
-fn read_blurred(sandbox: &Sandbox) -> Image {
-    read_exr(&sandbox.path("b.exr")).unwrap().color("").unwrap()
 }
 
 #[test]
@@ -99,9 +95,9 @@ fn the_program_of_the_guide_runs() {
     render(&sandbox);
     let mut command = sandbox.command(&blur("./my_engine"));
     assert_done(&command.env("PATH", path).output().unwrap());
-    let outside = read_blurred(&sandbox);
+    let outside = sandbox.read_color("b.exr");
     sandbox.execute(&blur("velocity_gather"));
-    assert_eq!(outside, read_blurred(&sandbox));
+    assert_eq!(outside, sandbox.read_color("b.exr"));
 }
 
 #[test]
@@ -136,7 +132,7 @@ fn a_program_gets_the_same_inputs_as_a_kernel() {
     assert_eq!(given.plane("Z").unwrap(), frame.depth);
     let x = given.plane("velocity.X").unwrap();
     assert_eq!(x, frame.velocity.map(|velocity| velocity[0]));
-    assert_eq!(read_blurred(&sandbox), frame.color);
+    assert_eq!(sandbox.read_color("b.exr"), frame.color);
 }
 
 #[test]

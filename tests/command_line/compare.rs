@@ -167,23 +167,14 @@ fn cases_of_only_one_run_are_named_and_runs_without_a_common_ground_are_refused(
     }
     fs::create_dir(sandbox.path("damaged")).unwrap();
     fs::write(sandbox.path("damaged/run.json"), "{}").unwrap();
-    let rows: [(&str, &[&str]); 5] = [
-        ("small/run.json", &["32x16", "64x32", "at the other's size"]),
-        (
-            "fine",
-            &["truth of plate (trailing)", "same samples per pixel"],
-        ),
-        (
-            "slow/run.json",
-            &["no case in common", "plate there and slow here"],
-        ),
-        ("damaged/run.json", &["no run of this program"]),
-        ("nowhere", &["cannot read"]),
-    ];
-    for (other, parts) in rows {
-        let parts = [&[other], parts].concat();
-        sandbox.refuse(&format!("compare out {other}"), &parts);
-    }
+    sandbox.refuse_rows(
+        "compare out",
+        "small | small/run.json | 32x16 | 64x32 | at the other's size
+        fine | fine/run.json | truth of plate (trailing) | same samples per pixel
+        slow | no case in common | plate there and slow here
+        damaged | damaged/run.json | no run of this program
+        nowhere | nowhere | cannot read",
+    );
 }
 
 #[test]

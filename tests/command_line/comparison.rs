@@ -135,8 +135,8 @@ fn variance_is_measured_for_filters_with_noise() {
 fn forms_of_the_input_cost_what_they_take_away() {
     let sandbox = Sandbox::new();
     let filters = "--filters identity,velocity_gather:fine";
-    let forms = "--input defect=zero,double,lag,no_object,jittered --input velocity=float16,linear8,kino10,tile_clamped \
-        --input depth=float16 --input border=clamp";
+    let forms = "--input defect=zero,double,lag,no_object,jittered \
+        --input velocity=float16,linear8,kino10,tile_clamped --input depth=float16 --input border=clamp";
     let told = sandbox.measure(&format!("{filters} {forms}"));
     let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 2 * 12);
@@ -180,10 +180,8 @@ fn forms_of_the_input_cost_what_they_take_away() {
     let case = changed("velocity=linear8");
     assert_eq!(case.input.velocity, VelocityFormat::Linear8);
     assert_eq!(case.input.depth, DepthFormat::Float32);
-    assert!(
-        case.folder
-            .ends_with("velocity_gather_fine_velocity_linear8")
-    );
+    let folder = "velocity_gather_fine_velocity_linear8";
+    assert!(case.folder.ends_with(folder));
 
     let run = "run --filters identity --input";
     sandbox.refuse(&format!("{run} border=mirror"), &["mirror", "leave, clamp"]);

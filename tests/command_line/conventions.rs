@@ -45,7 +45,7 @@ fn write_engine_frame(path: &Path, frame: &Frame, convention: &Convention) {
     write_exr(path, &file).unwrap();
 }
 
-fn largest_difference(a: &Image, b: &Image) -> f32 {
+pub fn largest_difference(a: &Image, b: &Image) -> f32 {
     let pixels = a.pixels.iter().zip(&b.pixels);
     let channels =
         pixels.flat_map(|(a, b)| [0, 1, 2].map(|channel| (a[channel] - b[channel]).abs()));
@@ -74,8 +74,7 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
     let blur = |words: &str| {
         let blur = "engine blur --filter kino --out blurred.exr";
         sandbox.done(&format!("{blur} {words}"));
-        let file = read_exr(&sandbox.path("blurred.exr")).unwrap();
-        file.color("").unwrap()
+        sandbox.read_color("blurred.exr")
     };
     let expected = blur("--frame r/plate/frame.exr");
     let moved = largest_difference(&expected, &frame.color);

@@ -47,7 +47,7 @@ fn assert_page(scenes: &str) {
     let kept = page.split("\n## ").next().unwrap();
     assert!(
         rows(kept) == rows(&printed),
-        "docs/fidelity.md keeps another table; put there what the script prints for all scenes:\n{printed}"
+        "docs/fidelity.md keeps another table; put there what it prints for all scenes:\n{printed}"
     );
     assert!(rows(kept).len() > 20, "{} rows", rows(kept).len());
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use frame::{Image, display_srgb, read_exr, write_png};
+use frame::{display_srgb, write_png};
 use metrics::{SequenceMetric, SequenceScores};
 use tests::text::{assert_contains, read_rows};
 
@@ -24,10 +24,6 @@ fn run_filter() -> Sandbox {
     sandbox.write_kernel("late", history, &["color_before"], body);
     sandbox.measure("--filter ./late --fps 24 --frames 3");
     sandbox
-}
-
-fn read_color(sandbox: &Sandbox, name: &str) -> Image {
-    read_exr(&sandbox.path(name)).unwrap().color("").unwrap()
 }
 
 fn score(sandbox: &Sandbox, images: &str, more: &[&str]) -> std::process::Output {
@@ -53,19 +49,14 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
     sandbox.done(&format!("{BLUR} mine"));
     let pictures = ["mine/0000.exr", "mine/0001.exr", "mine/0002.exr"];
     for (picture, folder) in pictures.iter().zip(["plate", "plate/0001", "plate/0002"]) {
-        let expected = read_color(&sandbox, &format!("out/{folder}/late_default/output.exr"));
-        assert!(
-            read_color(&sandbox, picture) == expected,
-            "{picture}: bit for bit"
-        );
+        let expected = sandbox.read_color(&format!("out/{folder}/late_default/output.exr"));
+        let found = sandbox.read_color(picture);
+        assert!(found == expected, "{picture}: bit for bit");
     }
     let run = sandbox.read_run();
     let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
-    assert_eq!(
-        scores(&sandbox, "mine", &["--fps", "24"]),
-        own.scores,
-        "bit for bit"
-    );
+    let same = scores(&sandbox, "mine", &["--fps", "24"]);
+    assert_eq!(same, own.scores, "bit for bit");
     // Only JOD depends on the rate.
     let slow = scores(&sandbox, "mine", &[]);
     for metric in SequenceMetric::ALL {
@@ -93,7 +84,7 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
     // Engines write PNGs. A plate of up to 0.7 of white loses little by 8 bits.
     fs::create_dir(sandbox.path("shown")).unwrap();
     for (at, folder) in ["plate", "plate/0001", "plate/0002"].iter().enumerate() {
-        let color = read_color(&sandbox, &format!("out/{folder}/late_default/output.exr"));
+        let color = sandbox.read_color(&format!("out/{folder}/late_default/output.exr"));
         let path = sandbox.path(&format!("shown/{at:04}.png"));
         write_png(&path, &display_srgb(&color, 0.0)).unwrap();
     }

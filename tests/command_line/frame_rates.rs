@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use frame::{Image, read_exr};
+use frame::Image;
 use metrics::{Metric, SequenceMetric};
 use suite::{Case, Run, ShutterRule};
 use tests::filter_folder::{write_manifest, write_script};
 use tests::root;
-use tests::text::read_rows;
+use tests::text::{assert_contains, read_rows};
 use tracer::{FrameRate, SceneId};
 
 use crate::sandbox::{IDENTITY, Sandbox, assert_refused, split};
@@ -24,8 +24,7 @@ fn find<'a>(cases: &'a [Case], scene: &str, name: &str) -> &'a Case {
 }
 
 fn read_output(sandbox: &Sandbox, case: &Case) -> Image {
-    let file = sandbox.path("out").join(&case.folder).join("output.exr");
-    read_exr(&file).unwrap().color("").unwrap()
+    sandbox.read_color(&format!("out/{}/output.exr", case.folder.display()))
 }
 
 #[test]
@@ -125,12 +124,11 @@ fn assert_kept(sandbox: &Sandbox, first: &Run) {
     assert_eq!(written(), before);
     let compared = sandbox.done("compare out out --html compared.html");
     let compared = split(&compared).join(" ");
-    for part in [
+    let parts = [
         "nothing changed of: identity:default 24fps, identity:default, identity:default 24fps_1-120s",
         "0 worse, 0 better, 0 within margin, 0 within noise",
-    ] {
-        assert!(compared.contains(part), "{compared}");
-    }
+    ];
+    assert_contains(&compared, &parts);
     let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
     assert!(page.contains("plate@60fps_1-120s"));
 }

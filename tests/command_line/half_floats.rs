@@ -60,7 +60,8 @@ fn write_godot_s(folder: &Path) {
 #[cfg(unix)]
 fn write_outside(sandbox: &Sandbox) {
     let command = format!(
-        "command = ['{}', 'engine', 'blur', '--filter', '{}', '--frame', '{{frame}}', '--out', '{{out}}', '--exposure', '{{exposure}}']",
+        "command = ['{}', 'engine', 'blur', '--filter', '{}', '--frame', '{{frame}}', \
+         '--out', '{{out}}', '--exposure', '{{exposure}}']",
         env!("CARGO_BIN_EXE_shuttertruth"),
         sandbox.path("half").display(),
     );
@@ -142,7 +143,8 @@ fn shaders_of_other_constants_keep_their_scores_in_16_bits() {
 #[test]
 fn weights_that_depend_on_colour_are_found_in_16_bits_too() {
     let words: Vec<&str> = measured().0.split_whitespace().collect();
-    let note = "n/a: grow, loss, bleed, TV of bright:default on plate: the filter's weights depend on colour";
+    let note = "n/a: grow, loss, bleed, TV of bright:default on plate: \
+        the filter's weights depend on colour";
     assert_contains(&words.join(" "), &[note]);
     assert_no_weights("bright", &["weights depend on colour"]);
 }

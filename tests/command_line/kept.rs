@@ -213,35 +213,16 @@ fn incomplete_parts_are_refused() {
         sandbox.execute(&render(out, &["--replicates", part, "--seed", "2"]));
     }
     fs::create_dir(sandbox.path("empty")).unwrap();
-    let rows: [(&str, &[&str]); 6] = [
-        (
-            "start gap",
-            &["3, 4", "replicates 3..4", "plate/truth_trailing"],
-        ),
-        ("start", &["replicates 3 are missing", "truth of 4"]),
-        (
-            "start other",
-            &["start/plate/frame.exr", "other/plate/frame.exr", "differ"],
-        ),
-        (
-            "start rest",
-            &["replicate 3", "other inputs", "content hash"],
-        ),
-        (
-            "start empty",
-            &[
-                "empty",
-                "holds no replicates",
-                "a part A..B of the replicates",
-            ],
-        ),
-        ("nowhere", &["nowhere", "cannot read"]),
-    ];
-    for (parts, complaint) in rows {
-        let line = format!("truths merge --out joined {parts}");
-        assert_refused(&sandbox.shuttertruth(&split(&line)), 2, complaint);
-        assert!(!sandbox.path("joined").exists(), "{parts} left files");
-    }
+    sandbox.refuse_rows(
+        "truths merge --out joined",
+        "start gap | 3, 4 | replicates 3..4 | plate/truth_trailing
+        start | replicates 3 are missing | truth of 4
+        start other | start/plate/frame.exr | other/plate/frame.exr | differ
+        start rest | replicate 3 | other inputs | content hash
+        start empty | empty | holds no replicates | a part A..B of the replicates
+        nowhere | nowhere | cannot read",
+    );
+    assert!(!sandbox.path("joined").exists(), "nothing is written");
 }
 
 #[test]

@@ -14,8 +14,8 @@ use crate::sandbox::{Files, Sandbox, assert_done, files_below, quick_command, sp
 
 /// Three presets of a filter of the tests' own, beside the identity.
 const FILTERS: &str = "--filters identity --filter mine";
-const BARS: &str = "accumulate_1_trailing accumulate_4_trailing accumulate_8_trailing accumulate_16_trailing \
-    accumulate_64_trailing identity_trailing scatter_oracle_trailing";
+const BARS: &str = "accumulate_1_trailing accumulate_4_trailing accumulate_8_trailing \
+    accumulate_16_trailing accumulate_64_trailing identity_trailing scatter_oracle_trailing";
 const MINE: &str = "velocity_gather_coarse velocity_gather_departure velocity_gather_fine";
 
 const NONE_KEEPS_IT: &str =

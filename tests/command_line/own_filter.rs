@@ -81,12 +81,9 @@ fn the_guide_s_filter_runs_and_beats_the_identity() {
 #[test]
 fn each_mistake_prints_the_message_in_the_guide() {
     let sandbox = Sandbox::new();
+    // An entry point, a parameter, a texture, a line that does not compile.
     let mistakes = read_mistakes();
-    assert_eq!(
-        mistakes.len(),
-        4,
-        "an entry point, a parameter, a texture, a line that does not compile"
-    );
+    assert_eq!(mistakes.len(), 4);
     for mistake in &mistakes {
         write(&sandbox, Some(mistake));
         let output = sandbox.run(&["--filter", "my_blur"]);

@@ -6,15 +6,16 @@ use std::process::Command;
 pub fn python_with(packages: &[&str]) -> String {
     let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
     // To find them takes less time than to import them.
-    let find = "import importlib.util, sys; sys.exit(any(not importlib.util.find_spec(own) for own in sys.argv[1:]))";
+    let find = "import sys; from importlib.util import find_spec; \
+        sys.exit(any(not find_spec(own) for own in sys.argv[1:]))";
     let found = Command::new(&python)
         .args(["-c", find])
         .args(packages)
         .output();
     assert!(
         found.is_ok_and(|output| output.status.success()),
-        "{python} lacks one of {packages:?}: `make test` installs them; or pip install them, and set PYTHON to the Python \
-         that has them"
+        "{python} lacks one of {packages:?}: `make test` installs them; or pip install them, and set \
+         PYTHON to the Python that has them"
     );
     python
 }

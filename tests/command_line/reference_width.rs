@@ -62,8 +62,7 @@ fn a_run_scales_a_preset_to_its_width_and_reports_it() {
     let blur = |more: &str| {
         let words = "engine blur --filter ./mine --frame out/plate/frame.exr --out b.exr";
         sandbox.done(&format!("{words} {more}"));
-        let file = frame::read_exr(&sandbox.path("b.exr")).unwrap();
-        file.color("").unwrap()
+        sandbox.read_color("b.exr")
     };
     let scaled = blur("");
     assert_eq!(scaled, blur("--set mine.radius=4 --as-written"));

@@ -43,9 +43,6 @@ pub struct Sandbox {
     folder: tempfile::TempDir,
 }
 
-/// Files of a sandbox, by their names below its folder.
-pub type Files = Vec<(PathBuf, Vec<u8>)>;
-
 impl Sandbox {
     pub fn new() -> Self {
         let sandbox = Self {
@@ -183,6 +180,22 @@ impl Sandbox {
         assert_refused(&self.shuttertruth(&split(line)), 2, parts);
     }
 
+    /// Does it for a table, one row a line: more words of the command, and behind each `|` a part of the message. A line that
+    /// begins with `|` belongs to the row above.
+    #[track_caller]
+    pub fn refuse_rows(&self, command: &str, table: &str) {
+        let lines: Vec<&str> = table.lines().map(str::trim).collect();
+        for row in lines.join("\n").replace("\n|", "|").lines() {
+            let mut cells = row.split('|').map(str::trim);
+            let words = cells.next().unwrap_or_default();
+            let parts: Vec<&str> = cells.collect();
+            assert!(row.is_empty() || !parts.is_empty(), "no message: {row}");
+            if !parts.is_empty() {
+                self.refuse(&format!("{command} {words}"), &parts);
+            }
+        }
+    }
+
     /// Runs a command as if no CI were there.
     pub fn outside_ci(&self, words: &[&str]) -> Output {
         let mut command = self.command(words);
@@ -239,6 +252,12 @@ impl Sandbox {
     /// Reads a file of JSON.
     pub fn read_json<T: DeserializeOwned>(&self, below: &str) -> T {
         serde_json::from_slice(&fs::read(self.path(below)).unwrap()).unwrap()
+    }
+
+    /// Reads the colour of an OpenEXR file.
+    pub fn read_color(&self, below: &str) -> frame::Image {
+        let file = frame::read_exr(&self.path(below)).unwrap();
+        file.color("").unwrap()
     }
 
     /// Reads the findings about the last run.

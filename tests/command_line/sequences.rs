@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::time::SystemTime;
 
-use frame::{Image, read_exr};
 use suite::{Run, Sequence};
 use tests::text::{assert_contains, read_rows};
 
@@ -153,11 +152,8 @@ fn a_filter_with_history_reads_the_frame_before() {
     let write = |history: &str| sandbox.write_kernel("before", history, &textures, body);
     write("history = [\"color\", \"velocity\", \"depth\"]");
     sandbox.measure("--filter ./before --frames 3");
-    let color = |name: &str| -> Image {
-        let file = read_exr(&sandbox.path("out/plate").join(name)).unwrap();
-        file.color("").unwrap()
-    };
-    let frames = ["frame.exr", "0001/frame.exr", "0002/frame.exr"].map(color);
+    let color = |name: &str| sandbox.read_color(&format!("out/plate/{name}"));
+    let frames = ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}frame.exr")));
     let outputs =
         ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}before_default/output.exr")));
     // The first frame stands in for the one before it.

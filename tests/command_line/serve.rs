@@ -12,7 +12,8 @@ use tests::text::assert_contains;
 use crate::python::python_with;
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
-pub const SERVE: &str = "tune serve --quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out out";
+pub const SERVE: &str = "tune serve --quiet --filter jump_flood --objective flip --size 64x32 \
+    --samples-per-pixel 16 --out out";
 
 /// Sends the lines one by one and reads all answers.
 fn converse(sandbox: &Sandbox, lines: &[Value]) -> Vec<Value> {

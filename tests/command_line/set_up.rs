@@ -5,14 +5,13 @@ use std::process::Command;
 
 use tests::root;
 
-use crate::sandbox::Sandbox;
+use crate::sandbox::{Sandbox, stdout};
 
 /// Lists the commands, as the page of commands has them: `tune search`.
 fn list_commands() -> Vec<String> {
     let page = fs::read_to_string(root().join("docs/commands.md")).unwrap();
-    let headings = page
-        .lines()
-        .filter_map(|line| line.strip_prefix("## shuttertruth "));
+    let lines = page.lines();
+    let headings = lines.filter_map(|line| line.strip_prefix("## shuttertruth "));
     headings.map(str::to_owned).collect()
 }
 
@@ -53,12 +52,9 @@ fn bash_completes_a_command() {
     fs::write(sandbox.path("completions"), completions).unwrap();
     let script = "source completions; COMP_WORDS=(shuttertruth compl); COMP_CWORD=1; _shuttertruth shuttertruth compl shuttertruth; \
                   echo \"${COMPREPLY[@]}\"";
-    let output = Command::new("bash")
-        .current_dir(sandbox.path(""))
-        .args(["-c", script])
-        .output()
-        .unwrap();
-    assert_eq!(String::from_utf8(output.stdout).unwrap(), "completions\n");
+    let mut bash = Command::new("bash");
+    bash.current_dir(sandbox.path("")).args(["-c", script]);
+    assert_eq!(stdout(&bash.output().unwrap()), "completions\n");
 }
 
 #[test]
@@ -66,10 +62,8 @@ fn the_manual_has_a_page_for_every_command() {
     let sandbox = Sandbox::new();
     sandbox.execute(&["man", "--out", "pages"]);
     let read = |name: &str| {
-        let path = sandbox
-            .path("pages")
-            .join(format!("{}.1", name.replace(' ', "-")));
-        fs::read_to_string(path).unwrap()
+        let page = format!("pages/{}.1", name.replace(' ', "-"));
+        fs::read_to_string(sandbox.path(&page)).unwrap()
     };
     for command in list_commands() {
         let name = format!("shuttertruth {command}");

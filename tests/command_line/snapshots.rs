@@ -63,7 +63,7 @@ fn runs() {
         ("", "run.txt"),
         ("--table", "run_table.txt"),
         (forms, "run_inputs.txt"),
-        ("--frames 3 --no-cache", "run_sequence.txt"),
+        ("--frames 2 --no-cache", "run_sequence.txt"),
     ] {
         let printed = sandbox.measure(&format!("--filter identity {more}"));
         assert_printed(&printed, file);

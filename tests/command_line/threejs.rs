@@ -128,7 +128,7 @@ impl Drawn {
         (output.status.code(), stdout(&output) + &stderr(&output))
     }
 
-    fn change_velocity(&self, change: impl Fn([f32; 2]) -> [f32; 2]) {
+    fn change_velocity(&self, change: Change) {
         let changed = self.velocity().map(|velocity| change(*velocity));
         let mut file = ExrFile::new(WIDTH, HEIGHT);
         file.push_plane("velocity.X", &changed.map(|it| it[0]));
@@ -160,6 +160,9 @@ impl Drawn {
         own.zip(&self.frame.velocity, difference)
     }
 }
+
+/// Defect of velocity.
+type Change = fn([f32; 2]) -> [f32; 2];
 
 fn median(sorted: &[f32]) -> f32 {
     sorted[sorted.len() / 2]
@@ -199,7 +202,7 @@ fn three_js_s_objects_have_exact_vectors_which_the_audit_tells_from_planted_ones
     let (code, said) = drawn.audit();
     assert_eq!(code, Some(0), "{said}");
     let right = fs::read(drawn.sandbox.path("capture/velocity.exr")).unwrap();
-    let planted: [(fn([f32; 2]) -> [f32; 2], &str); 4] = [
+    let planted: [(Change, &str); 4] = [
         (|[x, y]| [2.0 * x, 2.0 * y], "velocity is twice too long"),
         (|[x, y]| [x, -y], "velocity has y flipped"),
         (|_| [0.0; 2], "velocity is zero"),

@@ -67,22 +67,20 @@ fn bad_arguments_of_bench_are_refused() {
     let sandbox = Sandbox::new();
     let program = "command = ['cp', '{frame}', '{out}']";
     write_manifest(&sandbox.path("outside"), "outside", program);
-    let rows: [(&str, &[&str]); 10] = [
-        ("--filters ./outside", &["outside is a program"]),
-        ("--filters jumpflood", &["jumpflood", "jump_flood"]),
-        ("--filters identity:fast", &["fast", "default"]),
-        ("--filters no/such/folder", &["no/such/folder"]),
-        ("--size 0x0", &["0x0", "WIDTHxHEIGHT"]),
-        ("--size 640", &["WIDTHxHEIGHT"]),
-        ("--rounds 19", &["19 is not in 20..=10000"]),
-        ("--rounds many", &["'many' for '--rounds <N>'"]),
-        ("--adapter none_such", &["none_such", "found:"]),
-        ("--speed 3", &["--speed"]),
-    ];
-    for (more, parts) in rows {
-        sandbox.refuse(&format!("bench --quiet {more}"), parts);
-        assert!(!sandbox.path("out").exists(), "{more} wrote files");
-    }
+    sandbox.refuse_rows(
+        "bench --quiet",
+        "--filters ./outside | outside is a program
+        --filters jumpflood | jumpflood | jump_flood
+        --filters identity:fast | fast | default
+        --filters no/such/folder | no/such/folder
+        --size 0x0 | 0x0 | WIDTHxHEIGHT
+        --size 640 | WIDTHxHEIGHT
+        --rounds 19 | 19 is not in 20..=10000
+        --rounds many | 'many' for '--rounds <N>'
+        --adapter none_such | none_such | found:
+        --speed 3 | --speed",
+    );
+    assert!(!sandbox.path("out").exists(), "nothing is written");
     let output = sandbox.without_adapter(&["bench"]);
     assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
 }

@@ -1,6 +1,5 @@
 //! The page that asks people, from its keys to the scale of the answers.
 
-use std::fs;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
@@ -52,8 +51,8 @@ fn kept(browser: &mut Browser) -> Value {
 }
 
 /// Makes a page that asks; returns its study.
-fn ask(sandbox: &Sandbox, out: &str, more: &[&str]) -> Study {
-    let words = ["people", "ask", "out", "--json", "--out", out];
+fn ask(sandbox: &Sandbox, more: &[&str]) -> Study {
+    let words = ["people", "ask", "out", "--json"];
     let written = sandbox.execute(&[&words, more].concat());
     let written: Value = serde_json::from_str(&written).unwrap();
     serde_json::from_value(written["study"].clone()).unwrap()
@@ -63,7 +62,7 @@ fn ask(sandbox: &Sandbox, out: &str, more: &[&str]) -> Study {
 fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     let sandbox = Sandbox::new();
     sandbox.measure(&format!("--filters {FILTERS} --frames 3 --fps 5"));
-    let study = ask(&sandbox, "a page", &[]);
+    let study = ask(&sandbox, &["--out", "a page"]);
     let page = sandbox.path("a page/index.html");
     let mut browser = Browser::new(1280, 800);
     browser.save_to(&sandbox.path("saved"));
@@ -72,10 +71,9 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     assert_contains(&start, &["There are 5 questions", "no difference"]);
     assert!(!start.contains("jump_flood"), "{start}");
     browser.press("Tab");
-    browser.value("document.getElementById('begin').click()");
+    browser.click("#begin");
     wait(&mut browser, 0);
-    let session = kept(&mut browser);
-    let seed = session["seed"].as_u64().unwrap();
+    let seed = kept(&mut browser)["seed"].as_u64().unwrap();
     let pairs = draw_session(&study, Question::Truth, seed);
     assert_eq!(pairs.len(), 5);
 
@@ -106,29 +104,29 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     wait(&mut browser, 2);
     assert_eq!(kept(&mut browser)["answers"].as_array().unwrap().len(), 2);
     browser.open(&page, "");
-    let verdict = browser.text("document.getElementById('verdict').textContent");
+    let verdict = browser.read("#verdict");
     assert_eq!(verdict, "Stopped");
-    browser.value("document.getElementById('resume').click()");
+    browser.click("#resume");
     for (index, pair) in pairs.iter().enumerate().skip(2) {
         wait(&mut browser, index);
         if index == 3 {
             browser.press("Escape");
-            let given = browser.text("document.getElementById('given').textContent");
+            let given = browser.read("#given");
             assert_contains(&given, &["3 of 5"]);
-            browser.value("document.getElementById('resume').click()");
+            browser.click("#resume");
             wait(&mut browser, index);
         }
         browser.press(key(pair));
     }
     browser.until("document.getElementById('verdict').textContent === 'Thank you'");
-    browser.value("document.getElementById('save').click()");
+    browser.click("#save");
     let name = format!("saved/answers_{seed}.json");
     let start = Instant::now();
     while !sandbox.path(&name).is_file() {
         assert!(start.elapsed().as_secs() < 20, "nothing was saved");
         std::thread::sleep(Duration::from_millis(20));
     }
-    let file: Value = serde_json::from_slice(&fs::read(sandbox.path(&name)).unwrap()).unwrap();
+    let file: Value = sandbox.read_json(&name);
     assert_eq!(file["display"]["viewport"], json!([1280, 800]));
     assert_eq!(file["answers"][0]["zoom"], zoom);
     let printed = sandbox.execute(&["people", "preferences", &name, "--run", "out", "--json"]);
@@ -143,8 +141,7 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
 
     browser.value("confirm = () => true; document.getElementById('fresh').click()");
     assert_eq!(browser.value("localStorage.length"), 0);
-    let begins = browser.value("document.getElementById('begin').checkVisibility()");
-    assert_eq!(begins, true);
+    assert!(browser.shows("#begin"));
     assert_eq!(browser.complaints(), [""; 0]);
     let folder = address_of(page.parent().unwrap());
     let requests = browser.requests();
@@ -161,10 +158,10 @@ fn the_page_draws_the_sessions_that_the_program_expects() {
     sandbox.add_slow_scene();
     let more = "velocity_gather:coarse,bevy:high,kino,three:corrected";
     sandbox.measure(&format!("--filters {FILTERS},{more}"));
-    let study = ask(&sandbox, "ask", &["--question", "better", "--pairs", "13"]);
+    let study = ask(&sandbox, &["--question", "better", "--pairs", "13"]);
     assert_eq!(study.shutters.len(), 2);
     let mut browser = Browser::new(390, 700);
-    browser.open(&sandbox.path("ask/index.html"), "");
+    browser.open(&sandbox.path("out/ask/index.html"), "");
     for most_pairs in [7, 13, 20, 1000] {
         let study = Study {
             most_pairs,
@@ -176,8 +173,7 @@ fn the_page_draws_the_sessions_that_the_program_expects() {
             (Question::Better, (1 << 53) - 10..(1 << 53)),
         ] {
             let name = question.name();
-            let (first, last) = (seeds.start, seeds.end);
-            let count = last - first;
+            let (first, count) = (seeds.start, seeds.end - seeds.start);
             let found = browser.value(&format!(
                 "[...Array({count}).keys()].map(at => drawSession({text}, '{name}', {first} + at).map(own => [own.shutter, own.scene, own.left, own.right]))"
             ));
@@ -192,13 +188,12 @@ fn the_page_draws_the_sessions_that_the_program_expects() {
 
     // A page with one question asks that, and shows no truth. In a window that is too small it says so, and takes no answer.
     assert_eq!(browser.value("document.documentElement.scrollWidth"), 390);
-    browser.value("document.getElementById('begin').click()");
+    browser.click("#begin");
     wait(&mut browser, 0);
-    let shown = browser.value("document.getElementById('truth').checkVisibility()");
-    assert_eq!(shown, false);
+    assert!(!browser.shows("#truth"));
     browser.resize(100, 700);
     browser.until("document.getElementById('misfit').checkVisibility()");
-    let misfit = browser.text("document.getElementById('misfit').textContent");
+    let misfit = browser.read("#misfit");
     assert_contains(&misfit, &["128 x 32"]);
     browser.press("ArrowLeft");
     assert_eq!(kept(&mut browser)["answers"], json!([]));

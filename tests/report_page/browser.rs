@@ -107,6 +107,23 @@ impl Browser {
             .to_owned()
     }
 
+    /// Returns the text of the first element that a selector finds.
+    pub fn read(&mut self, selector: &str) -> String {
+        self.text(&format!("document.querySelector('{selector}').textContent"))
+    }
+
+    /// Clicks the first element that a selector finds.
+    pub fn click(&mut self, selector: &str) {
+        self.value(&format!("document.querySelector('{selector}').click()"));
+    }
+
+    /// Tells whether the first element that a selector finds is visible.
+    pub fn shows(&mut self, selector: &str) -> bool {
+        self.value(&format!(
+            "document.querySelector('{selector}').checkVisibility()"
+        )) == true
+    }
+
     /// Waits until an expression is true.
     pub fn until(&mut self, expression: &str) {
         let start = Instant::now();

@@ -7,7 +7,7 @@ use suite::Case;
 
 use crate::browser::{Browser, address_of};
 use crate::sandbox::Sandbox;
-use crate::{case_of, make_page, make_page_within, measure, open_case};
+use crate::{make_page, make_page_within, measure, open_case};
 
 /// Returns the read-out's rows by layer, each with its texts.
 pub fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
@@ -98,7 +98,7 @@ fn assert_read_outs(browser: &mut Browser, files: &[ExrFile; 4]) {
     browser.press("ArrowRight");
     browser.press("ArrowDown");
     check(browser, 4, 3);
-    let spoken = browser.text("document.querySelector('.spoken').textContent");
+    let spoken = browser.read(".spoken");
     let due = "x 4, y 3, background; Truth 0.2 0.2 0.2";
     assert!(spoken.starts_with(due), "{spoken}");
 }
@@ -106,7 +106,10 @@ fn assert_read_outs(browser: &mut Browser, files: &[ExrFile; 4]) {
 #[test]
 fn numbers_and_tables_in_a_page_or_beside_it_are_those_of_the_files() {
     let sandbox = measure("identity,velocity_gather:fine");
-    let files = files_of(&sandbox, &case_of(&sandbox, "velocity_gather:fine"));
+    let cases = sandbox.read_filter_cases();
+    let mut own = cases.iter();
+    let own = own.find(|case| case.name() == "velocity_gather:fine");
+    let files = files_of(&sandbox, own.unwrap());
     let whole = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     let article = "[...document.querySelectorAll('article.open > :not(.viewer_place)')].map((own) => own.textContent).join()";

@@ -17,7 +17,7 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
     let page = sandbox.path("page.html");
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
-    let heading = browser.text("document.querySelector('main h2').textContent");
+    let heading = browser.read("main h2");
     assert_eq!(heading, "What changed most");
     let [_, top, _, height] = browser.place(".pair");
     assert!(top + height < 900.0, "the pictures are on the first screen");
@@ -88,7 +88,7 @@ fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
         second.contains("0001/velocity_gather_fine/change.png"),
         "{second}"
     );
-    let readout = browser.text("document.getElementById('readout').textContent");
+    let readout = browser.read("#readout");
     assert!(readout.starts_with("frame 1 of 2; error "), "{readout}");
     browser.press(",");
     browser.press(",");

@@ -115,10 +115,9 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Bro
     browser.until("!document.querySelector('.peek').hidden");
     let different = "new Set([...document.querySelectorAll('.peek canvas')].map(canvas => canvas.toDataURL())).size";
     assert_eq!(browser.value(different), 3);
-    browser.value("document.querySelector('.winners a').click()");
+    browser.click(".winners a");
     browser.until("location.hash === '#filter:velocity_gather:fine'");
-    let shown = browser.value("document.getElementById('overview').checkVisibility()");
-    assert_eq!(shown, false);
+    assert!(!browser.shows("#overview"));
     let text = browser.text("document.querySelector('article.open').innerText");
     let parts = [
         "velocity_gather:fine",
@@ -129,7 +128,7 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Bro
         "plate",
     ];
     assert_contains(&text, &parts);
-    browser.value("document.querySelector('article.open a.scene').click()");
+    browser.click("article.open a.scene");
     browser.until("location.hash.startsWith('#plate/velocity_gather:fine')");
     browser.until("document.getElementById('viewer').checkVisibility()");
 }
@@ -137,12 +136,10 @@ fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Bro
 fn only_the_table_that_is_seen_is_parsed_until_somebody_prints(browser: &mut Browser, _: &Path) {
     let tables = "document.querySelectorAll('.panel table').length";
     assert_eq!(browser.value(tables), 1);
-    browser.value("document.querySelector('[name=metric][value=psnr_moving]').click()");
+    browser.click("[name=metric][value=psnr_moving]");
     browser.until(&format!("{tables} === 2"));
     let sorted = "document.querySelector('.panel:not([hidden]) thead th[aria-sort]') !== null";
-    browser.value(
-        "document.querySelector('.panel:not([hidden]) thead th:nth-child(2) button').click()",
-    );
+    browser.click(".panel:not([hidden]) thead th:nth-child(2) button");
     assert_eq!(browser.value(sorted), true);
     browser.paper();
     let panels = browser.value("document.querySelectorAll('.panel').length");

@@ -7,7 +7,8 @@ use crate::sandbox::{Sandbox, split};
 
 /// Proposes limits of a gather on the plate; returns what it prints, and the file.
 pub fn calibrate(sandbox: &Sandbox, more: &str) -> (String, String) {
-    let words = "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters";
+    let words = "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 \
+        --runs 2 --filters";
     let printed = sandbox.done(&format!("{words} velocity_gather:fine {more}"));
     let file = sandbox.path("calibrated/plate.bounds.toml");
     (printed, fs::read_to_string(file).unwrap())
@@ -29,12 +30,8 @@ fn calibrated_limits_pass_the_filter_and_fail_a_worse_one() {
     assert!(printed.contains(&proposed));
     assert_eq!(proposed.matches("limit = ").count(), 5, "{proposed}");
     sandbox.write("bounds.toml", &proposed);
-    assert_limits(
-        &sandbox,
-        "",
-        "5 required bounds: 5 met",
-        "BROKEN flip_moving",
-    );
+    let met = "5 required bounds: 5 met";
+    assert_limits(&sandbox, "", met, "BROKEN flip_moving");
 }
 
 #[test]

@@ -31,10 +31,8 @@ fn a_finished_run_is_judged_without_an_adapter() {
     let refuse = |line: &str, parts: &[&str]| assert_refused(&judge(line), 2, parts);
     let parts = ["elsewhere/plate", "no such scene", "--scenes-dir"];
     refuse("out --scenes-dir elsewhere", &parts);
-    refuse(
-        "out --size 64x32",
-        &["--size", "cannot be used with", "RUN"],
-    );
+    let parts = ["--size", "cannot be used with", "RUN"];
+    refuse("out --size 64x32", &parts);
     fs::remove_file(sandbox.path("scenes/plate/bounds.toml")).unwrap();
     refuse("out", &["out/run.json", "none of its scores has a bound"]);
 }
@@ -45,10 +43,6 @@ fn a_judgement_of_another_run_is_refused() {
     let run = sandbox.path("out/run.json");
     let text = fs::read_to_string(&run).unwrap();
     fs::write(&run, text.replace("\"seed\": 1,", "\"seed\": 2,")).unwrap();
-    let parts = [
-        "judgement.json",
-        "about another run.json",
-        "shuttertruth check out/run.json",
-    ];
-    sandbox.refuse("report out --html page.html", &parts);
+    let row = "| judgement.json | about another run.json | shuttertruth check out/run.json";
+    sandbox.refuse_rows("report out --html page.html", row);
 }

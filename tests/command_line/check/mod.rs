@@ -29,7 +29,8 @@ fn make_bounded(limit: f64, level: &str) -> Sandbox {
 
 fn bound(metric: &str, limit: f64, level: &str) -> String {
     format!(
-        "[default]\n{metric} = {{ limit = {limit:?}, why = \"it serves a test\", level = \"{level}\" }}\n"
+        "[default]\n\
+         {metric} = {{ limit = {limit:?}, why = \"it serves a test\", level = \"{level}\" }}\n"
     )
 }
 

@@ -123,12 +123,8 @@ fn a_bound_within_three_floors_gives_exit_code_2_and_the_strictest_bound() {
 fn a_case_without_an_applicable_bound_does_not_pass() {
     let sandbox = make_bounded(0.9, "required");
     sandbox.write("scene.toml", &SCENE.replace("[-1.6, 0, 0]", "[0, 0, 0]"));
-    check(
-        &sandbox,
-        "",
-        2,
-        &["1 not applicable", "no bound that applies"],
-    );
+    let parts = ["1 not applicable", "no bound that applies"];
+    check(&sandbox, "", 2, &parts);
 }
 
 #[test]
@@ -138,16 +134,13 @@ fn check_refuses_bad_input_before_it_renders() {
     let unknown = right.replace("flip_moving", "flip");
     let of_none = right.replace("[default]", "[filter.jumpflood]");
     let none = "plate / identity:default: has no bound";
+    let no_filter = "bounds.toml:1: no filter is called \"jumpflood\"";
     let few = "found 2 replicates of the truth; confidence intervals need 4 or more";
     let rows: [(&str, &str, &[&str]); 7] = [
         ("", "", &[none, "[default]"]),
         (&target, "", &["no bound of identity:default is required"]),
         (&unknown, "", &["bounds.toml:2: metric \"flip\" is unknown"]),
-        (
-            &of_none,
-            "",
-            &["bounds.toml:1: no filter is called \"jumpflood\""],
-        ),
+        (&of_none, "", &[no_filter]),
         (right, "--replicates 2", &[few]),
         (right, "--github", &["GITHUB_STEP_SUMMARY is not set"]),
         (right, "--baseline base.json", &["base.json"]),

@@ -35,7 +35,8 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     let parts = [
         "3 required bounds: 1 met, 2 not judged",
         "1 target: 1 not judged",
-        "not judged: limits on sequences of 3 frames, 3 frames at 60 per second; measure with --frames 3, --frames 3 --fps 60",
+        "not judged: limits on sequences of 3 frames, 3 frames at 60 per second; \
+         measure with --frames 3, --frames 3 --fps 60",
         "PASS",
     ];
     check(&sandbox, "", 0, &parts);
@@ -91,7 +92,8 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     assert_refused(&judge("check out --frames 3"), 2, &parts);
     let other = sandbox.check(&split("--filters identity --frames 2"));
     let parts = [
-        "bounds.toml:4: the limit on flicker holds for sequences of 3 frames, and they are to have 2 frames",
+        "bounds.toml:4: the limit on flicker holds for sequences of 3 frames, \
+         and they are to have 2 frames",
         "shuttertruth limits calibrate",
     ];
     assert_refused(&other, 2, &parts);

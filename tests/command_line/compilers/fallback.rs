@@ -10,7 +10,7 @@ use super::{
     BINDINGS, COPY, find_module, list, read_log, refuse, write_compiler, write_honest_compiler,
     write_pass,
 };
-use crate::sandbox::{Sandbox, assert_done, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, read_below, split, stdout};
 
 /// Writes a pass over HLSL, and the texture after it.
 fn write_hlsl(sandbox: &Sandbox, more: &str) {
@@ -83,13 +83,8 @@ fn a_pass_chooses_its_compiler() {
 #[test]
 fn glslang_compiles_what_a_broken_slangc_does_not() {
     let sandbox = Sandbox::new();
-    let folder = sandbox.path("translated");
-    fs::create_dir_all(&folder).unwrap();
     let example = root().join("examples/first_blur/unity");
-    for entry in fs::read_dir(example).unwrap() {
-        let file = entry.unwrap();
-        fs::copy(file.path(), folder.join(file.file_name())).unwrap();
-    }
+    sandbox.write_files("translated", &read_below(&example));
     install_glslang(&sandbox);
     write_compiler(&sandbox, "slangc", "echo 'error: no glslang part'; exit 1");
     let listed = list(&sandbox);

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use tests::root;
 
-use crate::sandbox::{Sandbox, assert_done, split};
+use crate::conventions::largest_difference;
+use crate::sandbox::{Sandbox, assert_done, read_below, split};
 
 /// Finds a program on the PATH.
 fn find_program(name: &str) -> Option<PathBuf> {
@@ -21,25 +22,13 @@ pub fn install_glslang(sandbox: &Sandbox) {
     std::os::unix::fs::symlink(found, sandbox.path("bin/glslangValidator")).unwrap();
 }
 
-/// Copies the fixtures of one language into the folder of a filter, whose head is that of the documented example.
+/// Copies the fixtures into the folder of a filter in one language, whose head is that of the documented example.
 fn write_fixture(sandbox: &Sandbox, language: &str, head: &str) {
-    let folder = sandbox.path(language);
     let fixtures = root().join("tests/fixtures/shaders");
-    fs::create_dir_all(folder.join("random")).unwrap();
+    sandbox.write_files(language, &read_below(&fixtures));
     let passes = fs::read_to_string(fixtures.join(format!("{language}.toml"))).unwrap();
-    fs::write(folder.join("filter.toml"), format!("{head}{passes}")).unwrap();
-    let copied = [
-        "centre_blur.hlsl",
-        "noise.hlsli",
-        "centre_blur.slang",
-        "noise.slang",
-        "centre_blur.wesl",
-        "random/gradient.wesl",
-        "random/constants.wesl",
-    ];
-    for file in copied {
-        fs::copy(fixtures.join(file), folder.join(file)).unwrap();
-    }
+    let manifest = sandbox.path(language).join("filter.toml");
+    fs::write(manifest, format!("{head}{passes}")).unwrap();
 }
 
 /// One filter in three languages, each through every compiler of it that is installed. `glslangValidator` always is.
@@ -60,8 +49,7 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
         let words = [split(words), vec![filter]].concat();
         let output = sandbox.command(&words).env("PATH", path).output().unwrap();
         assert_done(&output);
-        let file = frame::read_exr(&sandbox.path("b.exr")).unwrap();
-        file.color("").unwrap()
+        sandbox.read_color("b.exr")
     };
     let mut tried = Vec::new();
     for (language, program) in [
@@ -82,9 +70,7 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
         for preset in ["fast", "fine"] {
             let [expected, found] =
                 ["centre_blur", language].map(|filter| blur(&format!("./{filter}:{preset}"), &bin));
-            let pixels = expected.pixels.iter().zip(&found.pixels);
-            let differences = pixels.flat_map(|(a, b)| [0, 1, 2].map(|i| (a[i] - b[i]).abs()));
-            let difference = differences.fold(0.0, f32::max);
+            let difference = largest_difference(&expected, &found);
             let tried = format!("{language}, {program}, {preset}");
             assert!(difference < 1e-5, "{tried}: {difference}");
         }

@@ -1,15 +1,7 @@
 //! The commands and files that a page shows.
 
 /// Programs that a command of a page begins with.
-const PROGRAMS: [&str; 7] = [
-    "shuttertruth",
-    "cargo",
-    "cat",
-    "make",
-    "cp",
-    "pip",
-    "python3",
-];
+const PROGRAMS: &str = "shuttertruth cargo cat make cp pip python3";
 
 /// One thing that the reader of a page does.
 pub enum Step {
@@ -72,7 +64,7 @@ fn is_name(text: &str) -> bool {
 fn find_command(line: &str) -> Option<Step> {
     let command = line.split(" #").next()?.trim_end();
     let program = command.split(' ').next()?;
-    (PROGRAMS.contains(&program)).then(|| Step::Run(command.to_owned()))
+    (PROGRAMS.split(' ').any(|it| it == program)).then(|| Step::Run(command.to_owned()))
 }
 
 /// Finds the path in a paragraph such as "`my_blur/filter.toml` says what it is:".

@@ -44,10 +44,8 @@ fn a_capture_in_another_convention_comes_back_as_our_own_frame() {
         assert!(std::iter::zip(found, due).all(|(found, due)| near(*found, *due)));
     }
     for (found, due) in frame.velocity.pixels.iter().zip(&ours.velocity.pixels) {
-        assert!(
-            near(found[0], due[0]) && near(found[1], due[1]),
-            "{found:?} {due:?}"
-        );
+        let is_near = near(found[0], due[0]) && near(found[1], due[1]);
+        assert!(is_near, "{found:?} {due:?}");
     }
     let mut motions = frame.velocity.pixels.iter();
     let moves = motions.any(|motion| motion[0] > 9.0 && motion[1] > 4.0);
@@ -151,14 +149,10 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
         let case = find(&run, NAME, "jump_flood");
         assert_absent(case, metric, "an engine's sub-frames");
     }
-    let mut accumulations: Vec<&str> = Vec::new();
-    for case in &run.cases {
-        if case.scene == NAME && case.filter == "accumulate" {
-            accumulations.push(&case.preset);
-        }
-    }
+    let cases = run.cases.iter();
+    let ladder = cases.filter(|case| case.scene == NAME && case.filter == "accumulate");
     // The truth tells no more of 32 sub-frames.
-    assert_eq!(accumulations, ["1", "4", "8"]);
+    assert!(ladder.map(|case| &case.preset).eq(["1", "4", "8"]));
     // The same again is read back.
     let again = sandbox.done(words);
     assert_contains(&again, &["cases: 17, 17 of them read back"]);

@@ -99,45 +99,27 @@ fn pictures_that_cannot_be_right_are_refused() {
         depth.exr R NaN => depth.exr: channel "R" holds NaN at pixel (5, 1) | allows 0 to 1
         depth.exr R 7.5 => depth.exr: channel "R" holds 7.5 | name the depth"#,
     ) {
-        let [name, channel, value] = place.split(' ').collect::<Vec<_>>()[..] else {
+        let [name, channel, value] = split(place)[..] else {
             panic!("{place}");
         };
         let change = || change_pixel(name, channel, value.parse().unwrap());
         refuse(bench, name, &parts, change);
     }
-    for (name, channels, (width, height), value, parts) in [
-        (
-            "velocity.exr",
-            &["X", "Y"][..],
-            (64, 32),
-            0.0,
-            &[
-                "velocity.exr: has 64x32 pixels, the colour 96x54",
-                "without scaling",
-            ][..],
-        ),
-        (
-            "velocity.exr",
-            &["B", "Q"],
-            (96, 54),
-            0.0,
-            &["velocity.exr: has the channels B, Q; needed: velocity.X and velocity.Y"],
-        ),
-        (
-            "object.exr",
-            &["R"],
-            (96, 54),
-            0.5,
-            &[
-                "object.exr: channel \"R\" holds 0.5 at pixel (0, 0)",
-                "without blending",
-            ],
-        ),
-    ] {
-        refuse(bench, name, parts, || {
+    for (file, parts) in read_rows(
+        r#"
+        velocity.exr XY 64 32 0.0 => velocity.exr: has 64x32 pixels, the colour 96x54 | without scaling
+        velocity.exr BQ 96 54 0.0 => velocity.exr: has the channels B, Q; needed: velocity.X and velocity.Y
+        object.exr R 96 54 0.5 => object.exr: channel "R" holds 0.5 at pixel (0, 0) | without blending"#,
+    ) {
+        let [name, channels, width, height, value] = split(file)[..] else {
+            panic!("{file}");
+        };
+        let [width, height] = [width, height].map(|side| side.parse().unwrap());
+        refuse(bench, name, &parts, || {
+            let plane = Plane::filled(width, height, value.parse().unwrap());
             let mut file = ExrFile::new(width, height);
-            for channel in channels {
-                file.push_plane(channel, &Plane::filled(width, height, value));
+            for channel in channels.chars() {
+                file.push_plane(&channel.to_string(), &plane);
             }
             write_exr(&capture.path(name), &file).unwrap();
         });

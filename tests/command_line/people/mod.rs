@@ -11,16 +11,15 @@ use study::{
 };
 use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{Sandbox, assert_done, files_below, split};
+use crate::sandbox::{Sandbox, assert_same_files, files_below, read_below, split};
 
 /// Filters of the trailing shutter, from the best to the worst.
 const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
 
 /// Makes a run of three filters on two scenes, and the page that asks about it; returns the study.
-fn make_study(sandbox: &Sandbox, more: &[&str]) -> Study {
+fn make_study(sandbox: &Sandbox, more: &str) -> Study {
     sandbox.add_slow_scene();
-    let words = ["--filters", FILTERS, "--jitter-frames", "0"];
-    assert_done(&sandbox.run(&[&words, more].concat()));
+    sandbox.measure(&format!("--filters {FILTERS} --jitter-frames 0 {more}"));
     let written = sandbox.done("people ask out --out page --json");
     let written: Value = serde_json::from_str(&written).unwrap();
     assert_eq!(written["page"], "page/index.html");
@@ -106,7 +105,7 @@ fn preferences<'a>(answers: &'a [String], more: &[&'a str]) -> Vec<&'a str> {
 #[test]
 fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
     let sandbox = Sandbox::new();
-    let study = make_study(&sandbox, &["--frames", "2", "--fps", "12"]);
+    let study = make_study(&sandbox, "--frames 2 --fps 12");
     assert_eq!((study.frames.count, study.frames.per_second), (2, 12.0));
     assert_eq!(study.scenes, ["plate", "slow"]);
     // Two scenes of the sharp frame, the truth and three filters, two frames each, and the page.
@@ -150,7 +149,7 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
 #[test]
 fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
     let sandbox = Sandbox::new();
-    let study = make_study(&sandbox, &[]);
+    let study = make_study(&sandbox, "");
     // Six people choose the better filter, but for one answer in four; the last one does so in every check, too.
     let people: Vec<AnswerFile> = (0..6)
         .map(|seed| {
@@ -239,11 +238,6 @@ fn finish_half_a_page(sandbox: &Sandbox) {
     sandbox.refuse(ask, &parts);
     fs::write(half.join(".shuttertruth.unfinished"), "").unwrap();
     sandbox.done(ask);
-    let names = |folder: &str| {
-        let root = sandbox.path(folder);
-        let files = files_below(&root).into_iter();
-        let names = files.map(|file| file.strip_prefix(&root).unwrap().to_owned());
-        names.collect::<Vec<_>>()
-    };
-    assert_eq!(names("half"), names("page"));
+    let [half, page] = ["half", "page"].map(|folder| read_below(&sandbox.path(folder)));
+    assert_same_files(&half, &page);
 }

@@ -7,6 +7,8 @@ use study::{AnswerFile, Question, Study};
 use super::{FILTERS, answer, prefer_first, preferences, write_answers};
 use crate::sandbox::{Sandbox, assert_refused};
 
+type Change = fn(&mut AnswerFile);
+
 /// Answers that no page of this run asked for are refused.
 pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
     let session = |seed| answer(study, Question::Truth, seed, |pair, _| prefer_first(pair));
@@ -19,7 +21,7 @@ pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
         "counts once",
     ];
     refuse(&[session(1), session(1)], &parts);
-    let changed = |change: fn(&mut AnswerFile)| {
+    let changed = |change: Change| {
         let mut file = session(3);
         change(&mut file);
         file
@@ -28,7 +30,7 @@ pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
     let says =
         "answers_1.json: answers about other pictures than answers_0.json: the pictures differ";
     refuse(&[session(1), others], &[says]);
-    let changes: [(fn(&mut AnswerFile), &[&str]); 10] = [
+    let changes: [(Change, &[&str]); 10] = [
         (
             |file| file.format = 2,
             &["answers_0.json: has format 2; allowed: 1"],

@@ -30,7 +30,8 @@ fn a_broken_bound_is_shown_with_its_place_and_its_picture() {
     let flip = interval.center;
     let [low, high] = [interval.low, interval.high].map(judge::number);
     let cell = format!(
-        "<td class=\"required\" data-value=\"{flip}\"><a class=\"case\" href=\"#plate/identity:default\">\
+        "<td class=\"required\" data-value=\"{flip}\">\
+         <a class=\"case\" href=\"#plate/identity:default\">\
          <span class=\"sign\" aria-hidden=\"true\">✗</span>{flip:.3}\
          <span class=\"unseen\">, 95 % CI {low} to {high}"
     );

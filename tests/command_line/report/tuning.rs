@@ -8,8 +8,8 @@ use tune::{Sensitivity, Tuning};
 
 use crate::sandbox::{Files, Sandbox};
 
-const WORDS: &str = "--quiet --filter jump_flood --from paper --vary samples=2..16,jitter,foreground_extent \
-    --objective flip,bleed --scenes plate,slow --size 64x32 --samples-per-pixel 16 --out tuned";
+const WORDS: &str = "--quiet --filter jump_flood --from paper \
+    --vary samples=2..16,jitter,foreground_extent --objective flip,bleed --scenes plate,slow --size 64x32 --samples-per-pixel 16 --out tuned";
 const REPORT: &str = "report tuned --html page.html";
 
 /// Makes a sandbox with two scenes of different families and one to hold out.
@@ -75,10 +75,8 @@ fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
     for (name, value) in &tuning.chosen.values {
         assert_contains(section("Values"), &[name, &value.to_string()]);
     }
-    let charts = section("Error along each parameter")
-        .matches("<svg")
-        .count();
-    assert_eq!(charts, 3, "one chart per varied parameter");
+    let charts = section("Error along each parameter").matches("<svg");
+    assert_eq!(charts.count(), 3, "one chart per varied parameter");
     for (_, hash) in &tuning.journal.scenes {
         assert_contains(section("Provenance"), &[hash]);
     }
@@ -106,12 +104,8 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
         own["indices"] = serde_json::Value::Null;
     }
     fs::write(sandbox.path("tuned/sensitivity.json"), old.to_string()).unwrap();
-    let parts = [
-        "tuned/sensitivity.json",
-        "no Sobol indices",
-        "`shuttertruth tune search`",
-    ];
-    sandbox.refuse(REPORT, &parts);
+    let row = "| tuned/sensitivity.json | no Sobol indices | `shuttertruth tune search`";
+    sandbox.refuse_rows(REPORT, row);
 }
 
 #[test]

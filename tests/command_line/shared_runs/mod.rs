@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::sandbox::{Files, Sandbox};
 
 /// Filters of both shutters, one of them with two presets.
-const FILTERS: &str = "velocity_gather,kino:default,identity";
+const FILTERS: &str = "velocity_gather:fine,velocity_gather:coarse,kino:default";
 
 /// Options that measure in next to no time.
 const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";

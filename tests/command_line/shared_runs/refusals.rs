@@ -117,26 +117,28 @@ fn missing_cases_are_named() {
 fn truths_are_not_looked_for_in_vain() {
     let sandbox = Sandbox::new();
     let run = format!("run --filter identity {QUICK} --truths");
-    let found = [
-        "--truths nowhere: there is no such folder",
-        "truths render --ladders",
-    ];
-    sandbox.refuse(&format!("{run} nowhere"), &found);
-    let found = ["--truths", "--no-cache"];
-    sandbox.refuse(&format!("{run} scenes --no-cache"), &found);
+    sandbox.refuse_rows(
+        &run,
+        "nowhere | --truths nowhere: there is no such folder | truths render --ladders
+        scenes --no-cache | --truths | --no-cache",
+    );
     assert!(!sandbox.path("out").exists());
 }
 
 #[test]
 fn what_holds_no_run_is_refused() {
     let sandbox = parts();
-    fs::create_dir(sandbox.path("empty")).unwrap();
-    let found = ["empty holds no replicates", "or finished runs alone"];
-    refuse(&sandbox, "plate empty", &found);
-    fs::write(sandbox.path("empty/run.json"), "{").unwrap();
-    let found = ["empty/run.json", "no run of this program"];
-    refuse(&sandbox, "plate empty", &found);
-    refuse(&sandbox, "plate nowhere", &["nowhere"]);
+    for folder in ["empty", "damaged"] {
+        fs::create_dir(sandbox.path(folder)).unwrap();
+    }
+    fs::write(sandbox.path("damaged/run.json"), "{").unwrap();
+    sandbox.refuse_rows(
+        "truths merge --out whole plate",
+        "empty | empty holds no replicates | or finished runs alone
+        damaged | damaged/run.json | no run of this program
+        nowhere | nowhere",
+    );
+    assert!(!sandbox.path("whole").exists(), "nothing is written");
 }
 
 #[cfg(unix)]

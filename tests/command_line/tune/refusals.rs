@@ -15,51 +15,26 @@ fn bad_tunings_are_refused_and_leave_no_files() {
     let sandbox = set_up();
     let still = SCENE.replace("translation = [-1.6,", "translation = [0,");
     fs::write(sandbox.path("scenes/g/scene.toml"), still).unwrap();
-    let on_a = "--scenes a --budget 2";
-    let rows: [(&str, &[&str]); 10] = [
-        (
-            "--scenes a --budget 0",
-            &["--budget <N>", "0 is not in 1.."],
-        ),
-        (
-            "--vary sample",
-            &["parameter sample:", "no parameter", "samples"],
-        ),
-        (
-            "--vary samples=9..3",
-            &["parameter samples=9..3", "the range is empty"],
-        ),
-        (
-            "--scenes nowhere",
-            &["no scene \"nowhere\"", "allowed: a, b"],
-        ),
-        ("--scenes a,a", &["a is named twice"]),
-        (
-            "--scenes a,b --held-out b --vary samples",
-            &["scene b", "proves nothing"],
-        ),
-        (
-            "--cost-at-most 1x",
-            &["cost has a limit", "objectives: flip,cost"],
-        ),
-        ("--objective speed", &["allowed: flip, bleed, cost"]),
-        ("--from fastest", &["no preset \"fastest\"", "paper"]),
-        (
-            "--scenes g",
-            &["scene g: nothing moves", "leave the scene out"],
-        ),
-    ];
-    for (more, parts) in rows {
-        let scenes = if more.contains("--scenes") { "" } else { on_a };
-        let objective = if more.contains("--objective") {
-            ""
-        } else {
-            "--objective flip"
-        };
-        let line = format!("{SEARCH} --filter jump_flood {scenes} {objective} {more}");
-        sandbox.refuse(&line, parts);
-        assert!(!sandbox.path("out").exists(), "{more} wrote files");
-    }
+    let search = format!("{SEARCH} --filter jump_flood --budget 2");
+    sandbox.refuse_rows(
+        &format!("{search} --objective flip"),
+        r#"
+        --scenes nowhere | no scene "nowhere" | allowed: a, b
+        --scenes a,a | a is named twice
+        --scenes a,b --held-out b --vary samples | scene b | proves nothing
+        --scenes a --vary sample | parameter sample: | no parameter | samples
+        --scenes a --vary samples=9..3 | parameter samples=9..3 | the range is empty
+        --scenes a --cost-at-most 1x | cost has a limit | objectives: flip,cost
+        --scenes a --from fastest | no preset "fastest" | paper
+        "#,
+    );
+    let rows = "--scenes a --objective speed | allowed: flip, bleed, cost";
+    sandbox.refuse_rows(&search, rows);
+    let no_budget = search.replace("--budget 2", "--budget 0");
+    sandbox.refuse(&no_budget, &["--budget <N>", "0 is not in 1.."]);
+    assert!(!sandbox.path("out").exists(), "nothing is written");
+    let parts = ["scene g: nothing moves", "leave the scene out"];
+    sandbox.refuse(&format!("{search} --scenes g"), &parts);
 }
 
 #[test]
@@ -67,7 +42,8 @@ fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
     let sandbox = set_up();
     fs::create_dir(sandbox.path("out")).unwrap();
     fs::write(sandbox.path("out/preset.toml"), "of an earlier tuning").unwrap();
-    let more = "--filter jump_flood --from paper --vary samples=2..16,jitter --objective flip --scenes a,b --budget 12";
+    let more = "--filter jump_flood --from paper --vary samples=2..16,jitter \
+        --objective flip --scenes a,b --budget 12";
     let text = unwrap_lines(&sandbox.done(&format!("{SEARCH} {more}")));
     let reason = match read_tuning(&sandbox).choice.trial {
         0 => "no trial beats it".to_owned(),

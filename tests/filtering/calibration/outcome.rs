@@ -2,9 +2,10 @@
 
 use filters::Input;
 use frame::Plane;
-use tests::kernels::Steady;
+use tests::kernels::{Steady, expected_ramp};
 use tests::picture::frame_input;
 use tests::presets::{every_preset, gain};
+use tests::ramp::Ramp;
 use tests::ready_blur;
 
 use super::panel::{HEIGHT, Shot, WIDTH};
@@ -14,6 +15,8 @@ pub struct Outcome<'s> {
     pub preset: String,
     pub shot: &'s Shot,
     pub steady: Steady,
+    /// Ramp that the taps make of an edge that moves with everything.
+    pub ramp: Ramp,
     /// Blur of [`Shot::painted`], without the gain of the preset.
     pub painted: Plane,
     /// Blur of [`Shot::matte`], without the gain of the preset.
@@ -40,6 +43,7 @@ pub fn blur_shots(shots: &[Shot]) -> Vec<Outcome<'_>> {
                 preset: settings.preset.clone(),
                 shot,
                 steady: shot.steady(),
+                ramp: expected_ramp(&filter.name, &settings.preset, &shot.steady()),
                 painted: blurred.map(|[painted, ..]| painted / gain),
                 matte: blurred.map(|[_, matte, _]| matte / gain),
             });

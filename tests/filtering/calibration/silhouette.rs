@@ -4,7 +4,7 @@
 //! wall.
 
 use frame::Plane;
-use tests::kernels::{along_motion, expected_ramp, place_taps};
+use tests::kernels::{along_motion, place_taps};
 
 use super::outcome::Outcome;
 use super::panel::{HALF_PANEL, HEIGHT, Shot, WIDTH};
@@ -103,8 +103,7 @@ fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
 
 /// Compares the light with where the preset's taps put it. Returns what is wrong.
 pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
-    let smear = expected_ramp(&outcome.filter, &outcome.preset, &outcome.steady).length;
-    if !on_picture(outcome.shot, smear) {
+    if !on_picture(outcome.shot, outcome.ramp.length) {
         return None;
     }
     let shares = (found.all()).map(|light| format!("{:.2}", light / outcome.shot.speed));
