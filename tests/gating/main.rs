@@ -1,7 +1,6 @@
-//! Bounds, tuning, and tuned presets.
+//! Bounds, and what they notice; tuned presets.
 
 mod bounds;
 mod planted_defects;
 mod shipped_bounds;
-mod tune;
 mod tuned_presets;

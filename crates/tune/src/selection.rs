@@ -137,3 +137,120 @@ pub fn cross_validate(
     };
     families.iter().filter_map(fold).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use filters::{Filter, Value};
+
+    use super::*;
+    use crate::{SceneScore, TrialOutcome};
+
+    /// Makes a start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
+    fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
+        let score = |flip: &f64| SceneScore {
+            flip: *flip,
+            bleed: None,
+        };
+        let make = |(trial, (samples, flips)): (usize, &(i32, [f64; 4]))| Trial {
+            trial,
+            values: BTreeMap::from([("samples".to_owned(), Value::Integer(*samples))]),
+            outcome: TrialOutcome::Done,
+            loss: 0.0,
+            error: None,
+            bleed: Some(f64::from(*samples) / 8.0),
+            cost: Some(f64::from(*samples) / 8.0),
+            scenes: ["a", "b", "c", "d"]
+                .map(str::to_owned)
+                .into_iter()
+                .zip(flips.iter().map(score))
+                .collect(),
+        };
+        rows.iter().enumerate().map(make).collect()
+    }
+
+    fn space() -> Space {
+        let filter = Filter::builtin("jump_flood").unwrap();
+        let start = filter.settings(Some("paper")).unwrap();
+        Space::new(&filter, start, &["samples".to_owned()]).unwrap()
+    }
+
+    fn choose(trials: &[Trial], limits: ChoiceLimits) -> Choice {
+        choose_trial(trials, &space(), limits, |_| true).unwrap()
+    }
+
+    #[test]
+    fn the_choice_among_equal_candidates_is_the_nearest_to_the_start() {
+        let trials = make_trials(&[
+            (8, [0.1, 0.1, 0.1, 0.1]),
+            // About half the error everywhere: the best.
+            (60, [0.05, 0.04, 0.06, 0.05]),
+            // Hardly worse, and much nearer to the start.
+            (12, [0.05, 0.042, 0.06, 0.05]),
+            // Nearer still, and clearly worse.
+            (10, [0.08, 0.08, 0.08, 0.08]),
+        ]);
+        let choice = choose(&trials, ChoiceLimits::default());
+        assert_eq!((choice.best, choice.trial), (1, 2));
+        // Logs of 0.5, 0.4, 0.6 and 0.5: the standard deviation is 0.1659, and that of the mean 0.0830.
+        let error = choice.standard_error;
+        assert!((error - 0.0830).abs() < 1e-4, "{error}");
+        // A start that is not beaten everywhere stays.
+        let trials = make_trials(&[(8, [0.1; 4]), (9, [0.05, 0.16, 0.09, 0.11])]);
+        let choice = choose(&trials, ChoiceLimits::default());
+        assert_eq!((choice.best, choice.trial), (1, 0));
+    }
+
+    #[test]
+    fn limits_and_failures_keep_trials_out_of_the_choice() {
+        let rows = [
+            (8, [0.1; 4]),
+            (16, [0.02; 4]),
+            (12, [0.05; 4]),
+            (4, [0.06; 4]),
+        ];
+        let mut trials = make_trials(&rows);
+        let chosen =
+            |trials: &[Trial], cost, bleed| choose(trials, ChoiceLimits { cost, bleed }).trial;
+        assert_eq!(chosen(&trials, None, None), 1);
+        assert_eq!(chosen(&trials, Some(1.5), None), 2);
+        assert_eq!(chosen(&trials, None, Some(1.0)), 3);
+        trials[1].outcome = TrialOutcome::Dropped;
+        assert_eq!(chosen(&trials, None, None), 2);
+        let reason = "it serves a test".to_owned();
+        trials[2].outcome = TrialOutcome::Failed { reason };
+        assert_eq!(chosen(&trials, None, None), 3);
+    }
+
+    #[test]
+    fn a_choice_that_suits_only_one_family_shows_its_gap() {
+        // One trial suits the camera, the other suits thin things; each doubles the other's error.
+        let trials = make_trials(&[
+            (8, [0.1; 4]),
+            (9, [0.05, 0.05, 0.2, 0.2]),
+            (10, [0.2, 0.2, 0.05, 0.05]),
+        ]);
+        let validate = |families: &[(&'static str, &str)]| {
+            let names = |scenes: &str| scenes.split(' ').map(str::to_owned).collect();
+            let families = families.iter().map(|(name, scenes)| (*name, names(scenes)));
+            cross_validate(
+                &trials,
+                &space(),
+                ChoiceLimits::default(),
+                &families.collect(),
+            )
+        };
+        let folds = validate(&[("camera", "a b"), ("thin", "c d")]);
+        let two = 2f64.ln();
+        assert_eq!(folds.len(), 2);
+        for (fold, (family, trial)) in folds.iter().zip([("camera", 2), ("thin", 1)]) {
+            assert_eq!(
+                (fold.family.as_str(), fold.trial, fold.scenes),
+                (family, trial, 2)
+            );
+            // Exact except for the logarithm's rounding.
+            assert!((fold.others + two).abs() < 1e-12 && (fold.held_out - two).abs() < 1e-12);
+            assert!((fold.gap - 2.0 * two).abs() < 1e-12, "{}", fold.gap);
+        }
+        assert!(validate(&[("camera", "a b c d")]).is_empty());
+    }
+}

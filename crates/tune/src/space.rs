@@ -180,3 +180,117 @@ fn coordinate_of(kind: &Kind, value: &Value) -> f64 {
         Scale::Log => (number.ln() - low.ln()) / (high.ln() - low.ln()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+
+    fn jump_flood() -> Filter {
+        Filter::builtin("jump_flood").unwrap()
+    }
+
+    fn make_space(vary: &[&str]) -> Result<Space, String> {
+        let filter = jump_flood();
+        let words: Vec<String> = vary.iter().map(|word| word.to_string()).collect();
+        let start = filter.settings(Some("paper")).unwrap();
+        Space::new(&filter, start, &words).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn exactly_the_tunable_parameters_are_axes() {
+        let names: Vec<String> = (make_space(&[]).unwrap().axes.iter())
+            .map(|axis| axis.name.clone())
+            .collect();
+        assert!(names.contains(&"samples".to_owned()));
+        for fixed in ["intensity", "metric", "near_plane"] {
+            assert!(!names.contains(&fixed.to_owned()), "{fixed} is not tunable");
+        }
+    }
+
+    #[test]
+    fn the_values_of_every_preset_come_back_from_their_points() {
+        for name in Filter::builtin_names() {
+            let filter = Filter::builtin(&name).unwrap();
+            for preset in &filter.presets {
+                let settings = filter.settings(Some(&preset.name)).unwrap();
+                let Ok(space) = Space::new(&filter, settings.clone(), &[]) else {
+                    continue;
+                };
+                let back = space.settings(&space.point(&settings));
+                assert_eq!(back.values, settings.values, "{name}:{}", preset.name);
+            }
+        }
+    }
+
+    #[test]
+    fn the_middle_of_a_logarithmic_range_is_its_geometric_mean() {
+        let space = make_space(&["foreground_extent=0.01..1"]).unwrap();
+        let middle = space.settings(&[0.5]).values["foreground_extent"].clone();
+        assert_eq!(middle, Value::Real(0.1));
+    }
+
+    #[test]
+    fn the_search_reaches_every_whole_number_and_choice_and_no_other() {
+        let space = make_space(&["passes=2..5", "jitter"]).unwrap();
+        let mut met: BTreeMap<String, usize> = BTreeMap::new();
+        for step in 0..=400 {
+            let at = f64::from(step) / 400.0;
+            let values = space.settings(&[at, at]).values;
+            *met.entry(values["passes"].to_string()).or_default() += 1;
+            *met.entry(values["jitter"].to_string()).or_default() += 1;
+        }
+        let names: Vec<&str> = met.keys().map(String::as_str).collect();
+        assert_eq!(
+            names.join(" "),
+            "2 3 4 5 none start_offset step_offset step_scale"
+        );
+        for (name, count) in met {
+            // A quarter of 401 points each, except for those on the ends.
+            assert!((99..=102).contains(&count), "{name} is met {count} times");
+        }
+    }
+
+    #[test]
+    fn fixed_parameters_are_refused_with_the_variable_ones() {
+        for (words, parts) in [
+            (
+                "sample",
+                "parameter sample:|no parameter \"sample\"|allowed: samples",
+            ),
+            (
+                "metric",
+                "parameter metric:|tunable = false|allowed: samples",
+            ),
+            (
+                "samples=16..4",
+                "parameter samples=16..4:|the range is empty|from 1 to 64|samples=4..16",
+            ),
+            ("samples=4..4", "parameter samples=4..4:|the range is empty"),
+            (
+                "samples=0..4",
+                "parameter samples=0..4:|no range within|from 1 to 64",
+            ),
+            ("samples=4", "parameter samples=4:|no range within"),
+            (
+                "jitter=a..b",
+                "parameter jitter=a..b:|a choice has no range",
+            ),
+            ("samples samples", "named twice"),
+        ] {
+            let words: Vec<&str> = words.split(' ').collect();
+            let refused = make_space(&words).unwrap_err();
+            for part in parts.split('|') {
+                assert!(
+                    refused.contains(part),
+                    "\"{part}\" is missing from:\n{refused}"
+                );
+            }
+        }
+        let identity = Filter::builtin("identity").unwrap();
+        let start = identity.settings(None).unwrap();
+        let text = Space::new(&identity, start, &[]).unwrap_err().to_string();
+        assert!(text.contains("nothing to tune"), "{text}");
+    }
+}

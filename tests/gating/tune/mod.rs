@@ -1,5 +1,0 @@
-//! Tuning: known answers for every decision.
-
-mod deciding;
-mod searching;
-mod sensitivity;
