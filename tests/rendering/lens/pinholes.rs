@@ -46,8 +46,8 @@ fn spheres() -> Scene {
 #[test]
 fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
     let lens = with_lens(spheres(), APERTURE, FOCUS);
-    let own = render_frame(&lens, &settings_of_two(SIZE, 1024));
-    let pinholes = lens_points(256).zip(1..).map(|(point, seed)| {
+    let own = render_frame(&lens, &settings_of_two(SIZE, 8192));
+    let pinholes = lens_points(160).zip(1..).map(|(point, seed)| {
         let mut scene = spheres();
         let key = &mut scene.camera.motion.keys[0];
         key.translation += key.orientation * point.extend(0.0);
