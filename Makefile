@@ -1,6 +1,6 @@
-# `make run` does the main job; `make test` passes the tests. Three longer tests stand apart: `make guides` runs every command of every
-# page, `make fuzz` tries hostile input for ten minutes, and `make mutants` changes kernels to try the limits. `make archive` makes the
-# release archive; `make action` and `make image` try it in a bare Debian and in two images. See docs/release.md.
+# `make run` does the main job; `make test` proves that the program is right, and `make prove` repeats it at full breadth within an
+# hour: docs/testing.md. `make archive` makes the release archive; `make action` and `make image` try it in a bare Debian and in two
+# images: docs/release.md.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
 # Optuna drives the tuning service, Snakemake runs the jobs of a plan, and numpy and OpenEXR compare presets with their originals.
@@ -8,7 +8,7 @@
 # shaders in GLSL.
 # On macOS and Windows plain cargo commands work.
 
-.PHONY: run test guides fuzz mutants archive action image publish vulkan python chromium node glslang
+.PHONY: run test prove breadth guides fuzz mutants growth archive action image publish vulkan python chromium node glslang
 
 # Mesa complains on every start where a login session has not set it, as in containers; nothing is written there.
 export XDG_RUNTIME_DIR ?= /tmp
@@ -22,16 +22,55 @@ run: vulkan
 test: vulkan python chromium node glslang
 	cargo test --workspace --locked
 
-# Prints each command with its time.
-guides: vulkan python glslang
-	cargo test --package cli --test command_line --locked -- --ignored --nocapture --test-threads 1 guides
+# Runs every part, even after one that fails. Prints at the end how long each took: `make prove PARTS=guides`.
+PARTS ?= breadth guides fuzz mutants growth
 
-# How long to fuzz, what, and from which numbers on; `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
+# Minutes of the fuzzer, and of the mutants in `make prove`.
 MINUTES ?= 10
+
+prove:
+	@failed=0; took=""; \
+	for part in $(PARTS); do \
+	    echo "prove: $$part" >&2; start=$$(date +%s); end=passed; \
+	    $(MAKE) --no-print-directory $$part MINUTES=$(MINUTES) || { end=FAILED; failed=1; }; \
+	    took="$$took$$(printf 'prove: %-8s %5d s %s' $$part $$(($$(date +%s) - start)) $$end)\n"; \
+	done; \
+	printf "$$took"; exit $$failed
+
+# Tests that `make test` leaves out. The guides are a part of their own.
+breadth: vulkan python chromium node glslang
+	cargo test --workspace --locked --tests --no-fail-fast -- --ignored --skip guides::
+
+# Runs every command of every page, and prints each with its time.
+guides: vulkan python glslang
+	cargo test --workspace --locked --test command_line -- --ignored --nocapture --test-threads 1 guides
+
+# How long to fuzz, what, and from which numbers on: `make fuzz MINUTES=1 TARGETS=scene,obj SEED=7`. See docs/fuzzing.md.
 SEED ?= $(shell date +%s)
 
 fuzz: vulkan
-	cargo test --package cli --test fuzz --locked -- --minutes $(MINUTES) --seed $(SEED) $(if $(TARGETS),--targets $(TARGETS))
+	cargo test --workspace --locked --test fuzz -- --cases 2000 --minutes $(MINUTES) --seed $(SEED) \
+	    $(if $(TARGETS),--targets $(TARGETS))
+
+# Changes shipped kernels in small ways and counts the changes that the limits notice: `make mutants SIZE=128x72 FILTERS=kino:default`.
+# See docs/mutation.md.
+mutants: vulkan
+	cargo test --workspace --locked --test mutants -- $(call given,FILTERS,--filters) $(call given,SCENES,--scenes) \
+	    $(call given,SIZE,--size) $(call given,SAMPLES,--samples-per-pixel) $(call given,COUNT,--count) \
+	    $(call given,MINUTES,--minutes) $(call given,OUT,--out)
+
+# Joins, judges and reports a run of 10,000 cases, copies of a small one: docs/many-machines.md.
+GROWTH = $(or $(CARGO_TARGET_DIR),target)/tmp/growth
+PROGRAM = $(or $(CARGO_TARGET_DIR),target)/debug/shuttertruth
+
+growth: vulkan python
+	rm -rf "$(GROWTH)"
+	cargo build --workspace --locked --bin shuttertruth
+	"$(PROGRAM)" check --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64 --out "$(GROWTH)/small"
+	"$(PYTHON)" examples/growth.py "$(GROWTH)/small" --scenes 100 --filters 94 --out "$(GROWTH)/large" --program "$(PROGRAM)"
+
+# `$(call given,NAME,--option)`: the option with the value of NAME, if whoever called make gave it one.
+given = $(if $(filter-out file undefined,$(origin $(1))),$(2) $($(1)))
 
 archive:
 	release/archive.sh $(TARGET)
@@ -52,16 +91,6 @@ image: archive
 publish:
 	cargo publish --dry-run --locked -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-tracer
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --locked -p shuttertruth-frame -p shuttertruth-metrics -p shuttertruth-tracer
-
-# `$(call given,NAME,--option)`: the option with the value of NAME, if whoever called make gave it one.
-given = $(if $(filter-out file undefined,$(origin $(1))),$(2) $($(1)))
-
-# Changes shipped kernels in small ways and counts the changes that the limits notice: `make mutants SIZE=128x72 FILTERS=kino:default`.
-# See docs/mutation.md.
-mutants: vulkan
-	cargo test --package tests --test mutants --locked -- $(call given,FILTERS,--filters) $(call given,SCENES,--scenes) \
-	    $(call given,SIZE,--size) $(call given,SAMPLES,--samples-per-pixel) $(call given,COUNT,--count) \
-	    $(call given,MINUTES,--minutes) $(call given,OUT,--out)
 
 # The Python that has these packages; one of your own is used as it is. Its pip is called through it: in a copied folder the script
 # `pip` still belongs to the original.

@@ -25,7 +25,10 @@ SMALL, LARGE = 1e-3, 0.02
 
 
 def main():
-    arguments = parse(__doc__)
+    parser = options(__doc__)
+    parser.add_argument("--scenes", default=",".join(SCENES), metavar="SCENES", help="scenes to compare on [default: %(default)s]")
+    arguments = parser.parse_args()
+    scenes = arguments.scenes.split(",")
     listing = json.loads(shuttertruth(arguments, ["list", "--json", "--scenes-dir", arguments.scenes_dir]))
     settings = tomllib.loads((HERE / "fidelity.toml").read_text())
     originals, as_listed = transcriptions()
@@ -35,20 +38,20 @@ def main():
         if name not in known:
             sys.exit(f"--only {name}: has no transcription; allowed: {', '.join(known)}")
     compare = arguments.only or list(known)
-    frames = render(arguments)
+    frames = render(arguments, scenes)
     with ThreadPoolExecutor(2) as pool:
-        blurred = pool.map(lambda case: blur(arguments, *case), [(name, scene) for name in compare for scene in SCENES])
+        blurred = pool.map(lambda case: blur(arguments, *case), [(name, scene) for name in compare for scene in scenes])
     rows, failures = [], []
     for name in compare:
         source, parameters = known[name]
-        pictures = [next(blurred) for _ in SCENES]
+        pictures = [next(blurred) for _ in scenes]
         found = compared(originals[name], frames, pictures, parameters)
         listed = compared(as_listed[name], frames, pictures, parameters) if name in as_listed else None
         verdict = judged(settings["default"] | settings["preset"].get(name, {}), found, listed)
         rows.append([f"`{name}`", source, *found.cells(), listed.cells()[0] if listed else "", verdict])
         failures += [name] if verdict != "kept" else []
     print(table(["preset", "original", "largest", "> 0.001", "> 0.02", "largest as listed", "limit"], rows))
-    print(f"\n{', '.join(SCENES)} at {arguments.size}: {frames[0].depth.size * len(SCENES)} pixels.")
+    print(f"\n{', '.join(scenes)} at {arguments.size}: {frames[0].depth.size * len(scenes)} pixels.")
     if not arguments.only:
         print()
         print(table(["preset without a transcription", "why"], [[f"`{name}`", why] for name, why in missing.items()]))
@@ -56,15 +59,15 @@ def main():
         sys.exit(f"farther from the original than fidelity.toml allows: {', '.join(failures)}")
 
 
-def parse(text):
+def options(text):
     parser = argparse.ArgumentParser(description=text.splitlines()[0])
     parser.add_argument("--program", default="shuttertruth", help="the program [default: the one on the PATH]")
     parser.add_argument("--scenes-dir", default="scenes", help="folder that holds the scenes")
     parser.add_argument("--out", type=Path, required=True, help="folder for frames and pictures")
     parser.add_argument("--size", default="160x90", help="picture size in pixels")
     parser.add_argument("--only", action="append", default=[], metavar="FILTER:PRESET", help="compare this one; may be repeated")
-    parser.add_argument("--set", action="append", default=[], metavar="FILTER.PARAMETER=VALUE", help="of the filter alone: see it differ")
-    return parser.parse_args()
+    parser.add_argument("--set", action="append", default=[], metavar="FILTER.PARAMETER=VALUE", help="of the filter, or of FILTER:PRESET alone: see it differ")
+    return parser
 
 
 def shuttertruth(arguments, words):
@@ -146,7 +149,9 @@ def render(arguments, scenes=SCENES):
 
 
 def blur(arguments, name, scene):
-    return blur_with(arguments, name, scene, [value for value in arguments.set if value.split(".")[0] == name.split(":")[0]])
+    filter = name.split(":")[0]
+    changes = [value.split(".", 1) for value in arguments.set]
+    return blur_with(arguments, name, scene, [f"{filter}.{change}" for whose, change in changes if whose in (name, filter)])
 
 
 def blur_with(arguments, name, scene, values):

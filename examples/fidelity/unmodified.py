@@ -15,7 +15,7 @@ import shutil
 import sys
 
 import numpy as np
-from compare import HERE, SCENES, Difference, blur_with, parse, render, table
+from compare import HERE, SCENES, Difference, blur_with, options, render, table
 
 sys.path.insert(0, str(HERE / "originals"))
 import bevy
@@ -44,7 +44,7 @@ FORMATS = re.compile(r'^(color|velocity|output)_format = .*\n', re.M)
 
 
 def main():
-    arguments = parse(__doc__)
+    arguments = options(__doc__).parse_args()
     frames = {scene: frame for scene, frame in zip(SCENES, render(arguments))}
     frames |= zip(CAMERA_SCENES, render(arguments, CAMERA_SCENES))
     rows = []

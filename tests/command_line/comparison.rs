@@ -2,9 +2,10 @@
 
 use frame::{Alignment, Frame, Ladder, Picture, Truth};
 use metrics::Metric;
-use suite::{Case, DepthFormat, FinishedPicture, Overall, Run, VelocityFormat};
+use suite::{Case, DepthFormat, FinishedPicture, Run, VelocityFormat};
+use tests::text::assert_contains;
 
-use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, quick_command, split, stdout};
+use crate::sandbox::{SCENE, Sandbox, assert_done, quick_command, split};
 
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
@@ -21,7 +22,7 @@ fn flip(case: &Case) -> f64 {
 #[test]
 fn filters_of_two_alignments_share_a_common_shutter() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine,bevy"]));
+    sandbox.measure("--filters velocity_gather:fine,bevy");
     let run = sandbox.read_run();
     assert_eq!(run.common_alignment, Alignment::Centred);
     for case in &run.cases {
@@ -29,17 +30,15 @@ fn filters_of_two_alignments_share_a_common_shutter() {
         assert_eq!(own, case.alignment == Alignment::Centred, "{}", case.name());
     }
     // The mean of many sub-frames, half an exposure early, does not match the common interval.
-    let bars = run.cases.iter().filter(|case| case.preset == "64");
-    let many: Vec<&Case> = bars.collect();
+    let many: Vec<&Case> = run
+        .cases
+        .iter()
+        .filter(|case| case.preset == "64")
+        .collect();
     assert_eq!(many.len(), 2, "64 sub-frames of each alignment");
     assert_eq!(many[0].alignment, Alignment::Trailing);
     let late = many[0].common.flip.value().unwrap();
     assert!(late > 4.0 * flip(many[0]), "{late}");
-    // A narrower run keeps the cases of the wider one, and so their common shutter.
-    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
-    assert_eq!(sandbox.read_run().common_alignment, Alignment::Centred);
-    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine", "--no-cache"]));
-    assert_eq!(sandbox.read_run().common_alignment, Alignment::Trailing);
 }
 
 #[test]
@@ -100,17 +99,13 @@ fn a_sharp_sub_frame_of_the_middle_has_no_skill_under_any_shutter() {
 fn references_beat_filters_and_have_no_bounds() {
     let sandbox = Sandbox::new();
     sandbox.write_bound(0.0001);
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    sandbox.measure("--filters identity,velocity_gather:fine");
     let cases = sandbox.read_run().cases;
-    let oracle = flip(find_case(&cases, "scatter_oracle"));
-    let many = flip(find_case(&cases, "accumulate:64"));
-    let gather = flip(find_case(&cases, "velocity_gather:fine"));
+    let [many, oracle, gather] = ["accumulate:64", "scatter_oracle", "velocity_gather:fine"]
+        .map(|name| flip(find_case(&cases, name)));
     // The plate moves evenly before one colour, so it hides nothing that matters. The oracle's only error is the
     // frame's antialiasing of a plate five pixels wide.
-    assert!(
-        many < oracle && oracle < 0.75 * gather,
-        "{many} {oracle} {gather}"
-    );
+    assert!(many < oracle && oracle < 0.75 * gather);
     let findings = sandbox.read_findings();
     for case in &cases {
         let judged = findings.iter().any(|finding| finding.is_of(case));
@@ -121,181 +116,129 @@ fn references_beat_filters_and_have_no_bounds() {
 #[test]
 fn variance_is_measured_for_filters_with_noise() {
     let sandbox = Sandbox::new();
-    let filters = "velocity_gather:fine,jump_flood:paper";
-    let output = sandbox.run(&["--filters", filters, "--jitter-frames", "4", "--table"]);
-    assert_done(&output);
+    let filters = "--filters velocity_gather:fine,jump_flood:paper --jitter-frames";
+    let noisy = sandbox.measure(&format!("{filters} 4 --table"));
     let cases = sandbox.read_filter_cases();
     assert_eq!(find_case(&cases, "velocity_gather:fine").jitter, None);
     let jitter = find_case(&cases, "jump_flood:paper").jitter.unwrap();
     assert_eq!(jitter.frames, 4);
     assert!(jitter.variance > 0.0 && jitter.bias > 0.0);
-    let noisy = stdout(&output);
     let line = noisy.lines().find(|line| line.contains("jump_flood:paper"));
     assert!(line.unwrap().contains('%'), "{noisy}");
 
-    assert_done(&sandbox.run(&["--filters", filters, "--jitter-frames", "0"]));
-    assert!(
-        sandbox
-            .read_run()
-            .cases
-            .iter()
-            .all(|case| case.jitter.is_none())
-    );
+    sandbox.measure(&format!("{filters} 0"));
+    let cases = sandbox.read_run().cases;
+    assert!(cases.iter().all(|case| case.jitter.is_none()));
 }
 
 #[test]
-fn defects_of_velocity_cost_what_they_take_away() {
+fn forms_of_the_input_cost_what_they_take_away() {
     let sandbox = Sandbox::new();
-    let output = sandbox.run(&split(
-        "--filters identity,velocity_gather:fine --input defect=zero,double,lag,no_object,jittered",
-    ));
-    assert_done(&output);
+    let filters = "--filters identity,velocity_gather:fine";
+    let forms = "--input defect=zero,double,lag,no_object,jittered \
+        --input velocity=float16,linear8,kino10,tile_clamped --input depth=float16 --input border=clamp";
+    let told = sandbox.measure(&format!("{filters} {forms}"));
     let cases = sandbox.read_filter_cases();
-    assert_eq!(cases.len(), 2 * 6);
+    assert_eq!(cases.len(), 2 * 12);
     let identity = flip(find_case(&cases, "identity:default"));
-    let right = flip(find_case(&cases, "velocity_gather:fine"));
-    let changed = |change: &str| flip(find_case(&cases, &format!("velocity_gather:fine {change}")));
-    // Nothing is blurred without velocity, and the plate's is the only one.
-    assert_eq!(changed("defect=zero"), identity);
-    assert!((changed("defect=no_object") - identity).abs() < 1e-6);
-    assert!(
-        changed("defect=double") > right + 0.01,
-        "{}",
-        changed("defect=double")
-    );
-    // The plate moves evenly, so that a frame late is no difference.
-    assert!((changed("defect=lag") - right).abs() < 1e-4);
-    assert_ne!(changed("defect=jittered"), right);
-    let told = stdout(&output);
-    let due = format!("{:+.3}", identity - right);
-    let row = told
-        .lines()
-        .find(|line| line.trim_start().starts_with("defect=zero"))
-        .unwrap();
-    assert!(row.ends_with(&due), "{told}");
-    // The ranking is of the right buffer alone.
-    assert!(!told.contains("velocity_gather:fine defect"), "{told}");
-    let camera_only = split("--filters identity --velocity camera_only --input defect=lag");
-    let refused = sandbox.run(&camera_only);
-    assert_refused(&refused, 2, &["defect=lag", "the camera alone"]);
-}
-
-#[test]
-fn coarser_buffers_raise_the_error() {
-    let sandbox = Sandbox::new();
-    let output = sandbox.run(&split(
-        "--filters identity,velocity_gather:fine --input velocity=float16,linear8,kino10,tile_clamped \
-         --input depth=float16",
-    ));
-    assert_done(&output);
-    let cases = sandbox.read_filter_cases();
-    assert_eq!(cases.len(), 2 * 6);
-    let identity = flip(find_case(&cases, "identity:default"));
-    for case in &cases[..6] {
+    let of_identity = cases
+        .iter()
+        .filter(|case| case.filter == "identity" && !case.name().ends_with("border=clamp"));
+    for case in of_identity {
         // A filter that reads neither velocity nor depth does not depend on how they are stored.
         assert_eq!(flip(case), identity, "{}", case.name());
     }
-    let whole = flip(find_case(&cases, "velocity_gather:fine"));
-    let changed = |change: &str| flip(find_case(&cases, &format!("velocity_gather:fine {change}")));
-    assert_eq!(changed("depth=float16"), whole);
+    let whole = find_case(&cases, "velocity_gather:fine");
+    let right = flip(whole);
+    let changed = |form: &str| find_case(&cases, &format!("velocity_gather:fine {form}"));
+    let differs = |form: &str| (flip(changed(form)) - right).abs();
+    // Nothing is blurred without velocity, and the plate's is the only one.
+    assert_eq!(flip(changed("defect=zero")), identity);
+    assert!((flip(changed("defect=no_object")) - identity).abs() < 1e-6);
+    assert!(flip(changed("defect=double")) > right + 0.01);
+    // The plate moves evenly, so that a frame late is no difference.
+    assert!(differs("defect=lag") < 1e-4);
+    assert!(differs("defect=jittered") > 0.0);
+    assert_eq!(differs("depth=float16"), 0.0);
     // A gather of 20 fetches; a 16-bit float is accurate to 1 part in 2048.
-    assert!((changed("velocity=float16") - whole).abs() < 0.002);
+    assert!(differs("velocity=float16") < 0.002);
     // Kino's half smear ends at 5 % of 32 rows: 1.6 of the plate's 2.8 pixels. Half a tile is longer than all of it.
-    let cut = changed("velocity=kino10");
-    assert!((cut - whole).abs() > 0.01, "{cut} {whole}");
-    assert!((changed("velocity=tile_clamped") - whole).abs() < 0.002);
-    let told = stdout(&output);
+    assert!(differs("velocity=kino10") > 0.01);
+    assert!(differs("velocity=tile_clamped") < 0.002);
+    // The plate stays clear of the border, so nothing there can change its score.
+    let clamped = &changed("border=clamp").scores;
+    assert_eq!(clamped.full, whole.scores.full);
+    assert_eq!(clamped.objects, whole.scores.objects);
+
+    let due = format!("{:+.3}", identity - right);
+    let mut rows = told.lines().map(str::trim_start);
+    let row = rows.find(|line| line.starts_with("defect=zero")).unwrap();
+    assert!(row.ends_with(&due), "{told}");
+    // The ranking is of the right buffer alone.
+    assert!(!told.contains("velocity_gather:fine defect"), "{told}");
     assert!(told.contains("velocity=linear8"), "{told}");
-    let case = find_case(&cases, "velocity_gather:fine velocity=linear8");
+    let case = changed("velocity=linear8");
     assert_eq!(case.input.velocity, VelocityFormat::Linear8);
     assert_eq!(case.input.depth, DepthFormat::Float32);
-    assert!(
-        case.folder
-            .ends_with("velocity_gather_fine_velocity_linear8")
-    );
+    let folder = "velocity_gather_fine_velocity_linear8";
+    assert!(case.folder.ends_with(folder));
+
+    let run = "run --filters identity --input";
+    sandbox.refuse(&format!("{run} border=mirror"), &["mirror", "leave, clamp"]);
+    let refused = format!("{run} defect=lag --velocity camera_only");
+    sandbox.refuse(&refused, &["defect=lag", "the camera alone"]);
 }
 
-#[test]
-fn a_clamped_border_is_cropped_before_scoring() {
-    let sandbox = Sandbox::new();
-    let words = [
-        "--filters",
-        "velocity_gather:fine",
-        "--input",
-        "border=clamp",
-    ];
-    assert_done(&sandbox.run(&words));
-    let cases = sandbox.read_filter_cases();
-    let clamped = find_case(&cases, "velocity_gather:fine border=clamp");
-    // The plate stays clear of the border, so nothing there can change its score.
-    let whole = find_case(&cases, "velocity_gather:fine");
-    assert_eq!(clamped.scores.full, whole.scores.full);
-    assert_eq!(clamped.scores.objects, whole.scores.objects);
-    let output = sandbox.run(&["--input", "border=mirror"]);
-    assert_refused(&output, 2, &["mirror", "leave, clamp"]);
+/// Checks the mean of the identity's FLIP on two scenes; returns its interval.
+fn assert_mean(run: &Run) -> [f64; 2] {
+    let name = "identity:default";
+    let own = run
+        .cases
+        .iter()
+        .filter(|case| case.name() == name)
+        .map(flip);
+    let [first, second] = own.collect::<Vec<_>>()[..] else {
+        panic!("two scenes");
+    };
+    let mut means = run.overall.iter();
+    let mean = means
+        .find(|mean| (&mean.name[..], mean.metric) == (name, Metric::FLIP))
+        .unwrap();
+    assert_eq!(mean.scenes, 2);
+    // The standard error of two scores is half of their difference, and t for one degree of freedom is 12.706.
+    let half = 12.706 * 0.5 * (second - first).abs();
+    let [low, high] = mean.interval;
+    assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");
+    assert!((0.5 * (high + low) - mean.mean).abs() < 1e-12, "{mean:?}");
+    // A check's mean is one of estimates.
+    if run.cases.iter().all(|case| case.intervals.is_empty()) {
+        assert!((mean.mean - 0.5 * (first + second)).abs() < 1e-12);
+    }
+    mean.interval
 }
 
 #[test]
 fn means_over_scenes_have_a_student_interval() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "identity"]));
-    assert!(
-        sandbox.read_run().overall.is_empty(),
-        "one scene is no mean"
-    );
-    assert!(!stdout(&sandbox.run(&["--filters", "identity"])).contains("mean over"));
+    let sandbox = Sandbox::measured();
+    // One scene is no mean.
+    assert!(sandbox.read_run().overall.is_empty());
+    assert!(!sandbox.measure("--filters identity").contains("mean over"));
 
     sandbox.copy_scene("farther", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
-    sandbox.write(
-        "../bounds.toml",
-        "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n",
-    );
-    let filters = ["--filters", "identity,velocity_gather:fine"];
-    let output = sandbox.run(&[&filters[..], &["--table"]].concat());
-    assert_done(&output);
-    let (scores, mean) = identity_overall(&sandbox.read_run());
-    assert_eq!(mean.scenes, 2);
-    assert!((mean.mean - 0.5 * (scores[0] + scores[1])).abs() < 1e-12);
-    // The standard error of two scores is half of their difference, and t for one degree of freedom is 12.706.
-    let half = 12.706 * 0.5 * (scores[1] - scores[0]);
-    let [low, high] = mean.interval;
-    assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");
-    assert!((0.5 * (high + low) - mean.mean).abs() < 1e-12, "{mean:?}");
-    let text = stdout(&output);
+    let bounds = "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n";
+    sandbox.write("../bounds.toml", bounds);
+    let filters = "--filters identity,velocity_gather:fine";
+    let text = sandbox.measure(&format!("{filters} --table"));
+    let [low, high] = assert_mean(&sandbox.read_run());
     let ranking = &text[text.find("mean over 2 scenes").unwrap()..];
-    let place = |name: &str| ranking.find(name).unwrap();
-    assert!(place("[accumulate:64]") < place("velocity_gather:fine"));
-    assert!(
-        place("velocity_gather:fine") < place("identity:default"),
-        "{ranking}"
-    );
-    assert!(
-        ranking.contains(&format!("{low:.3} to {high:.3}")),
-        "{ranking}"
-    );
-    assert!(
-        text.lines()
-            .all(|line| line.chars().count() <= 80 || line.contains(": out"))
-    );
+    let names = ["[accumulate:64]", "velocity_gather:", "identity:"];
+    let places = names.map(|name| ranking.find(name).unwrap());
+    assert!(places.is_sorted(), "{ranking}");
+    assert_contains(ranking, &[&format!("{low:.3} to {high:.3}")]);
+    let mut lines = text.lines();
+    assert!(lines.all(|line| line.chars().count() <= 80 || line.contains(": out")));
 
-    assert_done(&sandbox.check(&filters));
     // The scores contain each truth's noise already: a check, which knows the noise, gives the same mean.
-    let (scores, mean) = identity_overall(&sandbox.read_run());
-    let half = 12.706 * 0.5 * (scores[1] - scores[0]);
-    let [low, high] = mean.interval;
-    assert!((0.5 * (high - low) / half - 1.0).abs() < 1e-4, "{mean:?}");
-}
-
-/// Returns the identity's FLIP on both scenes, the better one first, and its mean.
-fn identity_overall(run: &Run) -> ([f64; 2], Overall) {
-    let mut scores: Vec<f64> = (run.cases.iter())
-        .filter(|case| case.name() == "identity:default")
-        .map(flip)
-        .collect();
-    scores.sort_by(f64::total_cmp);
-    let mean = run
-        .overall
-        .iter()
-        .find(|mean| (&mean.name[..], mean.metric) == ("identity:default", Metric::FLIP));
-    (scores.try_into().unwrap(), mean.unwrap().clone())
+    assert_done(&sandbox.check(&split(filters)));
+    assert_mean(&sandbox.read_run());
 }

@@ -5,8 +5,10 @@ use std::path::Path;
 
 use filters::Convention;
 use frame::{ExrFile, Frame, Image, read_exr, write_exr};
+use serde_json::Value;
+use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stdout};
+use crate::sandbox::Sandbox;
 
 /// Conventions, each apart from that of frames in one thing or more.
 const FORMS: [&str; 12] = [
@@ -26,9 +28,8 @@ const FORMS: [&str; 12] = [
 ];
 
 fn render(sandbox: &Sandbox) -> Frame {
-    sandbox.execute(&split(
-        "truths render --quiet --out r --scenes plate --samples-per-pixel 16 --alignments trailing",
-    ));
+    let words = "truths render --quiet --out r --scenes plate --samples-per-pixel 16";
+    sandbox.done(&format!("{words} --alignments trailing"));
     Frame::read(&sandbox.path("r/plate/frame.exr")).unwrap()
 }
 
@@ -44,11 +45,26 @@ fn write_engine_frame(path: &Path, frame: &Frame, convention: &Convention) {
     write_exr(path, &file).unwrap();
 }
 
-fn largest_difference(a: &Image, b: &Image) -> f32 {
+pub fn largest_difference(a: &Image, b: &Image) -> f32 {
     let pixels = a.pixels.iter().zip(&b.pixels);
     let channels =
         pixels.flat_map(|(a, b)| [0, 1, 2].map(|channel| (a[channel] - b[channel]).abs()));
     channels.fold(0.0, f32::max)
+}
+
+/// Converts a frame and back again.
+fn assert_restores(convention: &Convention, frame: &Frame) {
+    let color = convention.restore_color(&convention.convert_color(&frame.color));
+    let velocity = convention.convert_velocity(&frame.velocity, frame.exposure);
+    let velocity = convention.restore_velocity(&velocity, frame.exposure);
+    let depth = convention.restore_depth(&convention.convert_depth(&frame.depth));
+    assert!(largest_difference(&color, &frame.color) < 1e-6);
+    for (own, due) in velocity.pixels.iter().zip(&frame.velocity.pixels) {
+        assert!((own[0] - due[0]).hypot(own[1] - due[1]) < 1e-4);
+    }
+    for (own, due) in depth.pixels.iter().zip(&frame.depth.pixels) {
+        assert!((own / due - 1.0).abs() < 1e-4, "{own} {due}");
+    }
 }
 
 #[test]
@@ -56,13 +72,9 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
     let sandbox = Sandbox::new();
     let frame = render(&sandbox);
     let blur = |words: &str| {
-        sandbox.execute(&split(&format!(
-            "engine blur --filter kino --out blurred.exr {words}"
-        )));
-        read_exr(&sandbox.path("blurred.exr"))
-            .unwrap()
-            .color("")
-            .unwrap()
+        let blur = "engine blur --filter kino --out blurred.exr";
+        sandbox.done(&format!("{blur} {words}"));
+        sandbox.read_color("blurred.exr")
     };
     let expected = blur("--frame r/plate/frame.exr");
     let moved = largest_difference(&expected, &frame.color);
@@ -71,6 +83,11 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
         let text = format!("[convention]\n{form}\n");
         fs::write(sandbox.path("engine.toml"), &text).unwrap();
         let convention = Convention::parse(Path::new("engine.toml"), &text).unwrap();
+        assert_restores(&convention, &frame);
+        // Each of its parts is in one of these.
+        if !form.contains('\n') {
+            continue;
+        }
         write_engine_frame(&sandbox.path("engine.exr"), &frame, &convention);
         let found = blur("--frame engine.exr --convention engine.toml");
         let found = convention.restore_color(&found);
@@ -84,127 +101,70 @@ fn a_frame_in_any_convention_is_blurred_as_the_frame_itself() {
 fn a_picture_of_exposed_colours_has_the_scores_of_its_radiance() {
     let sandbox = Sandbox::new();
     render(&sandbox);
-    sandbox.execute(&split(
-        "engine blur --filter velocity_gather --frame r/plate/frame.exr --out plain.exr",
-    ));
+    sandbox.done("engine blur --filter velocity_gather --frame r/plate/frame.exr --out plain.exr");
     let mut file = read_exr(&sandbox.path("plain.exr")).unwrap();
     // A power of two changes no digit.
-    let exposed = file
-        .color("")
-        .unwrap()
-        .map(|pixel| pixel.map(|value| 4.0 * value));
+    let color = file.color("").unwrap();
     file.channels.clear();
-    file.push_color("", &exposed);
+    file.push_color("", &color.map(|pixel| pixel.map(|value| 4.0 * value)));
     write_exr(&sandbox.path("exposed.exr"), &file).unwrap();
-    fs::write(
-        sandbox.path("engine.toml"),
-        "[convention]\ncolor_scale = 4\n",
-    )
-    .unwrap();
+    let convention = "[convention]\ncolor_scale = 4\n";
+    fs::write(sandbox.path("engine.toml"), convention).unwrap();
     let score = |words: &str| {
         let files = "--truth r/plate/truth_trailing.exr --frame r/plate/frame.exr";
-        let output = sandbox.shuttertruth(&split(&format!("score {files} {words}")));
-        assert_done(&output);
-        stdout(&output)
+        sandbox.done(&format!("score {files} {words}"))
     };
-    let scores = |words: &str| -> serde_json::Value {
-        let json: serde_json::Value =
-            serde_json::from_str(&score(&format!("--json {words}"))).unwrap();
+    let scores = |words: &str| {
+        let json: Value = serde_json::from_str(&score(&format!("--json {words}"))).unwrap();
         json["scores"].clone()
     };
     let plain = scores("--image plain.exr");
-    assert_eq!(
-        scores("--image exposed.exr --convention engine.toml"),
-        plain
-    );
+    let restored = "--image exposed.exr --convention engine.toml";
+    assert_eq!(scores(restored), plain);
     assert_ne!(scores("--image exposed.exr"), plain);
-    let text = score("--image exposed.exr --convention engine.toml");
-    assert!(
-        text.contains("colours divided by color_scale = 4"),
-        "{text}"
-    );
+    let text = score(restored);
+    assert_contains(&text, &["colours divided by color_scale = 4"]);
     let png = "score --truth r/plate/truth_trailing.exr --frame r/plate/frame.exr --image r/plate/frame.png \
                --convention engine.toml";
-    let output = sandbox.shuttertruth(&split(png));
-    assert_refused(&output, 2, &["frame.png: is a PNG", "OpenEXR"]);
+    sandbox.refuse(png, &["frame.png: is a PNG", "OpenEXR"]);
 }
 
 #[test]
 fn a_wrong_convention_is_refused_with_its_line() {
     let sandbox = Sandbox::new();
     render(&sandbox);
-    let words = split(
-        "engine blur --filter identity --frame r/plate/frame.exr --out b.exr --convention engine.toml",
-    );
-    assert_refused(
-        &sandbox.shuttertruth(&words),
-        2,
-        &["engine.toml: cannot read"],
-    );
-    for (text, parts) in [
-        ("", ["engine.toml", "missing field `convention`"]),
-        (
-            "[convention]\nspeed = 1\n",
-            ["engine.toml:2: ", "unknown field `speed`"],
-        ),
-        (
-            "name = \"x\"\n[convention]\n",
-            ["engine.toml:1: ", "the table [convention] alone"],
-        ),
-        (
-            "[convention]\ndepth = \"ndc\"\n",
-            [
-                "engine.toml:1: ",
-                "convention: depth of a depth buffer needs near",
-            ],
-        ),
-        (
-            "[convention]\nvelocity_per = \"second\"\n",
-            ["engine.toml:1: ", "needs frames_per_second"],
-        ),
-    ] {
-        fs::write(sandbox.path("engine.toml"), text).unwrap();
-        assert_refused(&sandbox.shuttertruth(&words), 2, &parts);
+    let words = "engine blur --filter identity --frame r/plate/frame.exr --out b.exr --convention engine.toml";
+    sandbox.refuse(words, &["engine.toml: cannot read"]);
+    for (text, parts) in read_rows(
+        r#"
+         => engine.toml | missing field `convention`
+        [convention]\nspeed = 1 => engine.toml:2: | unknown field `speed`
+        name = "x"\n[convention] => engine.toml:1: | the table [convention] alone
+        [convention]\ndepth = "ndc" => engine.toml:1: | convention: depth of a depth buffer needs near
+        [convention]\nvelocity_per = "second" => engine.toml:1: | needs frames_per_second"#,
+    ) {
+        fs::write(sandbox.path("engine.toml"), text.replace("\\n", "\n")).unwrap();
+        sandbox.refuse(words, &parts);
     }
 }
 
-/// Kernels that expect what Godot hands over.
+/// What kernels expect as Godot hands it over.
 const GODOT: &str = "\
-name = \"godot\"
-summary = \"Averages nothing.\"
-alignment = \"trailing\"
-
 [convention]
 velocity = \"uv\"
 velocity_sign = \"previous_minus_current\"
 depth = \"reversed\"
 near = 0.05
 color_format = \"rgba16float\"
-
-[[pass]]
-entry = \"copy\"
-";
-
-const COPY: &str = "\
-@group(0) @binding(1) var color: texture_2d<f32>;
-@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
-
-@compute @workgroup_size(8, 8)
-fn copy(@builtin(global_invocation_id) id: vec3<u32>) {
-    let pixel = vec2<i32>(id.xy);
-    if inside(pixel) {
-        textureStore(output, pixel, textureLoad(color, pixel, 0));
-    }
-}
 ";
 
 #[test]
 fn run_json_says_what_a_filter_s_shaders_got() {
     let sandbox = Sandbox::new();
-    sandbox.write_filter("godot", GODOT, COPY);
-    assert_done(&sandbox.run(&["--filters", "./godot,velocity_gather"]));
-    let run: serde_json::Value =
-        serde_json::from_str(&fs::read_to_string(sandbox.path("out/run.json")).unwrap()).unwrap();
+    let copy = "textureStore(output, pixel, textureLoad(color, pixel, 0));";
+    sandbox.write_kernel("godot", GODOT, &[], copy);
+    sandbox.measure("--filters ./godot,velocity_gather");
+    let run: Value = sandbox.read_json("out/run.json");
     let case = |filter: &str| {
         let mut cases = run["cases"].as_array().unwrap().iter();
         cases.find(|case| case["filter"] == filter).unwrap()["convention"].clone()
@@ -229,10 +189,6 @@ fn run_json_says_what_a_filter_s_shaders_got() {
         })
     );
     for other in ["velocity_gather", "scatter_oracle"] {
-        assert_eq!(
-            case(other),
-            serde_json::Value::Null,
-            "{other} got the frame as it is"
-        );
+        assert_eq!(case(other), Value::Null, "{other} got the frame as it is");
     }
 }

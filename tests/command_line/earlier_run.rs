@@ -3,47 +3,41 @@
 use std::fs;
 
 use frame::Alignment;
+use tests::text::assert_contains;
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, files_below, stderr, stdout};
+use crate::sandbox::{
+    IDENTITY, Sandbox, assert_done, assert_refused, quick_command, read_below, split, stderr,
+    stdout,
+};
+
+/// Names the last run's cases without the references, in the order of their names.
+fn sorted_names(sandbox: &Sandbox) -> Vec<String> {
+    let mut names = sandbox.read_case_names();
+    names.sort();
+    names
+}
 
 #[test]
 fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
     let sandbox = Sandbox::two_scenes();
     let bounds = "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n";
     fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
-    let filters = ["--filters", "identity,velocity_gather:fine,mcguire:paper"];
-    assert_done(&sandbox.run(&filters));
-    let before = sandbox.read_case_names();
+    sandbox.measure("--filters identity,velocity_gather:fine,mcguire:paper");
+    let before = sorted_names(&sandbox);
     assert_eq!(before.len(), 6);
-    let narrow = sandbox.run(&["--scenes", "slow", "--filters", "velocity_gather:fine"]);
+    let narrow = sandbox.run(&split("--scenes slow --filters velocity_gather:fine"));
     assert_done(&narrow);
-    assert!(
-        stderr(&narrow).contains("keeps 5 cases of an earlier run"),
-        "{}",
-        stderr(&narrow)
-    );
+    assert_contains(&stderr(&narrow), &["keeps 5 cases of an earlier run"]);
     // The ranking covers only the filters asked for.
     assert!(!stdout(&narrow).contains("mcguire"), "{}", stdout(&narrow));
-    let mut after = sandbox.read_case_names();
-    after.sort();
-    let mut sorted = before.clone();
-    sorted.sort();
-    assert_eq!(after, sorted);
+    assert_eq!(sorted_names(&sandbox), before);
     assert_eq!(sandbox.read_run().common_alignment, Alignment::Centred);
-    assert_eq!(
-        sandbox.read_findings().len(),
-        6,
-        "a finding per bounded score"
-    );
+    assert_eq!(sandbox.read_findings().len(), 6);
     // The report shows all of them.
-    assert!(
-        fs::read_to_string(sandbox.path("out/report.html"))
-            .unwrap()
-            .contains("mcguire")
-    );
+    let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
+    assert!(page.contains("mcguire"));
 
-    let more = ["--scenes", "slow", "--filters", "identity", "--seed", "2"];
-    let refused = sandbox.run(&more);
+    let more = "--scenes slow --filters identity --seed 2";
     let parts = [
         "out/run.json",
         "5 cases",
@@ -51,53 +45,49 @@ fn a_narrower_run_keeps_the_cases_of_a_wider_one() {
         "--out",
         "--no-cache",
     ];
-    assert_refused(&refused, 2, &parts);
-    assert_eq!(sandbox.read_case_names().len(), 6);
-    assert_done(&sandbox.run(&[&more[..], &["--no-cache"]].concat()));
+    assert_refused(&sandbox.run(&split(more)), 2, &parts);
+    assert_eq!(sorted_names(&sandbox), before);
+    sandbox.measure(&format!("{more} --no-cache"));
     assert_eq!(sandbox.read_case_names(), ["slow identity:default"]);
 }
 
 #[test]
 fn runs_of_two_sizes_lie_side_by_side() {
     let sandbox = Sandbox::new();
-    sandbox.write(
-        "bounds.toml",
-        "[default]\nflip_moving = { limit = 0.9, size = [48, 24], why = \"it serves a test\" }\n",
-    );
-    let filters = ["--filters", "identity"];
-    assert_done(&sandbox.run(&filters));
+    let bounds =
+        "[default]\nflip_moving = { limit = 0.9, size = [48, 24], why = \"it serves a test\" }\n";
+    sandbox.write("bounds.toml", bounds);
+    sandbox.measure("--filters identity");
     let contents = || {
-        let files = files_below(&sandbox.path("out")).into_iter();
-        let kept = files.filter(|path| !path.starts_with(sandbox.path("out/48x24")));
-        let contents = kept.map(|path| (fs::read(&path).unwrap(), path));
-        contents.collect::<Vec<_>>()
+        let mut files = read_below(&sandbox.path("out"));
+        files.retain(|(name, _)| !name.starts_with("48x24"));
+        files
     };
     let before = contents();
     // A check makes pictures of the size that its bounds hold at.
-    let few = ["check", "--samples-per-pixel", "64", "--out", "out"];
-    let check = sandbox.outside_ci(&[&few[..], &filters].concat());
+    let few = split("check --samples-per-pixel 64 --out out --filters identity");
+    let check = sandbox.outside_ci(&few);
     assert_done(&check);
     let note = "out holds a run of another picture size; this one, at 48x24, goes to out/48x24";
-    assert!(stderr(&check).contains(note), "{}", stderr(&check));
-    assert!(stdout(&check).contains("report: out/48x24/report.html"));
+    assert_contains(&stderr(&check), &[note]);
+    assert_contains(&stdout(&check), &["report: out/48x24/report.html"]);
     assert!(contents() == before, "the run was changed");
     let run: suite::Run = sandbox.read_json("out/48x24/run.json");
     assert_eq!((run.render.width, run.render.height), (48, 24));
     // Both are read back.
-    let again = sandbox.outside_ci(&[&few[..], &filters].concat());
-    assert_eq!(stdout(&again), stdout(&check));
-    assert!(stdout(&sandbox.run(&filters)).contains("cases: 8, 8 of them read back"));
+    assert_eq!(stdout(&sandbox.outside_ci(&few)), stdout(&check));
+    let again = sandbox.measure("--filters identity");
+    assert_contains(&again, &["cases: 8, 8 of them read back"]);
 }
 
 #[test]
 fn an_earlier_run_that_cannot_be_read_is_not_replaced() {
-    let sandbox = Sandbox::new();
-    let filters = ["--filters", "identity"];
-    assert_done(&sandbox.run(&filters));
+    let sandbox = Sandbox::measured();
     let run = sandbox.path("out/run.json");
-    let whole = fs::read(&run).unwrap();
-    fs::write(&run, &whole[..whole.len() / 2]).unwrap();
-    let refused = sandbox.run(&filters);
+    let mut bytes = fs::read(&run).unwrap();
+    bytes.truncate(bytes.len() / 2);
+    fs::write(&run, &bytes).unwrap();
+    let words = [&quick_command("run", "16")[..], &IDENTITY].concat();
     let parts = [
         "out/run.json: no run of this program",
         "EOF",
@@ -105,31 +95,25 @@ fn an_earlier_run_that_cannot_be_read_is_not_replaced() {
         "--out",
         "--no-cache",
     ];
-    assert_refused(&refused, 2, &parts);
-    assert_eq!(fs::read(&run).unwrap().len(), whole.len() / 2);
-    assert_done(&sandbox.run(&["--no-cache", "--filters", "identity"]));
+    sandbox.refuse(&words.join(" "), &parts);
+    assert_eq!(fs::read(&run).unwrap(), bytes);
+    sandbox.measure("--filters identity --no-cache");
     assert_eq!(sandbox.read_case_names(), ["plate identity:default"]);
 }
 
 #[test]
 fn cases_of_a_scene_that_has_changed_are_dropped() {
     let sandbox = Sandbox::two_scenes();
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    sandbox.measure("--filters identity,velocity_gather:fine");
     let scene = fs::read_to_string(sandbox.path("scenes/plate/scene.toml")).unwrap();
     sandbox.write("scene.toml", &scene.replace("-1.6", "-1.2"));
-    let narrow = sandbox.run(&["--scenes", "plate", "--filters", "identity"]);
+    let narrow = sandbox.run(&split("--scenes plate --filters identity"));
     assert_done(&narrow);
-    assert!(
-        stderr(&narrow).contains("1 other was dropped"),
-        "{}",
-        stderr(&narrow)
-    );
-    let mut left = sandbox.read_case_names();
-    left.sort();
-    let expected = [
+    assert_contains(&stderr(&narrow), &["1 other was dropped"]);
+    let left = [
         "plate identity:default",
         "slow identity:default",
         "slow velocity_gather:fine",
     ];
-    assert_eq!(left, expected);
+    assert_eq!(sorted_names(&sandbox), left);
 }

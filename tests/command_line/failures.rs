@@ -3,6 +3,7 @@
 use std::fs;
 
 use tests::filter_folder::one_kernel_without_parameters;
+use tests::text::assert_contains;
 
 use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr, stdout};
 
@@ -25,8 +26,8 @@ const BODY: &str = "
 /// Makes two scenes, on one of which the filter `torn` fails.
 fn set_up() -> Sandbox {
     let sandbox = Sandbox::new();
-    sandbox.copy_scene("dim", |scene| {
-        scene.replace("exposure = 0.5", "exposure = 0.25")
+    sandbox.copy_scene("dim", |text| {
+        text.replace("exposure = 0.5", "exposure = 0.25")
     });
     sandbox.write_filter("torn", MANIFEST, &one_kernel_without_parameters(BODY));
     sandbox
@@ -38,52 +39,26 @@ fn a_run_names_the_failed_case_and_goes_on() {
     let words = ["--filters", "identity,./torn", "--html", "page.html"];
     let output = sandbox.run(&words);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    let run = sandbox.read_run();
-    let [failure] = &run.failures[..] else {
-        panic!("one case fails: {:?}", run.failures);
+    let failures = sandbox.read_run().failures;
+    let [failure] = &failures[..] else {
+        panic!("one case fails: {failures:?}");
     };
-    assert_eq!(
-        (failure.scene.to_string(), &failure.filter[..]),
-        ("dim".to_owned(), "torn:default")
-    );
-    assert!(
-        failure.reason.contains("pass work: writes ["),
-        "{}",
-        failure.reason
-    );
-    assert!(
-        failure.reason.contains("to pixel (9, 4)"),
-        "{}",
-        failure.reason
-    );
-    let measured: Vec<_> = (sandbox.read_filter_cases().iter())
-        .map(|case| (case.scene.to_string(), case.name()))
-        .collect();
-    let expected = [
-        ("dim", "identity:default"),
-        ("plate", "identity:default"),
-        ("plate", "torn:default"),
+    assert!(failure.scene == "dim" && failure.filter == "torn:default");
+    assert_contains(&failure.reason, &["pass work: writes [", "to pixel (9, 4)"]);
+    let measured = [
+        "dim identity:default",
+        "plate identity:default",
+        "plate torn:default",
     ];
-    assert_eq!(
-        measured,
-        expected.map(|(scene, name)| (scene.to_owned(), name.to_owned()))
-    );
-    let table = stdout(&output);
-    assert!(
-        table.contains("dim / torn:default\n  FAILED filter torn"),
-        "{table}"
-    );
-    assert!(
-        stderr(&output).contains("1 case failed"),
-        "{}",
-        stderr(&output)
-    );
+    assert_eq!(sandbox.read_case_names(), measured);
+    let row = "dim / torn:default\n  FAILED filter torn";
+    assert_contains(&stdout(&output), &[row]);
+    assert_contains(&stderr(&output), &["1 case failed"]);
     let page = fs::read_to_string(sandbox.path("page.html")).unwrap();
     assert!(page.contains("<strong>dim / torn:default</strong>"));
     // Measured cases are kept, and the failed one is tried again.
-    let again = sandbox.run(&words);
-    assert_eq!(again.status.code(), Some(1));
-    assert_eq!(sandbox.read_run().failures, run.failures);
+    assert_eq!(sandbox.run(&words).status.code(), Some(1));
+    assert_eq!(sandbox.read_run().failures, failures);
     // A run with failures cannot become a baseline.
     let accept = split("limits accept --out out --baseline base.json --reason none");
     let refused = sandbox.outside_ci(&accept);
@@ -96,19 +71,14 @@ fn a_check_with_a_failed_case_is_broken() {
     let sandbox = set_up();
     let bounds = "[default]\nflip_moving = { limit = 0.99, why = \"it serves a test\" }\n";
     fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
-    let words = ["--filters", "./torn", "--junit", "junit.xml"];
-    let output = sandbox.check(&words);
+    let check = |more: &str| sandbox.check(&split(&format!("--filters ./torn {more}")));
+    let output = check("--junit junit.xml");
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert!(
-        stdout(&output).contains("dim / torn:default\n  FAILED"),
-        "{}",
-        stdout(&output)
-    );
+    assert_contains(&stdout(&output), &["dim / torn:default\n  FAILED"]);
     let junit = fs::read_to_string(sandbox.path("junit.xml")).unwrap();
-    assert!(junit.contains("type=\"failed\""), "{junit}");
-    let json = sandbox.check(&["--filters", "./torn", "--json"]);
-    let found: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_contains(&junit, &["type=\"failed\""]);
+    let found: serde_json::Value = serde_json::from_slice(&check("--json").stdout).unwrap();
     assert_eq!(found["decision"], "broken");
     assert_eq!(found["failures"][0]["scene"], "dim");
-    assert_done(&sandbox.check(&["--filters", "./torn", "--scenes", "plate"]));
+    assert_done(&check("--scenes plate"));
 }

@@ -2,12 +2,13 @@
 
 use std::fs;
 
-use frame::{Image, display_srgb, read_exr, write_png};
+use frame::{display_srgb, write_png};
 use metrics::{SequenceMetric, SequenceScores};
-use tests::filter_folder::one_kernel_without_parameters;
+use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, stdout};
+use crate::sandbox::{SCENE, Sandbox, assert_done, stdout};
 
+const BLUR: &str = "engine blur --filter ./late --frame out/plate/frame.exr --frames 3 --out";
 const TRUTH: [&str; 2] = ["--truth", "out/plate/truth_trailing.exr"];
 const FRAME: [&str; 2] = ["--frame", "out/plate/frame.exr"];
 const THREE: [&str; 2] = ["--frames", "3"];
@@ -15,20 +16,14 @@ const THREE: [&str; 2] = ["--frames", "3"];
 /// Makes a sandbox with a filter whose picture depends on the frame before and on the frame's number, and runs it on three frames.
 fn run_filter() -> Sandbox {
     let sandbox = Sandbox::new();
-    let manifest = "name = \"late\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\nhistory = [\"color\"]\n\n[[pass]]\nentry = \"work\"\n";
     let body = "let before = textureLoad(color_before, pixel, 0).rgb;
     let now = textureLoad(color, pixel, 0).rgb;
     let noise = fract(0.618 * f32(frame.frame_index) + 0.1 * f32(pixel.x));
     textureStore(output, pixel, vec4<f32>(mix(before, now, 0.5 + 0.2 * noise), 1.0));";
-    let texture = "@group(0) @binding(4) var color_before: texture_2d<f32>;\n";
-    let kernels = texture.to_owned() + &one_kernel_without_parameters(body);
-    sandbox.write_filter("late", manifest, &kernels);
-    assert_done(&sandbox.run(&[&["--filter", "./late", "--fps", "24"][..], &THREE].concat()));
+    let history = "history = [\"color\"]";
+    sandbox.write_kernel("late", history, &["color_before"], body);
+    sandbox.measure("--filter ./late --fps 24 --frames 3");
     sandbox
-}
-
-fn read_color(sandbox: &Sandbox, name: &str) -> Image {
-    read_exr(&sandbox.path(name)).unwrap().color("").unwrap()
 }
 
 fn score(sandbox: &Sandbox, images: &str, more: &[&str]) -> std::process::Output {
@@ -51,23 +46,17 @@ fn scores(sandbox: &Sandbox, images: &str, more: &[&str]) -> SequenceScores {
 #[test]
 fn blur_and_score_repeat_the_sequence_of_a_run() {
     let sandbox = run_filter();
-    let words = ["engine", "blur", "--filter", "./late", "--out", "mine"];
-    sandbox.execute(&[&words[..], &FRAME, &THREE].concat());
+    sandbox.done(&format!("{BLUR} mine"));
     let pictures = ["mine/0000.exr", "mine/0001.exr", "mine/0002.exr"];
     for (picture, folder) in pictures.iter().zip(["plate", "plate/0001", "plate/0002"]) {
-        let expected = read_color(&sandbox, &format!("out/{folder}/late_default/output.exr"));
-        assert!(
-            read_color(&sandbox, picture) == expected,
-            "{picture}: bit for bit"
-        );
+        let expected = sandbox.read_color(&format!("out/{folder}/late_default/output.exr"));
+        let found = sandbox.read_color(picture);
+        assert!(found == expected, "{picture}: bit for bit");
     }
     let run = sandbox.read_run();
     let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
-    assert_eq!(
-        scores(&sandbox, "mine", &["--fps", "24"]),
-        own.scores,
-        "bit for bit"
-    );
+    let same = scores(&sandbox, "mine", &["--fps", "24"]);
+    assert_eq!(same, own.scores, "bit for bit");
     // Only JOD depends on the rate.
     let slow = scores(&sandbox, "mine", &[]);
     for metric in SequenceMetric::ALL {
@@ -75,15 +64,14 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
         assert_eq!(is_same, !metric.depends_on_rate(), "{metric:?}");
     }
     let text = stdout(&score(&sandbox, "mine", &THREE));
-    for part in [
+    let parts = [
         "3 frames",
         "flick",
         "mine",
         "truth: trailing shutter, open for 0.5 frames",
         "worst frames: ",
-    ] {
-        assert!(text.contains(part), "\"{part}\" is missing from:\n{text}");
-    }
+    ];
+    assert_contains(&text, &parts);
 
     // Another order of the frames has other scores over time.
     let [first, last] = ["mine/0000.exr", "mine/0002.exr"].map(|name| sandbox.path(name));
@@ -96,80 +84,49 @@ fn blur_and_score_repeat_the_sequence_of_a_run() {
     // Engines write PNGs. A plate of up to 0.7 of white loses little by 8 bits.
     fs::create_dir(sandbox.path("shown")).unwrap();
     for (at, folder) in ["plate", "plate/0001", "plate/0002"].iter().enumerate() {
-        let color = read_color(&sandbox, &format!("out/{folder}/late_default/output.exr"));
+        let color = sandbox.read_color(&format!("out/{folder}/late_default/output.exr"));
         let path = sandbox.path(&format!("shown/{at:04}.png"));
         write_png(&path, &display_srgb(&color, 0.0)).unwrap();
     }
     let shown = scores(&sandbox, "shown", &[]);
     let ratio = shown.flicker.value().unwrap() / slow.flicker.value().unwrap();
     assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+    assert_misfits_are_refused(&sandbox);
 }
 
-#[test]
-fn sequences_that_do_not_fit_are_refused() {
-    let sandbox = run_filter();
-    sandbox.execute(
-        &[
-            &["engine", "blur", "--filter", "./late", "--out", "mine"][..],
-            &FRAME,
-            &THREE,
-        ]
-        .concat(),
-    );
-    let refused = |images: &str, more: &[&str], parts: &[&str]| {
-        assert_refused(&score(&sandbox, images, more), 2, parts);
+/// Refuses sequences that do not fit.
+fn assert_misfits_are_refused(sandbox: &Sandbox) {
+    let parts = "--out: mine.exr is the name of one picture, and 3 are written";
+    sandbox.refuse(&format!("{BLUR} mine.exr"), &[parts]);
+    let refuse = |words: &str, at: &str, parts: &[&str]| {
+        let files =
+            format!("--truth out/plate{at}/truth_trailing.exr --frame out/plate{at}/frame.exr");
+        sandbox.refuse(&format!("score {files} --image {words}"), parts);
     };
-    refused(
-        "mine",
-        &["--frames", "4"],
-        &["mine/0003.exr", "numbered from 0000"],
+    for (words, parts) in read_rows(
+        "
+        --frames 4 => mine/0003.exr | numbered from 0000
+        --frames 3 --ladder out/plate/ladder_trailing => --ladder | cannot be used with | --frames
+        --frames 3 --scenes-dir elsewhere => truth_trailing.exr: is of the scene plate | --scenes-dir",
+    ) {
+        refuse(&format!("mine {words}"), "", &parts);
+    }
+    refuse(
+        "mine/0000.exr --frames 3",
+        "",
+        &["is no folder", "0001.exr"],
     );
-    refused("mine/0000.exr", &THREE, &["is no folder", "0001.exr"]);
-    let ladder = [&THREE[..], &["--ladder", "out/plate/ladder_trailing"]].concat();
-    refused(
-        "mine",
-        &ladder,
-        &["--ladder", "cannot be used with", "--frames"],
-    );
-    let elsewhere = [&THREE[..], &["--scenes-dir", "elsewhere"]].concat();
-    refused(
-        "mine",
-        &elsewhere,
-        &["truth_trailing.exr: is of the scene plate", "--scenes-dir"],
-    );
-    let later = [
-        "--truth",
-        "out/plate/0001/truth_trailing.exr",
-        "--frame",
-        "out/plate/0001/frame.exr",
-    ];
-    let words = [&["score", "--image", "mine", "--frames", "2"][..], &later].concat();
-    let parts = ["0001/truth_trailing.exr: is the truth of a later frame, plate/0001"];
-    assert_refused(&sandbox.shuttertruth(&words), 2, &parts);
-
-    let blur = ["engine", "blur", "--filter", "./late", "--out", "mine.exr"];
-    let output = sandbox.shuttertruth(&[&blur[..], &FRAME, &THREE].concat());
-    assert_refused(
-        &output,
-        2,
-        &["--out: mine.exr is the name of one picture, and 3 are written"],
-    );
-
-    fs::copy(
-        sandbox.path("out/plate/frame.png"),
-        sandbox.path("mine/0001.png"),
-    )
-    .unwrap();
-    refused(
-        "mine",
-        &THREE,
-        &["mine/0001.exr and mine/0001.png", "remove one of them"],
-    );
-    fs::remove_file(sandbox.path("mine/0001.png")).unwrap();
+    let parts = "0001/truth_trailing.exr: is the truth of a later frame, plate/0001";
+    refuse("mine --frames 2", "/0001", &[parts]);
+    let [png, copy] = ["out/plate/frame.png", "mine/0001.png"].map(|it| sandbox.path(it));
+    fs::copy(png, &copy).unwrap();
+    let parts = ["mine/0001.exr and mine/0001.png", "remove one of them"];
+    refuse("mine --frames 3", "", &parts);
+    fs::remove_file(copy).unwrap();
     sandbox.write("scene.toml", &SCENE.replace("-1.6", "-1.5"));
     let parts = [
         "truth_trailing.exr: was rendered from other files of the scene plate",
         "render frames and truths again",
     ];
-    refused("mine", &THREE, &parts);
+    refuse("mine --frames 3", "", &parts);
 }

@@ -5,13 +5,13 @@ use std::fs;
 use frame::read_png;
 use tests::text::assert_contains;
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused};
+use crate::sandbox::Sandbox;
 
 #[test]
 fn a_gallery_shows_each_scene_with_its_best_and_its_worst_filter() {
     let sandbox = Sandbox::two_scenes();
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine,bevy:default"]));
-    assert_done(&sandbox.shuttertruth(&["report", "out", "--gallery", "shown"]));
+    sandbox.measure("--filters identity,velocity_gather:fine,bevy:default");
+    sandbox.done("report out --gallery shown");
     let page = fs::read_to_string(sandbox.path("shown/README.md")).unwrap();
     let parts = ["](truths.png)", "## plate", "](slow.png)", "64x32 pixels"];
     assert_contains(&page, &parts);
@@ -27,8 +27,6 @@ fn a_gallery_shows_each_scene_with_its_best_and_its_worst_filter() {
 
 #[test]
 fn a_run_of_only_references_makes_no_gallery() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "identity"]));
-    let output = sandbox.shuttertruth(&["report", "out", "--gallery", "shown"]);
-    assert_refused(&output, 2, &["no best and no worst", "run filters"]);
+    let found = ["no best and no worst", "run filters"];
+    Sandbox::measured().refuse("report out --gallery shown", &found);
 }

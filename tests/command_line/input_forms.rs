@@ -3,14 +3,11 @@
 use frame::read_exr;
 use suite::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderScale, Sequence};
 
-use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{SCENE, Sandbox, assert_refused, split};
 
 fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
-    found.unwrap_or_else(|| {
-        let names: Vec<String> = cases.iter().map(|case| case.name()).collect();
-        panic!("no {name} among {names:?}")
-    })
+    found.unwrap_or_else(|| panic!("no {name}"))
 }
 
 /// Measures how far to the right the middle of the plate lies in the output of one frame of a sequence, in pixels.
@@ -29,8 +26,7 @@ fn plate_middle(sandbox: &Sandbox, sequence: &Sequence, frame: usize) -> f64 {
 #[test]
 fn the_jitter_of_a_sequence_goes_on_from_frame_to_frame() {
     let sandbox = Sandbox::new();
-    let words = "--filters identity --frames 3 --input jitter=left_in";
-    assert_done(&sandbox.run(&split(words)));
+    sandbox.measure("--filters identity --frames 3 --input jitter=left_in");
     let run = sandbox.read_run();
     let find = |name: &str| {
         let own = run.sequences.iter().find(|own| own.name == name);
@@ -53,47 +49,18 @@ fn flip(cases: &[Case], name: &str) -> f64 {
 }
 
 #[test]
-fn smaller_buffers_change_filters_that_read_them() {
+fn buffers_samples_jitter_and_scale_change_what_filters_get() {
     let sandbox = Sandbox::new();
-    let output = sandbox.run(&split(
-        "--filters identity,velocity_gather:fine \
-         --input buffers=full,full_dilated,half,half_dilated,quarter,quarter_dilated",
-    ));
-    assert_done(&output);
-    let cases = sandbox.read_filter_cases();
-    assert_eq!(cases.len(), 2 * 6);
-    let identity = flip(&cases, "identity:default");
-    let whole = flip(&cases, "velocity_gather:fine");
-    for size in BufferSize::ALL.iter().skip(1) {
-        let change = format!("buffers={}", size.name());
-        assert_eq!(
-            flip(&cases, &format!("identity:default {change}")),
-            identity
-        );
-        let changed = flip(&cases, &format!("velocity_gather:fine {change}"));
-        assert!((changed - whole).abs() > 1e-4, "{change} {changed} {whole}");
-        assert!(stdout(&output).contains(&change));
-    }
-    let case = find_case(&cases, "velocity_gather:fine buffers=quarter");
-    assert_eq!(case.input.buffers, BufferSize::Quarter);
-    // The plate's background stands still: blocks without the plate's own motion blur less than those that spread it.
-    let [quarter, dilated] = ["quarter", "quarter_dilated"]
-        .map(|size| flip(&cases, &format!("velocity_gather:fine buffers={size}")));
-    assert_ne!(quarter, dilated);
-    let refused = sandbox.run(&["--input", "buffers=eighth"]);
-    assert_refused(&refused, 2, &["eighth", "quarter_dilated"]);
-}
-
-#[test]
-fn samples_jitter_and_scale_change_what_filters_get() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&split(
+    let printed = sandbox.measure(
         "--filters identity,velocity_gather:fine --input msaa=first,nearest,farthest \
+         --input buffers=full,full_dilated,half,half_dilated,quarter,quarter_dilated \
          --input jitter=removed,left_in,resolved \
          --input scale=50_blur_first,50_upscale_first,67_blur_first,67_upscale_first",
-    )));
+    );
     let cases = sandbox.read_filter_cases();
-    assert_eq!(cases.len(), 2 * 11);
+    assert_eq!(cases.len(), 2 * 16);
+    assert_buffers_count(&cases, &printed);
+    assert_sizes_fit(&sandbox, &cases);
     let own = |change: &str| flip(&cases, &format!("identity:default {change}"));
     let gathered = |change: &str| flip(&cases, &format!("velocity_gather:fine {change}"));
     let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(&cases, it));
@@ -122,27 +89,46 @@ fn samples_jitter_and_scale_change_what_filters_get() {
         assert!(gathered(&before) < 0.8 * own(&before));
         assert!(gathered(&after) < 0.8 * own(&after));
     }
-    let case = find_case(&cases, "velocity_gather:fine scale=50_blur_first");
-    assert_eq!(case.input.scale, RenderScale::HalfBlurFirst);
-    let size = |case: &Case| {
-        let output = sandbox.path("out").join(&case.folder).join("output.exr");
-        let output = read_exr(&output).unwrap();
-        (output.width, output.height)
-    };
-    let plain = find_case(&cases, "velocity_gather:fine");
-    assert_eq!(size(case), size(plain));
-    // Places that the filter gathers from are in pixels of the whole picture.
-    let offset = |case: &Case| case.scores.probes.gather_offset.value().unwrap();
-    assert!(
-        (offset(case) - offset(plain)).abs() < 0.5,
-        "{} {}",
-        offset(case),
-        offset(plain)
-    );
-    assert!(case.scores.probes.unity.value().unwrap() < 1e-3);
     let other = find_case(&cases, "identity:default jitter=left_in");
     assert_eq!(other.input.jitter, CameraJitter::LeftIn);
     assert_eq!(other.input.msaa, Multisampling::None);
+    let refused = sandbox.run(&["--input", "buffers=eighth"]);
+    assert_refused(&refused, 2, &["eighth", "quarter_dilated"]);
+}
+
+/// Smaller buffers change the filters that read them alone.
+fn assert_buffers_count(cases: &[Case], printed: &str) {
+    let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(cases, it));
+    for size in BufferSize::ALL.iter().skip(1) {
+        let change = format!("buffers={}", size.name());
+        let same = flip(cases, &format!("identity:default {change}"));
+        assert_eq!(same, identity);
+        let changed = flip(cases, &format!("velocity_gather:fine {change}"));
+        assert!((changed - whole).abs() > 1e-4, "{change} {changed} {whole}");
+        assert!(printed.contains(&change));
+    }
+    let case = find_case(cases, "velocity_gather:fine buffers=quarter");
+    assert_eq!(case.input.buffers, BufferSize::Quarter);
+    // The plate's background stands still: blocks without the plate's own motion blur less than those that spread it.
+    let [quarter, dilated] = ["quarter", "quarter_dilated"]
+        .map(|size| flip(cases, &format!("velocity_gather:fine buffers={size}")));
+    assert_ne!(quarter, dilated);
+}
+
+/// The output of a small picture has the size of the whole one, and its places are in pixels of that.
+fn assert_sizes_fit(sandbox: &Sandbox, cases: &[Case]) {
+    let case = find_case(cases, "velocity_gather:fine scale=50_blur_first");
+    assert_eq!(case.input.scale, RenderScale::HalfBlurFirst);
+    let plain = find_case(cases, "velocity_gather:fine");
+    let [own, whole] = [case, plain].map(|case| {
+        let output = sandbox.path("out").join(&case.folder).join("output.exr");
+        let output = read_exr(&output).unwrap();
+        let offset = case.scores.probes.gather_offset.value().unwrap();
+        ((output.width, output.height), offset)
+    });
+    assert_eq!(own.0, whole.0);
+    assert!((own.1 - whole.1).abs() < 0.5, "{} {}", own.1, whole.1);
+    assert!(case.scores.probes.unity.value().unwrap() < 1e-3);
 }
 
 #[test]
@@ -150,25 +136,18 @@ fn depth_of_field_runs_before_a_filter_or_after_it() {
     let sandbox = Sandbox::new();
     let words = "--filters identity,velocity_gather:fine --input depth_of_field=before,after";
     // A scene without a lens is refused before anything is rendered.
-    let refused = sandbox.run(&split(words));
-    assert_refused(
-        &refused,
-        2,
-        &[
-            "depth_of_field=after",
-            "plate has no lens",
-            "aperture and focus",
-        ],
-    );
-    sandbox.write(
-        "scene.toml",
-        &SCENE.replace("vertical_fov", "aperture = 0.8\nfocus = 2\nvertical_fov"),
-    );
-    let output = sandbox.run(&split(words));
-    assert_done(&output);
+    let parts = [
+        "depth_of_field=after",
+        "plate has no lens",
+        "aperture and focus",
+    ];
+    assert_refused(&sandbox.run(&split(words)), 2, &parts);
+    let lens = SCENE.replace("vertical_fov", "aperture = 0.8\nfocus = 2\nvertical_fov");
+    sandbox.write("scene.toml", &lens);
+    let printed = sandbox.measure(words);
     let cases = sandbox.read_filter_cases();
     assert_eq!(cases.len(), 2 * 2);
-    assert!(stdout(&output).contains("depth_of_field=after"));
+    assert!(printed.contains("depth_of_field=after"));
     let case = |name: &str| find_case(&cases, name);
     let after = case("velocity_gather:fine depth_of_field=after");
     assert_eq!(after.input.depth_of_field, DepthOfField::After);

@@ -3,25 +3,27 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Stdio};
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use frame::{read_exr, write_exr};
 use tests::text::assert_contains;
 
-use crate::sandbox::{OBJ, Sandbox, assert_done, assert_refused, files_below, split, stdout};
+use crate::sandbox::{
+    Files, OBJ, Sandbox, assert_refused, assert_same_files, files_below, read_below, split, stderr,
+};
+
+const REPLICATE: &str = "plate/truth_trailing/replicate_002.exr";
 
 /// Returns the words of a `render` of the plate into `out`.
 fn render<'a>(out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    let words = [
-        "truths",
-        "render",
-        "--quiet",
-        "--samples-per-pixel",
-        "64",
-        "--out",
-        out,
-    ];
-    [&words[..], more].concat()
+    let words = split("truths render --quiet --samples-per-pixel 64 --out");
+    [&words[..], &[out], more].concat()
+}
+
+/// Renders a part of the replicates into `out`.
+fn render_part(sandbox: &Sandbox, out: &str, part: &str) {
+    sandbox.execute(&render(out, &["--replicates", part]));
 }
 
 fn spawn(sandbox: &Sandbox, words: &[&str]) -> Child {
@@ -30,151 +32,83 @@ fn spawn(sandbox: &Sandbox, words: &[&str]) -> Child {
     command.spawn().unwrap()
 }
 
-/// Reads the names and bytes of all files that a render leaves in a folder.
-fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    files_below(folder)
-        .into_iter()
-        .map(|path| {
-            let name = path.strip_prefix(folder).unwrap().display().to_string();
-            (name, fs::read(path).unwrap())
-        })
-        .filter(|(name, _)| !name.contains(".tmp")) // what a killed process was writing
-        .collect()
+/// Renders parts at the same time, one process each.
+fn render_at_once(sandbox: &Sandbox, parts: &[(&str, &str)]) {
+    let start = |(out, part): &(&str, &str)| spawn(sandbox, &render(out, &["--replicates", part]));
+    let children: Vec<Child> = parts.iter().map(start).collect();
+    for mut child in children {
+        assert!(child.wait().unwrap().success());
+    }
+}
+
+/// Returns what one process renders. It does so once for all tests.
+fn whole() -> &'static Files {
+    static FILES: OnceLock<Files> = OnceLock::new();
+    FILES.get_or_init(|| {
+        let sandbox = Sandbox::new();
+        sandbox.execute(&render("out", &[]));
+        read_below(&sandbox.path("out"))
+    })
+}
+
+/// Makes a sandbox whose folder `out` holds that.
+fn rendered() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.write_files("out", whole());
+    sandbox
 }
 
 #[track_caller]
-fn assert_same(sandbox: &Sandbox, one: &str, other: &str) {
-    let [one, other] = [one, other].map(|folder| contents(&sandbox.path(folder)));
-    let names = |files: &[(String, Vec<u8>)]| -> Vec<String> {
-        files.iter().map(|(name, _)| name.clone()).collect()
-    };
-    assert_eq!(names(&one), names(&other));
-    for ((name, one), (_, other)) in one.iter().zip(&other) {
-        assert!(one == other, "{name} differs");
-    }
+fn assert_whole(sandbox: &Sandbox, out: &str) {
+    assert_same_files(whole(), &read_below(&sandbox.path(out)));
 }
 
 #[test]
-fn merged_parts_of_several_processes_equal_the_bytes_of_one() {
+fn parts_of_several_processes_equal_the_bytes_of_one() {
     let sandbox = Sandbox::new();
-    sandbox.execute(&render("whole", &[]));
-    let parts = [("a", "0..3"), ("b", "3..4"), ("c", "4..8")];
-    let children: Vec<Child> = parts
-        .map(|(out, part)| spawn(&sandbox, &render(out, &["--replicates", part])))
-        .into();
-    for mut child in children {
-        assert!(child.wait().unwrap().success());
-    }
-    let merged = sandbox.shuttertruth(&["truths", "merge", "c", "a", "b", "--out", "joined"]);
-    assert_done(&merged);
-    assert_eq!(
-        stdout(&merged),
-        "joined/plate/truth_trailing.exr (8 replicates)\n"
-    );
-    assert_same(&sandbox, "whole", "joined");
-}
-
-#[test]
-fn several_processes_can_render_into_one_folder() {
-    let sandbox = Sandbox::new();
-    sandbox.execute(&render("whole", &[]));
-    let children: Vec<Child> = ["0..3", "2..5", "5..8", "0..8"]
-        .map(|part| spawn(&sandbox, &render("shared", &["--replicates", part])))
-        .into();
-    for mut child in children {
-        assert!(child.wait().unwrap().success());
-    }
-    sandbox.execute(&["truths", "merge", "shared", "--out", "shared"]);
-    assert_same(&sandbox, "whole", "shared");
+    render_at_once(&sandbox, &[("a", "0..3"), ("b", "3..4"), ("c", "4..8")]);
+    let merged = sandbox.execute(&split("truths merge c a b --out joined"));
+    assert_eq!(merged, "joined/plate/truth_trailing.exr (8 replicates)\n");
+    assert_whole(&sandbox, "joined");
+    let parts = ["0..3", "2..5", "5..8", "0..8"];
+    render_at_once(&sandbox, &parts.map(|part| ("shared", part)));
+    sandbox.execute(&split("truths merge shared --out shared"));
+    assert_whole(&sandbox, "shared");
 }
 
 #[test]
 fn a_killed_render_resumes_to_the_same_bytes() {
     let sandbox = Sandbox::new();
-    let many = ["--samples-per-pixel", "32768", "--threads", "1"];
-    let words =
-        |out: &'static str| [&["truths", "render", "--quiet", "--out", out][..], &many].concat();
-    sandbox.execute(&words("whole"));
-    let replicate = |index: u32| {
-        sandbox.path(&format!(
-            "killed/plate/truth_trailing/replicate_{index:03}.exr"
-        ))
+    let words = |out| {
+        [
+            &split("truths render --quiet --samples-per-pixel 1024 --threads 1 --out")[..],
+            &[out],
+        ]
+        .concat()
     };
+    sandbox.execute(&words("whole"));
+    let truth = sandbox.path("killed/plate/truth_trailing");
+    let replicate = |index: u32| truth.join(format!("replicate_{index:03}.exr"));
     // Each process is killed as soon as it has kept one more replicate.
-    for index in [0, 1, 5] {
+    for index in [0, 2] {
         let mut child = spawn(&sandbox, &words("killed"));
         while !replicate(index).exists() {
-            assert!(
-                child.try_wait().unwrap().is_none(),
-                "the render ended before it could be killed"
-            );
+            let ended = child.try_wait().unwrap();
+            assert!(ended.is_none(), "it ended before it was killed");
             std::thread::sleep(Duration::from_millis(1));
         }
         child.kill().unwrap();
         child.wait().unwrap();
-        assert!(!sandbox.path("killed/plate/truth_trailing.exr").exists());
+        assert!(!truth.with_extension("exr").exists());
     }
-    let kept = fs::metadata(replicate(1)).unwrap().modified().unwrap();
+    let written = || fs::metadata(replicate(1)).unwrap().modified().unwrap();
+    let kept = written();
     sandbox.execute(&words("killed"));
-    assert_eq!(
-        fs::metadata(replicate(1)).unwrap().modified().unwrap(),
-        kept,
-        "a replicate that was whole was rendered again"
-    );
-    assert_same(&sandbox, "whole", "killed");
-}
-
-#[test]
-fn files_of_older_versions_are_rendered_again_and_never_merged() {
-    let sandbox = Sandbox::new();
-    for out in ["whole", "old"] {
-        sandbox.execute(&render(out, &[]));
-    }
-    let truths = files_below(&sandbox.path("old"))
-        .into_iter()
-        .filter(|path| {
-            let name = path.file_name().unwrap().to_string_lossy();
-            name.starts_with("truth_") || name.starts_with("replicate_")
-        });
-    for path in truths {
-        let mut file = read_exr(&path).unwrap();
-        let written = file.channels.len();
-        (file.channels).retain(|channel| !channel.name.starts_with("support."));
-        assert!(
-            file.channels.len() < written,
-            "{} has a support",
-            path.display()
-        );
-        write_exr(&path, &file).unwrap();
-    }
-    assert_refused(
-        &sandbox.shuttertruth(&["truths", "merge", "old", "--out", "joined"]),
-        2,
-        &[
-            "replicate_000.exr: holds no support",
-            "make it anew with `shuttertruth truths render`",
-        ],
-    );
-    sandbox.execute(&render("old", &[]));
-    assert_same(&sandbox, "whole", "old");
-}
-
-#[test]
-fn a_broken_replicate_is_rendered_again() {
-    let sandbox = Sandbox::new();
-    sandbox.execute(&render("whole", &[]));
-    sandbox.execute(&render("out", &["--replicates", "0..4"]));
-    let replicate = sandbox.path("out/plate/truth_trailing/replicate_002.exr");
-    let bytes = fs::read(&replicate).unwrap();
-    fs::write(&replicate, &bytes[..bytes.len() / 2]).unwrap();
-    let stray = sandbox.path("out/plate/truth_trailing/replicate_001.exr");
-    fs::copy(
-        sandbox.path("out/plate/truth_trailing/replicate_000.exr"),
-        stray,
-    )
-    .unwrap();
-    sandbox.execute(&render("out", &[]));
-    assert_same(&sandbox, "whole", "out");
+    assert_eq!(written(), kept, "a whole replicate was rendered again");
+    let [whole, mut killed] = ["whole", "killed"].map(|out| read_below(&sandbox.path(out)));
+    // What a killed process was writing.
+    killed.retain(|(name, _)| !name.to_string_lossy().contains(".tmp"));
+    assert_same_files(&whole, &killed);
 }
 
 /// Flips one bit of a file's pixels, far behind its header.
@@ -185,145 +119,154 @@ fn flip_a_bit(path: &Path) {
     fs::write(path, bytes).unwrap();
 }
 
+fn cut_in_half(path: &Path) {
+    let bytes = fs::read(path).unwrap();
+    fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
+}
+
+fn replace_by_another(path: &Path) {
+    fs::copy(path.with_file_name("replicate_000.exr"), path).unwrap();
+}
+
+/// Writes a truth or a replicate as older versions did.
+fn remove_support(path: &Path) {
+    let mut file = read_exr(path).unwrap();
+    let written = file.channels.len();
+    (file.channels).retain(|channel| !channel.name.starts_with("support."));
+    assert!(file.channels.len() < written, "it has a support");
+    write_exr(path, &file).unwrap();
+}
+
 #[test]
-fn a_flipped_bit_in_a_replicate_never_reaches_a_truth() {
-    let sandbox = Sandbox::new();
-    sandbox.execute(&render("whole", &[]));
-    sandbox.execute(&render("out", &["--replicates", "0..7"]));
-    sandbox.execute(&render("rest", &["--replicates", "7..8"]));
-    flip_a_bit(&sandbox.path("out/plate/truth_trailing/replicate_002.exr"));
-    let merged = sandbox.shuttertruth(&["truths", "merge", "out", "rest", "--out", "joined"]);
-    assert_refused(&merged, 2, &["out/plate/truth_trailing/replicate_002.exr"]);
-    assert!(!sandbox.path("joined").exists());
-    sandbox.execute(&render("out", &[]));
-    assert_same(&sandbox, "whole", "out");
-    // A damaged truth is made again, too.
+fn damaged_replicates_are_rendered_again_and_never_merged() {
+    type Damage = fn(&Path);
+    let old = [
+        "holds no support",
+        "make it anew with `shuttertruth truths render`",
+    ];
+    let rows: [(Damage, &[&str]); 4] = [
+        (flip_a_bit, &[]),
+        (cut_in_half, &[]),
+        (replace_by_another, &[]),
+        (remove_support, &old),
+    ];
+    for (damage, complaint) in rows {
+        let sandbox = rendered();
+        fs::remove_file(sandbox.path("out/plate/truth_trailing.exr")).unwrap();
+        damage(&sandbox.path("out").join(REPLICATE));
+        let merged = sandbox.shuttertruth(&split("truths merge out --out joined"));
+        assert_refused(&merged, 2, &[&[REPLICATE], complaint].concat());
+        assert!(!sandbox.path("joined").exists());
+        sandbox.execute(&render("out", &[]));
+        assert_whole(&sandbox, "out");
+    }
+}
+
+#[test]
+fn damaged_truths_are_made_again() {
+    let sandbox = rendered();
     flip_a_bit(&sandbox.path("out/plate/truth_trailing.exr"));
     sandbox.execute(&render("out", &[]));
-    assert_same(&sandbox, "whole", "out");
+    assert_whole(&sandbox, "out");
+    // All files are of an older version.
+    let is_truth = |path: &Path| path.to_string_lossy().contains("truth_");
+    for path in files_below(&sandbox.path("out"))
+        .iter()
+        .filter(|path| is_truth(path))
+    {
+        remove_support(path);
+    }
+    sandbox.execute(&render("out", &[]));
+    assert_whole(&sandbox, "out");
 }
 
 #[test]
 fn a_changed_byte_in_a_mesh_renders_again() {
-    let sandbox = Sandbox::new();
-    sandbox.execute(&render("out", &[]));
+    let sandbox = rendered();
     sandbox.write("plate.obj", &OBJ.replace("v -0.5 -0.5 0", "v -0.6 -0.5 0"));
-    sandbox.execute(&render("out", &[]));
-    sandbox.execute(&render("fresh", &[]));
-    assert_same(&sandbox, "fresh", "out");
+    for out in ["out", "fresh"] {
+        sandbox.execute(&render(out, &[]));
+    }
+    let [out, fresh] = ["out", "fresh"].map(|out| read_below(&sandbox.path(out)));
+    assert_same_files(&fresh, &out);
 }
 
 #[test]
 fn more_replicates_reuse_the_kept_ones() {
     let sandbox = Sandbox::new();
-    sandbox.execute(&render("out", &["--replicates", "4"]));
+    render_part(&sandbox, "out", "4");
     let first = sandbox.path("out/plate/truth_trailing/replicate_000.exr");
-    let before = fs::metadata(&first).unwrap().modified().unwrap();
-    sandbox.execute(&render("out", &["--replicates", "8"]));
-    assert_eq!(fs::metadata(&first).unwrap().modified().unwrap(), before);
-    sandbox.execute(&render("whole", &[]));
-    assert_same(&sandbox, "whole", "out");
+    let written = || fs::metadata(&first).unwrap().modified().unwrap();
+    let before = written();
+    render_part(&sandbox, "out", "8");
+    assert_eq!(written(), before);
+    assert_whole(&sandbox, "out");
 }
 
 #[test]
 fn incomplete_parts_are_refused() {
     let sandbox = Sandbox::new();
-    for (out, more) in [
-        ("start", &["--replicates", "0..3"][..]),
-        ("gap", &["--replicates", "5..8"]),
-        ("other", &["--replicates", "0..4", "--seed", "2"]),
-    ] {
-        sandbox.execute(&render(out, more));
+    render_part(&sandbox, "start", "0..3");
+    render_part(&sandbox, "gap", "5..8");
+    // Replicates of other truths: some files share a name with the first ones, or none does.
+    for (out, part) in [("other", "0..4"), ("rest", "3..4")] {
+        sandbox.execute(&render(out, &["--replicates", part, "--seed", "2"]));
     }
     fs::create_dir(sandbox.path("empty")).unwrap();
-    for (parts, complaint) in [
-        (
-            &["start", "gap"][..],
-            &["3, 4", "replicates 3..4", "plate/truth_trailing"][..],
-        ),
-        (&["start"], &["replicates 3 are missing", "truth of 4"]),
-        (
-            &["start", "other"],
-            &["start/plate/frame.exr", "other/plate/frame.exr", "differ"],
-        ),
-        (
-            &["start", "empty"],
-            &[
-                "empty",
-                "holds no replicates",
-                "a part A..B of the replicates",
-            ],
-        ),
-        (&["nowhere"], &["nowhere", "cannot read"]),
-    ] {
-        let refused =
-            sandbox.shuttertruth(&[&["truths", "merge", "--out", "joined"][..], parts].concat());
-        assert_refused(&refused, 2, complaint);
-        assert!(
-            !sandbox.path("joined").exists(),
-            "a refused merge leaves nothing"
-        );
-    }
-    // Replicates of two truths, whose files never share a name.
-    sandbox.execute(&render("rest", &["--replicates", "3..4", "--seed", "2"]));
-    let refused = sandbox.shuttertruth(&["truths", "merge", "start", "rest", "--out", "joined"]);
-    assert_refused(
-        &refused,
-        2,
-        &["replicate 3", "other inputs", "content hash"],
+    sandbox.refuse_rows(
+        "truths merge --out joined",
+        "start gap | 3, 4 | replicates 3..4 | plate/truth_trailing
+        start | replicates 3 are missing | truth of 4
+        start other | start/plate/frame.exr | other/plate/frame.exr | differ
+        start rest | replicate 3 | other inputs | content hash
+        start empty | empty | holds no replicates | a part A..B of the replicates
+        nowhere | nowhere | cannot read",
     );
-    assert!(!sandbox.path("joined").exists());
+    assert!(!sandbox.path("joined").exists(), "nothing is written");
 }
 
 #[test]
 fn a_noise_target_adds_replicates_until_it_is_reached_or_reports_a_failure() {
     let sandbox = Sandbox::new();
-    let first = stdout(&sandbox.shuttertruth(&render("out", &["--replicates", "2"])));
-    let floor = |text: &str| -> f64 {
-        let after = text.split("moving ").nth(1).unwrap();
-        after.split([',', '\n']).next().unwrap().parse().unwrap()
+    let number = |text: &str, before: &str| -> f64 {
+        let after = text.split(before).nth(1).unwrap();
+        after
+            .split([',', ' ', '\n'])
+            .next()
+            .unwrap()
+            .parse()
+            .unwrap()
     };
-    let target = floor(&first) / 2.0;
-    let words = format!("{target}");
-    let reached = sandbox.shuttertruth(&render("out", &["--replicates", "2", "--noise", &words]));
-    assert_done(&reached);
-    assert!(floor(&stdout(&reached)) <= target, "{}", stdout(&reached));
-    let replicates = |text: &str, alignment: &str| -> u32 {
-        let after = text.split(&format!("{alignment}: ")).nth(1).unwrap();
-        after.split(' ').next().unwrap().parse().unwrap()
-    };
-    let count = replicates(&stdout(&reached), "trailing");
-    // Half the noise takes four times the replicates, and the floor is an estimate.
-    assert!((6..=14).contains(&count), "{}", stdout(&reached));
-
+    let first = sandbox.execute(&render("out", &["--replicates", "2"]));
+    let target = number(&first, "moving ") / 2.0;
+    let until = format!("--alignments trailing,centred --replicates 2 --noise {target}");
+    let text = sandbox.execute(&render("both", &split(&until)));
     // Each truth has the bytes that a render of its number of replicates has. The same command again says the same.
-    let both = ["--alignments", "trailing,centred"];
-    let until = [&both[..], &["--replicates", "2", "--noise", &words]].concat();
-    let text = stdout(&sandbox.shuttertruth(&render("both", &until)));
     for alignment in ["trailing", "centred"] {
-        let count = replicates(&text, alignment).to_string();
-        let alone = ["--replicates", &count, "--alignments", alignment];
-        assert_done(&sandbox.shuttertruth(&render(alignment, &alone)));
-        let truth = format!("plate/truth_{alignment}.exr");
-        let [one, other] =
-            ["both", alignment].map(|out| fs::read(sandbox.path(out).join(&truth)).unwrap());
-        assert!(one == other, "{truth} differs");
+        let own = format!("{alignment}: ");
+        let line = text.lines().find(|line| line.contains(&own)).expect(&text);
+        assert!(number(line, "moving ") <= target, "{line}");
+        // Half the noise takes four times the replicates, and the floor is an estimate.
+        let count = number(line, &own);
+        assert!((6.0..=14.0).contains(&count), "{line}");
+        let alone = format!("--replicates {count} --alignments {alignment}");
+        sandbox.execute(&render(alignment, &split(&alone)));
+        let truth =
+            |out| fs::read(sandbox.path(&format!("{out}/plate/truth_{alignment}.exr"))).unwrap();
+        assert!(truth("both") == truth(alignment), "{alignment}");
     }
-    assert_eq!(stdout(&sandbox.shuttertruth(&render("both", &until))), text);
+    assert_eq!(sandbox.execute(&render("both", &split(&until))), text);
 
     let more = split("--replicates 2 --noise 1e-9 --most-replicates 5");
     let short = sandbox.shuttertruth(&render("short", &more));
     assert_eq!(short.status.code(), Some(4));
-    let message = String::from_utf8(short.stderr.clone()).unwrap();
-    assert_contains(
-        &message,
-        &[
-            "plate trailing",
-            "moving",
-            "4 replicates",
-            "--most-replicates",
-            "--samples-per-pixel",
-        ],
-    );
+    let parts = [
+        "plate trailing",
+        "moving",
+        "4 replicates",
+        "--most-replicates",
+        "--samples-per-pixel",
+    ];
+    assert_contains(&stderr(&short), &parts);
     assert!(sandbox.path("short/plate/truth_trailing.exr").is_file());
 }

@@ -1,9 +1,8 @@
 //! The filter that the guide writes, and the error messages that the guide quotes.
 
 use metrics::Measured;
-use tests::filter_folder::one_kernel_without_parameters;
 
-use crate::sandbox::{Sandbox, assert_done, stderr};
+use crate::sandbox::{Sandbox, split, stderr};
 
 const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
 
@@ -70,7 +69,7 @@ fn the_guide_s_filter_runs_and_beats_the_identity() {
     let sandbox = Sandbox::new();
     write(&sandbox, None);
     assert!(block("wgsl").lines().count() <= 20);
-    assert_done(&sandbox.run(&["--filters", "identity", "--filter", "my_blur"]));
+    sandbox.measure("--filters identity --filter my_blur");
     let cases = sandbox.read_filter_cases();
     let flip = |case: usize| cases[case].scores.moving.flip.value().unwrap();
     assert_eq!(cases[1].filter, "my_blur");
@@ -82,12 +81,9 @@ fn the_guide_s_filter_runs_and_beats_the_identity() {
 #[test]
 fn each_mistake_prints_the_message_in_the_guide() {
     let sandbox = Sandbox::new();
+    // An entry point, a parameter, a texture, a line that does not compile.
     let mistakes = read_mistakes();
-    assert_eq!(
-        mistakes.len(),
-        4,
-        "an entry point, a parameter, a texture, a line that does not compile"
-    );
+    assert_eq!(mistakes.len(), 4);
     for mistake in &mistakes {
         write(&sandbox, Some(mistake));
         let output = sandbox.run(&["--filter", "my_blur"]);
@@ -100,20 +96,16 @@ fn each_mistake_prints_the_message_in_the_guide() {
 #[test]
 fn weights_that_depend_on_colour_give_no_matte_scores_and_say_why() {
     let sandbox = Sandbox::new();
-    let toml = "name = 'bright'\nsummary = 'Counts what is bright more.'\nalignment = 'trailing'\n[[pass]]\nentry = 'work'\n";
-    let wgsl = "@group(0) @binding(4) var velocity: texture_2d<f32>;\n".to_owned()
-        + &one_kernel_without_parameters(
-            "let trail = frame.exposure * textureLoad(velocity, pixel, 0).xy;
+    let body = "let trail = frame.exposure * textureLoad(velocity, pixel, 0).xy;
     var sum = vec4<f32>(0.0);
     for (var tap = 0; tap < 8; tap++) {
         let there = bilinear(color, centre(pixel) + trail * (f32(tap) + 0.5) / 8.0);
         let bright = 1.0 + there.g;
         sum += bright * vec4<f32>(there.rgb, 1.0);
     }
-    textureStore(output, pixel, sum / sum.a);",
-        );
-    sandbox.write_filter("bright", toml, &wgsl);
-    assert_done(&sandbox.run(&["--filters", "identity", "--filter", "bright"]));
+    textureStore(output, pixel, sum / sum.a);";
+    sandbox.write_kernel("bright", "", &["velocity"], body);
+    sandbox.measure("--filters identity --filter bright");
     let [identity, bright] = &sandbox.read_filter_cases()[..] else {
         panic!("two filters on one scene");
     };
@@ -122,14 +114,8 @@ fn weights_that_depend_on_colour_give_no_matte_scores_and_say_why() {
     let nonlinearity = bright.nonlinearity.unwrap();
     assert!(nonlinearity > 0.01, "{nonlinearity}");
     assert!(bright.scores.moving.flip.value().is_some());
-    for metric in [
-        "label_tv",
-        "lateral_growth",
-        "energy",
-        "unity",
-        "gather_offset",
-        "n_eq_label_tv",
-    ] {
+    let metrics = "label_tv lateral_growth energy unity gather_offset n_eq_label_tv";
+    for metric in split(metrics) {
         let applies = |case: &suite::Case| case.scores.get(metric.parse().unwrap());
         assert!(applies(identity).value().is_some(), "{metric}");
         let Measured::NotApplicable { reason } = applies(bright) else {

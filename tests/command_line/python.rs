@@ -2,14 +2,20 @@
 
 use std::process::Command;
 
-/// Returns the Python that has a package. `make test` installs them and names it in PYTHON.
-pub fn python_with(package: &str) -> String {
+/// Returns the Python that has these packages. `make test` installs them and names it in PYTHON.
+pub fn python_with(packages: &[&str]) -> String {
     let python = std::env::var("PYTHON").unwrap_or("python3".to_owned());
-    let import = format!("import {package}");
-    let found = Command::new(&python).args(["-c", &import]).output();
+    // To find them takes less time than to import them.
+    let find = "import sys; from importlib.util import find_spec; \
+        sys.exit(any(not find_spec(own) for own in sys.argv[1:]))";
+    let found = Command::new(&python)
+        .args(["-c", find])
+        .args(packages)
+        .output();
     assert!(
         found.is_ok_and(|output| output.status.success()),
-        "{python} has no {package}: `make test` installs it; or pip install {package}, and set PYTHON to the Python that has it"
+        "{python} lacks one of {packages:?}: `make test` installs them; or pip install them, and set \
+         PYTHON to the Python that has them"
     );
     python
 }

@@ -13,11 +13,12 @@ use judge::Results;
 use metrics::Metric;
 use suite::Run;
 use tests::filter_folder::copy_changed_filter;
+use tests::text::assert_contains;
 use tracer::{SceneId, Seal};
 
 use self::filter_page::{picture_name, results_filter_pages};
 use self::page::{main_results, results_page};
-use crate::sandbox::{Sandbox, assert_done};
+use crate::sandbox::Sandbox;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../results")
@@ -68,58 +69,43 @@ fn the_page_of_every_filter_is_made_from_the_results_and_shows_its_worst_picture
     assert_eq!(found.collect::<BTreeSet<_>>(), due.collect());
 }
 
+const FILTERS: &str = "--filters identity,velocity_gather:fine,velocity_gather:coarse";
+
+/// Measures three filters on two scenes, or on some of them.
+fn run(more: &str) -> Run {
+    let sandbox = Sandbox::two_scenes();
+    sandbox.measure(&format!("{FILTERS} {more}"));
+    sandbox.read_run()
+}
+
 #[test]
 fn costs_of_a_bench_stand_beside_the_scores_of_their_presets() {
     let sandbox = Sandbox::new();
-    let run = run(&sandbox, &[]);
-    let mut results = Results::from_runs(&[run]).unwrap();
-    let words = ["bench", "--size", "64x32"];
-    let out = sandbox.path("out");
-    let out = out.to_str().unwrap();
-    assert_done(
-        &sandbox.shuttertruth(
-            &[
-                &words[..],
-                &["--filters", "velocity_gather:fine", "--out", out],
-            ]
-            .concat(),
-        ),
-    );
+    sandbox.measure(FILTERS);
+    let mut results = Results::from_runs(&[sandbox.read_run()]).unwrap();
+    sandbox.done("bench --size 64x32 --filters velocity_gather:fine --out out");
     let costs = report::read_bench(&sandbox.path("out")).unwrap().unwrap();
     results.add_costs(&costs).unwrap();
-    let names: Vec<&str> = results.costs.keys().map(String::as_str).collect();
-    assert_eq!(names, ["velocity_gather:fine"]);
+    let name = "velocity_gather:fine";
+    assert_eq!(results.costs.keys().collect::<Vec<_>>(), [name]);
     let page = results_page(&[results.clone()]).unwrap();
-    let row = page
-        .lines()
-        .find(|line| line.contains("`velocity_gather:fine`"));
-    let ratio = format!("| {:.2} ", results.costs["velocity_gather:fine"].median);
-    assert!(row.unwrap().contains(&ratio), "{page}");
+    let mut rows = page.lines();
+    let row = rows.find(|line| line.contains(&format!("`{name}`")));
+    let ratio = format!("| {:.2} ", results.costs[name].median);
+    assert_contains(row.unwrap(), &[&ratio]);
     let read: Results = serde_json::from_str(&results.text()).unwrap();
     assert_eq!(read, results);
 
     results.size = [320, 180];
     let error = results.add_costs(&costs).unwrap_err().to_string();
-    assert!(error.contains("the bench timed 64x32 on"), "{error}");
-}
-
-fn run(sandbox: &Sandbox, more: &[&str]) -> Run {
-    let words = [
-        "--filters",
-        "identity,velocity_gather:fine,velocity_gather:coarse",
-    ];
-    assert_done(&sandbox.run(&[&words[..], more].concat()));
-    sandbox.read_run()
+    assert_contains(&error, &["the bench timed 64x32 on"]);
 }
 
 #[test]
 fn results_of_two_runs_are_those_of_one() {
     // A run keeps the cases of earlier ones in its folder, so that each has its own.
-    let run = |more: &[&str]| run(&Sandbox::two_scenes(), more);
-    let both = run(&[]);
-    let plate = run(&["--scenes", "plate"]);
-    let slow = run(&["--scenes", "slow"]);
-    let whole = Results::from_runs(&[both]).unwrap();
+    let [plate, slow] = ["plate", "slow"].map(|scene| run(&format!("--scenes {scene}")));
+    let whole = Results::from_runs(&[run("")]).unwrap();
     let joined = Results::from_runs(&[plate.clone(), slow]).unwrap();
     assert_eq!(joined, whole);
     let named = ["plate", "slow"].map(|name| SceneId::new(name, None));
@@ -133,61 +119,37 @@ fn results_of_two_runs_are_those_of_one() {
 
     let refused = |runs: &[Run]| Results::from_runs(runs).unwrap_err().to_string();
     let twice = refused(&[plate.clone(), plate.clone()]);
-    assert!(
-        twice.contains("plate / identity:default is in two runs"),
-        "{twice}"
-    );
-    let sealed = run(&["--scenes", "slow", "--seal", "3"]);
+    assert_contains(&twice, &["plate / identity:default is in two runs"]);
+    let sealed = run("--scenes slow --seal 3");
     let mixed = refused(&[plate, sealed.clone()]);
-    assert!(
-        mixed.contains("slow@seal3: seal: 3, and the first run has none"),
-        "{mixed}"
-    );
+    assert_contains(&mixed, &["slow@seal3: seal: 3, and the first run has none"]);
     let sealed = Results::from_runs(&[sealed]).unwrap();
     assert_eq!(sealed.seal, Some(3));
     assert_eq!(sealed.scenes(), [&SceneId::new("slow", None)]);
-    assert!(
-        sealed.file_name().ends_with("_seal3.json"),
-        "{}",
-        sealed.file_name()
-    );
+    let name = sealed.file_name();
+    assert!(name.ends_with("_seal3.json"), "{name}");
 
     // A filter that was measured later joins those of its scene.
-    let without = |scene: &str, name: &str| {
-        let mut results = whole.clone();
-        (results.scores).retain(|own| own.scene != scene || own.name != name);
-        results
-    };
-    let mut part = without("plate", "velocity_gather:coarse");
+    let mut part = whole.clone();
+    (part.scores).retain(|own| own.scene != "plate" || own.name != "velocity_gather:coarse");
     assert_eq!(part.scores.len(), 5);
     // Its own score takes the place of an older one.
     part.scores[0].floor = 9.0;
     part.update(whole.clone()).unwrap();
     assert_eq!(part, whole);
-    let other = Results {
-        samples_per_pixel: 4096,
-        ..whole.clone()
-    };
+    let mut other = whole.clone();
+    other.samples_per_pixel = 4096;
     let refused = part.update(other).unwrap_err().to_string();
-    assert!(
-        refused.contains("with 4096 samples per pixel cannot go into"),
-        "{refused}"
-    );
+    assert_contains(&refused, &["with 4096 samples per pixel cannot go into"]);
 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("kept.json");
     fs::write(&path, whole.text()).unwrap();
     assert_eq!(Results::read(&path).unwrap(), whole);
-    fs::write(
-        &path,
-        whole.text().replace("\"format\": 2", "\"format\": 9"),
-    )
-    .unwrap();
-    let other = Results::read(&path).unwrap_err().to_string();
-    assert!(
-        other.contains("kept.json: has format 9; allowed: 2"),
-        "{other}"
-    );
+    let later = whole.text().replace("\"format\": 2", "\"format\": 9");
+    fs::write(&path, later).unwrap();
+    let refused = Results::read(&path).unwrap_err().to_string();
+    assert_contains(&refused, &["kept.json: has format 9; allowed: 2"]);
 }
 
 /// Writes the filter `learnt`: a gather along the velocity that the plate has, whatever the velocity buffer says.
@@ -199,55 +161,40 @@ fn write_learnt_filter(sandbox: &Sandbox) {
         // 1.6 m of a picture that is 4.62 m and 32 pixels high.
         kernels.replace(read, &format!("(vec2(11.09, 0.0) + 0.0 * {read})"))
     });
-    fs::rename(
-        folder.join("velocity_gather.wgsl"),
-        folder.join("learnt.wgsl"),
-    )
-    .unwrap();
-    let manifest = fs::read_to_string(folder.join("filter.toml")).unwrap();
-    let manifest = manifest.replace("velocity_gather", "learnt");
-    fs::write(folder.join("filter.toml"), manifest).unwrap();
+    let [from, to] =
+        ["velocity_gather", "learnt"].map(|name| folder.join(name).with_extension("wgsl"));
+    fs::rename(from, to).unwrap();
+    let manifest = folder.join("filter.toml");
+    let text = fs::read_to_string(&manifest).unwrap();
+    fs::write(manifest, text.replace("velocity_gather", "learnt")).unwrap();
 }
 
 #[test]
 fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
-    let names = ["plate", "dim", "bright", "warm", "cold"];
-    let colors = [
-        "0.1, 0.1, 0.1",
-        "0.6, 0.6, 0.6",
-        "0.3, 0.2, 0.1",
-        "0.1, 0.2, 0.3",
-    ];
-    let make_bench = || {
-        let sandbox = Sandbox::new();
-        for (name, color) in names[1..].iter().zip(colors) {
-            sandbox.copy_scene(name, |text| text.replace("0.2, 0.2, 0.2", color));
-        }
-        write_learnt_filter(&sandbox);
-        sandbox
-    };
-    // One that lets most of the plates move the other way.
+    let sandbox = Sandbox::new();
+    let names = ["plate", "dim", "bright"];
+    for (name, light) in [("dim", "0.1, 0.1, 0.1"), ("bright", "0.6, 0.6, 0.6")] {
+        sandbox.copy_scene(name, |text| text.replace("0.2, 0.2, 0.2", light));
+    }
+    write_learnt_filter(&sandbox);
+    // One that lets all of the plates move the other way.
     let turns_round = |seed: u64| {
         let turned = |name: &&str| {
             let seal = Seal::new(seed, name);
             seal.mirrored != seal.reversed
         };
-        names.iter().filter(|name| turned(name)).count() > names.len() / 2
+        names.iter().all(turned)
     };
-    let seed = (0..).find(|seed| turns_round(*seed)).unwrap().to_string();
-    let ranks = |more: &[&str]| {
-        let sandbox = make_bench();
-        let words = ["--filters", "velocity_gather:fine,learnt:fine"];
-        assert_done(&sandbox.run(&[&words[..], more].concat()));
+    let seed = (0..).find(|seed| turns_round(*seed)).unwrap();
+    let ranks = |more: &str| -> Vec<String> {
+        let filters = "--no-cache --filters velocity_gather:fine,learnt:fine";
+        sandbox.measure(&format!("{filters} {more}"));
         let results = Results::from_runs(&[sandbox.read_run()]).unwrap();
         assert_eq!(results.scenes().len(), names.len());
         let ranking = results.ranking(None).remove(0);
-        let names: Vec<String> = ranking.into_iter().map(|ranked| ranked.name).collect();
-        names
+        ranking.into_iter().map(|ranked| ranked.name).collect()
     };
-    assert_eq!(ranks(&[]), ["learnt:fine", "velocity_gather:fine"]);
-    assert_eq!(
-        ranks(&["--seal", &seed]),
-        ["velocity_gather:fine", "learnt:fine"]
-    );
+    assert_eq!(ranks(""), ["learnt:fine", "velocity_gather:fine"]);
+    let sealed = ranks(&format!("--seal {seed}"));
+    assert_eq!(sealed, ["velocity_gather:fine", "learnt:fine"]);
 }

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output};
+use std::sync::OnceLock;
+use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 use tests::filter_folder;
@@ -85,6 +87,44 @@ impl Sandbox {
         fs::write(copy.join("scene.toml"), text).unwrap();
     }
 
+    /// Reads all files, for sandboxes that begin with them.
+    pub fn read_files(&self) -> Files {
+        read_below(self.folder.path())
+    }
+
+    /// Makes a sandbox with what `make` leaves in one. It is called once for all tests.
+    pub fn once(files: &OnceLock<Files>, make: impl FnOnce() -> Self) -> Self {
+        Self::of(files.get_or_init(|| make().read_files()))
+    }
+
+    /// Makes a sandbox with a finished run of the identity in `out`.
+    pub fn measured() -> Self {
+        static FILES: OnceLock<Files> = OnceLock::new();
+        Self::once(&FILES, || {
+            let sandbox = Self::new();
+            sandbox.measure("--filters identity");
+            sandbox
+        })
+    }
+
+    /// Makes a sandbox with these files.
+    pub fn of(files: &Files) -> Self {
+        let sandbox = Self {
+            folder: tempfile::tempdir().unwrap(),
+        };
+        sandbox.write_files("", files);
+        sandbox
+    }
+
+    /// Writes files below a folder.
+    pub fn write_files(&self, below: &str, files: &Files) {
+        for (name, bytes) in files {
+            let path = self.path(below).join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, bytes).unwrap();
+        }
+    }
+
     /// Bounds `flip_moving` on the plate for every filter. The identity scores about 0.3.
     pub fn write_bound(&self, limit: f64) {
         self.write(
@@ -110,6 +150,11 @@ impl Sandbox {
         filter_folder::write_filter(&self.path(name), name, manifest, kernels);
     }
 
+    /// Writes a filter with one pass; see [`filter_folder::write_kernel`].
+    pub fn write_kernel(&self, name: &str, more: &str, textures: &[&str], body: &str) {
+        filter_folder::write_kernel(&self.path(name), more, textures, body);
+    }
+
     pub fn shuttertruth(&self, words: &[&str]) -> Output {
         self.command(words).output().unwrap()
     }
@@ -120,6 +165,35 @@ impl Sandbox {
         let output = self.shuttertruth(words);
         assert_done(&output);
         stdout(&output)
+    }
+
+    /// Runs a command line that must succeed; returns what it prints.
+    #[track_caller]
+    pub fn done(&self, line: &str) -> String {
+        self.execute(&split(line))
+    }
+
+    /// Runs a line that must be refused with exit code 2 and these words.
+    #[track_caller]
+    pub fn refuse(&self, line: &str, parts: &[&str]) {
+        println!("{line}");
+        assert_refused(&self.shuttertruth(&split(line)), 2, parts);
+    }
+
+    /// Does it for a table, one row a line: more words of the command, and behind each `|` a part of the message. A line that
+    /// begins with `|` belongs to the row above.
+    #[track_caller]
+    pub fn refuse_rows(&self, command: &str, table: &str) {
+        let lines: Vec<&str> = table.lines().map(str::trim).collect();
+        for row in lines.join("\n").replace("\n|", "|").lines() {
+            let mut cells = row.split('|').map(str::trim);
+            let words = cells.next().unwrap_or_default();
+            let parts: Vec<&str> = cells.collect();
+            assert!(row.is_empty() || !parts.is_empty(), "no message: {row}");
+            if !parts.is_empty() {
+                self.refuse(&format!("{command} {words}"), &parts);
+            }
+        }
     }
 
     /// Runs a command as if no CI were there.
@@ -150,6 +224,20 @@ impl Sandbox {
         self.shuttertruth(&[&words, more].concat())
     }
 
+    /// Runs `run` with few samples, which must succeed; returns what it prints.
+    #[track_caller]
+    pub fn measure(&self, line: &str) -> String {
+        self.measure_into("out", line)
+    }
+
+    /// Does the same with another folder than `out`.
+    #[track_caller]
+    pub fn measure_into(&self, out: &str, line: &str) -> String {
+        let mut words = quick_command("run", "16");
+        words[3] = out;
+        self.execute(&[&words[..], &split(line)].concat())
+    }
+
     /// Runs `check` with few samples and no CI; the report is on standard output.
     pub fn check(&self, more: &[&str]) -> Output {
         let words = quick_command("check", "64");
@@ -164,6 +252,12 @@ impl Sandbox {
     /// Reads a file of JSON.
     pub fn read_json<T: DeserializeOwned>(&self, below: &str) -> T {
         serde_json::from_slice(&fs::read(self.path(below)).unwrap()).unwrap()
+    }
+
+    /// Reads the colour of an OpenEXR file.
+    pub fn read_color(&self, below: &str) -> frame::Image {
+        let file = frame::read_exr(&self.path(below)).unwrap();
+        file.color("").unwrap()
     }
 
     /// Reads the findings about the last run.
@@ -212,6 +306,28 @@ pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
     );
 }
 
+/// Files, by their names below a folder.
+pub type Files = Vec<(PathBuf, Vec<u8>)>;
+
+/// Reads all files below a folder.
+pub fn read_below(folder: &Path) -> Files {
+    let read = |path: PathBuf| {
+        let name = path.strip_prefix(folder).unwrap().to_owned();
+        (name, fs::read(&path).unwrap())
+    };
+    files_below(folder).into_iter().map(read).collect()
+}
+
+/// Fails with the name of a file that is missing or differs.
+#[track_caller]
+pub fn assert_same_files(one: &Files, other: &Files) {
+    let names = |files: &Files| -> Vec<PathBuf> { files.iter().map(|own| own.0.clone()).collect() };
+    assert_eq!(names(one), names(other));
+    for ((name, one), (_, other)) in one.iter().zip(other) {
+        assert!(one == other, "{} differs", name.display());
+    }
+}
+
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -241,6 +357,26 @@ pub fn send(child: &Child, signal: &str) {
     let mut kill = Command::new("kill");
     let status = kill.args([&format!("-{signal}"), &child.id().to_string()]);
     assert!(status.status().unwrap().success());
+}
+
+/// Waits until a process has computed for a number of hundredths of a second, summed over its threads, or for two seconds
+/// where the system does not tell.
+pub fn wait_until_busy(child: &mut Child, hundredths: u64) {
+    let stat = Path::new("/proc").join(child.id().to_string()).join("stat");
+    for _ in 0..if cfg!(target_os = "linux") { 6000 } else { 200 } {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        let stat = fs::read_to_string(&stat).unwrap_or_default();
+        // After the name in brackets: the state, ten numbers, and the times of the process and of the system for it.
+        let numbers = stat.rsplit(')').next().unwrap().split_whitespace();
+        let times = numbers
+            .skip(11)
+            .take(2)
+            .map(|time| time.parse::<u64>().unwrap());
+        if times.sum::<u64>() >= hundredths {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
 }
 
 /// Makes a FIFO.

@@ -5,9 +5,10 @@ use std::fs;
 use judge::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
 use metrics::{Measured, PERFECT_JOD, SequenceMetric};
 use suite::Run;
+use tests::text::assert_contains;
 use tracer::SceneId;
 
-use crate::sandbox::{Sandbox, assert_done, stdout};
+use crate::sandbox::{Sandbox, assert_done, split, stdout};
 
 /// Names of a ranking with their ranks: `1 a`, `2-3 b`.
 fn names(ranking: &[Vec<RankedSequence>]) -> Vec<String> {
@@ -46,15 +47,8 @@ fn with_scores(run: &Run, lost: impl Fn(&str, f64) -> f64, floor: f64) -> Run {
 fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
     let sandbox = Sandbox::two_scenes();
     let filters = "identity,velocity_gather:fine,velocity_gather:departure";
-    let words = [
-        "--filters",
-        filters,
-        "--frames",
-        "2",
-        "--jitter-frames",
-        "0",
-    ];
-    let output = sandbox.run(&words);
+    let words = format!("--filters {filters} --frames 2 --jitter-frames 0");
+    let output = sandbox.run(&split(&words));
     assert_done(&output);
     let run = sandbox.read_run();
     let text = stdout(&output);
@@ -62,19 +56,13 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
         .lines()
         .find(|line| line.contains("2 scenes, 2 frames"))
         .expect("a ranking");
-    for part in ["JOD", "95 % CI", "error", "along", "worst scene"] {
-        assert!(title.contains(part), "{title}");
-    }
-    assert!(
-        text.lines().all(|line| line.chars().count() <= 80),
-        "{text}"
-    );
+    let parts = ["JOD", "95 % CI", "error", "along", "worst scene"];
+    assert_contains(title, &parts);
+    let mut lines = text.lines();
+    assert!(lines.all(|line| line.chars().count() <= 80), "{text}");
     let ranking = rank_sequences(&run);
-    assert_eq!(
-        ranking.iter().map(Vec::len).sum::<usize>(),
-        3,
-        "one rank per filter"
-    );
+    let ranks: usize = ranking.iter().map(Vec::len).sum();
+    assert_eq!(ranks, 3, "one rank per filter");
     for own in ranking.iter().flatten() {
         let shown = |scene: &str| {
             let mut sequences = run.sequences.iter().filter(|it| !it.is_reference);
@@ -88,25 +76,23 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
         let half = 12.706 * (plate - slow).abs() / 2.0;
         let [low, high] = own.ranked.interval.unwrap();
         assert!(((high - low) / 2.0 / half - 1.0).abs() < 1e-4, "{own:?}");
-        let interval = format!(
-            "{} to {}",
-            RANKED_BY.shown_text(low),
-            RANKED_BY.shown_text(high)
-        );
-        let due = [RANKED_BY.shown_text(mean), interval];
+        let [mean, low, high] = [mean, low, high].map(|own| RANKED_BY.shown_text(own));
+        let due = [mean, format!("{low} to {high}")];
         let mut lines = text.lines().filter(|line| line.contains(&own.ranked.name));
         let is_shown = lines.any(|line| due.iter().all(|part| line.contains(part)));
         assert!(is_shown, "{due:?} is missing from:\n{text}");
     }
     // The page has the same ranking, and every scene its own.
     let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
-    assert!(page.contains("Means over 2 scenes, ranked by jod"));
-    let first = &ranking[0][0].ranked;
-    assert!(page.contains(&format!(
-        "{} {}",
-        names(&ranking)[0].split(' ').next().unwrap(),
-        first.name
-    )));
+    let first = &names(&ranking)[0];
+    assert_contains(&page, &["Means over 2 scenes, ranked by jod", first]);
+    assert_ties(&run);
+}
+
+/// Ranks made scores: what is alike in every scene, or on one scene within the floor, shares its ranks.
+fn assert_ties(run: &Run) {
+    let fine = "velocity_gather:fine";
+    let departure = "velocity_gather:departure";
 
     // In every scene fine is a little better than identity, and the third beside it by chance alone.
     let by = |name: &str, scene: f64| match name {
@@ -114,34 +100,20 @@ fn sequences_are_ranked_by_means_over_scenes_with_intervals_and_ties() {
         "identity:default" => 1.1 + 0.101 * scene,
         _ => 1.1 + 0.101 * scene + if scene % 2.0 == 0.0 { 0.05 } else { -0.04 },
     };
-    let far = with_scores(&run, by, 0.01);
-    assert_eq!(
-        names(&rank_sequences(&far)),
-        [
-            "1 velocity_gather:fine",
-            "2-3 identity:default",
-            "2-3 velocity_gather:departure"
-        ]
-    );
-    // On one scene the floor decides.
-    assert_eq!(
-        names(&rank_sequences_on(&far, &SceneId::new("scene0", None))),
-        [
-            "1 velocity_gather:fine",
-            "2 identity:default",
-            "3 velocity_gather:departure"
-        ]
-    );
-    // The losses are 1.00, 1.10 and 1.15: the first and the last alone differ by more than the floor.
-    let noisy = with_scores(&run, by, 0.12);
-    assert_eq!(
-        names(&rank_sequences_on(&noisy, &SceneId::new("scene0", None))),
-        [
-            "1-2 velocity_gather:fine",
-            "1-3 identity:default",
-            "2-3 velocity_gather:departure"
-        ]
-    );
+    let far = with_scores(run, by, 0.01);
+    let noisy = with_scores(run, by, 0.12);
+    let first = SceneId::new("scene0", None);
+    for (ranking, ranks) in [
+        (rank_sequences(&far), ["1", "2-3", "2-3"]),
+        // On one scene the floor decides.
+        (rank_sequences_on(&far, &first), ["1", "2", "3"]),
+        // The losses are 1.00, 1.10 and 1.15: the first and the last alone differ by more than the floor.
+        (rank_sequences_on(&noisy, &first), ["1-2", "1-3", "2-3"]),
+    ] {
+        let due = std::iter::zip(ranks, [fine, "identity:default", departure]);
+        let due = due.map(|(rank, name)| format!("{rank} {name}"));
+        assert_eq!(names(&ranking), due.collect::<Vec<_>>());
+    }
     let means = &rank_sequences(&far)[0][0].means;
     assert_eq!(means.len(), SequenceMetric::ALL.len());
     assert_eq!(means[2].1.unwrap().scenes, 6);

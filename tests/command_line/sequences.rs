@@ -4,19 +4,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::time::SystemTime;
 
-use frame::{Image, read_exr};
 use suite::{Run, Sequence};
-use tests::filter_folder::one_kernel_without_parameters;
+use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{IDENTITY, SCENE, Sandbox, assert_done, assert_refused, files_below, stdout};
+use crate::sandbox::{IDENTITY, SCENE, Sandbox, assert_refused, files_below, split};
 
-const THREE: [&str; 2] = ["--frames", "3"];
-
-fn manifest(name: &str, more: &str) -> String {
-    format!(
-        "name = \"{name}\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\n{more}\n[[pass]]\nentry = \"work\"\n"
-    )
-}
+const TWO: &str = "--filters identity --frames 2";
+const THREE: &str = "--filters identity --frames 3";
 
 /// Multiplies the frame by noise: that of its index, or the same in every frame.
 fn write_noisy(sandbox: &Sandbox, name: &str, index: &str) {
@@ -26,11 +20,7 @@ fn write_noisy(sandbox: &Sandbox, name: &str, index: &str) {
     let own = textureLoad(color, pixel, 0).rgb;
     textureStore(output, pixel, vec4<f32>(own * (1.0 + 1.2 * (noise - 0.5)), 1.0));"
     );
-    sandbox.write_filter(
-        name,
-        &manifest(name, ""),
-        &one_kernel_without_parameters(&body),
-    );
+    sandbox.write_kernel(name, "", &[], &body);
 }
 
 /// Finds the sequence of a filter.
@@ -53,70 +43,72 @@ fn read_times(sandbox: &Sandbox) -> BTreeMap<String, SystemTime> {
 }
 
 #[test]
-fn the_first_frame_of_a_sequence_is_the_frame_without_one() {
+fn a_sequence_begins_with_the_frame_without_one_and_goes_on_where_it_ended() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&IDENTITY));
+    sandbox.measure("--filters identity");
     let single = sandbox.read_run();
-    let read = |name: &str| fs::read(sandbox.path("out/plate").join(name)).unwrap();
-    let files = [
-        "frame.exr",
-        "truth_trailing.exr",
-        "identity_default/output.exr",
-    ];
-    let before = files.map(read);
-    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "1"]].concat()));
+    let read = || {
+        let names = "frame.exr truth_trailing.exr identity_default/output.exr";
+        let files = split(names).into_iter();
+        let read = files.map(|name| fs::read(sandbox.path("out/plate").join(name)).unwrap());
+        read.collect::<Vec<_>>()
+    };
+    let before = read();
+    sandbox.measure("--filters identity --frames 1");
     let text = |run: &Run| serde_json::to_string(&run.cases).unwrap();
     let one = sandbox.read_run();
     assert_eq!(text(&one), text(&single));
     assert!(one.sequences.is_empty() && one.frames.is_one());
 
     fs::remove_dir_all(sandbox.path("out")).unwrap();
-    assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
+    sandbox.measure(TWO);
+    let times = read_times(&sandbox);
+    sandbox.measure(TWO);
+    assert_eq!(read_times(&sandbox), times);
+    let printed = sandbox.measure(THREE);
+    let after = read_times(&sandbox).into_iter();
+    let (new, kept): (BTreeMap<_, _>, BTreeMap<_, _>) =
+        after.partition(|(name, _)| name.starts_with("0002/"));
+    assert_eq!(kept, times);
+    assert!(new.len() > 10, "{new:?}");
     let run = sandbox.read_run();
     assert_eq!(text(&run), text(&single), "bit for bit");
-    assert!(files.map(read) == before, "bit for bit");
+    assert!(read() == before, "bit for bit");
     let own = find(&run, "identity");
-    let hashes: Vec<&str> = own
-        .frames
-        .iter()
-        .map(|own| own.truth_hash.as_str())
-        .collect();
-    assert_eq!(hashes[0], single.cases[0].truth_hash);
+    let hashes = [0, 1, 2].map(|at| &own.frames[at].truth_hash);
+    assert_eq!(*hashes[0], single.cases[0].truth_hash);
     assert!(hashes[1] != hashes[0] && hashes[2] != hashes[1]);
     // The plate moves at a constant speed and looks the same in every frame.
     let [first, last] = [0, 2].map(|at| own.frames[at].error.unwrap());
     assert!((first / last - 1.0).abs() < 0.1, "{first} {last}");
-    for name in [
-        "0001/frame.exr",
-        "0002/truth_trailing.exr",
-        "0002/identity_default/case.json",
-    ] {
-        assert!(sandbox.path("out/plate").join(name).is_file(), "{name}");
-    }
-}
-
-#[test]
-fn a_sequence_is_read_back_and_goes_on_where_it_ended() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
-    let before = read_times(&sandbox);
-    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
-    assert_eq!(read_times(&sandbox), before);
-    assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
-    let after = read_times(&sandbox);
-    let (new, kept): (BTreeMap<_, _>, BTreeMap<_, _>) = after
-        .into_iter()
-        .partition(|(name, _)| name.starts_with("0002/"));
-    assert_eq!(kept, before);
-    assert!(new.len() > 10, "{new:?}");
+    assert_page(&sandbox, &printed);
     // JOD depends on the rate: sequences of two rates are no one run.
-    let other_rate = ["--filters", "velocity_gather:fine", "--fps", "24"];
-    let refused = sandbox.run(&[&other_rate[..], &THREE].concat());
+    let other = "--filters velocity_gather:fine --frames 3 --fps 24";
     let parts = [
         "number of frames was 3 at 60 per second, now 3 at 24 per second",
         "--out",
     ];
-    assert_refused(&refused, 2, &parts);
+    assert_refused(&sandbox.run(&split(other)), 2, &parts);
+}
+
+/// Three frames have a page, and an animation for each case.
+fn assert_page(sandbox: &Sandbox, printed: &str) {
+    assert_contains(printed, &["out/sequences.html"]);
+    let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
+    for path in [
+        "plate/0001/frame.png",
+        "plate/0002/identity_default/change.png",
+        "plate/truth_trailing.png",
+    ] {
+        assert!(page.contains(path), "{path}");
+        assert!(sandbox.path("out").join(path).is_file(), "{path}");
+    }
+    assert!(page.contains("img-src data: 'self' file:"));
+    let report = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
+    assert!(report.contains("href=\"sequences.html\""));
+    let animation = fs::read(sandbox.path("out/plate/identity_default/sequence.png")).unwrap();
+    let chunks = |name: &[u8]| animation.windows(4).filter(|bytes| *bytes == name).count();
+    assert_eq!((chunks(b"acTL"), chunks(b"fcTL")), (1, 3));
 }
 
 #[test]
@@ -124,33 +116,18 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
     let sandbox = Sandbox::new();
     write_noisy(&sandbox, "changing", "frame.frame_index");
     write_noisy(&sandbox, "standing", "0u");
-    let output = sandbox.run(&[
-        "--filter",
-        "./changing",
-        "--filter",
-        "./standing",
-        "--frames",
-        "4",
-    ]);
-    assert_done(&output);
-    let table = stdout(&output);
-    for words in [
+    let table = sandbox.measure("--filters ./changing,./standing --frames 4 --jitter-frames 0");
+    let parts = [
         "4 frames",
         "plate, trailing shutter",
         "flick",
         "along",
         "dirt",
         "standing:default",
-    ] {
-        assert!(
-            table.contains(words),
-            "\"{words}\" is missing from:\n{table}"
-        );
-    }
-    assert!(
-        table.lines().all(|line| line.chars().count() <= 80),
-        "{table}"
-    );
+    ];
+    assert_contains(&table, &parts);
+    let mut lines = table.lines();
+    assert!(lines.all(|line| line.chars().count() <= 80), "{table}");
     let run = sandbox.read_run();
     let [changing, standing] = ["changing", "standing"].map(|name| &find(&run, name).scores);
     let value = |score: &metrics::Measured| score.value().unwrap();
@@ -171,18 +148,12 @@ fn a_filter_with_history_reads_the_frame_before() {
     let depth = textureLoad(depth_before, pixel, 0).x;
     let now = textureLoad(color, pixel, 0).rgb;
     textureStore(output, pixel, vec4<f32>(before + 0.0 * (now + motion.x + min(depth, 1.0)), 1.0));";
-    let textures = "@group(0) @binding(4) var color_before: texture_2d<f32>;
-@group(0) @binding(5) var velocity_before: texture_2d<f32>;
-@group(0) @binding(6) var depth_before: texture_2d<f32>;\n";
-    let kernels = textures.to_owned() + &one_kernel_without_parameters(body);
-    let history = "history = [\"color\", \"velocity\", \"depth\"]";
-    sandbox.write_filter("before", &manifest("before", history), &kernels);
-    assert_done(&sandbox.run(&[&["--filter", "./before"][..], &THREE].concat()));
-    let color = |name: &str| -> Image {
-        let file = read_exr(&sandbox.path("out/plate").join(name)).unwrap();
-        file.color("").unwrap()
-    };
-    let frames = ["frame.exr", "0001/frame.exr", "0002/frame.exr"].map(color);
+    let textures = ["color_before", "velocity_before", "depth_before"];
+    let write = |history: &str| sandbox.write_kernel("before", history, &textures, body);
+    write("history = [\"color\", \"velocity\", \"depth\"]");
+    sandbox.measure("--filter ./before --frames 3");
+    let color = |name: &str| sandbox.read_color(&format!("out/plate/{name}"));
+    let frames = ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}frame.exr")));
     let outputs =
         ["", "0001/", "0002/"].map(|frame| color(&format!("{frame}before_default/output.exr")));
     // The first frame stands in for the one before it.
@@ -190,14 +161,10 @@ fn a_filter_with_history_reads_the_frame_before() {
     assert!(outputs[1] == frames[0] && outputs[2] == frames[1]);
     assert!(frames[1] != frames[0]);
 
-    sandbox.write_filter("before", &manifest("before", ""), &kernels);
+    write("");
     let parts = ["\"color_before\" is no known input", "`history` names them"];
     assert_refused(&sandbox.run(&["--filter", "./before"]), 2, &parts);
-    sandbox.write_filter(
-        "before",
-        &manifest("before", "history = [\"color\", \"color\"]"),
-        &kernels,
-    );
+    write("history = [\"color\", \"color\"]");
     let parts = ["filter.toml:4", "history names \"color\" twice"];
     assert_refused(&sandbox.run(&["--filter", "./before"]), 2, &parts);
 }
@@ -219,70 +186,29 @@ fn frames_at_which_a_scene_is_not_defined_are_refused() {
     ];
     assert_refused(&refused, 2, &parts);
     assert!(!sandbox.path("out/plate").exists(), "nothing was rendered");
-    assert_done(&sandbox.run(&[&IDENTITY[..], &THREE].concat()));
-    for (option, value, says) in [
-        ("--frames", "0", "0 is not in 1..=1000"),
-        ("--frames", "1001", "1001 is not in 1..=1000"),
-        ("--fps", "0", "a number above 0"),
-    ] {
-        assert_refused(
-            &sandbox.run(&[&IDENTITY[..], &[option, value]].concat()),
-            2,
-            &[says],
-        );
+    sandbox.measure(THREE);
+    for (words, parts) in read_rows(
+        "
+        --frames 0 => 0 is not in 1..=1000
+        --frames 1001 => 1001 is not in 1..=1000
+        --fps 0 => a number above 0",
+    ) {
+        let refused = sandbox.run(&[&IDENTITY[..], &split(words)].concat());
+        assert_refused(&refused, 2, &parts);
     }
 }
 
 #[test]
 fn parts_of_a_rendered_sequence_merge_to_what_a_run_reads_back() {
     let sandbox = Sandbox::new();
-    let words = |part: &'static str, out: &'static str| {
-        let more = ["--replicates", part, "--frames", "2", "--out", out];
-        [
-            "truths",
-            "render",
-            "--quiet",
-            "--size",
-            "64x32",
-            "--samples-per-pixel",
-            "16",
-        ]
-        .into_iter()
-        .chain(more)
-    };
-    for (part, out) in [("0..3", "one"), ("3..8", "two")] {
-        sandbox.execute(&words(part, out).collect::<Vec<_>>());
+    for part in ["0..3 --out one", "3..8 --out two"] {
+        let words = "truths render --quiet --size 64x32 --samples-per-pixel 16 --frames 2";
+        sandbox.done(&format!("{words} --replicates {part}"));
     }
-    sandbox.execute(&["truths", "merge", "--quiet", "one", "two", "--out", "out"]);
+    sandbox.done("truths merge --quiet one two --out out");
     let truth = sandbox.path("out/plate/0001/truth_trailing.exr");
-    let before = fs::metadata(&truth).unwrap().modified().unwrap();
-    assert_done(&sandbox.run(&[&IDENTITY[..], &["--frames", "2"]].concat()));
-    assert_eq!(fs::metadata(&truth).unwrap().modified().unwrap(), before);
-}
-
-#[test]
-fn a_sequence_has_a_page_and_an_animation_per_case() {
-    let sandbox = Sandbox::new();
-    let output = sandbox.run(&[&IDENTITY[..], &THREE, &["--fps", "12"]].concat());
-    assert_done(&output);
-    assert!(
-        stdout(&output).contains("out/sequences.html"),
-        "{}",
-        stdout(&output)
-    );
-    let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
-    for path in [
-        "plate/0001/frame.png",
-        "plate/0002/identity_default/change.png",
-        "plate/truth_trailing.png",
-    ] {
-        assert!(page.contains(path), "{path}");
-        assert!(sandbox.path("out").join(path).is_file(), "{path}");
-    }
-    assert!(page.contains("img-src data: 'self' file:"));
-    let report = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
-    assert!(report.contains("href=\"sequences.html\""));
-    let animation = fs::read(sandbox.path("out/plate/identity_default/sequence.png")).unwrap();
-    let chunks = |name: &[u8]| animation.windows(4).filter(|bytes| *bytes == name).count();
-    assert_eq!((chunks(b"acTL"), chunks(b"fcTL")), (1, 3));
+    let written = || fs::metadata(&truth).unwrap().modified().unwrap();
+    let before = written();
+    sandbox.measure(TWO);
+    assert_eq!(written(), before);
 }

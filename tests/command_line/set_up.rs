@@ -5,14 +5,13 @@ use std::process::Command;
 
 use tests::root;
 
-use crate::sandbox::{Sandbox, assert_refused};
+use crate::sandbox::{Sandbox, stdout};
 
 /// Lists the commands, as the page of commands has them: `tune search`.
 fn list_commands() -> Vec<String> {
     let page = fs::read_to_string(root().join("docs/commands.md")).unwrap();
-    let headings = page
-        .lines()
-        .filter_map(|line| line.strip_prefix("## shuttertruth "));
+    let lines = page.lines();
+    let headings = lines.filter_map(|line| line.strip_prefix("## shuttertruth "));
     headings.map(str::to_owned).collect()
 }
 
@@ -20,14 +19,8 @@ fn list_commands() -> Vec<String> {
 fn the_version_says_which_source_and_which_target() {
     let version = Sandbox::new().execute(&["--version"]);
     let own = concat!("shuttertruth ", env!("CARGO_PKG_VERSION"), " (");
-    let rest = version
-        .strip_prefix(own)
-        .unwrap_or_else(|| panic!("{version}"));
-    let (source, target) = rest
-        .trim_end()
-        .trim_end_matches(')')
-        .split_once(", ")
-        .unwrap();
+    let rest = version.trim_end().strip_prefix(own).expect(&version);
+    let (source, target) = rest.trim_end_matches(')').split_once(", ").unwrap();
     let known = ["development build", "unknown commit: built without git"];
     assert!(
         known.contains(&source) || source.starts_with("commit "),
@@ -46,35 +39,22 @@ fn completions_know_every_command_in_every_shell() {
             let word = command.rsplit(' ').next().unwrap();
             assert!(script.contains(word), "{shell} does not complete {command}");
         }
-        assert!(
-            script.contains("scenes-dir"),
-            "{shell} does not complete options"
-        );
+        assert!(script.contains("scenes-dir"), "{shell} knows no options");
     }
-    assert_refused(
-        &sandbox.shuttertruth(&["completions", "csh"]),
-        2,
-        &["csh", "zsh"],
-    );
+    sandbox.refuse("completions csh", &["csh", "zsh"]);
 }
 
 #[cfg(unix)]
 #[test]
 fn bash_completes_a_command() {
     let sandbox = Sandbox::new();
-    fs::write(
-        sandbox.path("completions"),
-        sandbox.execute(&["completions", "bash"]),
-    )
-    .unwrap();
+    let completions = sandbox.done("completions bash");
+    fs::write(sandbox.path("completions"), completions).unwrap();
     let script = "source completions; COMP_WORDS=(shuttertruth compl); COMP_CWORD=1; _shuttertruth shuttertruth compl shuttertruth; \
                   echo \"${COMPREPLY[@]}\"";
-    let output = Command::new("bash")
-        .current_dir(sandbox.path(""))
-        .args(["-c", script])
-        .output()
-        .unwrap();
-    assert_eq!(String::from_utf8(output.stdout).unwrap(), "completions\n");
+    let mut bash = Command::new("bash");
+    bash.current_dir(sandbox.path("")).args(["-c", script]);
+    assert_eq!(stdout(&bash.output().unwrap()), "completions\n");
 }
 
 #[test]
@@ -82,10 +62,8 @@ fn the_manual_has_a_page_for_every_command() {
     let sandbox = Sandbox::new();
     sandbox.execute(&["man", "--out", "pages"]);
     let read = |name: &str| {
-        let path = sandbox
-            .path("pages")
-            .join(format!("{}.1", name.replace(' ', "-")));
-        fs::read_to_string(path).unwrap()
+        let page = format!("pages/{}.1", name.replace(' ', "-"));
+        fs::read_to_string(sandbox.path(&page)).unwrap()
     };
     for command in list_commands() {
         let name = format!("shuttertruth {command}");

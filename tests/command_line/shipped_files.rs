@@ -21,77 +21,57 @@ fn read_section(section: &str) -> BTreeMap<String, Vec<String>> {
         .skip(1)
         .take_while(|line| line.is_empty() || line.starts_with(' '))
     {
-        match line
+        let name = line
             .strip_prefix("  ")
-            .filter(|rest| !rest.starts_with(' '))
-        {
-            Some(name) => {
-                current = name.trim_end_matches(':').to_owned();
-                found.insert(current.clone(), Vec::new());
-            }
-            None if line.is_empty() => {}
-            None => found
-                .get_mut(&current)
-                .unwrap()
-                .push(line.trim().to_owned()),
+            .filter(|rest| !rest.starts_with(' '));
+        if let Some(name) = name {
+            current = name.trim_end_matches(':').to_owned();
         }
+        let lines: &mut Vec<String> = found.entry(current.clone()).or_default();
+        lines.push(line.trim().to_owned());
     }
     found
 }
 
-/// Reads the rows of the table below a line that begins with `first`: the name, and the other cells.
-fn read_table(page: &str, first: &str) -> BTreeMap<String, Vec<String>> {
+/// Reads the first two cells of the rows of the table below a line that begins with `first`.
+fn read_table(page: &str, first: &str) -> BTreeMap<String, String> {
     let rows = page
         .lines()
         .skip_while(|line| !line.starts_with(first))
         .skip(2);
-    (rows.take_while(|line| line.starts_with('|')))
-        .map(|row| {
-            let cells: Vec<String> = row
-                .trim_matches('|')
-                .split('|')
-                .map(|cell| cell.trim().to_owned())
-                .collect();
-            (cells[0].trim_matches('`').to_owned(), cells[1..].to_vec())
-        })
-        .collect()
+    let rows = rows.take_while(|line| line.starts_with('|')).map(|row| {
+        let mut cells = row.split('|').skip(1).map(|cell| cell.trim().to_owned());
+        (
+            cells.next().unwrap().replace('`', ""),
+            cells.next().unwrap(),
+        )
+    });
+    rows.collect()
 }
 
 #[test]
-fn the_page_on_ci_lists_the_inputs_of_the_action_and_their_defaults() {
-    let inputs = read_section("inputs");
-    let table = read_table(&read("docs/ci.md"), "| input |");
-    assert!(inputs.len() > 5);
-    assert_eq!(
-        inputs.keys().collect::<Vec<_>>(),
-        table.keys().collect::<Vec<_>>()
-    );
-    for (name, lines) in inputs {
+fn the_page_on_ci_lists_the_inputs_and_outputs_of_the_action_and_the_defaults() {
+    let page = read("docs/ci.md");
+    for (section, first) in [("inputs", "| input |"), ("outputs", "| output |")] {
+        let (said, own) = (read_table(&page, first), read_section(section));
+        assert!(own.len() > 3);
+        let (own, said): (Vec<_>, Vec<_>) = (own.keys().collect(), said.keys().collect());
+        assert_eq!(own, said, "the {section}");
+    }
+    let table = read_table(&page, "| input |");
+    for (name, lines) in read_section("inputs") {
         let default = lines.iter().find_map(|line| line.strip_prefix("default: "));
         let said = match default.map(|text| text.trim_matches('\'')) {
             None => {
-                assert!(
-                    lines.contains(&"required: true".to_owned()),
-                    "{name} has no default"
-                );
+                let is_required = lines.iter().any(|line| line == "required: true");
+                assert!(is_required, "{name} has no default");
                 "required".to_owned()
             }
             Some("") => "-".to_owned(),
             Some(text) => format!("`{text}`"),
         };
-        assert_eq!(table[&name][0], said, "the default of {name} on the page");
+        assert_eq!(table[&name], said, "the default of {name} on the page");
     }
-}
-
-#[test]
-fn the_page_on_ci_lists_the_outputs_of_the_action() {
-    let outputs = read_section("outputs");
-    let table = read_table(&read("docs/ci.md"), "| output |");
-    assert!(outputs.len() > 3);
-    assert_eq!(
-        outputs.keys().collect::<Vec<_>>(),
-        table.keys().collect::<Vec<_>>()
-    );
 }
 
 #[test]

@@ -2,28 +2,24 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use tests::text::assert_contains;
+
 use crate::python::python_with;
-use crate::sandbox::{Sandbox, assert_done, split, stderr, stdout};
+use crate::sandbox::{Sandbox, split, stderr, stdout};
 
 /// Words behind `plan` and `run`.
 const WORDS: &str =
-    "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2 --filter kino:default,identity";
+    "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2 --filter identity";
 
 /// Runs the example's Snakefile with two jobs at a time.
 fn snakemake(sandbox: &Sandbox) -> Command {
-    let mut command = Command::new(python_with("snakemake"));
+    let mut command = Command::new(python_with(&["snakemake"]));
     let snakefile = tests::root().join("examples/snakemake/Snakefile");
-    command.args([
-        "-m",
-        "snakemake",
-        "--cores",
-        "2",
-        "--rerun-incomplete",
-        "--snakefile",
-    ]);
+    let words = "-m snakemake --cores 2 --rerun-incomplete --snakefile";
+    command.args(split(words));
     command.arg(snakefile).arg("--config");
     command.arg(format!("program={}", env!("CARGO_BIN_EXE_shuttertruth")));
     // It keeps files there that no test needs.
@@ -41,10 +37,10 @@ fn find_process(folder: &Path, words: &[&str]) -> Option<String> {
             && words.iter().all(|word| own.contains(word))
             && fs::read_link(process.join("cwd")).is_ok_and(|it| it == folder)
     };
-    let processes = fs::read_dir("/proc")
+    let mut processes = fs::read_dir("/proc")
         .unwrap()
         .map(|entry| entry.unwrap().path());
-    let found = processes.into_iter().find(is_own)?;
+    let found = processes.find(is_own)?;
     Some(found.file_name()?.to_string_lossy().into_owned())
 }
 
@@ -56,65 +52,44 @@ fn kill_process(folder: &Path, words: &[&str]) {
             Some(process) => break process,
             None => std::thread::sleep(Duration::from_millis(1)),
         }
-        assert!(
-            Instant::now() < end,
-            "no job with the words {words:?} began"
-        );
+        assert!(Instant::now() < end, "no job {words:?} began");
     };
     let killed = Command::new("kill").args(["-KILL", &process]).status();
     assert!(killed.unwrap().success(), "the job had ended");
 }
 
-fn assert_ended_well(output: &Output) {
-    assert!(
-        output.status.success(),
-        "{}{}",
-        stdout(output),
-        stderr(output)
-    );
+/// Runs the Snakefile to its end; returns what it says.
+fn finish(sandbox: &Sandbox) -> String {
+    let output = snakemake(sandbox).output().unwrap();
+    let said = stderr(&output);
+    assert!(output.status.success(), "{}{said}", stdout(&output));
+    said
 }
 
 #[test]
 fn a_killed_job_is_resumed_and_the_merged_run_equals_that_of_one_process() {
-    let [shared, alone] = [(); 2].map(|()| Sandbox::two_scenes());
-    let words = split(WORDS);
-    let plan = shared.execute(&[&["truths", "plan"], &words[..], &["--json"]].concat());
+    let [shared, alone] = [(); 2].map(|()| Sandbox::new());
+    let plan = shared.done(&format!("truths plan {WORDS} --json"));
     fs::write(shared.path("plan.jsonl"), plan).unwrap();
     let folder = shared.path("").canonicalize().unwrap();
 
     let mut command = snakemake(&shared);
-    let first = command
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    kill_process(&folder, &["run", "--part", "filters", "slow"]);
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    let first = command.spawn().unwrap();
+    kill_process(&folder, &["run", "--part", "filters"]);
     let first = first.wait_with_output().unwrap();
-    assert!(
-        !first.status.success(),
-        "a killed job fails:\n{}",
-        stderr(&first)
-    );
+    let said = stderr(&first);
+    assert!(!first.status.success(), "a killed job fails:\n{said}");
     assert!(!shared.path("out/run.json").exists());
-    let rendered = |sandbox: &Sandbox| {
-        let truth = sandbox.path("out/parts/truths/slow/truth_trailing.exr");
-        fs::metadata(truth).unwrap().modified().unwrap()
-    };
-    let before = rendered(&shared);
+    let truth = shared.path("out/parts/truths/plate/truth_trailing.exr");
+    let written = || fs::metadata(&truth).unwrap().modified().unwrap();
+    let before = written();
 
-    let second = snakemake(&shared).output().unwrap();
-    assert_ended_well(&second);
-    assert_eq!(rendered(&shared), before, "a truth was rendered again");
-    assert_done(&alone.shuttertruth(&[&["run"], &words[..]].concat()));
+    finish(&shared);
+    assert_eq!(written(), before, "a truth was rendered again");
+    alone.done(&format!("run {WORDS}"));
     let run = |sandbox: &Sandbox| fs::read_to_string(sandbox.path("out/run.json")).unwrap();
     assert_eq!(run(&shared), run(&alone));
     assert!(shared.path("out/report.html").is_file());
-
-    let third = snakemake(&shared).output().unwrap();
-    assert_ended_well(&third);
-    assert!(
-        stderr(&third).contains("Nothing to be done"),
-        "{}",
-        stderr(&third)
-    );
+    assert_contains(&finish(&shared), &["Nothing to be done"]);
 }

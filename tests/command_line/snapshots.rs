@@ -1,16 +1,13 @@
 //! What commands print, compared with files of `snapshots/`. `SNAPSHOTS=overwrite` writes these anew, for a reviewer to read.
 
-use std::process::Output;
-
 use snapbox::{Assert, Data, Redactions};
 use tests::filter_folder::one_kernel;
 
-use crate::sandbox::{IDENTITY, Sandbox, assert_done, quick_command, split, stderr, stdout};
+use crate::sandbox::{Sandbox, split, stderr, stdout};
 
-/// Compares what a command prints on standard output with a file of `snapshots/`.
+/// Compares what a command prints with a file of `snapshots/`.
 #[track_caller]
-fn assert_printed(output: &Output, file: &str) {
-    let text = stdout(output);
+fn assert_printed(text: &str, file: &str) {
     let mut redactions = Redactions::new();
     let parts = [
         ("[TIME]", "took ", '\n'),
@@ -54,39 +51,33 @@ fn lists() {
         ("list inputs", "list_inputs.txt"),
         ("list plate", "list_scene.txt"),
     ] {
-        let output = sandbox.shuttertruth(&split(words));
-        assert_done(&output);
-        assert_printed(&output, file);
+        assert_printed(&sandbox.done(words), file);
     }
 }
 
 #[test]
 fn runs() {
     let sandbox = Sandbox::two_scenes();
-    let output = sandbox.run(&IDENTITY);
-    assert_done(&output);
-    assert_printed(&output, "run.txt");
-    let output = sandbox.run(&[&IDENTITY[..], &["--table"]].concat());
-    assert_done(&output);
-    assert_printed(&output, "run_table.txt");
-    let output = sandbox.run(&split(
-        "--filter identity --frame-rate 24,48 --input velocity=linear8 --input depth=float16",
-    ));
-    assert_done(&output);
-    assert_printed(&output, "run_inputs.txt");
-    let output = Sandbox::two_scenes().run(&split("--filter identity --frames 3"));
-    assert_done(&output);
-    assert_printed(&output, "run_sequence.txt");
+    let forms = "--frame-rate 24,48 --input velocity=linear8 --input depth=float16";
+    for (more, file) in [
+        ("", "run.txt"),
+        ("--table", "run_table.txt"),
+        (forms, "run_inputs.txt"),
+        ("--frames 2 --no-cache", "run_sequence.txt"),
+    ] {
+        let printed = sandbox.measure(&format!("--filter identity {more}"));
+        assert_printed(&printed, file);
+    }
 }
 
 #[test]
 fn checks() {
     let sandbox = make_bounded();
-    let output = sandbox.check(&IDENTITY);
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert_printed(&output, "check.txt");
-    let output = sandbox.check(&[&IDENTITY[..], &["-v"]].concat());
-    assert_printed(&output, "check_verbose.txt");
+    for (more, file) in [("", "check.txt"), ("-v", "check_verbose.txt")] {
+        let output = sandbox.check(&split(&format!("--filter identity {more}")));
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert_printed(&stdout(&output), file);
+    }
 }
 
 /// A kernel that halves colours is exact on every adapter.
@@ -112,16 +103,8 @@ entry = \"work\"
             "textureStore(output, pixel, parameters.gain * textureLoad(color, pixel, 0));",
         ),
     );
-    let filters = ["--filters", "identity,./dim"];
-    assert_done(&sandbox.run(&filters));
-    let mut other = quick_command("run", "16");
-    other[3] = "other";
-    let gain = ["--set", "dim.gain=0.5"];
-    assert_done(&sandbox.shuttertruth(&[&other[..], &filters, &gain].concat()));
-    let output = sandbox.shuttertruth(&["compare", "out", "other"]);
-    assert_done(&output);
-    assert_printed(&output, "compare.txt");
-    let output = sandbox.shuttertruth(&["list", "--filter", "./dim"]);
-    assert_done(&output);
-    assert_printed(&output, "list_filter.txt");
+    sandbox.measure("--filters identity,./dim");
+    sandbox.measure_into("other", "--filters identity,./dim --set dim.gain=0.5");
+    assert_printed(&sandbox.done("compare out other"), "compare.txt");
+    assert_printed(&sandbox.done("list --filter ./dim"), "list_filter.txt");
 }

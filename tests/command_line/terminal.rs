@@ -4,32 +4,32 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
-use crate::sandbox::{IDENTITY, Sandbox, assert_done, quick_command, stderr, stdout};
+use serde_json::Value;
+use tests::text::assert_contains;
+
+use crate::sandbox::{IDENTITY, Sandbox, assert_done, quick_command, split, stderr, stdout};
 
 /// First character of every colour code.
 const ESCAPE: char = '\u{1b}';
 
+/// Variables that decide about colours.
+const VARIABLES: [&str; 4] = ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"];
+
 /// Makes a sandbox whose scenes have a limit that the identity breaks.
 fn make_bounded() -> Sandbox {
     let sandbox = Sandbox::new();
-    fs::write(
-        sandbox.path("scenes/bounds.toml"),
-        "[default]\nflip_moving = { limit = 0.2, why = \"it serves a test of the terminal, and has a reason that takes \
-         more than one line of eighty columns to say\" }\n",
-    )
-    .unwrap();
+    let reason = "it serves a test of the terminal, and has a reason that takes more than one line of eighty columns to say";
+    let bounds = format!("[default]\nflip_moving = {{ limit = 0.2, why = \"{reason}\" }}\n");
+    fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
     sandbox
 }
 
 #[track_caller]
 fn assert_fits(text: &str) {
     for line in text.lines() {
-        let columns = line.chars().count();
         // A path may be longer than its line.
-        assert!(
-            columns <= 80 || line.contains('/'),
-            "{columns} columns: {line}"
-        );
+        let fits = line.chars().count() <= 80 || line.contains('/');
+        assert!(fits, "more than 80 columns: {line}");
     }
 }
 
@@ -39,23 +39,21 @@ fn output_fits_80_columns() {
     sandbox.copy_scene("a_scene_with_a_rather_long_name", |text| {
         text.replace("-1.6", "-0.8")
     });
-    let filters = ["--filters", "jump_flood_packed:corrected,identity"];
-    let run = sandbox.run(&filters);
-    assert_done(&run);
-    assert_fits(&stdout(&run));
-    let check = stdout(&sandbox.check(&filters));
-    assert!(check.contains("BROKEN flip_moving"), "{check}");
+    fs::remove_dir_all(sandbox.path("scenes/plate")).unwrap();
+    let filters = "--filters jump_flood_packed:corrected,identity";
+    let check = stdout(&sandbox.check(&split(filters)));
+    assert_contains(&check, &["BROKEN flip_moving"]);
     assert_fits(&check);
+    // What the check rendered serves the run.
+    let run = quick_command("run", "64").join(" ");
+    assert_fits(&sandbox.execute(&split(&format!("{run} {filters}"))));
     fs::rename(sandbox.path("out"), sandbox.path("first")).unwrap();
-    let check = sandbox.check(&[&filters[..], &["--set", "jump_flood_packed.samples=2"]].concat());
-    assert_eq!(check.status.code(), Some(1), "{}", stderr(&check));
-    let compared = sandbox.shuttertruth(&["compare", "first", "out"]);
-    assert_done(&compared);
-    assert!(stdout(&compared).contains("jump_flood_packed:corrected.samples"));
-    assert_fits(&stdout(&compared));
-    let list = sandbox.shuttertruth(&["list"]);
-    assert_done(&list);
-    assert_fits(&stdout(&list));
+    let other = format!("{run} --truths first {filters} --set jump_flood_packed.samples=2");
+    sandbox.execute(&split(&other));
+    let compared = sandbox.execute(&split("compare first out"));
+    assert_contains(&compared, &["jump_flood_packed:corrected.samples"]);
+    assert_fits(&compared);
+    assert_fits(&sandbox.execute(&["list"]));
 }
 
 #[test]
@@ -64,7 +62,7 @@ fn only_terminals_get_colours_and_no_color_disables_them() {
     let with = |variables: &[(&str, &str)], more: &[&str]| {
         let words = quick_command("check", "64");
         let mut command = sandbox.command(&[&words[..], &IDENTITY, more].concat());
-        for name in ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+        for name in VARIABLES {
             command.env_remove(name);
         }
         command.envs(variables.iter().copied());
@@ -81,6 +79,9 @@ fn only_terminals_get_colours_and_no_color_disables_them() {
     assert_eq!(refused, plain);
     let json = with(&[("CLICOLOR_FORCE", "1")], &["--json"]);
     assert!(!json.contains(ESCAPE), "{json:?}");
+    let list = |color: &str| sandbox.execute(&["list", "--color", color]);
+    assert!(list("always").contains(ESCAPE));
+    assert!(!list("never").contains(ESCAPE));
 }
 
 /// The program gets a terminal from `script`, which is part of every Debian (util-linux).
@@ -89,19 +90,14 @@ fn only_terminals_get_colours_and_no_color_disables_them() {
 fn a_terminal_shows_progress_and_respects_no_color() {
     let sandbox = make_bounded();
     sandbox.add_slow_scene();
-    // One replicate takes longer than the interval at which progress bars are redrawn.
-    let words = quick_command("check", "2048");
-    let words: Vec<&str> = words
-        .into_iter()
-        .filter(|word| *word != "--quiet")
-        .collect();
-    let on_terminal = |out: &str, no_color: bool| {
-        let line = [&[env!("CARGO_BIN_EXE_shuttertruth")], &words[..], &IDENTITY].concat();
-        let line = line.join(" ").replace("--out out", &format!("--out {out}"));
+    let on_terminal = |no_color: bool| {
+        // One replicate takes longer than the interval at which progress bars are redrawn.
+        let words = "check --out out --size 64x32 --samples-per-pixel 1024 --filters identity";
+        let line = format!("{} {words}", env!("CARGO_BIN_EXE_shuttertruth"));
         let mut command = std::process::Command::new("script");
         command.args(["--quiet", "--return", "--command", &line, "/dev/null"]);
         command.current_dir(sandbox.path(".")).env("TERM", "xterm");
-        for name in ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+        for name in VARIABLES {
             command.env_remove(name);
         }
         if no_color {
@@ -111,24 +107,16 @@ fn a_terminal_shows_progress_and_respects_no_color() {
         assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
         stdout(&output)
     };
-    // The code before the word is bold and red.
-    let coloured = on_terminal("out", false);
-    assert!(
-        coloured.contains("\u{1b}[1m\u{1b}[31mBROKEN"),
-        "{coloured:?}"
-    );
-    for label in [
+    let parts = [
+        // Bold and red.
+        "\u{1b}[1m\u{1b}[31mBROKEN",
         "2 scenes in all",
         "plate trailing, replicate ",
         "plate blurs and scores",
-    ] {
-        assert!(
-            coloured.contains(label),
-            "{label} is missing from {coloured:?}"
-        );
-    }
-    assert!(coloured.contains(" left"), "{coloured:?}");
-    let plain = on_terminal("other", true);
+        " left",
+    ];
+    assert_contains(&on_terminal(false), &parts);
+    let plain = on_terminal(true);
     assert!(
         plain.contains("BROKEN") && !plain.contains("[31m"),
         "{plain:?}"
@@ -136,134 +124,67 @@ fn a_terminal_shows_progress_and_respects_no_color() {
 }
 
 #[test]
-fn a_short_run_prints_nothing_on_standard_error_without_a_terminal() {
-    let sandbox = Sandbox::new();
-    let words = quick_command("run", "16");
-    let words: Vec<&str> = words
-        .into_iter()
-        .filter(|word| *word != "--quiet")
-        .collect();
-    let output = sandbox.shuttertruth(&[&words[..], &IDENTITY].concat());
-    assert_done(&output);
-    assert_eq!(stderr(&output), "");
-}
-
-#[test]
 fn json_output_has_no_other_text() {
     let sandbox = make_bounded();
-    let run = quick_command("run", "16");
-    let run = [&run[..], &IDENTITY, &["--html", "page.html"]].concat();
-    let check = quick_command("check", "64");
-    let check = [&check[..], &IDENTITY, &["--html", "page.html"]].concat();
     let candidate = "--quiet --filter jump_flood --objective flip --size 64x32 --samples-per-pixel 16 --out tuned";
-    let candidate: Vec<&str> = candidate.split(' ').collect();
-    for (words, key) in [
-        (run, "cases"),
-        (check, "findings"),
-        (vec!["compare", "out", "out"], "changes"),
-        (vec!["report", "out", "--html", "page.html"], ""),
-        (vec!["list"], "scenes"),
+    let run = quick_command("run", "16").join(" ") + " --filter identity --html page.html";
+    for (line, key) in [
+        (run.clone(), "/cases"),
+        (run.replace("run", "check"), "/findings"),
+        ("compare out out".to_owned(), "/changes"),
+        ("report out --html page.html".to_owned(), "/0/bytes"),
+        ("list".to_owned(), "/scenes"),
         (
-            [
-                &["tune", "search"],
-                &candidate[..],
-                &["--vary", "samples", "--budget", "2"],
-            ]
-            .concat(),
-            "front",
+            format!("tune search {candidate} --vary samples --budget 2"),
+            "/front",
         ),
         (
-            [
-                &["tune", "sensitivity"],
-                &candidate[..],
-                &["--vary", "samples", "--rows", "2"],
-            ]
-            .concat(),
-            "parameters",
+            format!("tune sensitivity {candidate} --vary samples --rows 2"),
+            "/parameters",
         ),
-        (
-            [&["tune", "compare", "paper", "corrected"], &candidate[..]].concat(),
-            "flip",
-        ),
+        (format!("tune compare paper corrected {candidate}"), "/flip"),
     ] {
-        let output = sandbox
-            .command(&[&words[..], &["--json"]].concat())
-            .env_remove("CI")
-            .output()
-            .unwrap();
+        let output = sandbox.outside_ci(&split(&format!("{line} --json")));
         let text = stdout(&output);
-        let value: serde_json::Value = serde_json::from_str(&text)
-            .unwrap_or_else(|error| panic!("{words:?}: {error}: {text}{}", stderr(&output)));
-        match key {
-            "" => assert!(value[0]["bytes"].as_u64().unwrap() > 0, "{value}"),
-            key => assert!(!value[key].is_null(), "{words:?}: {key}"),
-        }
+        let value: Value = serde_json::from_str(&text)
+            .unwrap_or_else(|error| panic!("{line}: {error}: {text}{}", stderr(&output)));
+        let found = value.pointer(key).unwrap_or(&Value::Null);
+        assert!(!found.is_null(), "{line}: {key}");
     }
-}
-
-#[test]
-fn colours_can_be_forced_and_disabled() {
-    let sandbox = Sandbox::new();
-    let list = |color: &str| stdout(&sandbox.shuttertruth(&["list", "--color", color]));
-    assert!(list("always").contains('\u{1b}'));
-    assert!(!list("never").contains('\u{1b}'));
 }
 
 #[test]
 fn long_work_is_announced() {
     let sandbox = Sandbox::new();
-    let mut child = sandbox
-        .command(&["run", "--samples-per-pixel", "8192", "--size", "320x180"])
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut run = sandbox.command(&split("run --samples-per-pixel 8192 --size 320x180"));
+    run.stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = run.spawn().unwrap();
     let lines = BufReader::new(child.stderr.take().unwrap()).lines();
-    let expected = lines
-        .map_while(Result::ok)
-        .find(|line| line.starts_with("expected: about "));
+    let mut lines = lines.map_while(Result::ok);
+    let expected = lines.find(|line| line.starts_with("expected: about "));
     child.kill().unwrap();
     child.wait().unwrap();
     let expected = expected.expect("the time is announced before anything is rendered");
-    for words in [" min on ", "MB in out", "GB of memory", "cases"] {
-        assert!(expected.contains(words), "{expected}");
-    }
+    assert_contains(
+        &expected,
+        &[" min on ", "MB in out", "GB of memory", "cases"],
+    );
 }
 
-#[cfg(unix)]
+/// Where no terminal is, and unless messages of drivers are requested.
 #[test]
-fn driver_messages_are_hidden_unless_requested_and_files_follow_the_umask() {
-    use std::os::unix::fs::PermissionsExt;
-
-    let sandbox = Sandbox::new();
-    let words = [&quick_command("run", "16")[..], &["--filters", "identity"]].concat();
-    let output = sandbox
-        .command(&words)
-        .env_remove("XDG_RUNTIME_DIR")
-        .output()
-        .unwrap();
-    assert_done(&output);
-    assert_eq!(stderr(&output), "");
-    let verbose = [&words[..], &["-v"]].concat();
-    let output = sandbox
-        .command(&verbose)
-        .env_remove("XDG_RUNTIME_DIR")
-        .output()
-        .unwrap();
-    assert_done(&output);
-    let probe = sandbox.path("probe");
-    fs::write(&probe, "").unwrap();
-    let mode = |path: &std::path::Path| fs::metadata(path).unwrap().permissions().mode();
-    for file in [
-        "run.json",
-        "report.html",
-        "plate/frame.exr",
-        "plate/frame.png",
-    ] {
-        assert_eq!(
-            mode(&sandbox.path("out").join(file)),
-            mode(&probe),
-            "{file}"
+fn a_short_run_prints_nothing_on_standard_error() {
+    let sandbox = Sandbox::measured();
+    let words = "run --out out --size 64x32 --samples-per-pixel 16 --filters identity";
+    for (more, is_silent) in [("", true), (" -v", false)] {
+        let mut run = sandbox.command(&split(&format!("{words}{more}")));
+        // Drivers complain if it is missing.
+        let output = run.env_remove("XDG_RUNTIME_DIR").output().unwrap();
+        assert_done(&output);
+        assert!(
+            !is_silent || stderr(&output).is_empty(),
+            "{}",
+            stderr(&output)
         );
     }
 }

@@ -1,21 +1,24 @@
 //! three.js, a real engine: its vectors against the tracer's, and its blur. `make test` installs node.
 
-use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
 use filters::Convention;
-use frame::{FAR_DEPTH, Frame, Image, Plane, Raster, Vectors};
+use frame::{
+    ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Plane, Raster, Vectors, VelocityKind, write_exr,
+};
 use tests::text::assert_contains;
-use tests::{root, scenes};
+use tests::{root, scenes, unwatched};
+use tracer::{RenderSettings, load_scene, trace_frame};
 
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
 /// Number of pictures over the shutter.
 const SUBFRAMES: usize = 4;
-const SIZE: &str = "96x54";
+const WIDTH: u32 = 96;
+const HEIGHT: u32 = 54;
 
 /// Copies the example to the target folder, and installs three.js there unless it is installed.
 fn install() -> &'static Path {
@@ -27,43 +30,26 @@ fn install() -> &'static Path {
         let example = root().join("examples/threejs");
         let is_installed = lock(&folder) == lock(&example)
             && folder.join("node_modules/.package-lock.json").is_file();
-        copy_files(&example, &folder);
+        for entry in fs::read_dir(example).unwrap().map(Result::unwrap) {
+            if entry.file_type().unwrap().is_file() {
+                fs::copy(entry.path(), folder.join(entry.file_name())).unwrap();
+            }
+        }
         if !is_installed {
-            run_npm(&folder, ["ci", "--no-audit", "--no-fund"]);
+            run_npm(&folder, &["ci", "--no-audit", "--no-fund"]);
         }
         folder
     })
 }
 
-/// Copies the example with one change of how it draws.
-fn plant(old: &str, new: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    copy_files(install(), folder.path());
-    let modules = "node_modules";
-    std::os::unix::fs::symlink(install().join(modules), folder.path().join(modules)).unwrap();
-    let path = folder.path().join("draw.js");
-    let text = fs::read_to_string(&path).unwrap();
-    assert_eq!(text.matches(old).count(), 1, "draw.js has not one {old}");
-    fs::write(&path, text.replace(old, new)).unwrap();
-    folder
-}
-
-fn copy_files(from: &Path, to: &Path) {
-    for entry in fs::read_dir(from).unwrap().map(Result::unwrap) {
-        if entry.file_type().unwrap().is_file() {
-            fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
-        }
-    }
-}
-
-fn run_npm<S: AsRef<OsStr>>(folder: &Path, words: impl IntoIterator<Item = S>) {
+fn run_npm(folder: &Path, words: &[&str]) {
     let mut command = Command::new("npm");
     let output = command.current_dir(folder).args(words).output();
     let output = output.unwrap_or_else(|error| {
         panic!("npm does not start ({error}): apt-get install nodejs npm, as `make test` does")
     });
-    let said = [output.stdout, output.stderr].map(|said| String::from_utf8(said).unwrap());
-    assert!(output.status.success(), "npm: {}", said.join("\n"));
+    let said = stdout(&output) + &stderr(&output);
+    assert!(output.status.success(), "npm: {said}");
 }
 
 /// A scene as three.js draws it, and as the tracer renders it.
@@ -76,28 +62,27 @@ impl Drawn {
     fn new(scene: &str) -> Self {
         let sandbox = Sandbox::new();
         let folder = scenes().display().to_string();
-        let words = split("engine export --gltf gltf --scenes-dir");
-        sandbox.execute(&[&words, &[&folder, scene][..]].concat());
-        let words =
-            split("truths render --quiet --samples-per-pixel 8 --velocity previous_frame --out r");
-        let scene_words = ["--scenes-dir", &folder, "--scenes", scene, "--size", SIZE];
-        sandbox.execute(&[&words, &scene_words[..]].concat());
-        let frame = Frame::read(&sandbox.path("r").join(scene).join("frame.exr")).unwrap();
-        let drawn = Self { sandbox, frame };
-        drawn.capture(install());
-        drawn
-    }
-
-    /// Lets three.js draw the scene, in place of what it drew before.
-    fn capture(&self, example: &Path) {
-        let mut words: Vec<String> = ["run", "-s", "capture", "--"].map(str::to_owned).into();
-        let gltf = self.sandbox.path("gltf").join(&self.frame.provenance.scene);
-        words.push(gltf.display().to_string());
-        words.extend(["--size".to_owned(), SIZE.to_owned()]);
-        words.extend(["--subframes".to_owned(), SUBFRAMES.to_string()]);
-        let out = self.sandbox.path("capture");
-        words.extend(["--out".to_owned(), out.display().to_string()]);
-        run_npm(example, words);
+        let words = ["engine", "export", "--gltf", "gltf", "--scenes-dir"];
+        sandbox.execute(&[&words, &[folder.as_str(), scene][..]].concat());
+        let settings = RenderSettings {
+            width: WIDTH,
+            height: HEIGHT,
+            samples_per_pixel: 8,
+            options: FrameOptions {
+                velocity: VelocityKind::PreviousFrame,
+                ..FrameOptions::default()
+            },
+            ..RenderSettings::default()
+        };
+        let own = load_scene(scenes().join(scene), None).unwrap();
+        let frame = trace_frame(&own, &settings, &unwatched).unwrap();
+        let [gltf, out] = [format!("gltf/{scene}"), "capture".to_owned()]
+            .map(|below| sandbox.path(&below).display().to_string());
+        let [size, subframes] = [format!("{WIDTH}x{HEIGHT}"), SUBFRAMES.to_string()];
+        let capture = ["run", "-s", "capture", "--", &gltf, "--size", &size];
+        let more = ["--subframes", &subframes, "--out", &out];
+        run_npm(install(), &[&capture[..], &more].concat());
+        Self { sandbox, frame }
     }
 
     fn file(&self, name: &str) -> frame::ExrFile {
@@ -123,26 +108,32 @@ impl Drawn {
         Convention::parse(&path, &fs::read_to_string(&path).unwrap()).unwrap()
     }
 
+    /// Reads velocity as three.js has it: a picture's height and width are 2, and y points up.
     fn velocity(&self) -> Vectors {
         let file = self.file("velocity.exr");
         let [x, y] = ["velocity.X", "velocity.Y"].map(|name| file.plane(name).unwrap());
-        let velocity = x.zip(&y, |x, y| [*x, *y]);
-        (self.convention()).restore_velocity(&velocity, self.frame.exposure)
+        x.zip(&y, |x, y| [*x, *y])
     }
 
     fn depth(&self) -> Plane {
-        self.convention()
-            .restore_depth(&self.file("depth.exr").plane("Z").unwrap())
+        let depth = self.file("depth.exr").plane("Z").unwrap();
+        self.convention().restore_depth(&depth)
     }
 
     /// Audits the capture; returns the exit code and what is printed.
     fn audit(&self) -> (Option<i32>, String) {
         let folder = scenes().display().to_string();
         let words = split("engine audit capture --out audit --scenes-dir");
-        let output = self
-            .sandbox
-            .shuttertruth(&[&words, &[folder.as_str()][..]].concat());
+        let output = (self.sandbox).shuttertruth(&[&words[..], &[&folder]].concat());
         (output.status.code(), stdout(&output) + &stderr(&output))
+    }
+
+    fn change_velocity(&self, change: Change) {
+        let changed = self.velocity().map(|velocity| change(*velocity));
+        let mut file = ExrFile::new(WIDTH, HEIGHT);
+        file.push_plane("velocity.X", &changed.map(|it| it[0]));
+        file.push_plane("velocity.Y", &changed.map(|it| it[1]));
+        write_exr(&self.sandbox.path("capture/velocity.exr"), &file).unwrap();
     }
 
     /// Returns what a measure of every pixel is at the pixels of some objects where both programs see the same one.
@@ -162,16 +153,23 @@ impl Drawn {
         let difference = |own: &[f32; 2], expected: &[f32; 2]| {
             (own[0] - expected[0]).hypot(own[1] - expected[1])
         };
-        self.velocity().zip(&self.frame.velocity, difference)
+        let exposure = self.frame.exposure;
+        let own = self
+            .convention()
+            .restore_velocity(&self.velocity(), exposure);
+        own.zip(&self.frame.velocity, difference)
     }
 }
+
+/// Defect of velocity.
+type Change = fn([f32; 2]) -> [f32; 2];
 
 fn median(sorted: &[f32]) -> f32 {
     sorted[sorted.len() / 2]
 }
 
 #[test]
-fn three_js_s_objects_have_exact_vectors_and_its_blur_adds_a_sixteenth() {
+fn three_js_s_objects_have_exact_vectors_which_the_audit_tells_from_planted_ones() {
     let drawn = Drawn::new("flat_field");
     let is_object = |id| id > 0;
     let speed = drawn.frame.velocity.map(|[x, y]| x.hypot(*y));
@@ -198,6 +196,28 @@ fn three_js_s_objects_have_exact_vectors_and_its_blur_adds_a_sixteenth() {
         let picture = drawn.color(&format!("subframes/{at:04}.exr"));
         assert_eq!(picture.pixels[0], [0.5; 3]);
     }
+    let told = (drawn.sandbox).done("engine ingest capture --out engine");
+    assert_contains(&told, &["makes the picture brighter, 1.0625 times"]);
+
+    let (code, said) = drawn.audit();
+    assert_eq!(code, Some(0), "{said}");
+    let right = fs::read(drawn.sandbox.path("capture/velocity.exr")).unwrap();
+    let planted: [(Change, &str); 4] = [
+        (|[x, y]| [2.0 * x, 2.0 * y], "velocity is twice too long"),
+        (|[x, y]| [x, -y], "velocity has y flipped"),
+        (|_| [0.0; 2], "velocity is zero"),
+        (
+            |[x, y]| [x + 0.01, y + 0.01],
+            "velocity is off by (+0.480, -0.270) px",
+        ),
+    ];
+    for (change, cause) in planted {
+        drawn.change_velocity(change);
+        let (code, said) = drawn.audit();
+        assert_eq!(code, Some(1), "{cause}: {said}");
+        assert_contains(&said, &[cause]);
+        fs::write(drawn.sandbox.path("capture/velocity.exr"), &right).unwrap();
+    }
 }
 
 #[test]
@@ -212,37 +232,9 @@ fn three_js_gives_the_sky_the_motion_of_something_near() {
     assert_eq!(code, Some(1), "{said}");
     assert_contains(&said, &["velocity of `background`"]);
     assert!(!said.contains("velocity of `skyline`"), "{said}");
-    let nothing = drawn
-        .frame
-        .depth
-        .pixels
-        .iter()
-        .filter(|depth| **depth == FAR_DEPTH);
-    let own = drawn.depth();
-    let own = own.pixels.iter().filter(|depth| **depth == FAR_DEPTH);
-    assert!(nothing.count().abs_diff(own.count()) < 50);
-}
-
-#[test]
-fn audit_names_what_is_planted_in_three_js_s_velocity() {
-    let drawn = Drawn::new("flat_field");
-    let (code, said) = drawn.audit();
-    assert_eq!(code, Some(0), "{said}");
-    let told = (drawn.sandbox).execute(&["engine", "ingest", "capture", "--out", "engine"]);
-    assert_contains(&told, &["makes the picture brighter, 1.0625 times"]);
-    for (planted, cause) in [
-        ("velocity.mul(2)", "velocity is twice too long"),
-        ("velocity.mul(vec2(1, -1))", "velocity has y flipped"),
-        ("vec2(0)", "velocity is zero"),
-        (
-            "velocity.add(vec2(0.01))",
-            "velocity is off by (+0.480, -0.270) px",
-        ),
-    ] {
-        let changed = format!("{{ output, velocity: {planted}, ");
-        drawn.capture(plant("{ output, velocity, ", &changed).path());
-        let (code, said) = drawn.audit();
-        assert_eq!(code, Some(1), "{planted}: {said}");
-        assert_contains(&said, &[cause]);
-    }
+    let [own, expected] = [&drawn.depth(), &drawn.frame.depth].map(|depth| {
+        let depths = depth.pixels.iter();
+        depths.filter(|depth| **depth == FAR_DEPTH).count()
+    });
+    assert!(own.abs_diff(expected) < 50, "{own} {expected}");
 }

@@ -1,35 +1,31 @@
 //! Kinds of frames that filters can get.
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, split};
+use std::fs;
+
+use suite::{Case, Run};
+use tests::text::read_rows;
+
+use crate::sandbox::{IDENTITY, Sandbox, assert_refused, split};
 
 /// Model of two colours that meet two pixels beyond the right border, where the plate moves to.
-const TWO_COLOURS: &str = "\
-mtllib plate.mtl
-v -1 -9 0
-v 4.9 -9 0
-v 4.9 9 0
-v -1 9 0
-v 12 -9 0
-v 12 9 0
-usemtl paint
-f 1 2 3 4
-usemtl other
-f 2 5 6 3
-";
-const PAINTS: &str = "newmtl paint\nKd 0 0 0\nKe 0.7 0.4 0.2\nnewmtl other\nKd 0 0 0\nKe 0 0 1\n";
+const TWO_COLOURS: &str = include_str!("../fixtures/models/two_colours.obj");
+const PAINTS: &str = include_str!("../fixtures/models/two_colours.mtl");
 
-fn measure(sandbox: &Sandbox, more: &[&str]) -> suite::Run {
-    assert_done(&sandbox.run(&[&["--filters", "velocity_gather:fine"], more].concat()));
+fn measure(sandbox: &Sandbox, more: &str) -> Run {
+    sandbox.measure(&format!("--filters velocity_gather:fine {more}"));
     sandbox.read_run()
 }
 
+fn find_case(run: &Run) -> &Case {
+    let mut cases = run.cases.iter();
+    cases.find(|case| !case.is_reference).unwrap()
+}
+
 /// Returns the filter's squared error over the whole picture.
-fn error(run: &suite::Run) -> f64 {
-    let filter = run.cases.iter().find(|case| !case.is_reference).unwrap();
-    let json = serde_json::to_value(&filter.scores).unwrap();
-    json["full"]["mse"]["value"]
-        .as_f64()
-        .unwrap_or_else(|| panic!("{json:#}"))
+fn error(run: &Run) -> f64 {
+    let json = serde_json::to_value(&find_case(run).scores).unwrap();
+    let error = json["full"]["mse"]["value"].as_f64();
+    error.unwrap_or_else(|| panic!("{json:#}"))
 }
 
 #[test]
@@ -37,77 +33,55 @@ fn a_guard_band_removes_the_error_at_the_border() {
     let sandbox = Sandbox::new();
     sandbox.write("plate.obj", TWO_COLOURS);
     sandbox.write("plate.mtl", PAINTS);
-    let bare = measure(&sandbox, &[]);
-    let padded = measure(&sandbox, &["--guard-band", "8"]);
-    assert_eq!((bare.render.guard_band, padded.render.guard_band), (0, 8));
-    assert!(
-        error(&padded) < 0.9 * error(&bare),
-        "{} with a band, {} without",
-        error(&padded),
-        error(&bare)
-    );
+    let runs = ["", "--guard-band 8"].map(|more| measure(&sandbox, more));
+    assert_eq!(runs.each_ref().map(|run| run.render.guard_band), [0, 8]);
+    let [bare, padded] = runs.each_ref().map(error);
+    assert!(padded < 0.9 * bare, "{padded} with a band, {bare} without");
 }
 
 #[test]
-fn a_run_records_the_kind_of_its_frames() {
+fn kinds_of_frames_are_recorded_and_sealed_scenes_have_other_truths_and_no_limits() {
     let sandbox = Sandbox::new();
-    let words = split("--velocity camera_only --frame-sampling point --sky-velocity off");
-    let run = measure(&sandbox, &words);
+    let kinds = "--velocity camera_only --frame-sampling point --sky-velocity off";
+    let run = measure(&sandbox, kinds);
     let json = serde_json::to_value(&run).unwrap();
-    assert_eq!(
-        ["velocity", "color", "sky_velocity"].map(|key| json[key].to_string()),
-        ["\"camera_only\"", "\"point\"", "false"]
-    );
-    let other = measure(&sandbox, &[]);
-    assert_ne!(
-        error(&run),
-        error(&other),
-        "the plate's own motion is lost to the camera alone"
-    );
+    let found = ["velocity", "color", "sky_velocity"].map(|key| json[key].to_string());
+    assert_eq!(found, ["\"camera_only\"", "\"point\"", "false"]);
+    fs::remove_dir_all(sandbox.path("out")).unwrap();
+    let plain = measure(&sandbox, "");
+    // The plate's own motion is lost to the camera alone.
+    assert_ne!(error(&run), error(&plain));
+
+    let sealed = measure(&sandbox, "--seal 7");
+    let again = measure(&sandbox, "--scenes plate@seal7");
+    let [case, same] = [&sealed, &again].map(find_case);
+    assert_eq!(case.scene, "plate@seal7");
+    assert_eq!((&case.id, &case.scores), (&same.id, &same.scores));
+    assert_eq!(case.truth_hash, same.truth_hash);
+    assert_ne!(case.truth_hash, find_case(&plain).truth_hash);
+    sandbox.write_bound(0.0001);
+    let refuse = |words: &str, says: &str| {
+        let refused = sandbox.check(&[&IDENTITY[..], &split(words)].concat());
+        assert_refused(&refused, 2, &[says]);
+    };
+    let says = "plate@seal7 / identity:default: has no bound";
+    refuse("--seal 7", says);
+    let says = "--seal: plate@fast is a variant; allowed: scenes in their default variant";
+    refuse("--seal 7 --scenes plate@fast", says);
 }
 
 #[test]
 fn bad_kinds_of_frames_are_refused() {
     let sandbox = Sandbox::new();
-    for (more, parts) in [
-        (
-            ["--frame-sampling", "sharp"],
-            ["sharp", "antialiased, point"],
-        ),
-        (["--color", "point"], ["--color", "auto, always, never"]),
-        (["--sky-velocity", "maybe"], ["maybe", "off"]),
-        (["--guard-band", "wide"], ["--guard-band", "wide"]),
-        (["--guard-band", "99999"], ["200062x200030", "16384"]),
-    ] {
-        let refused = sandbox.run(&[&["--filters", "identity"][..], &more].concat());
+    for (words, parts) in read_rows(
+        "
+        --frame-sampling sharp => sharp | antialiased, point
+        --color point => --color | auto, always, never
+        --sky-velocity maybe => maybe | off
+        --guard-band wide => --guard-band | wide
+        --guard-band 99999 => 200062x200030 | 16384",
+    ) {
+        let refused = sandbox.run(&[&IDENTITY[..], &split(words)].concat());
         assert_refused(&refused, 2, &parts);
     }
-}
-
-#[test]
-fn a_sealed_scene_has_another_truth_and_not_the_limits_of_its_scene() {
-    let sandbox = Sandbox::new();
-    sandbox.write_bound(0.0001);
-    let run = |more: &[&str]| {
-        let run = measure(&sandbox, more);
-        let case = run.cases.iter().find(|case| !case.is_reference).unwrap();
-        (case.scene.clone(), case.truth_hash.clone(), error(&run))
-    };
-    let plain = run(&[]);
-    let sealed = run(&["--seal", "7"]);
-    assert_eq!(sealed, run(&["--scenes", "plate@seal7"]));
-    assert_eq!(sealed.0, "plate@seal7");
-    assert_ne!(sealed.1, plain.1);
-    let check = |more: &[&str]| sandbox.check(&[&["--filters", "identity"], more].concat());
-    assert_refused(
-        &check(&["--seal", "7"]),
-        2,
-        &["plate@seal7 / identity:default: has no bound"],
-    );
-    let variant = check(&["--seal", "7", "--scenes", "plate@fast"]);
-    assert_refused(
-        &variant,
-        2,
-        &["--seal: plate@fast is a variant; allowed: scenes in their default variant"],
-    );
 }

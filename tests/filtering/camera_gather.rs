@@ -1,10 +1,13 @@
 //! The blur without a velocity buffer, against the gather that gets only the camera's velocity.
 
-use filters::{Blur, Filter, Gpu, Input};
-use frame::{Frame, FrameOptions, Image, VelocityKind};
+use filters::Input;
+use frame::{Frame, FrameOptions, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
+use tests::near::assert_within;
+use tests::picture::{frame_input, make_blur};
 use tests::shapes::*;
-use tests::{open_gpu, unwatched};
+use tests::text::assert_contains;
+use tests::unwatched;
 use tracer::{Background, Key, Motion, RenderSettings, Scene, trace_frame};
 
 /// Makes a scene in which a camera flies, turns and zooms past a slanted wall before a sky, and one panel moves by
@@ -22,13 +25,8 @@ fn flight() -> Scene {
         ..Key::REST
     });
     add(&mut scene, rectangle(4.0, 3.0), glowing(0.7), slanted);
-    let at = DVec3::new(1.0, 0.0, -3.0);
-    add(
-        &mut scene,
-        rectangle(0.5, 0.5),
-        glowing(2.0),
-        drift(at, DVec3::Y),
-    );
+    let rising = drift(DVec3::new(1.0, 0.0, -3.0), DVec3::Y);
+    add(&mut scene, rectangle(0.5, 0.5), glowing(2.0), rising);
     let key = |time: f64| Key {
         time,
         translation: DVec3::new(0.3, 0.1, -0.4) * time,
@@ -60,42 +58,22 @@ pub fn render_frame(guard_band: u32) -> Frame {
     trace_frame(&flight(), &settings, &unwatched).expect("settings are allowed")
 }
 
-fn blur_frame(gpu: &Gpu, filter: &str, preset: &str, frame: &Frame) -> Image {
-    let filter = Filter::builtin(filter).unwrap();
-    let settings = filter.settings(Some(preset)).unwrap();
-    let (width, height) = frame.size();
-    let mut blur = Blur::new(gpu, &filter, &settings, width, height).unwrap();
-    let input = Input {
-        color: &[&frame.color],
-        velocity: &frame.velocity,
-        depth: &frame.depth,
-        reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
-        camera: frame.camera,
-        exposure: frame.exposure,
-        frames_per_second: frame.frames_per_second,
-        frame_index: 0,
-    };
-    blur.run(&input).unwrap().remove(0)
-}
-
 #[test]
 fn depth_and_the_previous_camera_give_the_camera_s_velocity() {
-    let gpu = open_gpu();
     for guard_band in [0, 7] {
         let frame = render_frame(guard_band);
         let speeds = frame.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
-        let fastest = speeds.fold(0.0, f32::max);
-        assert!(
-            fastest > 5.0,
-            "the camera moves: {fastest} pixels per frame"
-        );
+        // The camera moves, in pixels per frame.
+        assert_within(speeds.fold(0.0, f32::max), 5.0..);
         // Both take the same eight taps.
-        let rebuilt = blur_frame(&gpu, "camera_gather", "default", &frame);
-        let given = blur_frame(&gpu, "velocity_gather", "coarse", &frame);
-        let differences = rebuilt.pixels.iter().zip(&given.pixels);
-        let worst = differences
-            .map(|(a, b)| (a[0] - b[0]).abs())
-            .fold(0.0, f32::max);
+        let filters = [("camera_gather", "default"), ("velocity_gather", "coarse")];
+        let [rebuilt, given] = filters.map(|(filter, preset)| {
+            let mut blur = make_blur(filter, Some(preset), "", frame.size());
+            let mut outputs = blur.run(&frame_input(&frame, &[&frame.color])).unwrap();
+            outputs.remove(0)
+        });
+        let differences = rebuilt.zip(&given, |a, b| (a[0] - b[0]).abs());
+        let worst = differences.pixels.into_iter().fold(0.0, f32::max);
         // Positions in 32 bits err by 1e-5 pixels, and neighbouring pixels differ by up to 2.
         assert!(worst < 1e-3, "with a band of {guard_band}: {worst}");
         let moved = rebuilt.pixels.iter().zip(&frame.color.pixels);
@@ -106,25 +84,13 @@ fn depth_and_the_previous_camera_give_the_camera_s_velocity() {
 
 #[test]
 fn a_frame_without_the_camera_s_motion_is_refused() {
-    let gpu = open_gpu();
     let frame = render_frame(0);
-    let filter = Filter::builtin("camera_gather").unwrap();
-    let settings = filter.settings(None).unwrap();
-    let (width, height) = frame.size();
-    let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
+    let mut blur = make_blur("camera_gather", None, "", frame.size());
+    let colors = [&frame.color];
     let input = Input {
-        color: &[&frame.color],
-        velocity: &frame.velocity,
-        depth: &frame.depth,
         reprojection: None,
-        camera: None,
-        exposure: frame.exposure,
-        frames_per_second: frame.frames_per_second,
-        frame_index: 0,
+        ..frame_input(&frame, &colors)
     };
     let error = blur.run(&input).unwrap_err().to_string();
-    assert!(
-        error.contains("does not say how the camera moved"),
-        "{error}"
-    );
+    assert_contains(&error, &["does not say how the camera moved"]);
 }

@@ -1,32 +1,36 @@
 //! Velocity and depth fields by formula: the same on every machine.
 
 use filters::{Blur, Input};
-use frame::{FAR_DEPTH, Image, Plane, Raster, Vectors};
+use frame::{FAR_DEPTH, Image, Plane, Raster, Reprojection, Vectors};
 use tests::random::Random;
 
 /// Content of a frame without its provenance.
+#[derive(Clone)]
 pub struct Field {
     pub color: Image,
-    /// Motion, in pixels per frame.
     pub velocity: Vectors,
-    /// Distance, in metres.
     pub depth: Plane,
+    pub reprojection: Option<Reprojection>,
+    pub exposure: f64,
 }
 
 impl Field {
-    /// Runs a filter on the field; returns its picture.
-    pub fn blur(&self, blur: &mut Blur, exposure: f64, frame_index: u32) -> Image {
-        let input = Input {
-            color: &[&self.color],
+    pub fn input<'a>(&'a self, color: &'a [&'a Image], frame_index: u32) -> Input<'a> {
+        Input {
+            color,
             velocity: &self.velocity,
             depth: &self.depth,
-            reprojection: None,
+            reprojection: self.reprojection,
             camera: None,
-            exposure,
+            exposure: self.exposure,
             frames_per_second: None,
             frame_index,
-        };
-        blur.run(&input).unwrap().remove(0)
+        }
+    }
+
+    pub fn blur(&self, blur: &mut Blur, frame_index: u32) -> Image {
+        let mut outputs = blur.run(&self.input(&[&self.color], frame_index)).unwrap();
+        outputs.remove(0)
     }
 }
 
@@ -51,6 +55,8 @@ pub fn noise(width: u32, height: u32, seed: u64) -> Field {
         color,
         velocity,
         depth,
+        reprojection: None,
+        exposure: 1.0,
     }
 }
 
@@ -58,11 +64,8 @@ pub fn noise(width: u32, height: u32, seed: u64) -> Field {
 pub fn rectangles(width: u32, height: u32, seed: u64) -> Field {
     let mut random = Random::new(seed);
     let mut field = noise(width, height, seed);
-    field.velocity = Raster::filled(
-        width,
-        height,
-        [random.real(-9.0, 9.0), random.real(-4.0, 4.0)],
-    );
+    let pan = [random.real(-9.0, 9.0), random.real(-4.0, 4.0)];
+    field.velocity = Raster::filled(width, height, pan);
     field.depth = Raster::filled(width, height, FAR_DEPTH);
     for index in 0..9 {
         let [left, top] = [width, height].map(|side| random.real(-0.1, 0.9) * side as f32);
@@ -71,15 +74,15 @@ pub fn rectangles(width: u32, height: u32, seed: u64) -> Field {
         let motion = [random.real(-40.0, 40.0), random.real(-30.0, 30.0)];
         let motion = if still { [0.0, 0.0] } else { motion };
         let depth = random.real(1.0, 30.0);
-        for y in 0..height {
-            for x in 0..width {
-                let (column, row) = (x as f32, y as f32);
-                let pixel = (y * width + x) as usize;
-                let covers = column >= left && column < right && row >= top && row < bottom;
-                if covers && depth < field.depth.pixels[pixel] {
-                    field.velocity.pixels[pixel] = motion;
-                    field.depth.pixels[pixel] = depth;
-                }
+        for (pixel, (x, y)) in (0..height)
+            .flat_map(|y| (0..width).map(move |x| (x, y)))
+            .enumerate()
+        {
+            let (column, row) = (x as f32, y as f32);
+            let covers = column >= left && column < right && row >= top && row < bottom;
+            if covers && depth < field.depth.pixels[pixel] {
+                field.velocity.pixels[pixel] = motion;
+                field.depth.pixels[pixel] = depth;
             }
         }
     }

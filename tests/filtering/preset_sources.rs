@@ -1,77 +1,25 @@
 //! Sources of presets, and the picture width that a preset was made for.
 
-use filters::{Filter, FilterError, Settings, Value};
-use tests::filter_folder::{load_filter, one_kernel};
-use tests::text::assert_contains;
+use filters::{Filter, Settings, Value};
+use tests::filter_folder::one_kernel;
+
+use crate::filter_files::FilterFiles;
 
 const COMMIT: &str = "0123456789abcdef0123456789abcdef01234567";
 
-const MANIFEST: &str = r#"
-name = "still"
-summary = "Copies the frame."
-alignment = "trailing"
+const PIXELS: &str = "unit = \"pixels\"\n";
 
-[[parameter]]
-name = "tile_size"
-kind = "integer"
-default = 20
-range = [2, 256]
-unit = "pixels"
-doc = "Side of a tile."
-
-[[parameter]]
-name = "threshold"
-kind = "real"
-default = 1.5
-range = [0.25, 4.0]
-unit = "pixels"
-doc = "Shortest trail."
-
-[[parameter]]
-name = "samples"
-kind = "integer"
-default = 8
-range = [1, 64]
-doc = "Taps."
-
-[[preset]]
-name = "engine"
-doc = "As an engine has it."
-reference_width = 1920
-[preset.values]
-samples = 9
-[preset.source]
-repository = "https://example.org/engine"
-commit = "0123456789abcdef0123456789abcdef01234567"
-paths = ["blur.hlsl", "shared/noise.hlsl"]
-publication = "A talk."
-differs = ["Noise is another."]
-
-[[preset]]
-name = "anywhere"
-doc = "The same in pixels at every width."
-
-[[pass]]
-entry = "work"
-"#;
-
-fn load(manifest: &str) -> Result<Filter, FilterError> {
+fn files() -> FilterFiles {
     let kernels = one_kernel(
         "tile_size: i32, threshold: f32, samples: i32",
         "let used = f32(parameters.tile_size) + parameters.threshold + f32(parameters.samples);
         textureStore(output, pixel, textureLoad(color, pixel, 0) + 0.0 * used);",
     );
-    load_filter("still", manifest, &kernels)
-}
-
-/// Loads the filter with one piece of its filter.toml replaced.
-fn load_changed(from: &str, to: &str) -> Result<Filter, FilterError> {
-    assert!(MANIFEST.contains(from), "the filter holds \"{from}\"");
-    load(&MANIFEST.replacen(from, to, 1))
+    FilterFiles::fixture("filters/still").with("still.wgsl", kernels)
 }
 
 fn load_unchanged() -> Filter {
-    load_changed("", "").unwrap()
+    files().load().unwrap()
 }
 
 fn scale(filter: &Filter, settings: &Settings, width: u32) -> [Value; 3] {
@@ -108,7 +56,7 @@ fn a_wrong_source_is_refused_with_place_and_reason() {
     let publication = "publication = \"A talk.\"\n";
     let all = format!("{repository}{commit}{paths}{publication}");
     #[rustfmt::skip]
-    let cases: Vec<(&str, &str, &[&str])> = vec![
+    files().assert_refused("filter.toml", &[
         (&commit, "", &["filter.toml:35", "preset \"engine\"", "commit is missing", "go together"]),
         (repository, "", &["filter.toml:35", "repository is missing"]),
         (paths, "", &["filter.toml:35", "paths is missing"]),
@@ -123,33 +71,22 @@ fn a_wrong_source_is_refused_with_place_and_reason() {
         ("differs", "differ", &["filter.toml:40", "differ"]),
         ("reference_width = 1920", "reference_width = 0", &["filter.toml:32", "reference_width = 0", "1 pixel or more"]),
         ("range = [1, 64]\n", "range = [1, 64]\nunit = \"metres\"\n", &["filter.toml:27", "metres", "pixels"]),
-    ];
-    for (from, to, parts) in cases {
-        println!("{from:?} becomes {to:?}");
-        assert_contains(&load_changed(from, to).unwrap_err().to_string(), parts);
-    }
+    ]);
 }
 
 #[test]
 fn only_parameters_in_pixels_can_be_scaled() {
-    let refuse = |manifest: &str, parts: &[&str]| {
-        assert_contains(&load(manifest).unwrap_err().to_string(), parts);
-    };
-    let without = MANIFEST.replace("unit = \"pixels\"\n", "");
-    refuse(
-        &without,
-        &[
-            "filter.toml:30",
-            "reference_width = 1920",
-            "no parameter has unit",
-        ],
-    );
-    let choice = "kind = \"choice\"\nchoices = [\"a\", \"b\"]\ndefault = \"a\"\n";
+    let parts = [
+        "filter.toml:30",
+        "reference_width = 1920",
+        "no parameter has unit",
+    ];
+    let one = files().changed("filter.toml", PIXELS, "");
+    one.assert_refused("filter.toml", &[(PIXELS, "", &parts)]);
     let number = "kind = \"integer\"\ndefault = 20\nrange = [2, 256]\n";
-    refuse(
-        &MANIFEST.replace(number, choice),
-        &["tile_size", "a choice is counted in nothing"],
-    );
+    let choice = "kind = \"choice\"\nchoices = [\"a\", \"b\"]\ndefault = \"a\"\n";
+    let parts = ["tile_size", "a choice is counted in nothing"];
+    files().assert_refused("filter.toml", &[(number, choice, &parts)]);
 }
 
 #[test]
@@ -191,20 +128,24 @@ fn nothing_is_scaled_as_written() {
 
 #[test]
 fn the_width_of_a_filter_holds_for_presets_without_one_of_their_own() {
-    let own = |text: &str| load(&MANIFEST.replacen("[[parameter]]", text, 1));
-    let filter = own("reference_width = 640\n[[parameter]]").unwrap();
+    let first = "[[parameter]]\nname = \"tile_size\"";
+    let own = |width: u32| format!("reference_width = {width}\n{first}");
+    let filter = files()
+        .changed("filter.toml", first, &own(640))
+        .load()
+        .unwrap();
     let widths = filter.presets.iter().map(|preset| preset.reference_width);
     assert_eq!(widths.collect::<Vec<_>>(), [Some(1920), Some(640)]);
     let anywhere = filter.settings(Some("anywhere")).unwrap();
     assert_eq!(scale(&filter, &anywhere, 160), values(5, 0.375, 8));
-    let refused = own("reference_width = 0\n[[parameter]]").unwrap_err();
     let parts = ["filter.toml:6", "reference_width = 0", "1 pixel or more"];
-    assert_contains(&refused.to_string(), &parts);
+    files().assert_refused("filter.toml", &[(first, &own(0), &parts)]);
     // A filter without presets has one, with every parameter at its default.
-    let (head, presets) = MANIFEST.split_once("[[preset]]").unwrap();
+    let text = files().text("filter.toml");
+    let (head, presets) = text.split_once("[[preset]]").unwrap();
     let (_, passes) = presets.split_once("[[pass]]").unwrap();
-    let without = format!("reference_width = 640{head}[[pass]]{passes}");
-    let filter = load(&without).unwrap();
+    let without = format!("reference_width = 640\n{head}[[pass]]{passes}");
+    let filter = files().with("filter.toml", without).load().unwrap();
     let default = filter.settings(None).unwrap();
     assert_eq!(scale(&filter, &default, 160), values(5, 0.375, 8));
 }

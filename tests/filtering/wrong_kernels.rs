@@ -1,10 +1,11 @@
 //! Kernels that would make a wrong picture. Each is refused with its place, and none is scored.
 
-use filters::{Blur, Filter, FilterError, Gpu};
+use filters::{Blur, FilterError, Gpu};
 use frame::Image;
 use tests::filter_folder::{load_filter, one_kernel};
-use tests::open_gpu;
-use tests::picture::{Picture, gray_moving_by};
+use tests::picture::{Picture, white};
+use tests::text::assert_contains;
+use tests::{open_gpu, shared_gpu};
 
 const MANIFEST: &str = r#"
 name = "wrong"
@@ -23,20 +24,23 @@ doc = "Loop iterations; more take longer."
 entry = "work"
 "#;
 
-/// Loads a filter with one kernel around `body`, and a time limit in seconds.
-fn load(body: &str, limit: f64) -> Filter {
+/// Runs `body` with this many steps, within a time limit in seconds, on a grey picture of 40x20 pixels.
+fn blur(gpu: &Gpu, body: &str, steps: i64, limit: f64) -> Result<Image, FilterError> {
     let manifest = MANIFEST.replace("LIMIT", &limit.to_string());
-    load_filter("wrong", &manifest, &one_kernel("steps: i32", body)).unwrap()
-}
-
-/// Runs `body` with this many steps on a grey picture of 40x20 pixels.
-fn blur(gpu: &Gpu, body: &str, steps: i64, limit: f64) -> Result<Vec<Image>, FilterError> {
-    let filter = load(body, limit);
+    let filter = load_filter("wrong", &manifest, &one_kernel("steps: i32", body)).unwrap();
     let mut settings = filter.settings(None).unwrap();
     settings.set(&filter, "steps", &steps.to_string()).unwrap();
     let (width, height) = (40, 20);
-    let picture = Picture::uniform(width, height, gray_moving_by(3.0));
-    Blur::new(gpu, &filter, &settings, width, height)?.run(&picture.input(&[&picture.color]))
+    let picture = Picture::uniform(width, height, white(3.0));
+    let mut blur = Blur::new(gpu, &filter, &settings, width, height)?;
+    Ok(blur.run(&picture.input(&[&picture.color]))?.remove(0))
+}
+
+/// Fails unless `body` is refused with these words.
+#[track_caller]
+fn assert_refused(body: &str, steps: i64, parts: &[&str]) {
+    let error = blur(shared_gpu(), body, steps, 60.0).unwrap_err();
+    assert_contains(&error.to_string(), parts);
 }
 
 /// Kernel that counts to `steps` in a way that no compiler shortens, and writes the count.
@@ -50,47 +54,24 @@ const COUNT: &str = "
     textureStore(output, pixel, vec4<f32>(f32(count), f32(value & 1u), 0.0, 1.0));
 ";
 
-fn refusal(result: Result<Vec<Image>, FilterError>) -> String {
-    match result {
-        Ok(_) => panic!("this is to be refused"),
-        Err(error) => error.to_string(),
-    }
-}
-
 #[test]
 fn loops_that_the_adapter_cuts_are_refused_and_shorter_ones_complete() {
-    let gpu = open_gpu();
-    let Some(limit) = gpu.loop_limit else {
-        // An adapter without a limit counts to the end.
-        let output = blur(&gpu, COUNT, 1_000_000, 60.0).unwrap();
-        assert_eq!(output[0].at(39, 19)[0], 1e6);
-        return;
-    };
-    println!("{limit:?}");
-    // The iteration that finds the end counts, too.
-    let longest = i64::from(limit.safe()) - 2;
-    let output = blur(&gpu, COUNT, longest, 60.0).unwrap();
-    assert_eq!(output[0].at(39, 19)[0], longest as f32);
-    for steps in [
-        i64::from(limit.safe()),
-        i64::from(limit.iterations) + 1,
-        200_000,
-    ] {
-        let text = refusal(blur(&gpu, COUNT, steps, 60.0));
-        for part in [
-            "filter wrong, pass work",
-            &limit.iterations.to_string(),
-            "allowed",
-        ] {
-            assert!(text.contains(part), "{steps} steps: {text}");
-        }
+    // The iteration that finds the end counts, too. An adapter without a limit counts to the end.
+    let limit = shared_gpu().loop_limit;
+    let longest = limit.map_or(1_000_000, |limit| i64::from(limit.safe()) - 2);
+    let output = blur(shared_gpu(), COUNT, longest, 60.0).unwrap();
+    assert_eq!(output.at(39, 19)[0], longest as f32);
+    let Some(limit) = limit else { return };
+    let iterations = limit.iterations.to_string();
+    let parts = ["filter wrong, pass work", &iterations, "allowed"];
+    for steps in [limit.safe(), limit.iterations + 1, 200_000] {
+        assert_refused(COUNT, steps.into(), &parts);
     }
 }
 
 #[test]
 fn iterations_of_all_loops_and_functions_count_together() {
-    let gpu = open_gpu();
-    let Some(limit) = gpu.loop_limit else {
+    let Some(limit) = shared_gpu().loop_limit else {
         return;
     };
     // Nested loops: the inner ones take the square of the outer iterations.
@@ -104,50 +85,40 @@ fn iterations_of_all_loops_and_functions_count_together() {
     textureStore(output, pixel, vec4<f32>(f32(value & 255u)));
     ";
     let side = f64::from(limit.safe()).sqrt() as i64;
-    blur(&gpu, nested, side / 2, 60.0).unwrap();
-    assert!(refusal(blur(&gpu, nested, side + 1, 60.0)).contains("loop iterations"));
+    blur(shared_gpu(), nested, side / 2, 60.0).unwrap();
+    assert_refused(nested, side + 1, &["loop iterations"]);
 }
 
 #[test]
 fn a_pixel_that_no_pass_writes_is_named() {
-    let gpu = open_gpu();
     let body = "
     if pixel.y == 7 && pixel.x >= 12 { return; }
     textureStore(output, pixel, textureLoad(color, pixel, 0));
     ";
-    let text = refusal(blur(&gpu, body, 1, 60.0));
-    assert!(text.contains("pass work"), "{text}");
-    assert!(
-        text.contains("pixel (12, 7) of the output unwritten"),
-        "{text}"
-    );
+    let parts = ["pass work", "pixel (12, 7) of the output unwritten"];
+    assert_refused(body, 1, &parts);
 }
 
 #[test]
 fn a_pixel_that_is_not_finite_is_named() {
-    let gpu = open_gpu();
     let body = "
     let zero = f32(parameters.steps);
     var grey = textureLoad(color, pixel, 0);
     if pixel.y == 3 && pixel.x == 5 { grey = grey / zero; }
     textureStore(output, pixel, grey);
     ";
-    blur(&gpu, body, 1, 60.0).unwrap();
-    let text = refusal(blur(&gpu, body, 0, 60.0));
-    assert!(text.contains("to pixel (5, 3)"), "{text}");
-    assert!(text.contains("finite"), "{text}");
+    blur(shared_gpu(), body, 1, 60.0).unwrap();
+    assert_refused(body, 0, &["to pixel (5, 3)", "finite"]);
 }
 
 #[test]
 fn a_pass_past_its_time_limit_is_stopped_and_named() {
-    let gpu = open_gpu();
-    // Far more work than a hundredth of a second allows, in loops of allowed length.
-    let text = refusal(blur(&gpu, COUNT, 8000, 1e-4));
-    for part in [
+    // Far more work than the time allows, in loops of allowed length. The adapter stays at work.
+    let error = blur(&open_gpu(), COUNT, 8000, 1e-4).unwrap_err();
+    let parts = [
         "filter wrong, pass work",
         "took longer than 0.0001 s",
         "time_limit",
-    ] {
-        assert!(text.contains(part), "{text}");
-    }
+    ];
+    assert_contains(&error.to_string(), &parts);
 }

@@ -3,17 +3,17 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
-use crate::options::{CASES, Options};
+use crate::options::Options;
 use crate::place::Place;
 use crate::seeds::Seeds;
-use crate::target::Target;
+use crate::target::{SHARES, Target};
 use crate::worker_process::{Ended, PANICKED, try_cases};
 use crate::{fixture, self_test};
 
@@ -44,8 +44,6 @@ pub struct Tally {
 pub struct Failure {
     /// What happened: a panic with its place, the last words of the process, or its time.
     pub how: String,
-    /// File that keeps the input.
-    path: PathBuf,
     case: u64,
     /// Number of inputs that failed the same way.
     count: u64,
@@ -70,12 +68,8 @@ pub fn execute(mut options: Options) -> ExitCode {
     let campaign = Campaign::new(options, LIMIT);
     let Options { cases, minutes, .. } = campaign.options;
     let is_over = || minutes.is_some_and(|limit| began.elapsed().as_secs_f64() > 60.0 * limit);
-    let rounds = match minutes {
-        None => 0..1,
-        Some(_) => 0..u64::MAX,
-    };
-    let cases = minutes.map_or(cases, |_| cases / 10);
-    let batches = rounds.flat_map(|round| campaign.list_batches(cases, round));
+    let rounds = minutes.map_or(1, |_| u64::MAX);
+    let batches = (0..rounds).flat_map(|round| campaign.list_batches(cases, round));
     campaign.run(batches.take_while(|_| !is_over()));
     campaign.print(began.elapsed())
 }
@@ -98,7 +92,7 @@ impl Campaign {
             let seeds = Seeds::read(target, &self.options, &place).count();
             let part = match &self.options.input {
                 Some(_) => 0,
-                None => (target.share * cases).div_ceil(CASES),
+                None => (target.share * cases).div_ceil(SHARES),
             };
             let first = if round == 0 { 0 } else { seeds + round * part };
             let end = seeds + (round + 1) * part;
@@ -110,8 +104,7 @@ impl Campaign {
 
     /// Tries batches on all cores.
     pub fn run(&self, batches: impl Iterator<Item = Batch> + Send) {
-        let batches = batches.par_bridge();
-        batches.for_each(|(target, cases)| self.try_batch(target, cases));
+        (batches.par_bridge()).for_each(|(target, cases)| self.try_batch(target, cases));
     }
 
     /// Tries a batch. Every failed case ends a process, and a new one goes on after it.
@@ -131,29 +124,31 @@ impl Campaign {
             tally.slowest = tally.slowest.max(slowest);
             if let Some((case, how)) = failed {
                 tally.failed += 1;
-                let failure = tally.failures.entry(kind(&how));
-                failure
-                    .or_insert_with(|| self.keep(target, case, how))
-                    .count += 1;
+                let kind = tally.failures.entry(kind(&how));
+                let failure = kind.or_insert_with(|| self.keep(target, case, how));
+                failure.count += 1;
             }
             cases.start = next;
         }
     }
 
-    /// Keeps the input of a failure below the build folder, under the hash of its bytes.
+    /// Keeps the input of a failure below the build folder, under the hash of its bytes, and says how to try it again.
     fn keep(&self, target: &'static Target, case: u64, how: String) -> Failure {
-        eprintln!("fuzz: {}: {how}", target.name);
         let place = Place::new(target.name, &self.options.fixture);
         let input = Seeds::read(target, &self.options, &place).make(&place, case);
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fuzz");
-        let folder = folder.join(target.name);
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+            .join("fuzz")
+            .join(target.name);
         let path = folder.join(&blake3::hash(&input).to_hex()[..16]);
-        fs::create_dir_all(folder)
-            .and_then(|()| fs::write(&path, input))
-            .unwrap_or_else(|error| panic!("{} cannot be written: {error}", path.display()));
+        fs::create_dir_all(folder).expect("the build folder can be written");
+        fs::write(&path, input).expect("the build folder can be written");
+        let path = path.display();
+        let words = format!("--targets {} --input {path}", target.name);
+        let again = format!("cargo test --workspace --locked --test fuzz -- {words}");
+        let how = format!("{how}\n  input: {path}\n  again: {again}");
+        eprintln!("fuzz: {}: {how}", target.name);
         Failure {
             how,
-            path,
             case,
             count: 0,
         }
@@ -164,36 +159,26 @@ impl Campaign {
         let found = self.found.lock().unwrap();
         println!("target           cases  seconds  failed  slowest case");
         for (name, tally) in found.iter() {
-            let (cases, failed, seconds) = (tally.cases, tally.failed, tally.time.as_secs_f64());
-            let (slowest, case) = (tally.slowest.0.as_secs_f64(), tally.slowest.1);
+            let Tally { cases, failed, .. } = tally;
+            let (seconds, (slowest, case)) = (tally.time.as_secs_f64(), tally.slowest);
             println!(
-                "{name:<14} {cases:>7} {seconds:>8.1} {failed:>7}  {slowest:.2} s, case {case}"
+                "{name:<14} {cases:>7} {seconds:>8.1} {failed:>7}  {slowest:.2?}, case {case}"
             );
         }
-        let failures = || {
-            found
-                .iter()
-                .flat_map(|(name, own)| own.failures.values().map(move |it| (name, it)))
-        };
-        for (name, failure) in failures() {
-            let Failure {
-                how,
-                path,
-                case,
-                count,
-            } = failure;
-            let (path, seed) = (path.display(), self.options.seed);
-            println!(
-                "fuzz: {name}: {how} ({count} inputs; the first is case {case} of seed {seed})"
-            );
-            println!("  input: {path}");
-            println!("  again: cargo test --locked -p cli --test fuzz -- --input {path}");
+        let (mut cases, mut kinds) = (0, 0);
+        for (name, tally) in found.iter() {
+            cases += tally.cases;
+            kinds += tally.failures.len();
+            for Failure { how, case, count } in tally.failures.values() {
+                let seed = self.options.seed;
+                println!(
+                    "fuzz: {name}: {count} inputs; the first is case {case} of seed {seed}: {how}"
+                );
+            }
         }
-        let (cases, count): (u64, _) =
-            (found.values().map(|it| it.cases).sum(), failures().count());
         let seconds = time.as_secs_f64();
-        println!("fuzz: {cases} cases in {seconds:.1} s, {count} kinds of failure");
-        ExitCode::from(u8::from(count > 0))
+        println!("fuzz: {cases} cases in {seconds:.1} s, {kinds} kinds of failure");
+        ExitCode::from(u8::from(kinds > 0))
     }
 }
 

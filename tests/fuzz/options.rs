@@ -1,15 +1,14 @@
 //! Options of the fuzzer: the words after `cargo test --test fuzz --`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser};
+use clap::Parser;
 
 use crate::target::{Target, find};
 use crate::targets::ALL;
 
-/// Changed inputs of all targets together when the tests run the fuzzer.
-pub const CASES: u64 = 20_000;
+/// Changed inputs of all targets together, in the tests and in each round of a longer run.
+const CASES: u64 = 1_000;
 
 /// Tries hostile and broken input.
 #[derive(Clone, Parser)]
@@ -21,14 +20,14 @@ pub struct Options {
     /// Changed inputs of all targets together
     #[arg(long, default_value_t = CASES)]
     pub cases: u64,
-    /// Minutes to go on for, in rounds of a tenth of the cases
+    /// Minutes to go on for, in rounds of so many cases
     #[arg(long)]
     pub minutes: Option<f64>,
     /// Seed of the inputs
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Tries this file only; the name of its folder is its target, or --targets names it
-    #[arg(long, value_parser = |path: &str| std::fs::canonicalize(path))]
+    /// Tries this file only
+    #[arg(long, requires = "targets", value_parser = |path: &str| std::fs::canonicalize(path))]
     pub input: Option<PathBuf>,
     /// First case of a worker process, and the one after its last.
     #[arg(long, hide = true, num_args = 2)]
@@ -50,22 +49,12 @@ pub struct Options {
 }
 
 impl Options {
-    /// Returns the chosen targets, or the one of the only input, or all. Slow targets come first.
+    /// Returns the chosen targets, or all. Slow targets come first.
     pub fn chosen(&self) -> Vec<&'static Target> {
-        let mut chosen = match &self.input {
-            _ if !self.targets.is_empty() => self.targets.clone(),
-            None => ALL.iter().filter(|target| target.share > 0).collect(),
-            Some(path) => {
-                let folder = path.parent().and_then(Path::file_name).unwrap_or_default();
-                let found = find(&folder.to_string_lossy());
-                let refuse = |reason| {
-                    Self::command()
-                        .error(ErrorKind::InvalidValue, reason)
-                        .exit()
-                };
-                vec![found.unwrap_or_else(refuse)]
-            }
-        };
+        let mut chosen = self.targets.clone();
+        if chosen.is_empty() {
+            chosen = ALL.iter().filter(|target| target.share > 0).collect();
+        }
         chosen.sort_by_key(|target| target.share);
         chosen
     }

@@ -3,11 +3,14 @@
 use crate::place::Place;
 use crate::targets::ALL;
 
+/// Sum of the targets' shares, about.
+pub const SHARES: u64 = 20_000;
+
 /// One kind of input, and the code that reads it.
 pub struct Target {
     /// Name, also of its folder in the corpus.
     pub name: &'static str,
-    /// Number of its cases among 20,000; 0 if it is left out.
+    /// Number of its cases among [`SHARES`]; 0 if it is left out.
     pub share: u64,
     /// Kind of changes to its inputs.
     pub shape: Shape,
@@ -62,9 +65,6 @@ impl Target {
 /// Finds the target of this name.
 pub fn find(name: &str) -> Result<&'static Target, String> {
     let found = ALL.iter().find(|target| target.name == name);
-    found.ok_or_else(|| {
-        let names: Vec<&str> = ALL.iter().map(|target| target.name).collect();
-        let all = names.join(", ");
-        format!("no target \"{name}\"; allowed: {all}; --targets names that of an input")
-    })
+    let names = || ALL.each_ref().map(|target| target.name).join(", ");
+    found.ok_or_else(|| format!("no target \"{name}\"; allowed: {}", names()))
 }

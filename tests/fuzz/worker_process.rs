@@ -10,6 +10,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use crate::options::Options;
+use crate::place::last_lines;
 use crate::target::Target;
 use crate::worker::MARK;
 
@@ -116,14 +117,7 @@ fn describe_end(child: &mut Child, panic: Option<String>, stderr: &Path) -> Opti
         // A panic that was caught does not end the process.
         (Some(101), _) if panic.is_some() => return panic,
         (_, Some(signal)) => format!("signal {signal}"),
-        (code, None) => format!("exit code {}", code.unwrap_or(-1)),
+        (code, None) => format!("exit code {}", code.unwrap_or_default()),
     };
-    let text = std::fs::read(stderr).unwrap_or_default();
-    let text = String::from_utf8_lossy(&text);
-    let lines: Vec<&str> = text
-        .lines()
-        .filter(|line| !line.trim().is_empty())
-        .collect();
-    let last = lines[lines.len().saturating_sub(3)..].join(" ");
-    Some(format!("ended by {how}: {last}"))
+    Some(format!("ended by {how}: {}", last_lines(stderr)))
 }

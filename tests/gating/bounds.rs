@@ -1,101 +1,122 @@
 //! The rules of bounds.
 
 use std::fs;
+use std::path::PathBuf;
 
-use cli::Programs;
-use judge::{Level, SceneBounds};
+use cli::{Programs, select_filters};
+use judge::{Level, SceneBounds, check_names, read_bounds, size_for_bounds};
 use metrics::{Metric, SequenceMetric};
-use suite::Frames;
+use serde::Deserialize;
+use suite::{Error, FilterChoice, Frames};
 use tests::text::assert_contains;
 
-/// Reads the bounds of a folder with one scene, `fan`, from texts beside the scenes and beside the scene.
-fn read(beside_scenes: &str, beside_scene: &str) -> Result<SceneBounds, String> {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("fan");
-    fs::create_dir(&scene).unwrap();
-    fs::write(scene.join("scene.toml"), "").unwrap();
-    for (place, text) in [(folder.path(), beside_scenes), (&scene, beside_scene)] {
-        fs::write(place.join("bounds.toml"), text).unwrap();
+/// Folder of scenes with one scene, `fan`.
+struct Scenes(tempfile::TempDir);
+
+impl Scenes {
+    fn new() -> Self {
+        let scenes = Self(tempfile::tempdir().unwrap());
+        fs::create_dir(scenes.fan()).unwrap();
+        scenes.write("fan/scene.toml", "");
+        scenes
     }
-    let filters =
-        cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
-    let check = || {
-        let bounds = judge::read_bounds(folder.path(), &scene, None)?;
-        judge::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
-        let fan = tracer::SceneId::new("fan", None);
-        let scenes = std::iter::once((&fan, &bounds));
-        judge::require_bounds(folder.path(), scenes, &filters, Frames::default())?;
+
+    fn fan(&self) -> PathBuf {
+        self.0.path().join("fan")
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.0.path().join(name), text).unwrap();
+    }
+
+    /// Reads the bounds of `fan` for pictures of a size, and checks the names in them.
+    fn read(&self, size: Option<(u32, u32)>) -> Result<SceneBounds, Error> {
+        let bounds = read_bounds(self.0.path(), self.fan(), size)?;
+        check_names(self.0.path(), std::iter::once(&bounds), &identity())?;
         Ok(bounds)
-    };
-    check().map_err(|error: suite::Error| {
-        let folder = folder.path().display().to_string();
-        error.to_string().replace(&folder, "scenes")
-    })
+    }
 }
 
-fn limit(limit: f64) -> String {
-    format!("{{ limit = {limit}, why = \"it serves a test\" }}\n")
+fn identity() -> Vec<FilterChoice> {
+    select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap()
+}
+
+/// Reads bounds from texts beside the scenes and beside `fan`, as `check` does before it measures the identity.
+fn read(shared: &str, own: &str) -> Result<SceneBounds, String> {
+    let scenes = Scenes::new();
+    scenes.write("bounds.toml", shared);
+    scenes.write("fan/bounds.toml", own);
+    let root = scenes.0.path();
+    let check = || {
+        let bounds = scenes.read(None)?;
+        let fan = tracer::SceneId::new("fan", None);
+        let all = std::iter::once((&fan, &bounds));
+        judge::require_bounds(root, all, &identity(), Frames::default())?;
+        Ok(bounds)
+    };
+    check()
+        .map_err(|error: Error| (error.to_string()).replace(&root.display().to_string(), "scenes"))
+}
+
+/// Writes a line that limits a metric; `keys` are more keys of it, each with a comma behind.
+fn line(metric: &str, limit: f64, keys: &str) -> String {
+    format!("{metric} = {{ limit = {limit}, {keys} why = \"w\" }}\n")
 }
 
 #[test]
 fn every_metric_except_those_for_reports_can_have_a_bound() {
     for metric in Metric::all() {
-        let bounds = read(&format!("[default]\n{metric} = {}", limit(0.25)), "");
+        let text = line(&metric.name(), 0.25, "");
+        let bounds = read(&format!("[default]\n{text}"), "");
         if metric.row().report_only.is_some() {
-            let message = bounds.unwrap_err();
-            assert!(message.contains("bounds.toml:2: "), "{message}");
-            assert!(message.contains("is for reports and no bound"), "{message}");
+            let parts = ["bounds.toml:2: ", "is for reports and no bound"];
+            assert_contains(&bounds.unwrap_err(), &parts);
             continue;
         }
-        let bounds = bounds.unwrap();
-        let bounds = bounds.of("identity", "default");
-        let names: Vec<_> = bounds.iter().map(|(own, b)| (*own, b.limit)).collect();
-        assert_eq!(names, [(metric, 0.25)]);
-        assert_eq!(bounds[&metric].level, Level::Required);
+        let bounds = bounds.unwrap().of("identity", "default");
+        let found: Vec<_> = bounds
+            .iter()
+            .map(|(own, b)| (*own, b.limit, b.level))
+            .collect();
+        assert_eq!(found, [(metric, 0.25, Level::Required)]);
     }
 }
 
 #[test]
 fn limits_hold_only_at_their_own_size() {
-    let everywhere = format!("[default]\nflip_moving = {}", limit(0.1));
+    let everywhere = format!("[default]\n{}", line("flip_moving", 0.1, ""));
     let of = |filter: &str, size: &str| {
-        let text = format!(
-            "[filter.{filter}]\nflip_moving = {{ limit = 0.2, {size} why = \"it serves a test\" }}\n"
-        );
-        read(&everywhere, &text).unwrap()
+        let own = line("flip_moving", 0.2, size);
+        read(&everywhere, &format!("[filter.{filter}]\n{own}")).unwrap()
     };
     let small = of("identity", "size = [160, 90],");
     let large = of("identity", "size = [320, 180],");
     let any = of("identity", "");
     let another = of("kino", "size = [320, 180],");
-    let filters =
-        cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
     let size = |bounds: &[&SceneBounds], asked| {
-        let size = judge::size_for_bounds(bounds.iter().copied(), &filters, asked);
+        let size = size_for_bounds(bounds.iter().copied(), &identity(), asked);
         size.map_err(|error| error.to_string())
     };
-    assert_eq!(size(&[&any, &small], None), Ok(Some((160, 90))));
-    assert_eq!(
-        size(&[&small, &another], Some((160, 90))),
-        Ok(Some((160, 90)))
-    );
+    let asked = Some((160, 90));
+    assert_eq!(size(&[&any, &small], None), Ok(asked));
+    assert_eq!(size(&[&small, &another], asked), Ok(asked));
     assert_eq!(size(&[&any, &another], Some((64, 32))), Ok(Some((64, 32))));
     assert_eq!(size(&[&any], None), Ok(None));
-    let refused = size(&[&small], Some((320, 180))).unwrap_err();
-    for part in [
-        "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and the pictures are to have 320x180",
-        "`shuttertruth limits calibrate`",
-    ] {
-        assert!(refused.contains(part), "{refused}");
-    }
-    let two = size(&[&small, &large], None).unwrap_err();
-    for part in [
-        "fan/bounds.toml:2: ",
-        "for 320x180, that of",
-        "for 160x90; check them apart",
-    ] {
-        assert!(two.contains(part), "{two}");
-    }
+    assert_contains(
+        &size(&[&small], Some((320, 180))).unwrap_err(),
+        &[
+            "fan/bounds.toml:2: the limit on flip_moving holds for 160x90, and the pictures are to have 320x180",
+            "`shuttertruth limits calibrate`",
+        ],
+    );
+    assert_contains(
+        &size(&[&small, &large], None).unwrap_err(),
+        &[
+            "fan/bounds.toml:2: ",
+            "for 320x180, that of",
+            "for 160x90; check them apart",
+        ],
+    );
     // At another size, the limit for any size is left.
     let left = |size| small.clone().at(size).of("identity", "default")[&Metric::FLIP].limit;
     assert_eq!([left((160, 90)), left((320, 180))], [0.2, 0.1]);
@@ -103,269 +124,123 @@ fn limits_hold_only_at_their_own_size() {
 
 #[test]
 fn every_metric_of_sequences_can_have_a_bound_for_a_number_of_frames() {
-    let single = format!("[default]\nflip_moving = {}", limit(0.1));
-    let filters =
-        cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
+    let single = format!("[default]\n{}", line("flip_moving", 0.1, ""));
+    let at = |count, per_second| Frames { count, per_second };
     for metric in SequenceMetric::ALL {
         let name = metric.row().name;
-        let fps = match metric.depends_on_rate() {
-            true => "fps = 60.0, ",
-            false => "",
+        let has_rate = metric.depends_on_rate();
+        let keys = if has_rate {
+            "frames = 4, fps = 60.0,"
+        } else {
+            "frames = 4,"
         };
-        let text = format!(
-            "[filter.identity]\n{name} = {{ limit = 0.25, frames = 4, {fps}why = \"w\" }}\n"
-        );
+        let text = format!("[filter.identity]\n{}", line(name, 0.25, keys));
         let bounds = read(&single, &text).unwrap();
-        assert_eq!(
-            bounds.of("identity", "default")[&Metric::Sequence(metric)].limit,
-            0.25
-        );
-        let at = |count, per_second| Frames { count, per_second };
-        let lengths = |frames| {
-            let scenes = std::iter::once(&bounds);
-            judge::check_lengths(scenes, &filters, frames).map_err(|error| error.to_string())
-        };
+        let metric = Metric::Sequence(metric);
+        assert_eq!(bounds.of("identity", "default")[&metric].limit, 0.25);
         // Single frames leave it alone, and another length is refused before anything is rendered.
-        assert_eq!(lengths(at(1, 60.0)), Ok(()));
-        assert_eq!(lengths(at(4, 60.0)), Ok(()));
+        let lengths = |frames| judge::check_lengths(std::iter::once(&bounds), &identity(), frames);
+        assert!(lengths(at(1, 60.0)).is_ok());
+        assert!(lengths(at(4, 60.0)).is_ok());
         let start =
             format!("fan/bounds.toml:2: the limit on {name} holds for sequences of 4 frames");
-        assert_contains(
-            &lengths(at(3, 60.0)).unwrap_err(),
-            &[&start, "to have 3 frames"],
-        );
-        assert_eq!(lengths(at(4, 24.0)).is_err(), metric.depends_on_rate());
+        let refused = lengths(at(3, 60.0)).unwrap_err().to_string();
+        assert_contains(&refused, &[&start, "to have 3 frames"]);
+        assert_eq!(lengths(at(4, 24.0)).is_err(), has_rate);
         // `run` leaves out limits for another length, as it does those for another size.
         let left = |frames| bounds.clone().over(frames).of("identity", "default");
-        assert!(left(at(4, 60.0)).contains_key(&Metric::Sequence(metric)));
-        assert!(!left(at(1, 60.0)).contains_key(&Metric::Sequence(metric)));
+        assert!(left(at(4, 60.0)).contains_key(&metric));
+        assert!(!left(at(1, 60.0)).contains_key(&metric));
         assert!(left(at(1, 60.0)).contains_key(&Metric::FLIP));
         // Limits that nothing judges are no check.
-        assert_contains(
-            &read("", &text).unwrap_err(),
-            &[
-                "fan / identity:default: all its bounds are on sequences of other lengths, such as 4 frames",
-            ],
-        );
+        let none = "fan / identity:default: all its bounds are on sequences of other lengths, such as 4 frames";
+        assert_contains(&read("", &text).unwrap_err(), &[none]);
     }
 }
 
 #[test]
 fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("fan");
-    fs::create_dir(&scene).unwrap();
-    fs::write(scene.join("scene.toml"), "").unwrap();
-    let write = |name: &str, text: &str| fs::write(scene.join(name), text).unwrap();
-    let table = |limit: f64, size: &str| {
-        format!(
-            "[filter.identity]\nflip_moving = {{ limit = {limit}, {size} why = \"it serves a test\" }}\n"
-        )
-    };
-    let filters =
-        cli::select_filters(&["identity".to_owned()], None, &[], Programs::Refused).unwrap();
+    let scenes = Scenes::new();
+    let write = |size: &str, text: &str| scenes.write(&format!("fan/bounds{size}.toml"), text);
+    let table =
+        |limit, size: &str| format!("[filter.identity]\n{}", line("flip_moving", limit, size));
     let read = |asked| {
-        let bounds = judge::read_bounds(folder.path(), &scene, asked)?;
-        judge::check_names(folder.path(), std::iter::once(&bounds), &filters)?;
-        let size = judge::size_for_bounds(std::iter::once(&bounds), &filters, asked)?;
+        let bounds = scenes.read(asked)?;
+        let size = size_for_bounds(std::iter::once(&bounds), &identity(), asked)?;
         let limit = bounds.of("identity", "default")[&Metric::FLIP].limit;
-        Ok::<_, suite::Error>((limit, size))
+        Ok::<_, Error>((limit, size))
     };
-    let refused = |asked| read(asked).unwrap_err().to_string();
-    write("bounds.toml", &table(0.2, "size = [160, 90],"));
-    write("bounds_1280x720.toml", &table(0.1, ""));
+    let refused =
+        |asked, part: &str| assert_contains(&read(asked).unwrap_err().to_string(), &[part]);
+    let large = Some((1280, 720));
+    write("", &table(0.2, "size = [160, 90],"));
+    write("_1280x720", &table(0.1, ""));
     assert_eq!(read(None).unwrap(), (0.2, Some((160, 90))));
     assert_eq!(read(Some((160, 90))).unwrap(), (0.2, Some((160, 90))));
-    assert_eq!(read(Some((1280, 720))).unwrap(), (0.1, Some((1280, 720))));
-    assert_contains(
-        &refused(Some((320, 180))),
-        &["put them into bounds_320x180.toml beside the scene"],
+    assert_eq!(read(large).unwrap(), (0.1, large));
+    refused(
+        Some((320, 180)),
+        "put them into bounds_320x180.toml beside the scene",
     );
 
-    write("bounds_1280x720.toml", &table(0.1, "size = [160, 90],"));
-    let other_size = [
-        "fan/bounds_1280x720.toml:2: flip_moving: size = [160, 90] in a file for 1280x720",
-        "move the limit to bounds_160x90.toml",
-    ];
+    write("_1280x720", &table(0.1, "size = [160, 90],"));
     // Files for sizes that nobody asked for are checked as well.
-    assert_contains(&refused(None), &other_size);
-    assert_contains(&refused(Some((1280, 720))), &other_size);
-    write("bounds_1280x720.toml", "[margin]\nflip_moving = 0.1\n");
-    assert_contains(
-        &refused(Some((1280, 720))),
-        &["bounds_1280x720.toml:2: a margin is for pictures of every size"],
+    for asked in [None, large] {
+        refused(
+            asked,
+            "fan/bounds_1280x720.toml:2: flip_moving: size = [160, 90] in a file for 1280x720",
+        );
+        refused(asked, "move the limit to bounds_160x90.toml");
+    }
+    write("_1280x720", "[margin]\nflip_moving = 0.1\n");
+    refused(
+        large,
+        "bounds_1280x720.toml:2: a margin is for pictures of every size",
     );
-    write("bounds_1280x720.toml", &table(0.1, ""));
-    write("bounds_720p.toml", &table(0.1, ""));
-    assert_contains(
-        &refused(None),
-        &[
-            "bounds_720p.toml: nothing reads a file of that name; allowed: bounds.toml, and bounds_COLUMNSxROWS.toml",
-        ],
-    );
+    write("_1280x720", &table(0.1, ""));
+    write("_720p", &table(0.1, ""));
+    let name = "bounds_720p.toml: nothing reads a file of that name; allowed: bounds.toml, and bounds_COLUMNSxROWS.toml";
+    refused(None, name);
+}
+
+/// A row of refused_bounds.toml.
+#[derive(Deserialize)]
+struct Refused {
+    /// Bounds beside the scenes; if none are given, good ones.
+    shared: Option<String>,
+    /// Bounds beside the scene.
+    #[serde(default)]
+    own: String,
+    /// Parts of the error.
+    says: Vec<String>,
 }
 
 #[test]
 fn bounds_that_mean_nothing_are_refused_with_file_and_line() {
-    let good = format!("[default]\nflip_moving = {}", limit(0.1));
-    let rows: &[(&str, &str, &[&str])] = &[
-        (
-            "\n[default]\nflip = { limit = 0.1, why = \"w\" }",
-            "",
-            &["scenes/bounds.toml:3: metric \"flip\" is unknown; allowed: mse_moving"],
-        ),
-        (
-            "[default]\nflicker = { limit = 0.1, why = \"w\" }",
-            "",
-            &[
-                "scenes/bounds.toml:2: flicker: is a score of a sequence",
-                "such as frames = 4",
-            ],
-        ),
-        (
-            "[default]\njod = { limit = 9, frames = 4, why = \"w\" }",
-            "",
-            &[
-                "scenes/bounds.toml:2: jod: depends on the rate",
-                "such as fps = 60",
-            ],
-        ),
-        (
-            "[default]\nflip_moving = { limit = 0.1, frames = 4, why = \"w\" }",
-            "",
-            &[
-                "scenes/bounds.toml:2: flip_moving: is a score of a single frame",
-                "leave it out",
-            ],
-        ),
-        (
-            "[default]\nflip = { limit = 0.1, why = \"w\" }",
-            "",
-            &["; of sequences: error, flicker"],
-        ),
-        (
-            "[margin]\nflicker = 0.1",
-            "",
-            &[
-                "scenes/bounds.toml:2: margin of flicker: baselines hold scores of single frames only",
-            ],
-        ),
-        (
-            "[default]\nflip_moving = { limit = nan, why = \"w\" }",
-            "",
-            &["scenes/bounds.toml:2: flip_moving: limit = NaN; allowed: a finite number"],
-        ),
-        (
-            "[default]\nflip_moving = 0.1",
-            "",
-            &["scenes/bounds.toml:2: ", "a bound is a table", "why"],
-        ),
-        (
-            "[default]\nflip_moving = { limit = 0.1 }",
-            "",
-            &["scenes/bounds.toml:2: flip_moving: has no why", "one line"],
-        ),
-        (
-            "[default]\nflip_moving = { limit = 0.1, why = \"a\\nb\" }",
-            "",
-            &["bounds.toml:2: flip_moving: why = \"a\\nb\"", "one line"],
-        ),
-        (
-            "[default]\nflip_moving = { limit = 0.1, why = \"w\", level = \"maybe\" }",
-            "",
-            &["scenes/bounds.toml:2: ", "maybe", "required", "report"],
-        ),
-        (
-            "[default]\nflip_moving = { limit = 0.1, size = [160, 0], why = \"w\" }",
-            "",
-            &[
-                "scenes/bounds.toml:2: flip_moving: size = [160, 0]; allowed: columns and rows from 16 to 16384",
-            ],
-        ),
-        (
-            "[default]\nflip_moving = { limit = 0.1, size = \"160x90\", why = \"w\" }",
-            "",
-            &["scenes/bounds.toml:2: ", "160x90"],
-        ),
-        (
-            "flip_moving = 0.05",
-            "",
-            &["scenes/bounds.toml:1: ", "flip_moving", "default"],
-        ),
-        (
-            &good,
-            "[filter.jumpflood]\nextent = { limit = 0.1, why = \"w\" }",
-            &[
-                "scenes/fan/bounds.toml:1: no filter is called \"jumpflood\"; allowed: ",
-                "jump_flood",
-            ],
-        ),
-        (
-            &good,
-            "\n[filter.\"jump_flood:fastest\"]\nextent = { limit = 0.1, why = \"w\" }",
-            &[
-                "scenes/fan/bounds.toml:2: the filter jump_flood has no preset \"fastest\"",
-                "paper",
-            ],
-        ),
-        (
-            "[margin]\nflip_moving = -0.1",
-            "",
-            &["scenes/bounds.toml:2: margin of flip_moving is -0.1; allowed: 0 or more"],
-        ),
-        (
-            &good,
-            "[margin]\nflip_moving = 0.1",
-            &[
-                "scenes/fan/bounds.toml:2: a margin is for all scenes",
-                "scenes/bounds.toml",
-            ],
-        ),
-        (
-            "",
-            "",
-            &["fan / identity:default: has no bound", "[default]"],
-        ),
-        (
-            "[filter.jump_flood]\nextent = { limit = 0.1, why = \"w\" }",
-            "",
-            &["fan / identity:default: has no bound"],
-        ),
-        (
-            "[default]\nflip_moving = { limit = 0.1, why = \"w\", level = \"report\" }",
-            "",
-            &[
-                "no bound of identity:default is required",
-                "level = \"required\"",
-            ],
-        ),
-    ];
-    for (beside_scenes, beside_scene, parts) in rows {
-        let message = read(beside_scenes, beside_scene).unwrap_err();
-        assert_contains(&message, parts);
+    #[derive(Deserialize)]
+    struct Table {
+        refused: Vec<Refused>,
+    }
+    let good = format!("[default]\n{}", line("flip_moving", 0.1, ""));
+    let table: Table = toml::from_str(include_str!("refused_bounds.toml")).unwrap();
+    for Refused { shared, own, says } in table.refused {
+        let message = read(shared.as_ref().unwrap_or(&good), &own).unwrap_err();
+        let says: Vec<&str> = says.iter().map(String::as_str).collect();
+        assert_contains(&message, &says);
     }
 }
 
 #[test]
 fn bounds_of_a_scene_that_does_not_exist_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::create_dir(folder.path().join("fna")).unwrap();
-    fs::write(folder.path().join("fna/bounds.toml"), "").unwrap();
-    let message = judge::check_names(folder.path(), std::iter::empty(), &[]).unwrap_err();
-    assert!(
-        message.to_string().contains("fna has no scene.toml"),
-        "{message}"
-    );
+    let scenes = Scenes::new();
+    scenes.write("fan/bounds.toml", "");
+    fs::remove_file(scenes.fan().join("scene.toml")).unwrap();
+    let refused = check_names(scenes.0.path(), std::iter::empty(), &[]).unwrap_err();
+    assert_contains(&refused.to_string(), &["fan has no scene.toml"]);
 }
 
 #[test]
 fn a_narrower_bound_overrides_a_wider_one_and_a_scene_s_bound_overrides_the_shared_one() {
-    let level = |table: &str, limits: &[(&str, f64)]| {
-        let lines = limits
-            .iter()
-            .map(|(name, value)| format!("{name} = {}", limit(*value)));
-        format!("[{table}]\n{}", lines.collect::<String>())
-    };
     let names = [
         "flip_moving",
         "mse_moving",
@@ -374,27 +249,28 @@ fn a_narrower_bound_overrides_a_wider_one_and_a_scene_s_bound_overrides_the_shar
         "hole",
         "deficit",
     ];
-    let limits = |count: usize, value: f64| -> Vec<(&str, f64)> {
-        names[..count].iter().map(|name| (*name, value)).collect()
+    let table = |name: &str, count: usize, limit: f64| {
+        let lines = names[..count].iter().map(|metric| line(metric, limit, ""));
+        format!("[{name}]\n{}", lines.collect::<String>())
     };
-    let all = level("default", &limits(6, 1.0))
-        + &level("filter.identity", &limits(5, 2.0))
-        + &level("filter.\"identity:default\"", &limits(4, 3.0))
-        + &level("filter.jump_flood", &limits(6, 7.0));
-    let own = level("default", &limits(3, 4.0))
-        + &level("filter.identity", &limits(2, 5.0))
-        + &level("filter.\"identity:default\"", &limits(1, 6.0));
-    let bounds = read(&all, &own).unwrap();
-    let found = bounds.of("identity", "default");
-    let found: Vec<f64> = names
-        .iter()
-        .map(|name| found[&name.parse().unwrap()].limit)
-        .collect();
-    assert_eq!(found, [6.0, 5.0, 4.0, 3.0, 2.0, 1.0]);
-    let other = bounds.of("velocity_gather", "fine");
-    let found: Vec<f64> = names
-        .iter()
-        .map(|name| other[&name.parse().unwrap()].limit)
-        .collect();
-    assert_eq!(found, [4.0, 4.0, 4.0, 1.0, 1.0, 1.0]);
+    let shared = table("default", 6, 1.0)
+        + &table("filter.identity", 5, 2.0)
+        + &table("filter.\"identity:default\"", 4, 3.0)
+        + &table("filter.jump_flood", 6, 7.0);
+    let own = table("default", 3, 4.0)
+        + &table("filter.identity", 2, 5.0)
+        + &table("filter.\"identity:default\"", 1, 6.0);
+    let bounds = read(&shared, &own).unwrap();
+    let limits = |filter, preset| {
+        let found = bounds.of(filter, preset);
+        names.map(|name| found[&name.parse().unwrap()].limit)
+    };
+    assert_eq!(
+        limits("identity", "default"),
+        [6.0, 5.0, 4.0, 3.0, 2.0, 1.0]
+    );
+    assert_eq!(
+        limits("velocity_gather", "fine"),
+        [4.0, 4.0, 4.0, 1.0, 1.0, 1.0]
+    );
 }

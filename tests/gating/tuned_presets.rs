@@ -13,32 +13,32 @@ use tune::{
 
 const TUNED: [&str; 2] = ["jump_flood", "mcguire"];
 
-/// Loads the shipped scenes except some.
-fn scenes_but(left_out: &[String]) -> Vec<(Scene, SceneBounds)> {
+/// Loads the named shipped scenes, or all, except those that a tuning used.
+fn held_out(names: &[&str], used: &[String]) -> Vec<(Scene, SceneBounds)> {
     let root = tests::scenes();
-    let all = select_scenes(&root, &[]).unwrap().into_iter();
-    all.filter(|choice| !left_out.contains(&choice.scene.id.to_string()))
-        .map(|choice| {
-            let bounds = read_bounds(&root, &choice.folder, None).unwrap();
-            (choice.scene, bounds)
-        })
+    let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+    let mut choices = select_scenes(&root, &names).unwrap();
+    choices.retain(|choice| !used.contains(&choice.scene.id.to_string()));
+    let bounds = |folder| read_bounds(&root, folder, None).unwrap();
+    choices
+        .into_iter()
+        .map(|choice| (choice.scene, bounds(choice.folder)))
         .collect()
 }
 
-/// Settings of the truths. docs/tune.md gives results of more samples. Both presets see the same noise, which only hides differences,
-/// and so few samples give the same verdict.
-fn render() -> RenderSettings {
-    RenderSettings {
+/// Compares a filter's tuned preset with the one that the search started from. Lengths in pixels are as written, or scaled to
+/// the picture, as users have them.
+///
+/// docs/tune.md gives results of more samples. Both presets see the same noise, which only hides differences, and so few
+/// samples give the same verdict.
+fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedComparison, String) {
+    let gpu = open_gpu();
+    let render = RenderSettings {
+        width,
+        height: width * 9 / 16,
         samples_per_pixel: 32,
         ..RenderSettings::default()
-    }
-}
-
-/// Compares a filter's tuned preset with the one that the search started from, on the scenes that it did not use. Lengths in pixels
-/// are as written, or scaled to the picture, as users have them.
-fn compare(name: &str, as_written: bool) -> (PairedComparison, String) {
-    let gpu = open_gpu();
-    let render = render();
+    };
     // Truths stay from one run of the tests to the next.
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tuned");
     let choice = select_filters(&[format!("{name}:tuned")], None, &[], Programs::Refused)
@@ -47,9 +47,9 @@ fn compare(name: &str, as_written: bool) -> (PairedComparison, String) {
         .as_written(as_written);
     let mut presets = choice.filter.presets.iter();
     let tuned = presets.find_map(|preset| preset.tuned.as_ref()).unwrap();
-    let scenes = scenes_but(&tuned.scenes);
+    let scenes = held_out(names, &tuned.scenes);
     assert!(
-        scenes.len() >= 9,
+        scenes.len() >= 5,
         "{name}: too few scenes are left to prove anything on"
     );
     let alignment = choice.filter.alignment;
@@ -57,22 +57,36 @@ fn compare(name: &str, as_written: bool) -> (PairedComparison, String) {
     let mut evaluator =
         Evaluator::new(Some(&gpu), &choice, &rendered, true, Monitor::SILENT).unwrap();
     let [published, own] =
-        [&tuned.from, "tuned"].map(|preset| choice.preset_at(preset, render.width).unwrap());
+        [&tuned.from, "tuned"].map(|preset| choice.preset_at(preset, width).unwrap());
     let paired = compare_candidates(&mut evaluator, &published, &own).unwrap();
-    let table = paired_table(&paired, [&tuned.from, "tuned"]);
-    println!("{name}\n{table}");
+    let table = format!("{name}\n{}", paired_table(&paired, [&tuned.from, "tuned"]));
+    println!("{table}");
     (paired, table)
 }
 
-#[test]
-fn tuned_presets_beat_published_ones_on_held_out_scenes() {
+/// Checks both filters; if lengths are as written, bleed may not be worse either.
+fn check(names: &[&str], width: u32, as_written: bool) {
     for name in TUNED {
-        let (written, table) = compare(name, true);
-        assert_eq!(written.flip.verdict, Preference::Second, "{name}\n{table}");
-        let bleed = written.bleed.expect("some scenes have bleed");
-        assert!(bleed.is_no_worse(LEAST_BLEED), "{name}\n{table}");
+        let (found, table) = compare(name, names, width, as_written);
+        assert_eq!(found.flip.verdict, Preference::Second, "{table}");
         // Scaled to these small pictures, the lengths of `paper` are so short that it hardly bleeds.
-        let (scaled, table) = compare(name, false);
-        assert_eq!(scaled.flip.verdict, Preference::Second, "{name}\n{table}");
+        let bleed = found.bleed.expect("some scenes have bleed");
+        assert!(!as_written || bleed.is_no_worse(LEAST_BLEED), "{table}");
     }
+}
+
+#[test]
+fn tuned_presets_beat_published_ones_on_a_few_held_out_scenes() {
+    check(
+        &["roll", "neon", "ramp_floor", "shallow_focus", "cockpit"],
+        96,
+        false,
+    );
+}
+
+#[test]
+#[ignore = "prove: every held-out scene, at full size"]
+fn tuned_presets_beat_published_ones_on_held_out_scenes() {
+    check(&[], 320, true);
+    check(&[], 320, false);
 }

@@ -2,58 +2,46 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use cli::{SceneChoice, select_scenes};
 use filters::Gpu;
 use judge::{RunBounds, read_bounds, size_for_bounds};
 use suite::{Error, FilterChoice, Run, RunPlan, measure_scenes};
 use tests::scenes;
-use tracer::{RenderSettings, Scene, SceneId};
+use tracer::{RenderSettings, Scene};
 
-use crate::journal::Place;
 use crate::options::Options;
-use crate::subject::{MutantFilter, Subject};
+use crate::subject::Subject;
 
 /// Seed of the truth that mutants are checked against: the one that `check` takes.
 pub const SEED: u64 = 1;
 
-/// Scenes, their settings, and the adapter.
 pub struct Bench {
     /// Scenes in the order in which mutants meet them.
-    pub scenes: Vec<SceneChoice>,
-    /// Shipped bounds.
+    pub scenes: Rc<Vec<Scene>>,
     pub bounds: RunBounds,
-    /// Settings of frames and truths.
     pub render: RenderSettings,
-    /// Adapter of the filters.
     pub gpu: Gpu,
-    /// Folder of these settings.
     pub out: PathBuf,
 }
 
 impl Bench {
-    /// Loads the scenes, and opens the adapter and the folder.
     pub fn open(options: &Options, subjects: &[Subject]) -> Result<Self, Error> {
-        let scenes = select_scenes(&scenes(), &options.scenes)?;
-        let bounds = (scenes.iter())
-            .map(|choice| {
-                let bounds = read_bounds(&tests::scenes(), &choice.folder, options.size)?;
-                Ok((choice.scene.id.clone(), bounds))
-            })
-            .collect::<Result<RunBounds, Error>>()?;
-        let size = match options.size {
-            Some(size) => size,
-            None => {
-                let sound: Vec<FilterChoice> = subjects
-                    .iter()
-                    .map(|subject| subject.sound.clone())
-                    .collect();
-                let shipped = size_for_bounds(bounds.values(), &sound, None)?;
-                shipped.ok_or(Error::Usage(
-                    "no limit on these filters names a size; name one: --size 160x90".to_owned(),
-                ))?
-            }
+        let scenes = select_scenes(scenes(), &options.scenes)?;
+        let mut bounds = RunBounds::new();
+        for SceneChoice { scene, folder, .. } in &scenes {
+            let own = read_bounds(tests::scenes(), folder, options.size)?;
+            bounds.insert(scene.id.clone(), own);
+        }
+        let sound: Vec<_> = subjects.iter().map(|it| it.sound.clone()).collect();
+        let shipped = match options.size {
+            None => size_for_bounds(bounds.values(), &sound, None)?,
+            size => size,
         };
+        let size = shipped.ok_or(Error::Usage(
+            "no limit on these filters names a size; name one: --size 160x90".to_owned(),
+        ))?;
         let render = RenderSettings {
             width: size.0,
             height: size.1,
@@ -69,14 +57,13 @@ impl Bench {
             bounds: (bounds.into_iter())
                 .map(|(scene, bounds)| (scene, bounds.at(size)))
                 .collect(),
-            scenes,
+            scenes: Rc::new(scenes.into_iter().map(|choice| choice.scene).collect()),
             render,
             gpu: tests::open_gpu(),
             out,
         })
     }
 
-    /// Returns the folder of the truths of a seed.
     pub fn truths(&self, seed: u64) -> PathBuf {
         self.out.join(format!("seed_{seed}"))
     }
@@ -108,9 +95,4 @@ impl Bench {
     pub fn reopen_gpu(&mut self) {
         self.gpu = tests::open_gpu();
     }
-}
-
-/// Names a mutant on a scene.
-pub fn mutant_place(subject: &Subject, mutant: &MutantFilter, scene: &SceneId) -> Place {
-    (subject.key.clone(), mutant.name.clone(), scene.to_string())
 }

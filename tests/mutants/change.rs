@@ -1,15 +1,16 @@
 //! Changes of pictures, in noise floors of the truth.
 
-use filters::{Blur, FilterError, Gpu, Input, Kernels};
+use filters::{Blur, FilterError, Kernels};
 use frame::{Frame, Image, Region, Regions, regions};
 use suite::{Error, FilterChoice, Monitor, Rendering};
+use tests::picture::frame_input;
 use tracer::{Scene, SceneId};
 
-use crate::bench::{Bench, SEED, mutant_place};
-use crate::journal::{Change, Journal};
-use crate::subject::{MutantFilter, Subject};
+use crate::bench::{Bench, SEED};
+use crate::journal::Change;
+use crate::study::Study;
+use crate::subject::MutantFilter;
 
-/// Regions whose change counts.
 const COMPARED: [Region; 2] = [Region::Moving, Region::Full];
 
 /// A scene's frame, and the picture that the filter makes of it without a change.
@@ -22,56 +23,49 @@ struct SoundPicture {
     picture: Image,
 }
 
-/// Measures how much each mutant of a filter changes the picture of each scene.
-pub fn measure_changes(
-    bench: &mut Bench,
-    subject: &Subject,
-    journal: &mut Journal,
-    due: &dyn Fn() -> bool,
-) -> Result<(), Error> {
-    let is_new = |journal: &Journal, mutant: &MutantFilter, scene: &SceneId| {
-        journal
-            .changes
-            .get(&mutant_place(subject, mutant, scene))
-            .is_none()
-    };
-    let missing: Vec<&MutantFilter> = (subject.mutants.iter())
-        .filter(|mutant| {
-            (bench.scenes.iter()).any(|choice| is_new(journal, mutant, &choice.scene.id))
-        })
-        .collect();
-    if missing.is_empty() {
-        return Ok(());
+impl Study<'_, '_> {
+    fn lacks_change(&self, mutant: &MutantFilter, scene: &SceneId) -> bool {
+        let place = self.subject.place(&mutant.name, scene);
+        self.journal.changes.get(&place).is_none()
     }
-    let scenes = (bench.scenes.iter())
-        .map(|choice| SoundPicture::new(bench, &choice.scene, &subject.sound))
-        .collect::<Result<Vec<_>, _>>()?;
-    for (number, mutant) in missing.iter().enumerate() {
-        if !due() {
+
+    /// Measures how much each mutant changes the picture of each scene.
+    pub fn measure_changes(&mut self) -> Result<(), Error> {
+        let subject = self.subject;
+        let mut missing: Vec<&MutantFilter> = subject.mutants.iter().collect();
+        missing.retain(|mutant| {
+            let mut scenes = self.bench.scenes.iter();
+            scenes.any(|scene| self.lacks_change(mutant, &scene.id))
+        });
+        if missing.is_empty() {
             return Ok(());
         }
-        eprintln!(
-            "{} {number} of {}: {}",
-            subject.name,
-            missing.len(),
-            mutant.name
-        );
-        let new: Vec<&SoundPicture> = (scenes.iter())
-            .filter(|scene| is_new(journal, mutant, &scene.scene))
-            .collect();
-        let mut is_too_slow = false;
-        for (scene, change) in new.iter().zip(compare(bench, &new, &mutant.choice)) {
-            is_too_slow |= matches!(change, Err(FilterError::TooSlow { .. }));
-            let record = change.map_err(|error| error.to_string());
-            journal
-                .changes
-                .add(mutant_place(subject, mutant, &scene.scene), record);
+        let scenes = (self.bench.scenes.iter())
+            .map(|scene| SoundPicture::new(self.bench, scene, &subject.sound))
+            .collect::<Result<Vec<_>, _>>()?;
+        for (number, mutant) in missing.iter().enumerate() {
+            if !(self.due)() {
+                return Ok(());
+            }
+            let (name, count) = (&subject.name, missing.len());
+            eprintln!("{name} {number} of {count}: {}", mutant.name);
+            let new: Vec<&SoundPicture> = (scenes.iter())
+                .filter(|scene| self.lacks_change(mutant, &scene.scene))
+                .collect();
+            let changes = compare(self.bench, &new, &mutant.choice);
+            let is_too_slow =
+                |change: &Result<_, _>| matches!(change, Err(FilterError::TooSlow { .. }));
+            if changes.iter().any(is_too_slow) {
+                self.bench.reopen_gpu();
+            }
+            for (scene, change) in new.iter().zip(changes) {
+                let place = subject.place(&mutant.name, &scene.scene);
+                let record = change.map_err(|error| error.to_string());
+                self.journal.changes.add(place, record);
+            }
         }
-        if is_too_slow {
-            bench.reopen_gpu();
-        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// Compares the pictures of a mutant with those of the sound filter. Once one of them takes too long, no other is tried.
@@ -90,8 +84,7 @@ fn compare(
             return Err(error.clone());
         }
         let change = blur(&kernels, choice, &scene.frame).and_then(|picture| {
-            let change = scene.compare(&picture);
-            change.ok_or(FilterError::Input {
+            scene.compare(&picture).ok_or_else(|| FilterError::Input {
                 filter: choice.filter.name.clone(),
                 reason: "the picture is not finite".to_owned(),
             })
@@ -107,39 +100,28 @@ fn compare(
 fn blur(kernels: &Kernels, choice: &FilterChoice, frame: &Frame) -> Result<Image, FilterError> {
     let (width, height) = frame.size();
     let settings = choice.scaled_to(width).settings;
-    let outputs = Blur::with_kernels(kernels, &settings, width, height)?.run(&Input {
-        color: &[&frame.color],
-        velocity: &frame.velocity,
-        depth: &frame.depth,
-        reprojection: Some(frame.reprojection),
-        camera: frame.camera,
-        exposure: frame.exposure,
-        frames_per_second: frame.frames_per_second,
-        frame_index: 0,
-    })?;
+    let mut blur = Blur::with_kernels(kernels, &settings, width, height)?;
+    let outputs = blur.run(&frame_input(frame, &[&frame.color]))?;
     Ok(outputs.into_iter().next().expect("one image comes back"))
 }
 
 impl SoundPicture {
     fn new(bench: &Bench, scene: &Scene, sound: &FilterChoice) -> Result<Self, Error> {
-        let (out, gpu): (_, &Gpu) = (bench.truths(SEED), &bench.gpu);
-        let alignment = sound.filter.alignment;
         let rendering = Rendering {
             scene,
             settings: bench.render,
-            out: &out,
+            out: &bench.truths(SEED),
             monitor: Monitor::SILENT,
         };
         let frame = rendering.frame()?;
-        let truth = rendering.truth(alignment)?;
-        let floors = truth.noise_floors();
+        let truth = rendering.truth(sound.filter.alignment)?;
         Ok(Self {
             scene: scene.id.clone(),
             regions: regions(&truth),
-            floors: (floors.into_iter())
+            floors: (truth.noise_floors().into_iter())
                 .filter(|(region, floor)| COMPARED.contains(region) && *floor > 0.0)
                 .collect(),
-            picture: blur(&Kernels::compile(gpu, &sound.filter)?, sound, &frame)?,
+            picture: blur(&Kernels::compile(&bench.gpu, &sound.filter)?, sound, &frame)?,
             frame,
         })
     }

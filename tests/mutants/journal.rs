@@ -12,17 +12,12 @@ use suite::{Case, Error, Run};
 /// A mutant on a scene: the subject's key, the mutant's name, the scene. A seed stands for the filter without a change.
 pub type Place = (String, String, String);
 
-/// Everything that was measured so far.
 pub struct Journal {
-    /// Changes of pictures.
     pub changes: Records<Result<Change, String>>,
-    /// Runs of filters without a change.
     pub sound: Records<Run>,
-    /// Scores of mutants.
     pub cases: Records<Result<Box<Case>, String>>,
 }
 
-/// Change of the picture that a mutant makes of a scene.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Change {
     /// Root mean square over a region, in noise floors of the truth there; the larger of the moving region and the whole picture.
@@ -31,20 +26,23 @@ pub struct Change {
     pub share: f64,
 }
 
-/// Records in a file.
 pub struct Records<T> {
     file: File,
     found: BTreeMap<Place, T>,
 }
 
 impl Journal {
-    /// Opens the files in a folder, and makes those that are missing.
     pub fn open(folder: &Path) -> Result<Self, Error> {
         Ok(Self {
             changes: Records::open(&folder.join("changes.jsonl"))?,
             sound: Records::open(&folder.join("sound.jsonl"))?,
             cases: Records::open(&folder.join("cases.jsonl"))?,
         })
+    }
+
+    /// Tells whether a mutant makes the same picture of a scene as the filter without a change.
+    pub fn is_same_picture(&self, place: &Place) -> bool {
+        matches!(self.changes.get(place), Some(Ok(change)) if change.share == 0.0)
     }
 }
 
@@ -56,29 +54,20 @@ impl<T: Serialize + DeserializeOwned> Records<T> {
             false => String::new(),
         };
         // A run that was killed may leave half a line.
-        let lines = text
-            .lines()
-            .filter_map(|line| serde_json::from_str(line).ok());
-        let mut file = OpenOptions::new()
-            .append(true)
-            .create(true)
-            .open(path)
-            .map_err(name)?;
+        let found = (text.lines()).filter_map(|line| serde_json::from_str(line).ok());
+        let mut options = OpenOptions::new();
+        let mut file = options.append(true).create(true).open(path).map_err(name)?;
         if !text.is_empty() && !text.ends_with('\n') {
             file.write_all(b"\n").map_err(name)?;
         }
-        Ok(Self {
-            file,
-            found: lines.collect(),
-        })
+        let found = found.collect();
+        Ok(Self { file, found })
     }
 
-    /// Finds a record.
     pub fn get(&self, place: &Place) -> Option<&T> {
         self.found.get(place)
     }
 
-    /// Adds a record to memory and file.
     pub fn add(&mut self, place: Place, record: T) {
         let line = serde_json::to_string(&(&place, &record)).expect("records are plain data");
         writeln!(self.file, "{line}").expect("the journal can be written");

@@ -1,151 +1,98 @@
 //! Limits that mutants are held to.
 
-use std::collections::BTreeMap;
-
 use judge::{Level, Outcome, SceneBounds, default_metrics, judge_scores};
 use metrics::Metric;
 use suite::{Case, Error, Run};
 use tests::limits::calibrate_scene;
-use tracer::{Scene, SceneId};
+use tracer::Scene;
 
-use crate::bench::{Bench, SEED};
-use crate::journal::{Journal, Place};
-use crate::subject::Subject;
+use crate::bench::SEED;
+use crate::study::{Limits, Study};
 
 /// Seeds that limits are calibrated with, if there are no shipped ones.
 const CALIBRATED_WITH: [u64; 2] = [SEED, SEED + 1];
 
-/// Limits on one filter preset, by scene.
-pub type Limits = BTreeMap<SceneId, SceneLimits>;
-
-/// Limits on one filter preset on one scene.
-pub struct SceneLimits {
-    /// Limits that decide.
-    pub deciding: SceneBounds,
-    /// True if they are those of bounds.toml.
-    pub are_shipped: bool,
-    /// Limits on every metric that can have one, which tell what would notice a survivor; none until they are calibrated.
-    pub widest: Option<SceneBounds>,
-}
-
-/// Finds the limits of a filter preset on every scene: those of bounds.toml if any of them is required at this size, or else those
-/// that `calibrate` proposes.
-pub fn find_limits(
-    bench: &Bench,
-    subject: &Subject,
-    journal: &mut Journal,
-) -> Result<Limits, Error> {
-    let mut limits = Limits::new();
-    for choice in &bench.scenes {
-        let scene = &choice.scene;
-        let shipped = &bench.bounds[&scene.id];
-        let bounded = shipped.of(&subject.sound.filter.name, &subject.sound.preset);
-        let are_shipped = bounded.values().any(|bound| bound.level == Level::Required);
-        let deciding = match are_shipped {
-            true => shipped.clone(),
-            false => {
-                let sound = &subject.sound;
-                let metrics = default_metrics(shipped, &sound.filter.name, &sound.preset);
-                let runs = measure_sound_runs(bench, subject, scene, journal)?;
-                calibrate_scene(&runs, &metrics, &scene.id)
-            }
-        };
-        let own = SceneLimits {
-            deciding,
-            are_shipped,
-            widest: None,
-        };
-        limits.insert(scene.id.clone(), own);
-    }
-    Ok(limits)
-}
-
-/// Calibrates limits on every metric that can have one.
-pub fn widen_limits(
-    bench: &Bench,
-    subject: &Subject,
-    limits: &mut Limits,
-    journal: &mut Journal,
-    due: &dyn Fn() -> bool,
-) -> Result<(), Error> {
-    let metrics: Vec<Metric> = (Metric::all().into_iter())
-        .filter(|metric| metric.row().report_only.is_none())
-        .collect();
-    for choice in &bench.scenes {
-        let scene = &choice.scene;
-        let is_kept = |seed| {
-            journal
-                .sound
-                .get(&sound_place(subject, &scene.id, seed))
-                .is_some()
-        };
-        if CALIBRATED_WITH.into_iter().all(is_kept) || due() {
-            let runs = measure_sound_runs(bench, subject, scene, journal)?;
-            let widest = calibrate_scene(&runs, &metrics, &scene.id);
-            limits
-                .get_mut(&scene.id)
-                .expect("every scene has limits")
-                .widest = Some(widest);
+impl Study<'_, '_> {
+    /// Finds the limits on every scene: those of bounds.toml if any of them is required at this size, or else those that `calibrate`
+    /// proposes.
+    pub fn find_limits(&mut self) -> Result<(), Error> {
+        let sound = &self.subject.sound;
+        for scene in self.bench.scenes.clone().iter() {
+            let shipped = self.bench.bounds[&scene.id].clone();
+            let bounded = shipped.of(&sound.filter.name, &sound.preset);
+            let are_shipped = bounded.values().any(|bound| bound.level == Level::Required);
+            let deciding = match are_shipped {
+                true => shipped,
+                false => {
+                    let metrics = default_metrics(&shipped, &sound.filter.name, &sound.preset);
+                    self.calibrate(scene, &metrics)?
+                }
+            };
+            let own = Limits {
+                deciding,
+                are_shipped,
+                widest: None,
+            };
+            self.limits.insert(scene.id.clone(), own);
         }
+        Ok(())
     }
-    Ok(())
-}
 
-/// Refuses limits that the filter breaks without a change: all of its mutants would break them.
-pub fn refuse_broken(subject: &Subject, case: &Case, limits: &SceneLimits) -> Result<(), Error> {
-    let broken = find_broken(case, &limits.deciding);
-    match broken.is_empty() {
-        true => Ok(()),
-        false => Err(Error::Usage(format!(
+    /// Calibrates limits on every metric that can have one.
+    pub fn widen_limits(&mut self) -> Result<(), Error> {
+        let mut metrics = Metric::all();
+        metrics.retain(|metric| metric.row().report_only.is_none());
+        for scene in self.bench.scenes.clone().iter() {
+            let is_kept = |seed| {
+                let place = self.subject.sound_place(&scene.id, seed);
+                self.journal.sound.get(&place).is_some()
+            };
+            if CALIBRATED_WITH.into_iter().all(is_kept) || (self.due)() {
+                let widest = self.calibrate(scene, &metrics)?;
+                let own = self
+                    .limits
+                    .get_mut(&scene.id)
+                    .expect("every scene has limits");
+                own.widest = Some(widest);
+            }
+        }
+        Ok(())
+    }
+
+    fn calibrate(&mut self, scene: &Scene, metrics: &[Metric]) -> Result<SceneBounds, Error> {
+        let runs = CALIBRATED_WITH.map(|seed| self.measure_sound(scene, seed));
+        let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
+        Ok(calibrate_scene(&runs, metrics, &scene.id))
+    }
+
+    /// Measures the filter without a change, unless the journal has it.
+    fn measure_sound(&mut self, scene: &Scene, seed: u64) -> Result<Run, Error> {
+        let place = self.subject.sound_place(&scene.id, seed);
+        if let Some(run) = self.journal.sound.get(&place) {
+            return Ok(run.clone());
+        }
+        let name = &self.subject.name;
+        eprintln!("{}: {name} without a change, seed {seed}", scene.id);
+        let filters = vec![self.subject.sound.clone()];
+        let mut run = self.bench.measure(scene, filters, seed)?;
+        run.cases.retain(|case| !case.is_reference);
+        self.journal.sound.add(place, run.clone());
+        Ok(run)
+    }
+
+    /// Refuses limits that the filter breaks without a change: all of its mutants would break them.
+    pub fn refuse_broken(&self, case: &Case) -> Result<(), Error> {
+        let broken = find_broken(case, &self.limits[&case.scene].deciding);
+        if broken.is_empty() {
+            return Ok(());
+        }
+        Err(Error::Usage(format!(
             "{} breaks limits on {} without a change: {}; calibrate them anew",
-            subject.name,
+            self.subject.name,
             case.scene,
             broken.join(", ")
-        ))),
+        )))
     }
-}
-
-/// Measures the filter without a change, with every seed that limits are calibrated with.
-fn measure_sound_runs(
-    bench: &Bench,
-    subject: &Subject,
-    scene: &Scene,
-    journal: &mut Journal,
-) -> Result<Vec<Run>, Error> {
-    (CALIBRATED_WITH.into_iter())
-        .map(|seed| measure_sound(bench, subject, scene, seed, journal))
-        .collect()
-}
-
-/// Names a filter without a change on a scene.
-pub fn sound_place(subject: &Subject, scene: &SceneId, seed: u64) -> Place {
-    (
-        subject.key.clone(),
-        format!("seed {seed}"),
-        scene.to_string(),
-    )
-}
-
-/// Measures the filter without a change, unless the journal has it.
-fn measure_sound(
-    bench: &Bench,
-    subject: &Subject,
-    scene: &Scene,
-    seed: u64,
-    journal: &mut Journal,
-) -> Result<Run, Error> {
-    let place = sound_place(subject, &scene.id, seed);
-    if let Some(run) = journal.sound.get(&place) {
-        return Ok(run.clone());
-    }
-    eprintln!(
-        "{}: {} without a change, seed {seed}",
-        scene.id, subject.name
-    );
-    let mut run = bench.measure(scene, vec![subject.sound.clone()], seed)?;
-    run.cases.retain(|case| !case.is_reference);
-    journal.sound.add(place, run.clone());
-    Ok(run)
 }
 
 /// Lists the metrics of a case whose required limits are broken.

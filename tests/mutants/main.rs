@@ -7,10 +7,12 @@ mod journal;
 mod limits;
 mod measure;
 mod options;
+mod study;
 mod subject;
 mod table;
 mod verdict;
 
+use std::collections::BTreeMap;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
@@ -18,9 +20,9 @@ use bench::Bench;
 use clap::Parser;
 use journal::Journal;
 use options::Options;
+use study::Study;
 use subject::Subject;
 use suite::Error;
-use verdict::find_verdicts;
 
 fn main() -> ExitCode {
     match execute(&Options::parse()) {
@@ -34,9 +36,7 @@ fn main() -> ExitCode {
 
 /// Measures every mutant of every filter that no earlier run has measured, and prints the score.
 fn execute(options: &Options) -> Result<(), Error> {
-    let minutes = options
-        .minutes
-        .map(|minutes| Duration::from_secs(60 * minutes));
+    let minutes = options.minutes.map(|it| Duration::from_secs(60 * it));
     let deadline = minutes.map(|time| Instant::now() + time);
     let due = || deadline.is_none_or(|deadline| Instant::now() < deadline);
     let subjects = (options.filters.iter())
@@ -44,22 +44,21 @@ fn execute(options: &Options) -> Result<(), Error> {
         .collect::<Result<Vec<_>, _>>()?;
     let mut bench = Bench::open(options, &subjects)?;
     let mut journal = Journal::open(&bench.out)?;
-    for subject in &subjects {
-        change::measure_changes(&mut bench, subject, &mut journal, &due)?;
-    }
-    let mut limits = Vec::new();
-    for subject in &subjects {
-        limits.push(limits::find_limits(&bench, subject, &mut journal)?);
-    }
-    for (subject, limits) in subjects.iter().zip(&limits) {
-        measure::measure_mutants(&mut bench, subject, limits, &mut journal, &due)?;
-    }
     let mut all = Vec::new();
-    for (subject, limits) in subjects.iter().zip(&mut limits) {
-        limits::widen_limits(&bench, subject, limits, &mut journal, &due)?;
-        let verdicts = find_verdicts(&bench, subject, limits, &journal);
-        let table = table::format_subject(&bench, subject, limits, &verdicts);
-        print!("{table}");
+    for subject in &subjects {
+        let mut study = Study {
+            bench: &mut bench,
+            subject,
+            journal: &mut journal,
+            limits: BTreeMap::new(),
+            due: &due,
+        };
+        study.measure_changes()?;
+        study.find_limits()?;
+        study.measure_mutants()?;
+        study.widen_limits()?;
+        let verdicts = study.find_verdicts();
+        print!("{}", table::format_subject(&study, &verdicts));
         all.extend(verdicts);
     }
     if subjects.len() > 1 {

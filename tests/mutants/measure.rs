@@ -6,164 +6,114 @@ use std::fs;
 use suite::{Case, Error, FilterChoice, Run};
 use tracer::Scene;
 
-use crate::bench::{Bench, SEED, mutant_place};
-use crate::journal::Journal;
-use crate::limits::{Limits, SceneLimits, refuse_broken, sound_place};
-use crate::subject::{MutantFilter, Subject};
-use crate::verdict::{is_killed, is_same_picture};
-
-/// Rounds in which each mutant meets the scene that it changes most. Few survive them.
-const ROUNDS: usize = 3;
+use crate::bench::SEED;
+use crate::study::Study;
+use crate::subject::MutantFilter;
 
 /// Mutants that are measured before the journal gets their scores.
 const BATCH: usize = 16;
 
-/// Label of the filter without a change.
 const SOUND: &str = "sound";
 
-/// Measures every mutant of a filter on one scene after the other, until a limit kills it.
-pub fn measure_mutants(
-    bench: &mut Bench,
-    subject: &Subject,
-    limits: &Limits,
-    journal: &mut Journal,
-    due: &dyn Fn() -> bool,
-) -> Result<(), Error> {
-    let scenes: Vec<Scene> = (bench.scenes.iter())
-        .map(|choice| choice.scene.clone())
-        .collect();
-    for _ in 0..ROUNDS {
-        let mut groups: BTreeMap<usize, Vec<&MutantFilter>> = BTreeMap::new();
-        for mutant in find_alive(bench, subject, limits, journal) {
-            let missing =
-                (0..scenes.len()).filter(|at| is_missing(subject, mutant, &scenes[*at], journal));
-            let change = |at: &usize| {
-                let found = journal
-                    .changes
-                    .get(&mutant_place(subject, mutant, &scenes[*at].id));
-                found.map_or(0.0, |found| {
-                    found.as_ref().map_or(0.0, |change| change.floors)
-                })
-            };
-            let largest = missing.max_by(|a, b| change(a).total_cmp(&change(b)));
-            if let Some(at) = largest {
-                groups.entry(at).or_default().push(mutant);
+impl Study<'_, '_> {
+    /// Measures every mutant on one scene after the other, the one that it changes most first, until a limit kills it.
+    pub fn measure_mutants(&mut self) -> Result<(), Error> {
+        let scenes = self.bench.scenes.clone();
+        loop {
+            let mut groups: BTreeMap<usize, Vec<&MutantFilter>> = BTreeMap::new();
+            for mutant in &self.subject.mutants {
+                let change = |at: &usize| {
+                    let place = self.subject.place(&mutant.name, &scenes[*at].id);
+                    let found = self.journal.changes.get(&place);
+                    let change = found.and_then(|found| found.as_ref().ok());
+                    change.map_or(0.0, |change| change.floors)
+                };
+                let missing =
+                    (0..scenes.len()).filter(|at| self.lacks_scores(mutant, &scenes[*at]));
+                let largest = missing.max_by(|a, b| change(a).total_cmp(&change(b)));
+                if let Some(at) = largest.filter(|_| !self.find_verdict(mutant).is_killed()) {
+                    groups.entry(at).or_default().push(mutant);
+                }
             }
-        }
-        for (at, mutants) in groups {
-            measure_scene(bench, subject, &scenes[at], limits, &mutants, journal, due)?;
-        }
-    }
-    for scene in &scenes {
-        let alive = find_alive(bench, subject, limits, journal).into_iter();
-        let missing = alive.filter(|mutant| is_missing(subject, mutant, scene, journal));
-        let missing: Vec<&MutantFilter> = missing.collect();
-        measure_scene(bench, subject, scene, limits, &missing, journal, due)?;
-    }
-    Ok(())
-}
-
-/// Lists the mutants that no limit has killed so far.
-fn find_alive<'s>(
-    bench: &Bench,
-    subject: &'s Subject,
-    limits: &Limits,
-    journal: &Journal,
-) -> Vec<&'s MutantFilter> {
-    (subject.mutants.iter())
-        .filter(|mutant| !is_killed(bench, subject, limits, journal, mutant))
-        .collect()
-}
-
-/// Tells whether the scores of a mutant on a scene are missing. Those of the same picture are known.
-fn is_missing(subject: &Subject, mutant: &MutantFilter, scene: &Scene, journal: &Journal) -> bool {
-    let place = mutant_place(subject, mutant, &scene.id);
-    journal.cases.get(&place).is_none() && !is_same_picture(journal, &place)
-}
-
-/// Measures mutants on a scene.
-fn measure_scene(
-    bench: &mut Bench,
-    subject: &Subject,
-    scene: &Scene,
-    limits: &Limits,
-    mutants: &[&MutantFilter],
-    journal: &mut Journal,
-    due: &dyn Fn() -> bool,
-) -> Result<(), Error> {
-    for batch in mutants.chunks(BATCH) {
-        if due() {
-            eprintln!("{}: {} mutants of {}", scene.id, batch.len(), subject.name);
-            measure_batch(bench, subject, scene, &limits[&scene.id], batch, journal)?;
-        }
-    }
-    Ok(())
-}
-
-/// Measures some mutants on a scene, one by one if they fail together. The filter without a change is measured with the first.
-fn measure_batch(
-    bench: &mut Bench,
-    subject: &Subject,
-    scene: &Scene,
-    limits: &SceneLimits,
-    batch: &[&MutantFilter],
-    journal: &mut Journal,
-) -> Result<(), Error> {
-    // Cases and failures name filter and preset, which are the same in all mutants.
-    let label = |at: usize| format!("mutant_{at}");
-    let sound = sound_place(subject, &scene.id, SEED);
-    let is_new = journal.sound.get(&sound).is_none();
-    let mutants = batch.iter().map(|mutant| &mutant.choice);
-    let filters = (mutants.enumerate())
-        .map(|(at, choice)| (label(at), choice))
-        .chain(is_new.then(|| (SOUND.to_owned(), &subject.sound)))
-        .map(|(preset, choice)| FilterChoice {
-            preset,
-            ..choice.clone()
-        });
-    let run = match bench.measure(scene, filters.collect(), SEED) {
-        Ok(run) => run,
-        Err(error @ Error::Filter(_)) => {
-            bench.reopen_gpu();
-            if let [mutant] = batch {
-                let place = mutant_place(subject, mutant, &scene.id);
-                journal.cases.add(place, Err(error.to_string()));
+            if groups.is_empty() {
                 return Ok(());
             }
-            return (batch.chunks(1))
-                .try_for_each(|one| measure_batch(bench, subject, scene, limits, one, journal));
+            for (at, mutants) in groups {
+                for batch in mutants.chunks(BATCH) {
+                    if !(self.due)() {
+                        return Ok(());
+                    }
+                    let (scene, name) = (&scenes[at], &self.subject.name);
+                    eprintln!("{}: {} mutants of {name}", scene.id, batch.len());
+                    self.measure_batch(scene, batch)?;
+                }
+            }
         }
-        Err(error) => return Err(error),
-    };
-    if is_new {
-        let case = take_case(bench, subject, &run, SOUND).map_err(Error::Usage)?;
-        refuse_broken(subject, &case, limits)?;
-        let alone = Run {
-            cases: vec![case],
-            ..run.clone()
-        };
-        journal.sound.add(sound, alone);
     }
-    for (at, mutant) in batch.iter().enumerate() {
-        let case = take_case(bench, subject, &run, &label(at)).map(Box::new);
-        let place = mutant_place(subject, mutant, &scene.id);
-        journal.cases.add(place, case);
-    }
-    Ok(())
-}
 
-/// Takes the case with a label out of a run, or the reason why it failed, and gives it the preset's name. Removes its pictures, which
-/// nobody looks at again.
-fn take_case(bench: &Bench, subject: &Subject, run: &Run, label: &str) -> Result<Case, String> {
-    let Some(case) = run.cases.iter().find(|case| case.preset == label) else {
-        let name = format!("{}:{label}", subject.sound.filter.name);
-        let failure = run.failures.iter().find(|failure| failure.filter == name);
-        let failure = failure.expect("every case is measured or fails");
-        return Err(failure.reason.clone());
-    };
-    // A folder that stays is no harm.
-    let _ = fs::remove_dir_all(bench.truths(SEED).join(&case.folder));
-    let mut case = case.clone();
-    case.id.preset = subject.sound.preset.clone();
-    Ok(case)
+    /// Tells whether the scores of a mutant on a scene are missing. Those of the same picture are known.
+    fn lacks_scores(&self, mutant: &MutantFilter, scene: &Scene) -> bool {
+        let place = self.subject.place(&mutant.name, &scene.id);
+        self.journal.cases.get(&place).is_none() && !self.journal.is_same_picture(&place)
+    }
+
+    /// Measures some mutants on a scene, one by one if they fail together. The filter without a change is measured with the first.
+    fn measure_batch(&mut self, scene: &Scene, batch: &[&MutantFilter]) -> Result<(), Error> {
+        let subject = self.subject;
+        // Cases and failures name filter and preset, which are the same in all mutants.
+        let label = |at: usize| format!("mutant_{at}");
+        let sound = subject.sound_place(&scene.id, SEED);
+        let is_new = self.journal.sound.get(&sound).is_none();
+        let mutants = batch.iter().map(|mutant| &mutant.choice);
+        let filters = (mutants.enumerate())
+            .map(|(at, choice)| (label(at), choice))
+            .chain(is_new.then(|| (SOUND.to_owned(), &subject.sound)))
+            .map(|(preset, choice)| FilterChoice {
+                preset,
+                ..choice.clone()
+            });
+        let run = match self.bench.measure(scene, filters.collect(), SEED) {
+            Ok(run) => run,
+            Err(error @ Error::Filter(_)) => {
+                self.bench.reopen_gpu();
+                if let [mutant] = batch {
+                    let place = subject.place(&mutant.name, &scene.id);
+                    self.journal.cases.add(place, Err(error.to_string()));
+                    return Ok(());
+                }
+                let mut alone = batch.chunks(1);
+                return alone.try_for_each(|one| self.measure_batch(scene, one));
+            }
+            Err(error) => return Err(error),
+        };
+        if is_new {
+            let case = self.take_case(&run, SOUND).map_err(Error::Usage)?;
+            self.refuse_broken(&case)?;
+            let mut alone = run.clone();
+            alone.cases = vec![case];
+            self.journal.sound.add(sound, alone);
+        }
+        for (at, mutant) in batch.iter().enumerate() {
+            let case = self.take_case(&run, &label(at)).map(Box::new);
+            let place = subject.place(&mutant.name, &scene.id);
+            self.journal.cases.add(place, case);
+        }
+        Ok(())
+    }
+
+    /// Takes the case with a label out of a run, or the reason why it failed, and gives it the preset's name. Removes its pictures,
+    /// which nobody looks at again.
+    fn take_case(&self, run: &Run, label: &str) -> Result<Case, String> {
+        let Some(case) = run.cases.iter().find(|case| case.preset == label) else {
+            let name = format!("{}:{label}", self.subject.sound.filter.name);
+            let failure = run.failures.iter().find(|failure| failure.filter == name);
+            let failure = failure.expect("every case is measured or fails");
+            return Err(failure.reason.clone());
+        };
+        // A folder that stays is no harm.
+        let _ = fs::remove_dir_all(self.bench.truths(SEED).join(&case.folder));
+        let mut case = case.clone();
+        case.id.preset = self.subject.sound.preset.clone();
+        Ok(case)
+    }
 }

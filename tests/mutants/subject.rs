@@ -7,11 +7,13 @@ use cli::{Programs, select_filters};
 use suite::{Error, FilterChoice};
 use tests::filter_folder::{copy_changed_filter, shipped_filter};
 use tests::mutants::{Mutant, choose_mutants};
+use tracer::SceneId;
+
+use crate::journal::Place;
 
 /// Seconds that a pass of a mutant may take. A shipped one takes less than one.
 const TIME_LIMIT: f64 = 20.0;
 
-/// A filter preset, and mutants of its kernels.
 pub struct Subject {
     /// Filter and preset: `mcguire:paper`.
     pub name: String,
@@ -19,25 +21,28 @@ pub struct Subject {
     pub key: String,
     /// File of the kernels, below the repository.
     pub file: String,
-    /// Text of the kernels.
     pub kernels: String,
-    /// The filter without a change.
     pub sound: FilterChoice,
     /// Mutants that naga accepts.
     pub mutants: Vec<MutantFilter>,
 }
 
-/// A mutant as a filter.
 pub struct MutantFilter {
-    /// Its change.
     pub mutant: Mutant,
     /// Description of the change, with its line.
     pub name: String,
-    /// The filter with the change.
     pub choice: FilterChoice,
 }
 
 impl Subject {
+    pub fn place(&self, name: &str, scene: &SceneId) -> Place {
+        (self.key.clone(), name.to_owned(), scene.to_string())
+    }
+
+    pub fn sound_place(&self, scene: &SceneId, seed: u64) -> Place {
+        self.place(&format!("seed {seed}"), scene)
+    }
+
     /// Loads a filter preset, and chooses up to `count` of the mutants that naga accepts.
     pub fn new(name: &str, count: usize) -> Result<Self, Error> {
         let sound = select(name)?;
@@ -79,7 +84,6 @@ fn select(name: &str) -> Result<FilterChoice, Error> {
     }
 }
 
-/// Loads a shipped filter with a change.
 fn load_mutant(filter: &str, preset: &str, mutant: &Mutant) -> Result<FilterChoice, Error> {
     let folder = tempfile::tempdir().expect("temporary folders can be made");
     let copy = folder.path().join(filter);

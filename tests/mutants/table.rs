@@ -1,43 +1,31 @@
 //! Tables of a finished run: the score of a filter, and its survivors.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use judge::number;
 use tests::mutants::Operator;
 
-use crate::bench::Bench;
-use crate::limits::Limits;
+use crate::study::Study;
 use crate::subject::Subject;
-use crate::verdict::{NOTICEABLE, Reason, Size, Verdict};
+use crate::verdict::{NOTICEABLE, Reason, SIZES, Verdict};
 
-/// Formats the score of one filter, and its survivors.
-pub fn format_subject(
-    bench: &Bench,
-    subject: &Subject,
-    limits: &Limits,
-    verdicts: &[Verdict],
-) -> String {
-    let mut text = String::new();
-    let render = &bench.render;
+pub fn format_subject(study: &Study, verdicts: &[Verdict]) -> String {
+    let (subject, render, limits) = (study.subject, &study.bench.render, &study.limits);
     let shipped = limits.values().filter(|limits| limits.are_shipped).count();
-    let _ = writeln!(
-        text,
-        "{} at {}x{}, {} samples per pixel: {} scenes, shipped limits on {shipped}, calibrated ones on {}\n",
+    format!(
+        "{} at {}x{}, {} samples per pixel: {} scenes, shipped limits on {shipped}, calibrated ones on {}\n\n{}{}{}\n",
         subject.name,
         render.width,
         render.height,
         render.samples_per_pixel,
         limits.len(),
         limits.len() - shipped,
-    );
-    text += &format_counts(verdicts);
-    text += &format_score(verdicts);
-    text += &format_survivors(subject, verdicts);
-    text + "\n"
+        format_counts(verdicts),
+        format_score(verdicts),
+        format_survivors(subject, verdicts),
+    )
 }
 
-/// Formats the counts and the score of all filters together.
 pub fn format_total(verdicts: &[Verdict]) -> String {
     format!(
         "all filters\n\n{}{}",
@@ -48,41 +36,34 @@ pub fn format_total(verdicts: &[Verdict]) -> String {
 
 /// Formats killed mutants and all of them, by operator and by the size of the change.
 fn format_counts(verdicts: &[Verdict]) -> String {
-    let mut text = format!(
-        "{:12} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}\n",
-        "killed of", "mutants", "no picture", "same", "below 1", "1 to 3", "above 3"
-    );
+    let mut text = format!("{:12} {:>8} {:>10}", "killed of", "mutants", "no picture");
+    text.extend(SIZES.map(|size| format!(" {size:>10}")));
     let groups = (Operator::ALL.into_iter())
         .map(|operator| (operator.name(), Some(operator)))
         .chain([("all", None)]);
     for (name, operator) in groups {
-        let own: Vec<&Verdict> = (verdicts.iter())
-            .filter(|verdict| operator.is_none_or(|own| own == verdict.mutant.mutant.operator))
-            .collect();
-        let failed = own
-            .iter()
-            .filter(|verdict| verdict.failure.is_some())
-            .count();
-        let _ = write!(text, "{name:12} {:>8} {failed:>10}", own.len());
-        for size in Size::ALL {
-            let [killed, all] = count(&own, size);
-            let cell = match (size, all) {
-                (_, 0) => "-".to_owned(),
-                (Size::None, _) => all.to_string(),
-                _ => format!("{killed}/{all}"),
+        let of_group = |verdict: &&Verdict| {
+            operator.is_none_or(|operator| operator == verdict.mutant.mutant.operator)
+        };
+        let own: Vec<&Verdict> = verdicts.iter().filter(of_group).collect();
+        let failed = own.iter().filter(|it| it.failure.is_some()).count();
+        text += &format!("\n{name:12} {:>8} {failed:>10}", own.len());
+        for size in SIZES {
+            let cell = match (size, count(&own, size)) {
+                (_, [_, 0]) => "-".to_owned(),
+                ("same", [_, all]) => all.to_string(),
+                (_, [killed, all]) => format!("{killed}/{all}"),
             };
-            let _ = write!(text, " {cell:>10}");
+            text += &format!(" {cell:>10}");
         }
-        text += "\n";
     }
-    text
+    text + "\n"
 }
 
-/// Counts the killed mutants with a change of that size, and all.
-fn count(verdicts: &[&Verdict], size: Size) -> [usize; 2] {
+fn count(verdicts: &[&Verdict], size: &str) -> [usize; 2] {
     let own = || {
-        let decided = verdicts.iter().filter(|verdict| verdict.is_decided);
-        decided.filter(move |verdict| verdict.failure.is_none() && verdict.size() == Some(size))
+        let decided = (verdicts.iter()).filter(|it| it.is_decided && it.failure.is_none());
+        decided.filter(|it| it.reason().is_some_and(|reason| reason.names()[0] == size))
     };
     [
         own().filter(|verdict| verdict.killed.is_some()).count(),
@@ -92,7 +73,7 @@ fn count(verdicts: &[&Verdict], size: Size) -> [usize; 2] {
 
 fn format_score(verdicts: &[Verdict]) -> String {
     let all: Vec<&Verdict> = verdicts.iter().collect();
-    let [killed, noticeable] = count(&all, Size::Noticeable);
+    let [killed, noticeable] = count(&all, SIZES[3]);
     let mut text = match noticeable {
         0 => "\nscore: no mutant changes the picture by more than three noise floors\n".to_owned(),
         _ => format!(
@@ -101,14 +82,10 @@ fn format_score(verdicts: &[Verdict]) -> String {
             100.0 * killed as f64 / noticeable as f64
         ),
     };
-    let open = verdicts
-        .iter()
-        .filter(|verdict| !verdict.is_decided)
-        .count();
+    let open = verdicts.iter().filter(|it| !it.is_decided).count();
     if open > 0 {
-        let _ = writeln!(
-            text,
-            "{open} mutants are not counted, because the time ended before every scene was tried"
+        text += &format!(
+            "{open} mutants are not counted, because the time ended before every scene was tried\n"
         );
     }
     text
@@ -117,26 +94,16 @@ fn format_score(verdicts: &[Verdict]) -> String {
 /// Lists the survivors, those with the largest change first.
 fn format_survivors(subject: &Subject, verdicts: &[Verdict]) -> String {
     let mut survivors: Vec<&Verdict> = (verdicts.iter())
-        .filter(|verdict| verdict.failure.is_none() && verdict.killed.is_none())
-        .filter(|verdict| verdict.is_decided)
+        .filter(|it| it.failure.is_none() && it.killed.is_none() && it.is_decided)
         .collect();
-    survivors.sort_by(|a, b| {
-        let floors = |verdict: &Verdict| {
-            verdict
-                .change
-                .as_ref()
-                .map_or(0.0, |(change, _)| change.floors)
-        };
-        floors(b).total_cmp(&floors(a))
-    });
+    let floors = |it: &Verdict| it.change.as_ref().map_or(0.0, |(change, _)| change.floors);
+    survivors.sort_by(|a, b| floors(b).total_cmp(&floors(a)));
     let mut text = String::new();
     for reason in Reason::ALL {
-        let own: Vec<&&Verdict> = (survivors.iter())
-            .filter(|verdict| verdict.reason() == Some(reason))
-            .collect();
+        let own = survivors.iter().filter(|it| it.reason() == Some(reason));
+        let own: Vec<String> = own.map(|it| format_survivor(subject, it)).collect();
         if !own.is_empty() {
-            let _ = writeln!(text, "\n{}", reason.title());
-            text.extend(own.iter().map(|verdict| format_survivor(subject, verdict)));
+            text += &format!("\n{}\n{}", reason.names()[1], own.concat());
         }
     }
     text
@@ -144,17 +111,14 @@ fn format_survivors(subject: &Subject, verdicts: &[Verdict]) -> String {
 
 fn format_survivor(subject: &Subject, verdict: &Verdict) -> String {
     let mutant = &verdict.mutant;
-    let mut text = format!("  {}:{}\n", subject.file, mutant.name);
-    let _ = writeln!(text, "      {}", mutant.mutant.line(&subject.kernels));
+    let line = mutant.mutant.line(&subject.kernels);
+    let mut text = format!("  {}:{}\n      {line}\n", subject.file, mutant.name);
     if let Some((change, scene)) = &verdict.change
         && change.share > 0.0
     {
-        let error = verdict
-            .error
-            .map(|error| format!(", {error:.3} times the squared error"));
-        let _ = writeln!(
-            text,
-            "      {} noise floors on {scene}, {:.2} % of the pixels{}",
+        let error = (verdict.error).map(|error| format!(", {error:.3} times the squared error"));
+        text += &format!(
+            "      {} noise floors on {scene}, {:.2} % of the pixels{}\n",
             number(change.floors),
             100.0 * change.share,
             error.unwrap_or_default()
@@ -164,15 +128,10 @@ fn format_survivor(subject: &Subject, verdict: &Verdict) -> String {
     for (metric, scene) in &verdict.noticed_by {
         by_metric.entry(metric).or_default().push(scene.to_string());
     }
-    if !by_metric.is_empty() {
-        let noticed = by_metric
-            .iter()
-            .map(|(metric, scenes)| format!("{metric} on {}", scenes.join(", ")));
-        let _ = writeln!(
-            text,
-            "      calibrated limits would notice: {}",
-            noticed.collect::<Vec<_>>().join("; ")
-        );
+    let noticed = (by_metric.iter()).map(|(metric, on)| format!("{metric} on {}", on.join(", ")));
+    let noticed = noticed.collect::<Vec<_>>().join("; ");
+    if !noticed.is_empty() {
+        text += &format!("      calibrated limits would notice: {noticed}\n");
     }
     text
 }

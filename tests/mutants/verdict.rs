@@ -4,17 +4,16 @@ use metrics::Measured;
 use suite::Case;
 use tracer::SceneId;
 
-use crate::bench::{Bench, SEED, mutant_place};
-use crate::journal::{Change, Journal, Place};
-use crate::limits::{Limits, find_broken, sound_place};
-use crate::subject::{MutantFilter, Subject};
+use crate::bench::SEED;
+use crate::journal::Change;
+use crate::limits::find_broken;
+use crate::study::Study;
+use crate::subject::MutantFilter;
 
 /// Change from which on a mutant is to be noticed, in noise floors.
 pub const NOTICEABLE: f64 = 3.0;
 
-/// Everything that is known of a mutant.
 pub struct Verdict<'s> {
-    /// The mutant.
     pub mutant: &'s MutantFilter,
     /// Error of a mutant that makes no picture, on which a check fails by itself.
     pub failure: Option<String>,
@@ -30,189 +29,127 @@ pub struct Verdict<'s> {
     pub noticed_by: Vec<(String, SceneId)>,
 }
 
-/// Size of a mutant's change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Size {
-    /// Every picture is the same, to the last bit.
-    None,
-    /// Less than one noise floor.
-    Unseen,
-    /// One to three noise floors.
-    Small,
-    /// More than three noise floors.
-    Noticeable,
-}
-
-impl Size {
-    /// Every size.
-    pub const ALL: [Self; 4] = [Self::None, Self::Unseen, Self::Small, Self::Noticeable];
-}
-
-/// Reason why no limit kills a mutant.
+/// Reason why no limit kills a mutant, by the size of its change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// Its change is noticeable: a limit is missing or too loose, or a scene is missing.
+    /// More than three noise floors: a limit is missing or too loose, or a scene is missing.
     Hole,
-    /// Its change is noticeable, but no larger squared error comes of it where the change is largest.
+    /// More than three noise floors, but no larger squared error comes of it where the change is largest.
     NoWorse,
-    /// Its change is small.
+    /// One to three noise floors.
     Small,
-    /// Its change is less than the noise.
+    /// Less than one noise floor.
     Unseen,
-    /// It makes the same pictures.
+    /// The same pictures, to the last bit.
     Equivalent,
 }
 
-impl Reason {
-    /// Every reason.
-    pub const ALL: [Self; 5] = [
-        Self::Hole,
-        Self::NoWorse,
-        Self::Small,
-        Self::Unseen,
-        Self::Equivalent,
-    ];
+/// Columns of the table: sizes of changes.
+pub const SIZES: [&str; 4] = ["same", "below 1", "1 to 3", "above 3"];
 
-    /// Returns the title of a list of survivors.
-    pub fn title(self) -> &'static str {
+impl Reason {
+    #[rustfmt::skip]
+    pub const ALL: [Self; 5] =
+        [Self::Hole, Self::NoWorse, Self::Small, Self::Unseen, Self::Equivalent];
+
+    /// Returns the column of the table, and the title of a list of survivors.
+    pub fn names(self) -> [&'static str; 2] {
+        let [same, unseen, small, noticeable] = SIZES;
         match self {
-            Self::Hole => "holes: more than three noise floors, and no limit breaks",
-            Self::NoWorse => {
-                "no worse: more than three noise floors, but the squared error does not grow"
-            }
-            Self::Small => "below the noise: one to three noise floors",
-            Self::Unseen => "below the noise: less than one noise floor",
-            Self::Equivalent => "equivalent: the same pictures to the last bit",
+            Self::Hole => [
+                noticeable,
+                "holes: more than three noise floors, and no limit breaks",
+            ],
+            Self::NoWorse => [
+                noticeable,
+                "no worse: more than three noise floors, but the squared error does not grow",
+            ],
+            Self::Small => [small, "below the noise: one to three noise floors"],
+            Self::Unseen => [unseen, "below the noise: less than one noise floor"],
+            Self::Equivalent => [same, "equivalent: the same pictures to the last bit"],
         }
     }
 }
 
 impl Verdict<'_> {
+    /// Tells whether a mutant broke a limit on a scene, or made no picture.
+    pub fn is_killed(&self) -> bool {
+        self.killed.is_some() || self.failure.is_some()
+    }
+
     /// Returns the reason why a survivor survives; none if its change is not known.
     pub fn reason(&self) -> Option<Reason> {
-        Some(match self.size()? {
-            Size::None => Reason::Equivalent,
-            Size::Unseen => Reason::Unseen,
-            Size::Small => Reason::Small,
-            Size::Noticeable => match self.error {
-                Some(error) if error <= 1.0 => Reason::NoWorse,
-                _ => Reason::Hole,
-            },
-        })
-    }
-
-    /// Returns the size of the largest change; none if that is not known.
-    pub fn size(&self) -> Option<Size> {
         let (change, _) = self.change.as_ref()?;
         Some(match change.floors {
-            _ if change.share == 0.0 => Size::None,
-            floors if floors > NOTICEABLE => Size::Noticeable,
-            floors if floors >= 1.0 => Size::Small,
-            _ => Size::Unseen,
+            _ if change.share == 0.0 => Reason::Equivalent,
+            floors if floors < 1.0 => Reason::Unseen,
+            floors if floors <= NOTICEABLE => Reason::Small,
+            _ if self.error.is_some_and(|error| error <= 1.0) => Reason::NoWorse,
+            _ => Reason::Hole,
         })
     }
 }
 
-/// Tells whether a mutant makes the same picture of a scene as the filter without a change.
-pub fn is_same_picture(journal: &Journal, place: &Place) -> bool {
-    matches!(journal.changes.get(place), Some(Ok(change)) if change.share == 0.0)
-}
+impl<'s> Study<'_, 's> {
+    pub fn find_verdicts(&self) -> Vec<Verdict<'s>> {
+        let mutants = self.subject.mutants.iter();
+        mutants.map(|mutant| self.find_verdict(mutant)).collect()
+    }
 
-/// Tells whether a mutant broke a limit on a scene, or made no picture.
-pub fn is_killed(
-    bench: &Bench,
-    subject: &Subject,
-    limits: &Limits,
-    journal: &Journal,
-    mutant: &MutantFilter,
-) -> bool {
-    let verdict = find_verdict(bench, subject, limits, journal, mutant);
-    verdict.killed.is_some() || verdict.failure.is_some()
-}
-
-/// Finds the verdict on every mutant of a filter.
-pub fn find_verdicts<'s>(
-    bench: &Bench,
-    subject: &'s Subject,
-    limits: &Limits,
-    journal: &Journal,
-) -> Vec<Verdict<'s>> {
-    let mutants = subject.mutants.iter();
-    mutants
-        .map(|mutant| find_verdict(bench, subject, limits, journal, mutant))
-        .collect()
-}
-
-fn find_verdict<'s>(
-    bench: &Bench,
-    subject: &Subject,
-    limits: &Limits,
-    journal: &Journal,
-    mutant: &'s MutantFilter,
-) -> Verdict<'s> {
-    let mut verdict = Verdict {
-        mutant,
-        failure: None,
-        change: None,
-        error: None,
-        killed: None,
-        is_decided: true,
-        noticed_by: Vec::new(),
-    };
-    let mut is_tried = true;
-    for choice in &bench.scenes {
-        let scene = &choice.scene.id;
-        let place = mutant_place(subject, mutant, scene);
-        match journal.changes.get(&place) {
-            None => is_tried = false,
-            Some(Err(reason)) => verdict.failure = Some(reason.clone()),
-            Some(Ok(change)) => {
-                let larger = (verdict.change.as_ref())
-                    .is_none_or(|(largest, _)| largest.floors < change.floors);
-                if larger {
-                    verdict.change = Some((*change, scene.clone()));
+    pub fn find_verdict(&self, mutant: &'s MutantFilter) -> Verdict<'s> {
+        let mut verdict = Verdict {
+            mutant,
+            failure: None,
+            change: None,
+            error: None,
+            killed: None,
+            is_decided: true,
+            noticed_by: Vec::new(),
+        };
+        let mut is_tried = true;
+        for scene in self.bench.scenes.iter().map(|scene| &scene.id) {
+            let place = self.subject.place(&mutant.name, scene);
+            match self.journal.changes.get(&place) {
+                None => is_tried = false,
+                Some(Err(reason)) => verdict.failure = Some(reason.clone()),
+                Some(Ok(change)) => {
+                    let largest = verdict.change.as_ref();
+                    if largest.is_none_or(|(largest, _)| largest.floors < change.floors) {
+                        verdict.change = Some((*change, scene.clone()));
+                    }
+                }
+            }
+            match self.journal.cases.get(&place) {
+                None => verdict.is_decided &= self.journal.is_same_picture(&place),
+                Some(Err(reason)) => verdict.failure = Some(reason.clone()),
+                Some(Ok(case)) => {
+                    let limits = &self.limits[scene];
+                    let broken = find_broken(case, &limits.deciding);
+                    if !broken.is_empty() && verdict.killed.is_none() {
+                        verdict.killed = Some((scene.clone(), broken));
+                    }
+                    let widest = limits.widest.iter();
+                    let noticed = widest.flat_map(|widest| find_broken(case, widest));
+                    (verdict.noticed_by).extend(noticed.map(|metric| (metric, scene.clone())));
                 }
             }
         }
-        match journal.cases.get(&place) {
-            None => verdict.is_decided &= is_same_picture(journal, &place),
-            Some(Err(reason)) => verdict.failure = Some(reason.clone()),
-            Some(Ok(case)) => {
-                let limits = &limits[scene];
-                let broken = find_broken(case, &limits.deciding);
-                if !broken.is_empty() && verdict.killed.is_none() {
-                    verdict.killed = Some((scene.clone(), broken));
-                }
-                let noticed = limits
-                    .widest
-                    .iter()
-                    .flat_map(|widest| find_broken(case, widest));
-                (verdict.noticed_by).extend(noticed.map(|metric| (metric, scene.clone())));
-            }
-        }
+        verdict.change.take_if(|_| !is_tried);
+        let largest = verdict.change.as_ref();
+        verdict.error = largest.and_then(|(_, scene)| self.find_error(mutant, scene));
+        verdict.is_decided |= verdict.is_killed();
+        verdict
     }
-    if !is_tried {
-        verdict.change = None;
-    }
-    if let Some((_, scene)) = &verdict.change {
-        verdict.error = find_error(subject, journal, mutant, scene);
-    }
-    verdict.is_decided |= verdict.killed.is_some() || verdict.failure.is_some();
-    verdict
-}
 
-/// Divides the mean squared error of a mutant by that of the filter without a change.
-fn find_error(
-    subject: &Subject,
-    journal: &Journal,
-    mutant: &MutantFilter,
-    scene: &SceneId,
-) -> Option<f64> {
-    let sound = journal.sound.get(&sound_place(subject, scene, SEED))?;
-    let case = journal.cases.get(&mutant_place(subject, mutant, scene))?;
-    let error = |case: &Case| match case.scores.get("mse_moving".parse().ok()?) {
-        Measured::Score(score) => Some(score.value),
-        Measured::NotApplicable { .. } => None,
-    };
-    Some(error(case.as_ref().ok()?)? / error(sound.cases.first()?)?)
+    /// Divides the mean squared error of a mutant by that of the filter without a change.
+    fn find_error(&self, mutant: &MutantFilter, scene: &SceneId) -> Option<f64> {
+        let (subject, journal) = (self.subject, &self.journal);
+        let sound = journal.sound.get(&subject.sound_place(scene, SEED))?;
+        let case = journal.cases.get(&subject.place(&mutant.name, scene))?;
+        let error = |case: &Case| match case.scores.get("mse_moving".parse().ok()?) {
+            Measured::Score(score) => Some(score.value),
+            Measured::NotApplicable { .. } => None,
+        };
+        Some(error(case.as_ref().ok()?)? / error(sound.cases.first()?)?)
+    }
 }

@@ -1,17 +1,15 @@
 //! The page that asks people, from its keys to the scale of the answers.
 
-use std::fs;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use study::{Clip, Question, ShownPair, Study, draw_session};
+use tests::text::assert_contains;
 
-use crate::browser::Browser;
-use crate::sandbox::{Sandbox, assert_done};
+use crate::browser::{Browser, address_of};
+use crate::sandbox::Sandbox;
 
-const FILTERS: [&str; 2] = [
-    "--filters",
-    "jump_flood:paper,velocity_gather:fine,identity",
-];
+const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
 
 /// A clip as the page numbers it.
 fn code(clip: Clip) -> i64 {
@@ -39,10 +37,10 @@ fn key(pair: &ShownPair) -> &'static str {
         -2 => 100,
         rank => rank,
     };
-    match rank(pair.left).cmp(&rank(pair.right)) {
-        std::cmp::Ordering::Less => "ArrowLeft",
-        std::cmp::Ordering::Greater => "ArrowRight",
-        std::cmp::Ordering::Equal => "ArrowDown",
+    match rank(pair.left) - rank(pair.right) {
+        ..0 => "ArrowLeft",
+        0 => "ArrowDown",
+        1.. => "ArrowRight",
     }
 }
 
@@ -52,28 +50,30 @@ fn kept(browser: &mut Browser) -> Value {
     serde_json::from_str(&text).unwrap()
 }
 
+/// Makes a page that asks; returns its study.
+fn ask(sandbox: &Sandbox, more: &[&str]) -> Study {
+    let words = ["people", "ask", "out", "--json"];
+    let written = sandbox.execute(&[&words, more].concat());
+    let written: Value = serde_json::from_str(&written).unwrap();
+    serde_json::from_value(written["study"].clone()).unwrap()
+}
+
 #[test]
 fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&[&FILTERS[..], &["--frames", "3", "--fps", "5"]].concat()));
-    let written = sandbox.execute(&["people", "ask", "out", "--out", "a page", "--json"]);
-    let written: Value = serde_json::from_str(&written).unwrap();
-    let study: Study = serde_json::from_value(written["study"].clone()).unwrap();
+    sandbox.measure(&format!("--filters {FILTERS} --frames 3 --fps 5"));
+    let study = ask(&sandbox, &["--out", "a page"]);
     let page = sandbox.path("a page/index.html");
     let mut browser = Browser::new(1280, 800);
     browser.save_to(&sandbox.path("saved"));
     browser.open(&page, "");
     let start = browser.text("document.getElementById('start').innerText");
-    assert!(
-        start.contains("There are 5 questions") && start.contains("no difference"),
-        "{start}"
-    );
+    assert_contains(&start, &["There are 5 questions", "no difference"]);
     assert!(!start.contains("jump_flood"), "{start}");
     browser.press("Tab");
-    browser.value("document.getElementById('begin').click()");
+    browser.click("#begin");
     wait(&mut browser, 0);
-    let session = kept(&mut browser);
-    let seed = session["seed"].as_u64().unwrap();
+    let seed = kept(&mut browser)["seed"].as_u64().unwrap();
     let pairs = draw_session(&study, Question::Truth, seed);
     assert_eq!(pairs.len(), 5);
 
@@ -89,17 +89,10 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     assert!((6..=9).contains(&zoom), "{sizes}");
     assert_eq!(sizes, json!([[64, zoom], [64, zoom], [64, zoom]]));
     let shown = browser.text("document.getElementById('asking').innerText");
-    assert!(
-        shown.contains("Which looks more like the truth?") && shown.contains("question 1 of 5"),
-        "{shown}"
-    );
-    assert!(
-        !study.shutters[0]
-            .filters
-            .iter()
-            .any(|name| shown.contains(name)),
-        "{shown}"
-    );
+    let parts = ["Which looks more like the truth?", "question 1 of 5"];
+    assert_contains(&shown, &parts);
+    let mut names = study.shutters[0].filters.iter();
+    assert!(!names.any(|name| shown.contains(name)), "{shown}");
 
     for (index, pair) in pairs.iter().enumerate().take(2) {
         wait(&mut browser, index);
@@ -111,34 +104,29 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     wait(&mut browser, 2);
     assert_eq!(kept(&mut browser)["answers"].as_array().unwrap().len(), 2);
     browser.open(&page, "");
-    assert_eq!(
-        browser.text("document.getElementById('verdict').textContent"),
-        "Stopped"
-    );
-    browser.value("document.getElementById('resume').click()");
+    let verdict = browser.read("#verdict");
+    assert_eq!(verdict, "Stopped");
+    browser.click("#resume");
     for (index, pair) in pairs.iter().enumerate().skip(2) {
         wait(&mut browser, index);
         if index == 3 {
             browser.press("Escape");
-            assert!(
-                browser
-                    .text("document.getElementById('given').textContent")
-                    .contains("3 of 5")
-            );
-            browser.value("document.getElementById('resume').click()");
+            let given = browser.read("#given");
+            assert_contains(&given, &["3 of 5"]);
+            browser.click("#resume");
             wait(&mut browser, index);
         }
         browser.press(key(pair));
     }
     browser.until("document.getElementById('verdict').textContent === 'Thank you'");
-    browser.value("document.getElementById('save').click()");
+    browser.click("#save");
     let name = format!("saved/answers_{seed}.json");
-    let start = std::time::Instant::now();
+    let start = Instant::now();
     while !sandbox.path(&name).is_file() {
         assert!(start.elapsed().as_secs() < 20, "nothing was saved");
-        std::thread::sleep(std::time::Duration::from_millis(20));
+        std::thread::sleep(Duration::from_millis(20));
     }
-    let file: Value = serde_json::from_slice(&fs::read(sandbox.path(&name)).unwrap()).unwrap();
+    let file: Value = sandbox.read_json(&name);
     assert_eq!(file["display"]["viewport"], json!([1280, 800]));
     assert_eq!(file["answers"][0]["zoom"], zoom);
     let printed = sandbox.execute(&["people", "preferences", &name, "--run", "out", "--json"]);
@@ -146,27 +134,20 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
     let question = &printed["questions"][0];
     assert_eq!(question["sessions"][0]["failed_checks"], 0);
     let filters = question["scales"][0]["filters"].as_array().unwrap();
-    let order: Vec<&str> = filters
-        .iter()
-        .map(|own| own["filter"].as_str().unwrap())
-        .collect();
-    assert_eq!(order, study.shutters[0].filters);
+    let order: Vec<&Value> = filters.iter().map(|own| &own["filter"]).collect();
+    assert_eq!(order, study.shutters[0].filters.iter().collect::<Vec<_>>());
     let scores = question["scales"][0]["scores"].as_array().unwrap();
     assert!(scores.iter().any(|own| own["score"] == "jod"), "{scores:?}");
 
     browser.value("confirm = () => true; document.getElementById('fresh').click()");
     assert_eq!(browser.value("localStorage.length"), 0);
-    assert_eq!(
-        browser.value("document.getElementById('begin').checkVisibility()"),
-        true
-    );
+    assert!(browser.shows("#begin"));
     assert_eq!(browser.complaints(), [""; 0]);
-    let folder = page.parent().unwrap().to_str().unwrap().replace(' ', "%20");
+    let folder = address_of(page.parent().unwrap());
     let requests = browser.requests();
     assert!(requests.len() > 5);
     for request in requests {
-        let is_own =
-            request.starts_with(&format!("file://{folder}/")) || request.starts_with("blob:");
+        let is_own = request.starts_with(&format!("{folder}/")) || request.starts_with("blob:");
         assert!(is_own, "{request}");
     }
 }
@@ -175,20 +156,9 @@ fn answers_by_keys_survive_a_reload_and_become_a_scale() {
 fn the_page_draws_the_sessions_that_the_program_expects() {
     let sandbox = Sandbox::new();
     sandbox.add_slow_scene();
-    let filters = "jump_flood:paper,velocity_gather:fine,velocity_gather:coarse,identity,bevy:high,kino,three:corrected";
-    assert_done(&sandbox.run(&["--filters", filters]));
-    let words = [
-        "people",
-        "ask",
-        "out",
-        "--question",
-        "better",
-        "--pairs",
-        "13",
-        "--json",
-    ];
-    let written: Value = serde_json::from_str(&sandbox.execute(&words)).unwrap();
-    let study: Study = serde_json::from_value(written["study"].clone()).unwrap();
+    let more = "velocity_gather:coarse,bevy:high,kino,three:corrected";
+    sandbox.measure(&format!("--filters {FILTERS},{more}"));
+    let study = ask(&sandbox, &["--question", "better", "--pairs", "13"]);
     assert_eq!(study.shutters.len(), 2);
     let mut browser = Browser::new(390, 700);
     browser.open(&sandbox.path("out/ask/index.html"), "");
@@ -203,35 +173,28 @@ fn the_page_draws_the_sessions_that_the_program_expects() {
             (Question::Better, (1 << 53) - 10..(1 << 53)),
         ] {
             let name = question.name();
-            let (first, last) = (seeds.start, seeds.end);
+            let (first, count) = (seeds.start, seeds.end - seeds.start);
             let found = browser.value(&format!(
-                "[...Array({}).keys()].map(at => drawSession({text}, '{name}', {first} + at).map(own => [own.shutter, own.scene, own.left, own.right]))",
-                last - first
+                "[...Array({count}).keys()].map(at => drawSession({text}, '{name}', {first} + at).map(own => [own.shutter, own.scene, own.left, own.right]))"
             ));
-            let due: Vec<Vec<Value>> = (seeds)
-                .map(|seed| {
-                    draw_session(&study, question, seed)
-                        .iter()
-                        .map(plain)
-                        .collect()
-                })
-                .collect();
+            let draw = |seed| -> Vec<Value> {
+                let pairs = draw_session(&study, question, seed);
+                pairs.iter().map(plain).collect()
+            };
+            let due: Vec<Vec<Value>> = seeds.map(draw).collect();
             assert_eq!(found, json!(due), "{most_pairs} {name}");
         }
     }
 
     // A page with one question asks that, and shows no truth. In a window that is too small it says so, and takes no answer.
     assert_eq!(browser.value("document.documentElement.scrollWidth"), 390);
-    browser.value("document.getElementById('begin').click()");
+    browser.click("#begin");
     wait(&mut browser, 0);
-    assert_eq!(
-        browser.value("document.getElementById('truth').checkVisibility()"),
-        false
-    );
+    assert!(!browser.shows("#truth"));
     browser.resize(100, 700);
     browser.until("document.getElementById('misfit').checkVisibility()");
-    let misfit = browser.text("document.getElementById('misfit').textContent");
-    assert!(misfit.contains("128 x 32"), "{misfit}");
+    let misfit = browser.read("#misfit");
+    assert_contains(&misfit, &["128 x 32"]);
     browser.press("ArrowLeft");
     assert_eq!(kept(&mut browser)["answers"], json!([]));
     browser.resize(390, 700);

@@ -14,6 +14,17 @@ use tungstenite::{Message, WebSocket};
 /// Time limit, far longer than anything here takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
+/// Options of a Chromium without a window, whose pictures are the same everywhere.
+const OPTIONS: [&str; 7] = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--hide-scrollbars",
+    "--no-first-run",
+    "--remote-debugging-port=0",
+    "--force-color-profile=srgb",
+];
+
 /// Programs to look for on the PATH if the variable CHROMIUM names none.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 
@@ -33,14 +44,7 @@ impl Browser {
     pub fn new(width: u32, height: u32) -> Self {
         let profile = tempfile::tempdir().unwrap();
         let mut process = Command::new(program())
-            .args([
-                "--headless",
-                "--no-sandbox",
-                "--disable-gpu",
-                "--hide-scrollbars",
-                "--no-first-run",
-            ])
-            .args(["--remote-debugging-port=0", "--force-color-profile=srgb"])
+            .args(OPTIONS)
             .arg(format!("--user-data-dir={}", profile.path().display()))
             .arg("about:blank")
             .stdout(Stdio::null())
@@ -103,23 +107,37 @@ impl Browser {
             .to_owned()
     }
 
+    /// Returns the text of the first element that a selector finds.
+    pub fn read(&mut self, selector: &str) -> String {
+        self.text(&format!("document.querySelector('{selector}').textContent"))
+    }
+
+    /// Clicks the first element that a selector finds.
+    pub fn click(&mut self, selector: &str) {
+        self.value(&format!("document.querySelector('{selector}').click()"));
+    }
+
+    /// Tells whether the first element that a selector finds is visible.
+    pub fn shows(&mut self, selector: &str) -> bool {
+        self.value(&format!(
+            "document.querySelector('{selector}').checkVisibility()"
+        )) == true
+    }
+
     /// Waits until an expression is true.
     pub fn until(&mut self, expression: &str) {
         let start = Instant::now();
         while self.value(expression) != true {
             assert!(start.elapsed() < PATIENCE, "never: {expression}");
-            std::thread::sleep(Duration::from_millis(20));
+            std::thread::sleep(Duration::from_millis(5));
         }
     }
 
     /// Presses and releases a key, as `KeyboardEvent.key` calls it.
     pub fn press(&mut self, key: &str) {
-        let text = match key.chars().count() {
-            1 => key,
-            _ => "",
-        };
-        for kind in ["keyDown", "keyUp"] {
-            let words = json!({"type": kind, "key": key, "text": if kind == "keyDown" { text } else { "" }});
+        let text = if key.chars().count() == 1 { key } else { "" };
+        for (kind, text) in [("keyDown", text), ("keyUp", "")] {
+            let words = json!({"type": kind, "key": key, "text": text});
             self.call("Input.dispatchKeyEvent", words);
         }
     }
@@ -214,12 +232,10 @@ impl Browser {
         ];
         // All earlier events have arrived before this answer.
         self.value("0");
-        let complains = |event: &&Value| COMPLAINTS.iter().any(|method| event["method"] == *method);
-        self.events
-            .iter()
-            .filter(complains)
-            .map(Value::to_string)
-            .collect()
+        let events = self.events.iter();
+        let complaints =
+            events.filter(|event| COMPLAINTS.iter().any(|method| event["method"] == *method));
+        complaints.map(Value::to_string).collect()
     }
 
     /// Returns the addresses of all requests, except for pictures that the page itself holds.
@@ -315,15 +331,9 @@ fn read_address(process: &mut Child) -> String {
 
 /// Writes a path as a browser's address line does.
 pub fn address_of(page: &Path) -> String {
-    let path = page.to_str().unwrap();
-    let escaped: String = (path.chars())
-        .map(|letter| match letter {
-            ' ' => "%20".to_owned(),
-            '#' => "%23".to_owned(),
-            '<' => "%3C".to_owned(),
-            '>' => "%3E".to_owned(),
-            other => other.to_string(),
-        })
-        .collect();
+    let escapes = [(' ', "%20"), ('#', "%23"), ('<', "%3C"), ('>', "%3E")];
+    let path = page.to_str().unwrap().to_owned();
+    let escaped =
+        (escapes.iter()).fold(path, |path, (letter, escape)| path.replace(*letter, escape));
     format!("file://{escaped}")
 }

@@ -6,8 +6,8 @@ use frame::{ExrFile, read_exr};
 use suite::Case;
 
 use crate::browser::{Browser, address_of};
-use crate::sandbox::{Sandbox, assert_done};
-use crate::{case_of, make_page, make_page_within, open_case};
+use crate::sandbox::Sandbox;
+use crate::{make_page, make_page_within, measure, open_case};
 
 /// Returns the read-out's rows by layer, each with its texts.
 pub fn read_out(browser: &mut Browser, x: u32, y: u32) -> serde_json::Value {
@@ -78,52 +78,45 @@ fn assert_near(shown: &serde_json::Value, files: &[ExrFile; 4], x: u32, y: u32) 
     }
 }
 
-#[test]
-fn the_read_out_shows_the_values_of_the_openexr_files_in_three_digits() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
-    let page = make_page(&sandbox);
-    let case = case_of(&sandbox, "velocity_gather:fine");
-    let files = files_of(&sandbox, &case);
-    let mut browser = Browser::new(1280, 900);
-    open_case(&mut browser, &page, "plate/velocity_gather:fine");
+/// Points at pixels of a case, whose read-outs show the values of the OpenEXR files in three digits.
+fn assert_read_outs(browser: &mut Browser, files: &[ExrFile; 4]) {
     let [left, top, width, _] = browser.place(".stack");
     let scale = width / 64.0;
     let check = |browser: &mut Browser, x: u32, y: u32| {
         let shown = read_out(browser, x, y);
-        assert_near(&shown, &files, x, y);
+        assert_near(&shown, files, x, y);
+        // The plate stands 4 m away.
         let depth = &shown["depth"][0];
-        assert!(
-            depth == "4" || depth == "no surface",
-            "the plate stands 4 m away: {depth}"
-        );
+        assert!(depth == "4" || depth == "no surface", "{depth}");
     };
     for (x, y) in [(20_u32, 15_u32), (30, 17), (3, 2)] {
         let at = [x, y].map(|pixel| scale * (f64::from(pixel) + 0.5));
         browser.point(left + at[0], top + at[1]);
-        check(&mut browser, x, y);
+        check(browser, x, y);
     }
     browser.value("document.querySelector('.stack').focus()");
     browser.press("ArrowRight");
     browser.press("ArrowDown");
-    check(&mut browser, 4, 3);
-    let spoken = browser.text("document.querySelector('.spoken').textContent");
-    assert!(
-        spoken.starts_with("x 4, y 3, background; Truth 0.2 0.2 0.2"),
-        "{spoken}"
-    );
+    check(browser, 4, 3);
+    let spoken = browser.read(".spoken");
+    let due = "x 4, y 3, background; Truth 0.2 0.2 0.2";
+    assert!(spoken.starts_with(due), "{spoken}");
 }
 
 #[test]
-fn numbers_and_tables_beside_the_page_are_found() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+fn numbers_and_tables_in_a_page_or_beside_it_are_those_of_the_files() {
+    let sandbox = measure("identity,velocity_gather:fine");
+    let cases = sandbox.read_filter_cases();
+    let mut own = cases.iter();
+    let own = own.find(|case| case.name() == "velocity_gather:fine");
+    let files = files_of(&sandbox, own.unwrap());
     let whole = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
     let article = "[...document.querySelectorAll('article.open > :not(.viewer_place)')].map((own) => own.textContent).join()";
     open_case(&mut browser, &whole, "plate/velocity_gather:fine");
     let words = browser.text(article);
     assert!(words.contains("flip_moving"), "{words}");
+    assert_read_outs(&mut browser, &files);
 
     let page = make_page_within(&sandbox, 0);
     let [numbers, tables] =
@@ -131,11 +124,7 @@ fn numbers_and_tables_beside_the_page_are_found() {
     let mut browser = Browser::new(1280, 900);
     open_case(&mut browser, &page, "plate/velocity_gather:fine");
     assert_eq!(browser.text(article), words);
-    let [left, top, width, _] = browser.place(".stack");
-    browser.point(left + 20.5 * width / 64.0, top + 15.5 * width / 64.0);
-    let shown = read_out(&mut browser, 20, 15);
-    let files = files_of(&sandbox, &case_of(&sandbox, "velocity_gather:fine"));
-    assert_near(&shown, &files, 20, 15);
+    assert_read_outs(&mut browser, &files);
     browser.press("k");
     browser.until(
         "document.querySelector('article.open h2').textContent === 'plate / identity:default'",
@@ -144,16 +133,18 @@ fn numbers_and_tables_beside_the_page_are_found() {
     let due = [&page, &tables, &numbers].map(|path| address_of(path));
     assert_eq!(browser.requests(), due);
 
+    let open = |browser: &mut Browser| {
+        browser.open(&page, "");
+        browser.open(&page, "#plate/velocity_gather:fine");
+    };
     fs::write(&tables, "shuttertruth.arrived(\"tables_0\", {});\n").unwrap();
-    browser.open(&page, "");
-    browser.open(&page, "#plate/velocity_gather:fine");
+    open(&mut browser);
     browser.until(&format!(
         "{article}.includes('tables_0.js is of another run')"
     ));
     fs::remove_file(&tables).unwrap();
     fs::remove_file(&numbers).unwrap();
-    browser.open(&page, "");
-    browser.open(&page, "#plate/velocity_gather:fine");
+    open(&mut browser);
     browser.until(&format!("{article}.includes('tables_0.js is missing')"));
     browser.until("document.querySelector('.hint').textContent.includes('scene_0.js is missing')");
 }

@@ -1,25 +1,23 @@
 //! Pages of a comparison and of a tuning in a browser.
 
-use crate::browser::{Browser, address_of};
-use crate::sandbox::{Sandbox, assert_done, quick_command};
+use std::fs;
 
-const GATHER: [&str; 2] = ["--filters", "velocity_gather:fine"];
+use crate::browser::{Browser, address_of};
+use crate::sandbox::Sandbox;
+
+const GATHER: &str = "--filters velocity_gather:fine";
 
 #[test]
 fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&GATHER));
-    let mut words = quick_command("run", "16").to_vec();
-    let out = words.iter().position(|word| *word == "out").unwrap();
-    words[out] = "other";
-    words.extend(GATHER);
-    words.extend(["--set", "velocity_gather.samples=2"]);
-    assert_done(&sandbox.shuttertruth(&words));
-    assert_done(&sandbox.shuttertruth(&["compare", "out", "other", "--html", "page.html"]));
+    sandbox.measure(GATHER);
+    fs::rename(sandbox.path("out"), sandbox.path("before")).unwrap();
+    sandbox.measure(&format!("{GATHER} --set velocity_gather.samples=2"));
+    sandbox.done("compare before out --html page.html");
     let page = sandbox.path("page.html");
     let mut browser = Browser::new(1280, 900);
     browser.open(&page, "");
-    let heading = browser.text("document.querySelector('main h2').textContent");
+    let heading = browser.read("main h2");
     assert_eq!(heading, "What changed most");
     let [_, top, _, height] = browser.place(".pair");
     assert!(top + height < 900.0, "the pictures are on the first screen");
@@ -49,8 +47,8 @@ fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
     let sandbox = Sandbox::two_scenes();
     let words = "tune search --quiet --filter jump_flood --from paper --vary samples=2..16,jitter --objective flip,bleed --scenes plate,slow \
                  --size 64x32 --samples-per-pixel 16 --budget 8 --out tuned";
-    assert_done(&sandbox.shuttertruth(&words.split_whitespace().collect::<Vec<_>>()));
-    assert_done(&sandbox.shuttertruth(&["report", "tuned", "--html", "page.html"]));
+    sandbox.done(words);
+    sandbox.done("report tuned --html page.html");
     let page = sandbox.path("page.html");
     let mut browser = Browser::new(390, 844);
     browser.open(&page, "");
@@ -69,7 +67,7 @@ fn a_tuning_fits_the_screen_and_marks_unbeaten_candidates() {
 #[test]
 fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
     let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine", "--frames", "3"]));
+    sandbox.measure(&format!("{GATHER} --frames 3"));
     let page = sandbox.path("out/sequences.html");
     let mut browser = Browser::new(1280, 900);
     // The last sequence is that of the filter.
@@ -90,7 +88,7 @@ fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
         second.contains("0001/velocity_gather_fine/change.png"),
         "{second}"
     );
-    let readout = browser.text("document.getElementById('readout').textContent");
+    let readout = browser.read("#readout");
     assert!(readout.starts_with("frame 1 of 2; error "), "{readout}");
     browser.press(",");
     browser.press(",");
@@ -102,15 +100,10 @@ fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
     browser.press("3");
     browser.press(" ");
     browser.until(&format!("document.body.dataset.frame !== '{before}'"));
-    assert_eq!(
-        browser.text("document.getElementById('play').textContent"),
-        "Stop"
-    );
+    let play = "document.getElementById('play').textContent";
+    assert_eq!(browser.text(play), "Stop");
     browser.press(" ");
-    assert_eq!(
-        browser.text("document.getElementById('play').textContent"),
-        "Play"
-    );
+    assert_eq!(browser.text(play), "Play");
     assert_eq!(browser.complaints(), [""; 0]);
     assert_eq!(browser.value("document.documentElement.scrollWidth"), 1280);
 }

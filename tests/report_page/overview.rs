@@ -1,8 +1,11 @@
 //! The overview in a browser: the search for rows, the preview of a worst place, and sections of filters.
 
+use std::path::Path;
+
+use tests::text::assert_contains;
+
 use crate::browser::Browser;
-use crate::make_page;
-use crate::sandbox::{Sandbox, assert_done};
+use crate::{make_page, measure};
 
 /// Returns the names in the visible rows.
 fn rows(browser: &mut Browser) -> String {
@@ -14,63 +17,38 @@ fn rows(browser: &mut Browser) -> String {
 
 #[test]
 fn the_search_filters_rows_and_references_show_on_request() {
-    let sandbox = Sandbox::new();
     const FILTERS: [&str; 2] = ["--filters", "identity,velocity_gather:fine"];
-    assert_done(&sandbox.run(&FILTERS));
-    let errors = sandbox.read_filter_cases();
-    let errors = errors
-        .iter()
-        .map(|case| case.scores.moving.flip.value().unwrap());
-    let limit = errors.sum::<f64>() / 2.0;
-    sandbox.write(
-        "bounds.toml",
-        &format!("[default]\nflip_moving = {{ limit = {limit}, why = \"it serves a test\" }}\n"),
-    );
+    let sandbox = measure(FILTERS[1]);
+    let errors = sandbox.read_filter_cases().into_iter();
+    let errors = errors.map(|case| case.scores.moving.flip.value().unwrap());
+    sandbox.write_bound(errors.sum::<f64>() / 2.0);
     let output = sandbox.check(&FILTERS);
-    assert_eq!(
-        output.status.code(),
-        Some(1),
-        "one of both is beyond the mean"
-    );
-    sandbox.check(&["--filters", "identity,velocity_gather:fine"]);
+    assert_eq!(output.status.code(), Some(1), "one is beyond the mean");
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
+    let browser = &mut browser;
     browser.open(&page, "");
-    assert_eq!(rows(&mut browser), "velocity_gather:fine,identity:default");
-    let set = |browser: &mut Browser, change: &str| {
+    assert_eq!(rows(browser), "velocity_gather:fine,identity:default");
+    let mut show = |change: &str| {
         browser.value(&format!(
-            "(() => {{ const tools = document.getElementById('tables'); {change}; tools.dispatchEvent(new Event('input')); }})()"
+            "(() => {{ const tools = document.getElementById('tables'); const at = (one) => tools.querySelector(one); \
+             {change}; tools.dispatchEvent(new Event('input')); }})()"
         ));
+        let shown = rows(browser);
+        let mut names: Vec<_> = shown.split(',').map(str::to_owned).collect();
+        names.sort();
+        names.join(" ")
     };
-    set(
-        &mut browser,
-        "tools.querySelector('[name=failing]').checked = true",
-    );
-    assert_eq!(rows(&mut browser), "identity:default");
-    set(
-        &mut browser,
-        "tools.querySelector('[name=failing]').checked = false",
-    );
-    set(
-        &mut browser,
-        "tools.querySelector('[name=search]').value = 'Gather'",
-    );
-    assert_eq!(rows(&mut browser), "velocity_gather:fine");
-    set(
-        &mut browser,
-        "tools.querySelector('[name=search]').value = ''; tools.querySelector('[name=references]').checked = true",
-    );
+    let failing = show("at('[name=failing]').checked = true");
+    assert_eq!(failing, "identity:default");
+    show("at('[name=failing]').checked = false");
+    let found = show("at('[name=search]').value = 'Gather'");
+    assert_eq!(found, "velocity_gather:fine");
+    let all = show("at('[name=search]').value = ''; at('[name=references]').checked = true");
     // A check has no accumulations but the one that skill is counted from.
-    let all = "scatter_oracle,accumulate:1,velocity_gather:fine,identity,identity:default";
-    let mut found: Vec<String> = rows(&mut browser).split(',').map(str::to_owned).collect();
-    let mut expected: Vec<&str> = all.split(',').collect();
-    found.sort();
-    expected.sort_unstable();
-    assert_eq!(found, expected);
-    set(
-        &mut browser,
-        "tools.querySelector('[value=psnr_moving]').checked = true",
-    );
+    let due = "accumulate:1 identity identity:default scatter_oracle velocity_gather:fine";
+    assert_eq!(all, due);
+    show("at('[value=psnr_moving]').checked = true");
     let title = browser.text("document.querySelector('.panel:not([hidden])').dataset.metric");
     assert_eq!(title, "psnr_moving");
     // The thumbnail of the truth stands above its column, whichever score is shown.
@@ -80,19 +58,31 @@ fn the_search_filters_rows_and_references_show_on_request() {
 }
 
 #[test]
-fn a_link_opens_the_same_table() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+fn the_overview_leads_to_tables_filters_and_cases() {
+    let sandbox = measure("identity,velocity_gather:fine");
     let page = make_page(&sandbox);
     let mut browser = Browser::new(1280, 900);
-    browser.open(&page, "");
+    for check in [
+        a_link_opens_the_same_table,
+        a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter,
+        only_the_table_that_is_seen_is_parsed_until_somebody_prints,
+        tables_have_captions_and_pictures_have_words,
+        everything_fits_a_narrow_screen,
+    ] {
+        browser.open(&page, "");
+        check(&mut browser, &page);
+    }
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+fn a_link_opens_the_same_table(browser: &mut Browser, page: &Path) {
     assert_eq!(browser.text("location.hash"), "");
     browser.value(
         "(() => { const tools = document.getElementById('tables'); tools.querySelector('[value=row_loss]').checked = true; \
          tools.querySelector('[name=search]').value = 'y_g & 100%+'; tools.dispatchEvent(new Event('input')); })()",
     );
     browser.until("location.hash === '#overview&metric=row_loss&search=y_g%20%26%20100%25%2B'");
-    assert_eq!(rows(&mut browser), "");
+    assert_eq!(rows(browser), "");
     let nothing = "document.querySelector('.nothing').checkVisibility()";
     assert_eq!(browser.value(nothing), true);
     browser.value(
@@ -104,78 +94,96 @@ fn a_link_opens_the_same_table() {
     let seen = "[document.querySelector('.panel:not([hidden])').dataset.metric, document.querySelector('[name=search]').value].join()";
     browser.value("document.wasSeen = true; location.reload()");
     browser.until("!document.wasSeen && document.readyState === 'complete'");
-    for part in ["", &link] {
-        if !part.is_empty() {
-            browser.open(&page, "");
-            assert_eq!(browser.text(seen), "flip_moving,");
-            browser.open(&page, part);
-        }
-        browser.until(&format!("{seen} === 'row_loss,y_g'"));
-        assert_eq!(rows(&mut browser), "velocity_gather:fine");
-    }
+    browser.until(&format!("{seen} === 'row_loss,y_g'"));
+    assert_eq!(rows(browser), "velocity_gather:fine");
+    browser.open(page, "");
+    assert_eq!(browser.text(seen), "flip_moving,");
+    browser.open(page, &link);
+    browser.until(&format!("{seen} === 'row_loss,y_g'"));
+    assert_eq!(rows(browser), "velocity_gather:fine");
     // The way back from a case keeps them.
     browser.value("location.hash = '#plate/identity:default'");
     browser.until("!document.getElementById('viewer').hidden");
     browser.press("o");
     browser.until("location.hash === '#overview&metric=row_loss&search=y_g'");
-    assert_eq!(rows(&mut browser), "velocity_gather:fine");
-    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(rows(browser), "velocity_gather:fine");
 }
 
-#[test]
-fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine"]));
-    let page = make_page(&sandbox);
-    let mut browser = Browser::new(1280, 900);
-    browser.open(&page, "");
+fn a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter(browser: &mut Browser, _: &Path) {
     let [x, y, width, height] = browser.place(".panel tbody:not(.group) tr:not([hidden]) a.case");
     browser.point(x + width / 2.0, y + height / 2.0);
     browser.until("!document.querySelector('.peek').hidden");
     let different = "new Set([...document.querySelectorAll('.peek canvas')].map(canvas => canvas.toDataURL())).size";
     assert_eq!(browser.value(different), 3);
-    browser.value("document.querySelector('.winners a').click()");
+    browser.click(".winners a");
     browser.until("location.hash === '#filter:velocity_gather:fine'");
-    assert_eq!(
-        browser.value("document.getElementById('overview').checkVisibility()"),
-        false
-    );
+    assert!(!browser.shows("#overview"));
     let text = browser.text("document.querySelector('article.open').innerText");
-    for words in [
+    let parts = [
         "velocity_gather:fine",
         "published",
         "limits",
         "Parameters",
         "Scenes, the weakest first",
         "plate",
-    ] {
-        assert!(text.contains(words), "{words}: {text}");
-    }
-    browser.value("document.querySelector('article.open a.scene').click()");
+    ];
+    assert_contains(&text, &parts);
+    browser.click("article.open a.scene");
     browser.until("location.hash.startsWith('#plate/velocity_gather:fine')");
     browser.until("document.getElementById('viewer').checkVisibility()");
-    assert_eq!(browser.complaints(), [""; 0]);
 }
 
-#[test]
-fn only_the_table_that_is_seen_is_parsed_until_somebody_prints() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
-    let page = make_page(&sandbox);
-    let mut browser = Browser::new(1280, 900);
-    browser.open(&page, "");
+fn only_the_table_that_is_seen_is_parsed_until_somebody_prints(browser: &mut Browser, _: &Path) {
     let tables = "document.querySelectorAll('.panel table').length";
     assert_eq!(browser.value(tables), 1);
-    browser.value("document.querySelector('[name=metric][value=psnr_moving]').click()");
+    browser.click("[name=metric][value=psnr_moving]");
     browser.until(&format!("{tables} === 2"));
     let sorted = "document.querySelector('.panel:not([hidden]) thead th[aria-sort]') !== null";
-    browser.value(
-        "document.querySelector('.panel:not([hidden]) thead th:nth-child(2) button').click()",
-    );
+    browser.click(".panel:not([hidden]) thead th:nth-child(2) button");
     assert_eq!(browser.value(sorted), true);
     browser.paper();
     let panels = browser.value("document.querySelectorAll('.panel').length");
     assert_eq!(browser.value(tables), panels);
-    assert_eq!(rows(&mut browser), "velocity_gather:fine,identity:default");
-    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(rows(browser), "velocity_gather:fine,identity:default");
+}
+
+fn tables_have_captions_and_pictures_have_words(browser: &mut Browser, page: &Path) {
+    for part in ["", "#plate/identity:default", "#filter:identity:default"] {
+        browser.open(page, part);
+        browser.until("document.documentElement.classList.contains('scripted')");
+        for (elements, lacks) in [
+            ("table", "!own.caption?.textContent.trim()"),
+            ("th", "!own.scope"),
+            ("img", "!own.hasAttribute('alt')"),
+            (
+                "canvas",
+                "!own.closest('[aria-hidden=true]') && own.checkVisibility() && !own.ariaLabel",
+            ),
+            (
+                "svg",
+                "!own.closest('[aria-hidden=true]') && !own.ariaLabel",
+            ),
+            ("button", "!own.ariaLabel && !own.textContent.trim()"),
+        ] {
+            let found = browser.text(&format!(
+                "[...document.querySelectorAll('{elements}')].filter(own => {lacks}).map(own => own.outerHTML.slice(0, 200)).join('; ')"
+            ));
+            assert_eq!(found, "", "{part} {elements}");
+        }
+    }
+}
+
+fn everything_fits_a_narrow_screen(browser: &mut Browser, page: &Path) {
+    let width = "document.documentElement.scrollWidth";
+    browser.resize(360, 800);
+    for part in ["", "#plate/identity:default", "#filter:identity:default"] {
+        browser.open(page, part);
+        // It need not be scrolled sideways.
+        assert_eq!(browser.value(width), 360, "{part}");
+    }
+    // Nor does the paper of the overview.
+    browser.resize(794, 1123);
+    browser.print();
+    browser.open(page, "");
+    assert_eq!(browser.value(width), 794);
 }

@@ -48,49 +48,21 @@ fn every_scene_loads_with_every_variant() {
         .iter()
         .map(|listing| listing.name.as_str())
         .collect();
-    for name in [
-        "cockpit",
-        "creep",
-        "crossing",
-        "dolly",
-        "fan",
-        "fence",
-        "flag",
-        "flat_field",
-        "foliage",
-        "frame_edge",
-        "glasshouse",
-        "neon",
-        "ornaments",
-        "pan_sky",
-        "panel_over_texture",
-        "railing",
-        "ramp_floor",
-        "reversal",
-        "roll",
-        "shallow_focus",
-        "sliding_panel",
-        "sparks",
-        "two_spheres",
-        "walker",
-        "wheel_roll",
-        "wires",
-    ] {
+    let expected = "cockpit creep crossing dolly fan fence flag flat_field foliage frame_edge glasshouse neon ornaments \
+                    pan_sky panel_over_texture railing ramp_floor reversal roll shallow_focus sliding_panel sparks \
+                    two_spheres walker wheel_roll wires";
+    for name in expected.split_whitespace() {
         assert!(names.contains(&name), "{name} is missing");
     }
     assert!(names.is_sorted());
     for listing in &listings {
         let scene = load(&listing.name, None);
-        assert_eq!(
-            (&scene.exposes, scene.family),
-            (&listing.exposes, listing.family)
-        );
+        assert_eq!(scene.exposes, listing.exposes);
+        assert_eq!(scene.family, listing.family);
         for variant in &listing.variants {
             let changed = load(&listing.name, Some(variant));
-            assert_eq!(
-                changed.id.to_string(),
-                format!("{}@{variant}", listing.name)
-            );
+            let expected = format!("{}@{variant}", listing.name);
+            assert_eq!(changed.id.to_string(), expected);
             assert_ne!(changed.hash, scene.hash);
         }
     }
@@ -100,12 +72,10 @@ fn every_scene_loads_with_every_variant() {
 fn the_generator_reproduces_the_shipped_files() {
     for file in generator::generate_files() {
         let found = std::fs::read(scenes().join(&file.path));
-        let found = found.unwrap_or_else(|error| panic!("{}: {error}", file.path));
-        assert!(
-            found == file.bytes,
-            "{} differs; run `cargo run -p generator`",
-            file.path
-        );
+        let path = file.path;
+        let found = found.unwrap_or_else(|error| panic!("{path}: {error}"));
+        let is_same = found == file.bytes;
+        assert!(is_same, "{path} differs; run `cargo run -p generator`");
     }
 }
 
@@ -126,11 +96,8 @@ fn the_panel_moves_at_the_speed_of_its_variant() {
         let (sine, cosine) = angle.to_radians().sin_cos();
         let expected = speed * DVec2::new(cosine, -sine);
         // Keys are written to a micrometre: 1e-4 pixels each.
-        assert!(
-            (after - before).distance(expected) < 3e-4,
-            "{variant}: {}",
-            after - before
-        );
+        let found = after - before;
+        assert!(found.distance(expected) < 3e-4, "{variant}: {found}");
     }
 }
 
@@ -162,19 +129,14 @@ fn the_panel_keeps_clear_of_the_border() {
 #[test]
 fn the_white_sphere_hides_red_light_that_the_trailing_shutter_sees() {
     let scene = load("two_spheres", None);
-    let [red, _] = pixel_range(&scene, "red", 0.0);
+    let [red, red_end] = pixel_range(&scene, "red", 0.0);
     let [_, hidden] = pixel_range(&scene, "white", 0.0);
     let [_, hidden_before] = pixel_range(&scene, "white", -scene.exposure);
-    let [_, red_end] = pixel_range(&scene, "red", 0.0);
-    assert!(
-        red.x < hidden.x && hidden.x < red_end.x,
-        "part of the red sphere is hidden at the instant"
-    );
-    assert!(
-        hidden.x - hidden_before.x > 30.0,
-        "and more than 30 pixels of it come into view"
-    );
-    let speed = (hidden.x - hidden_before.x) / scene.exposure;
+    // Part of the red sphere is hidden at the instant, and more than 30 pixels of it come into view.
+    assert!(red.x < hidden.x && hidden.x < red_end.x);
+    let travel = hidden.x - hidden_before.x;
+    assert!(travel > 30.0, "{travel}");
+    let speed = travel / scene.exposure;
     // The silhouette of a sphere off the axis widens by a few per cent.
     assert!((speed - 64.0).abs() < 3.0, "{speed} pixels per frame");
 }
@@ -209,13 +171,12 @@ fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
 
 #[test]
 fn the_fan_turns_at_the_speed_of_its_variant() {
-    for (variant, degrees) in [
-        (None, 45.0),
-        (Some("5deg"), 5.0),
-        (Some("20deg"), 20.0),
-        (Some("45deg"), 45.0),
-        (Some("60deg"), 60.0),
-    ] {
+    let variants = ["5deg", "20deg", "45deg", "60deg"].map(Some);
+    for (variant, degrees) in [None]
+        .into_iter()
+        .chain(variants)
+        .zip([45.0, 5.0, 20.0, 45.0, 60.0])
+    {
         let scene = load("fan", variant);
         let fan = object_index(&scene, "fan");
         let blade = |time| scene.object_to_world(fan, time).transform_vector3(DVec3::X);

@@ -7,7 +7,7 @@ use tracer::{FrameRate, RenderSettings, Scene, list_scenes, load_scene, trace_fr
 use crate::scene_folder::Folder;
 
 const WIDTH: u32 = 64;
-const HEIGHT: u32 = 36;
+const HEIGHT: u32 = 18;
 /// Motion of the bar at 60 frames per second, in pixels per frame.
 const SPEED: f64 = 8.0;
 /// Width of the bar, in pixels.
@@ -17,7 +17,7 @@ fn settings() -> RenderSettings {
     RenderSettings {
         width: WIDTH,
         height: HEIGHT,
-        samples_per_pixel: 256,
+        samples_per_pixel: 64,
         ..RenderSettings::default()
     }
 }
@@ -30,29 +30,6 @@ fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
 
 fn render_truth(scene: &Scene, alignment: Alignment) -> Truth {
     trace_truth(scene, &settings(), alignment, &unwatched).unwrap()
-}
-
-/// Writes a bar that moves right through the middle of the picture at the instant. A metre at its distance is a pixel.
-fn bar_folder() -> Folder {
-    let folder = Folder::new();
-    let half = 0.5 * BAR;
-    folder.write(
-        "bar.obj",
-        format!("mtllib mesh.mtl\nv -{half} -99 0\nv {half} -99 0\nv {half} 99 0\nv -{half} 99 0\nusemtl glow\nf 1 2 3 4\n"),
-    );
-    folder.write("mesh.mtl", "newmtl glow\nKd 0 0 0\nKe 1 1 1\n");
-    folder.write(
-        "scene.toml",
-        format!(
-            "exposes = \"A bar that moves.\"\nfamily = \"translation\"\nexposure = 0.5\nsize = [64, 36]\n\
-             [camera]\nposition = [0, 0, {}]\nlook_at = [0, 0, 0]\nvertical_fov = 90\n\
-             [background]\nconstant = [0, 0, 0]\n[object.bar]\nmesh = \"bar.obj\"\nkeys = [\n\
-             {{ time = -1, translation = [{}, 0, 0] }},\n{{ time = 0, translation = [0, 0, 0] }},\n]\n",
-            0.5 * f64::from(HEIGHT),
-            -SPEED
-        ),
-    );
-    folder
 }
 
 /// Measures the middle of the bar's smear, in pixels right of the picture's, and its length without the bar.
@@ -75,7 +52,7 @@ fn measure_smear(truth: &Truth) -> [f64; 2] {
 
 #[test]
 fn a_bar_smears_by_its_speed_and_the_shutter_of_each_rate() {
-    let folder = bar_folder();
+    let folder = tests::root().join("tests/fixtures/bar");
     for (variant, length) in [
         // Half of a frame of 20, 8 and 3.33 pixels.
         ("24fps", 10.0),
@@ -87,16 +64,13 @@ fn a_bar_smears_by_its_speed_and_the_shutter_of_each_rate() {
         ("144fps_1-48s", 10.0),
         ("144fps_1-120s", 4.0),
     ] {
-        let scene = load_scene(&folder.path, Some(variant)).unwrap();
+        let scene = load_scene(&folder, Some(variant)).unwrap();
         for (alignment, side) in [(Alignment::Trailing, -0.5), (Alignment::Centred, 0.0)] {
             let [middle, found] = measure_smear(&render_truth(&scene, alignment));
-            // Some 10 sigma at 256 samples per pixel.
+            // Some 4 sigma at 64 samples per pixel.
             assert!((found - length).abs() < 0.1, "{variant}: {found} {length}");
-            let expected = side * length;
-            assert!(
-                (middle - expected).abs() < 0.05,
-                "{variant}: {middle} {expected}"
-            );
+            let off = middle - side * length;
+            assert!(off.abs() < 0.05, "{variant}: {off}");
         }
         let rate = FrameRate::in_word(variant).unwrap();
         let step = SPEED * 60.0 / rate.per_second;
@@ -112,26 +86,30 @@ fn a_bar_smears_by_its_speed_and_the_shutter_of_each_rate() {
     }
 }
 
+/// Compares a scene at the rate of its file with the scene without a rate.
+fn assert_same_at_60(name: &str, variant: Option<&str>) {
+    let at_60 = variant.map_or("60fps".to_owned(), |variant| format!("{variant}@60fps"));
+    let load = |variant| load_scene(scenes().join(name), variant).unwrap();
+    let [plain, same] = [variant, Some(at_60.as_str())].map(load);
+    assert_ne!(plain.hash, same.hash);
+    assert_eq!(same.id.to_string(), format!("{name}@{at_60}"));
+    let frame = |scene| render_frame(scene, VelocityKind::Instantaneous);
+    assert_same_frame(&frame(&plain), &frame(&same), name);
+    let truth = |scene| render_truth(scene, Alignment::Trailing);
+    assert_same_truth(&truth(&plain), &truth(&same), name);
+}
+
 #[test]
+fn at_60_frames_per_second_a_scene_is_as_its_file_says() {
+    assert_same_at_60("fan", None);
+    assert_same_at_60("sliding_panel", Some("seal7"));
+}
+
+#[test]
+#[ignore = "prove: all scenes of the catalogue"]
 fn at_60_frames_per_second_every_scene_is_as_its_file_says() {
-    let settings = RenderSettings {
-        samples_per_pixel: 16,
-        ..settings()
-    };
     for listing in list_scenes(scenes()).unwrap() {
-        let load = |variant| load_scene(&listing.folder, variant).unwrap();
-        let frame = |scene: &Scene| trace_frame(scene, &settings, &unwatched).unwrap();
-        let [plain, same] = [None, Some("60fps")].map(load);
-        assert_ne!(plain.hash, same.hash);
-        assert_eq!(same.id.to_string(), format!("{}@60fps", listing.name));
-        assert_same_frame(&frame(&plain), &frame(&same), &listing.name);
-    }
-    let load = |variant| load_scene(scenes().join("fan"), variant).unwrap();
-    for (plain, same) in [(None, "60fps"), (Some("seal7"), "seal7@60fps")] {
-        let [plain, same] = [plain, Some(same)].map(load);
-        let truth =
-            |scene: &Scene| trace_truth(scene, &settings, Alignment::Trailing, &unwatched).unwrap();
-        assert_same_truth(&truth(&plain), &truth(&same), &same.id.to_string());
+        assert_same_at_60(&listing.name, None);
     }
 }
 
@@ -154,35 +132,21 @@ fn assert_same_truth(one: &Truth, other: &Truth, what: &str) {
 
 /// Writes a scene of paths, key shapes, a moving camera that zooms, and a rolling shutter. All its times are multiplied by `times`.
 fn write_paths(folder: &Folder, times: f64, exposure: f64) {
-    let moved = std::fs::read_to_string(folder.path.join("mesh.obj")).unwrap();
-    folder.write("moved.obj", moved.replace("v 1 1 0", "v 1.4 1.2 0.3"));
-    folder.write("bent.obj", moved.replace("v 1 1 0", "v 1.5 0.8 -0.2"));
-    let at = |time: f64| format!("time = {:?}", time * times);
-    let scene = format!(
-        "exposes = \"Paths.\"\nfamily = \"deforming\"\nexposure = {exposure:?}\nsize = [64, 36]\n\
-         [shutter]\nrise = 0.2\nfall = 0.1\nrolling = {:?}\n\
-         [camera]\ninterpolation = \"cubic\"\nkeys = [\n\
-         {{ {}, position = [-0.3, 0, 5], look_at = [0, 0, 0], vertical_fov = 40 }},\n\
-         {{ {}, position = [0, 0.1, 5], look_at = [0, 0, 0], vertical_fov = 44 }},\n\
-         {{ {}, position = [0.5, 0, 4.5], look_at = [0.2, 0, 0], vertical_fov = 41 }},\n]\n\
-         [background]\nconstant = [0.1, 0.2, 0.3]\n[sun]\ndirection = [0.3, 1, 1]\nirradiance = [1, 1, 1]\n\
-         [object.body]\nmesh = \"mesh.obj\"\nkeys = [\n\
-         {{ {}, translation = [-1, 0, 0], rotation = {{ axis = [0, 0, 1], degrees = 250 }} }},\n\
-         {{ {}, translation = [0, 0.2, 0], rotation = {{ axis = [0, 0, 1], degrees = 10 }} }},\n\
-         {{ {}, translation = [1, 0, 0], rotation = {{ axis = [0, 0, 1], degrees = -90 }}, scale = 1.5 }},\n]\n\
-         [object.part]\nparent = \"body\"\nshapes = [\n\
-         {{ {}, mesh = \"mesh.obj\" }},\n{{ {}, mesh = \"moved.obj\" }},\n{{ {}, mesh = \"bent.obj\" }},\n]\n",
-        0.1 * times,
-        at(-5.0),
-        at(-0.7),
-        at(4.0),
-        at(-4.0),
-        at(-0.25),
-        at(3.0),
-        at(-3.0),
-        at(0.1),
-        at(3.5),
-    );
+    let mesh = folder.read("mesh.obj");
+    folder.write("moved.obj", mesh.replace("v 1 1 0", "v 1.4 1.2 0.3"));
+    folder.write("bent.obj", mesh.replace("v 1 1 0", "v 1.5 0.8 -0.2"));
+    let text = include_str!("../fixtures/paths/scene.toml");
+    let mut parts = text.split("time = ");
+    let head = parts.next().expect("a first part");
+    let head = head.replace("rolling = 0.1", &format!("rolling = {:?}", 0.1 * times));
+    let mut scene = head.replace("exposure = 0.5", &format!("exposure = {exposure:?}"));
+    for part in parts {
+        let (time, rest) = part
+            .split_once(',')
+            .expect("a time stands first in its key");
+        let time: f64 = time.parse().expect("a number");
+        scene += &format!("time = {:?},{rest}", time * times);
+    }
     folder.write("scene.toml", scene);
 }
 
@@ -234,17 +198,10 @@ fn frames_of_a_sequence_follow_at_the_rate() {
 #[test]
 fn every_rate_has_a_name_and_a_hash_of_its_own() {
     let folder = Folder::new();
-    let variants = [
-        None,
-        Some("24fps"),
-        Some("24fps_1-48s"),
-        Some("24fps_1-50s"),
-        Some("23.976fps"),
-        Some("fast@24fps"),
-        Some("unlit@24fps"),
-        Some("seal7@24fps"),
-    ];
+    let variants = "24fps 24fps_1-48s 24fps_1-50s 23.976fps fast@24fps unlit@24fps seal7@24fps";
+    let variants = std::iter::once(None).chain(variants.split(' ').map(Some));
     let scenes = variants.map(|variant| load_scene(&folder.path, variant).unwrap());
+    let scenes: Vec<Scene> = scenes.collect();
     for (index, scene) in scenes.iter().enumerate() {
         let others = scenes[..index].iter();
         assert!(others.clone().all(|other| other.hash != scene.hash));
@@ -252,10 +209,7 @@ fn every_rate_has_a_name_and_a_hash_of_its_own() {
         assert_eq!(scene.written_exposure, 0.5);
     }
     assert_eq!(scenes[5].id.to_string(), "square@fast@24fps");
-    assert_eq!(
-        [&scenes[1], &scenes[2]].map(|scene| scene.exposure),
-        [0.5; 2]
-    );
+    assert_eq!([scenes[1].exposure, scenes[2].exposure], [0.5; 2]);
     // A sealed variant changes the scene of the file, and then the rate.
     let keys = |scene: &Scene| scene.objects[0].motion.keys[0].time;
     let sealed = load_scene(&folder.path, Some("seal7")).unwrap();
@@ -278,10 +232,7 @@ fn times_beyond_the_keys_are_refused() {
         ("144fps_1-48s", ["at frame -3,", "begin at frame -2.4"]),
     ] {
         let text = check(variant, Alignment::Trailing).unwrap();
-        for part in ["the shapes of object cloth", variant]
-            .into_iter()
-            .chain(parts)
-        {
+        for part in [variant, "the shapes of object cloth", parts[0], parts[1]] {
             assert!(text.contains(part), "{text}: {part}");
         }
     }
@@ -302,12 +253,10 @@ fn names_that_are_no_rates_are_refused() {
         ("0fps", "0 frames per second; allowed: 1 to 1000"),
         ("-24fps", "-24 frames per second; allowed"),
         ("2000fps", "2000 frames per second; allowed"),
-        ("NaNfps", "variant \"NaNfps\" is unknown"),
         (
             "24fps_1-0s",
             "a shutter time of 1/0 s; allowed: 1/1 to 1/100000",
         ),
-        ("024fps", "variant \"024fps\" is unknown"),
         ("24fps@24fps", "variant \"24fps\" is unknown"),
         ("slow@24fps", "variant \"slow\" is unknown"),
     ] {
@@ -315,10 +264,4 @@ fn names_that_are_no_rates_are_refused() {
         let text = text.to_string();
         assert!(text.contains(part), "{variant}: {text}");
     }
-    folder.edit("scene.toml", "[variant.fast.", "[variant.30fps.");
-    let text = folder.load().unwrap_err().to_string();
-    assert!(
-        text.contains("variant \"30fps\" has the name of a frame rate"),
-        "{text}"
-    );
 }

@@ -5,78 +5,9 @@ use std::path::PathBuf;
 use frame::{Raster, write_png};
 use tracer::{Scene, SceneError, load_scene};
 
-pub const SCENE: &str = r#"exposes = "A square that slides."
-family = "translation"
-exposure = 0.5
-size = [64, 36]
-
-[camera]
-position = [0, 0, 5]
-look_at = [0, 0, 0]
-vertical_fov = 40
-
-[background]
-constant = [0, 0, 0]
-
-[sun]
-direction = [0, 1, 0]
-irradiance = [1, 1, 1]
-
-[object.body]
-mesh = "mesh.obj"
-keys = [
-    { time = -1 },
-    { time = 1, translation = [1, 0, 0] },
-]
-
-[object.part]
-mesh = "mesh.obj"
-group = "left"
-parent = "body"
-scale = 2
-
-[object.part.material.paint]
-diffuse = [0.1, 0.2, 0.3]
-
-[variant.fast.object.body]
-keys = [
-    { time = -1 },
-    { time = 1, translation = [2, 0, 0] },
-]
-"#;
-
-pub const OBJ: &str = "\
-mtllib mesh.mtl
-v 0 0 0
-v 1 0 0
-v 1 1 0
-v 0 1 0
-v -1 0 0
-v -1 1 0
-vt 0 0
-vt 1 0
-vt 1 1
-vn 0 0 2
-g right
-usemtl paint
-f 1/1/1 2/2/1 3/3/1
-f 1/1/1 3/3/1 4/2/1
-g left
-usemtl glow
-f 1/1/1 4/2/1 6/3/1 5/2/1
-usemtl paint
-f 1/1/1 4/2/1 6/3/1
-";
-
-pub const MTL: &str = "\
-newmtl paint
-Kd 0.5 0.6 0.7
-map_Kd dots.png
-newmtl glow
-Kd 0 0 0
-Ke 1 2 3
-d 0.25
-";
+pub const SCENE: &str = include_str!("../fixtures/square/scene.toml");
+pub const OBJ: &str = include_str!("../fixtures/square/mesh.obj");
+pub const MTL: &str = include_str!("../fixtures/square/mesh.mtl");
 
 /// Temporary folder of a scene, deleted with the value.
 pub struct Folder {
@@ -106,13 +37,17 @@ impl Folder {
         folder
     }
 
+    pub fn read(&self, file: &str) -> String {
+        std::fs::read_to_string(self.path.join(file)).unwrap()
+    }
+
     pub fn write(&self, file: &str, content: impl AsRef<[u8]>) {
         std::fs::write(self.path.join(file), content).unwrap();
     }
 
     /// Replaces a text that a file contains once.
     pub fn edit(&self, file: &str, from: &str, to: &str) {
-        let text = std::fs::read_to_string(self.path.join(file)).unwrap();
+        let text = self.read(file);
         assert_eq!(
             text.matches(from).count(),
             1,

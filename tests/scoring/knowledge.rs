@@ -1,11 +1,11 @@
 //! Scores of what one frame knows, probes of a filter's taps, and skill over no blur.
 
-use frame::{Frame, Image, Picture, Raster, Region, Truth};
-use metrics::{Measured, Probes, Reference, Scores, regions};
+use frame::{Frame, Image, Picture, Raster, Truth};
+use metrics::{Probes, Reference, Scores, regions};
 use tests::random::Random;
 use tests::synthetic::{Blur, Sampling, VIEWING};
 
-use crate::{clean_truth, find_value, sliding_disc};
+use crate::{assert_near, assert_scores, clean_truth, find_reason, find_value, sliding_disc};
 
 fn frame_and_truth() -> (Frame, Truth) {
     (sliding_disc().frame(), clean_truth(&sliding_disc()))
@@ -34,28 +34,30 @@ fn errors_are_split_into_knowable_and_unknowable() {
     truth.support.unknowable = Raster::from_fn(72, 48, |x, _| x >= 36);
     let pools = regions(&truth);
     let count = |mask: &Raster<bool>| mask.pixels.iter().filter(|inside| **inside).count();
-    assert_eq!(
-        count(&pools.knowable) + count(&pools.unknowable),
-        count(&pools.moving)
-    );
-    assert!(count(&pools.knowable) > 100 && count(&pools.unknowable) > 100);
+    let [known, unknown] = [&pools.knowable, &pools.unknowable].map(count);
+    assert_eq!(known + unknown, count(&pools.moving));
+    assert!(known > 100 && unknown > 100);
     let mean = truth.mean();
     let guessed = Picture {
         color: brighten(&mean.color, 0.1, |x, _| x >= 36),
         ..mean.clone()
     };
-    let scores = measure_scores(&frame, &truth, &guessed);
+    let part = unknown as f64 / (known + unknown) as f64;
     // Squares of 32-bit sums.
-    assert!(find_value(&scores, "mse_knowable").abs() < 1e-9);
-    assert!((find_value(&scores, "mse_unknowable") - 0.01).abs() < 1e-6);
-    let part = count(&pools.unknowable) as f64 / count(&pools.moving) as f64;
-    assert!((find_value(&scores, "mse_moving") - 0.01 * part).abs() < 1e-6);
+    let expected = [
+        ("mse_knowable", 0.0, 1e-9),
+        ("mse_unknowable", 0.01, 1e-6),
+        ("mse_moving", 0.01 * part, 1e-6),
+    ];
+    assert_scores(
+        "a guess",
+        &measure_scores(&frame, &truth, &guessed),
+        &expected,
+    );
 
     let (frame, truth) = frame_and_truth();
     let scores = measure_scores(&frame, &truth, &truth.mean());
-    let Measured::NotApplicable { reason } = scores.get("flip_unknowable".parse().unwrap()) else {
-        panic!("nothing is unknowable there");
-    };
+    let reason = find_reason(&scores, "flip_unknowable");
     assert!(
         reason.contains("shows all that the shutter sees"),
         "{reason}"
@@ -76,9 +78,12 @@ fn moving_shading_is_separated_from_visibility() {
     let frozen = measure_scores(&frame, &truth, &output(&truth.at_instant_mean().frozen));
     let right = measure_scores(&frame, &truth, &truth.mean());
     for (scores, against_truth, against_frozen) in [(&frozen, 0.01, 0.0), (&right, 0.0, 0.01)] {
-        assert!((find_value(scores, "mse_moving") - against_truth).abs() < 1e-6);
-        assert!((find_value(scores, "mse_frozen") - against_frozen).abs() < 1e-6);
-        assert!((find_value(scores, "mse_shading") - 0.01).abs() < 1e-6);
+        let expected = [
+            ("mse_moving", against_truth, 1e-6),
+            ("mse_frozen", against_frozen, 1e-6),
+            ("mse_shading", 0.01, 1e-6),
+        ];
+        assert_scores("a shadow that left", scores, &expected);
     }
     assert_eq!(find_value(&frozen, "flip_frozen"), 0.0);
     assert!(find_value(&right, "flip_frozen") > 0.01);
@@ -94,13 +99,11 @@ fn a_change_at_still_pixels_is_contamination() {
         ..mean.clone()
     };
     for (picture, expected) in [(changed(0.05, false), 0.05), (changed(0.5, true), 0.0)] {
-        let found = find_value(
+        let expected = [("static_contamination", expected, 1e-6)];
+        assert_scores(
+            "a change",
             &measure_scores(&frame, &truth, &picture),
-            "static_contamination",
-        );
-        assert!(
-            (found - expected).abs() < 1e-6,
-            "{found}, expected {expected}"
+            &expected,
         );
     }
 }
@@ -129,19 +132,17 @@ fn skill_is_the_share_of_the_way_from_a_sharp_picture_to_the_one_frame_oracle() 
     let reference = reference.with_ends(&nothing, &oracle).unwrap();
     let scores_of = |picture: &Picture| reference.measure(picture).unwrap().scores;
     for (picture, expected) in [(&nothing, 0.0), (&oracle, 1.0)] {
-        let scores = scores_of(picture);
-        for name in SKILLS {
-            assert!(
-                (find_value(&scores, name) - expected).abs() < 1e-6,
-                "{name}"
-            );
-        }
+        let expected = SKILLS.map(|name| (name, expected, 1e-6));
+        assert_scores("an end", &scores_of(picture), &expected);
     }
     // Half of the way to the truth leaves half of the pixels' time with the wrong object, and the oracle leaves a
     // quarter. Squared errors leave the squares of both.
     let half = scores_of(&mix(&nothing, &truth.mean(), 0.5));
-    assert!((find_value(&half, "skill_label_tv") - 0.5 / 0.75).abs() < 1e-5);
-    assert!((find_value(&half, "skill_mse") - 0.75 / (1.0 - 1.0 / 16.0)).abs() < 1e-5);
+    let expected = [
+        ("skill_label_tv", 0.5 / 0.75, 1e-5),
+        ("skill_mse", 0.75 / (1.0 - 1.0 / 16.0), 1e-5),
+    ];
+    assert_scores("half of the way", &half, &expected);
     // The truth is better than any one-frame oracle. A negative with mover and background exchanged is worse than
     // none.
     let worse = Picture {
@@ -158,19 +159,20 @@ fn skill_is_the_share_of_the_way_from_a_sharp_picture_to_the_one_frame_oracle() 
 fn skill_needs_an_oracle_that_beats_no_blur() {
     let (frame, truth) = frame_and_truth();
     let nothing = frame.picture();
-    let reason = |scores: &Scores, name: &str| match scores.get(name.parse().unwrap()) {
-        Measured::NotApplicable { reason } => reason,
-        Measured::Score(score) => panic!("{name}: {score:?}"),
-    };
     let unknown = measure_scores(&frame, &truth, &truth.mean());
     let reference = make_reference(&frame, &truth);
     let reference = reference.with_ends(&nothing, &nothing).unwrap();
     let equal = reference.measure(&truth.mean()).unwrap().scores;
     for name in SKILLS {
-        assert!(
-            reason(&unknown, name).contains("no sharp picture of the shutter's middle was given")
-        );
-        assert!(reason(&equal, name).contains("no more than the truth's noise makes"));
+        for (scores, words) in [
+            (
+                &unknown,
+                "no sharp picture of the shutter's middle was given",
+            ),
+            (&equal, "no more than the truth's noise makes"),
+        ] {
+            assert!(find_reason(scores, name).contains(words), "{name}");
+        }
     }
 }
 
@@ -182,10 +184,11 @@ fn gather_probes(taps: &[([i32; 2], f32)]) -> Probes {
         Raster::from_fn(72, 48, |x, y| {
             let mut sum = [0.0; 3];
             for ([right, down], weight) in taps {
-                let at = image.at(
-                    (x as i32 + right).clamp(0, 71) as u32,
-                    (y as i32 + down).clamp(0, 47) as u32,
-                );
+                let [u, v] = [
+                    (x as i32 + right).clamp(0, 71),
+                    (y as i32 + down).clamp(0, 47),
+                ];
+                let at = image.at(u as u32, v as u32);
                 sum = std::array::from_fn(|c| sum[c] + weight * at[c]);
             }
             sum
@@ -200,33 +203,28 @@ fn probes_locate_a_filter_s_taps() {
     // The taps lie 3 pixels further right on average, at 2 and at 4, in pixels one wide.
     for half in &mut truth.at_instant {
         half.offset = half.offset.map(|_| [3.0, 0.0]);
-        half.spread = half
-            .spread
-            .map(|_| [9.0 + 1.0 + 1.0 / 12.0, 0.0, 1.0 / 12.0]);
+        let products = [9.0 + 1.0 + 1.0 / 12.0, 0.0, 1.0 / 12.0];
+        half.spread = half.spread.map(|_| products);
     }
     let reference = make_reference(&frame, &truth);
-    let measured = |taps: &[([i32; 2], f32)]| reference.measure_probes(&gather_probes(taps)).scores;
-    let number = |measured: &Measured| measured.value().unwrap();
-
-    let right = measured(&[([2, 0], 0.5), ([4, 0], 0.5)]);
-    // Squares of coordinates up to 36 in 32 bits: 1e-4 of a square pixel.
-    assert!(number(&right.unity) < 1e-6);
-    assert!(number(&right.gather_offset) < 1e-4, "{right:?}");
-    assert!(number(&right.gather_spread) < 1e-3, "{right:?}");
-
-    let shifted = measured(&[([2, 4], 0.5), ([4, 4], 0.5)]);
-    assert!((number(&shifted.gather_offset) - 4.0).abs() < 1e-4);
-    assert!(number(&shifted.gather_spread) < 1e-3);
-
-    let narrow = measured(&[([3, 0], 1.0)]);
-    assert!(number(&narrow.gather_offset) < 1e-4);
-    let expected = (1.0f64 + 1.0 / 6.0).sqrt() - (1.0f64 / 6.0).sqrt();
-    assert!((number(&narrow.gather_spread) - expected).abs() < 1e-3);
-
-    let bright = measured(&[([2, 0], 0.55), ([4, 0], 0.55)]);
-    assert!((number(&bright.unity) - 0.1).abs() < 1e-6);
-    // The middle does not depend on the sum of weights.
-    assert!(number(&bright.gather_offset) < 1e-4);
+    let measured = |taps: &[([i32; 2], f32)]| {
+        let found = reference.measure_probes(&gather_probes(taps)).scores;
+        [&found.unity, &found.gather_offset, &found.gather_spread].map(|it| it.value().unwrap())
+    };
+    let narrow = (1.0f64 + 1.0 / 6.0).sqrt() - (1.0f64 / 6.0).sqrt();
+    for (taps, [unity, offset, spread]) in [
+        (&[([2, 0], 0.5), ([4, 0], 0.5)][..], [0.0; 3]),
+        (&[([2, 4], 0.5), ([4, 4], 0.5)], [0.0, 4.0, 0.0]),
+        (&[([3, 0], 1.0)], [0.0, 0.0, narrow]),
+        // The middle does not depend on the sum of weights.
+        (&[([2, 0], 0.55), ([4, 0], 0.55)], [0.1, 0.0, 0.0]),
+    ] {
+        let found = measured(taps);
+        assert_near("unity", found[0], unity, 1e-6);
+        // Squares of coordinates up to 36 in 32 bits: 1e-4 of a square pixel.
+        assert_near("offset", found[1], offset, 1e-4);
+        assert_near("spread", found[2], spread, 1e-3);
+    }
 }
 
 #[test]
@@ -239,36 +237,17 @@ fn grain_raises_total_variation_and_a_smooth_ramp_does_not() {
         let inside = *a > 0.0 && *a < 1.0;
         (a + if inside { random.real(-0.2, 0.2) } else { 0.0 }).clamp(0.0, 1.0)
     });
-    let excess =
-        |picture: &Picture| find_value(&measure_scores(&frame, &truth, picture), "tv_excess");
-    assert!(excess(&mean).abs() < 1e-9);
-    assert!(excess(&grainy) > 1.0, "{}", excess(&grainy));
+    let scores = |picture: &Picture| measure_scores(&frame, &truth, picture);
+    let [smooth, rough] = [&mean, &grainy].map(scores);
+    assert_near("excess", find_value(&smooth, "tv_excess"), 0.0, 1e-9);
+    assert!(find_value(&rough, "tv_excess") > 1.0, "{rough:?}");
+    assert_near("error", find_value(&smooth, "gradient_error"), 0.0, 1e-12);
+    assert!(find_value(&rough, "gradient_error") > 1e-4, "{rough:?}");
     // An even blur twice as long rises and falls only once, and less high.
-    let long = sliding_disc().render(
-        &Blur {
-            from: -2.0,
-            ..Blur::TRUE
-        },
-        Sampling::CLEAN,
-    );
-    assert!(excess(&long) < 0.0, "{}", excess(&long));
-    let steep =
-        |picture: &Picture| find_value(&measure_scores(&frame, &truth, picture), "gradient_error");
-    assert!(steep(&mean) < 1e-12 && steep(&grainy) > 1e-4);
-}
-
-#[test]
-fn every_region_pools_its_own_pixels() {
-    let names: Vec<&str> = Region::ALL.map(Region::name).to_vec();
-    assert_eq!(
-        names,
-        [
-            "moving",
-            "support",
-            "static",
-            "full",
-            "knowable",
-            "unknowable"
-        ]
-    );
+    let long = Blur {
+        from: -2.0,
+        ..Blur::TRUE
+    };
+    let long = scores(&sliding_disc().render(&long, Sampling::CLEAN));
+    assert!(find_value(&long, "tv_excess") < 0.0, "{long:?}");
 }

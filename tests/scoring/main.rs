@@ -50,3 +50,29 @@ fn find_value(scores: &Scores, name: &str) -> f64 {
         Measured::NotApplicable { reason } => panic!("{name} does not apply: {reason}"),
     }
 }
+
+/// Returns why a metric does not apply; fails the test if it does.
+#[track_caller]
+fn find_reason(scores: &Scores, metric: &str) -> String {
+    match scores.get(metric.parse().expect("a metric's name")) {
+        Measured::NotApplicable { reason } => reason,
+        Measured::Score(score) => panic!("{metric} scores {} where it means nothing", score.value),
+    }
+}
+
+#[track_caller]
+fn assert_near(what: &str, found: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{what}: {found}, expected {expected} within {tolerance}"
+    );
+}
+
+/// Expects scores, each with its name, value and tolerance.
+#[track_caller]
+fn assert_scores(what: &str, scores: &Scores, expected: &[(&str, f64, f64)]) {
+    for (name, value, tolerance) in expected {
+        let what = format!("{name} of {what}");
+        assert_near(&what, find_value(scores, name), *value, *tolerance);
+    }
+}

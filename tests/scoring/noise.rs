@@ -4,30 +4,34 @@
 
 use std::sync::LazyLock;
 
-use frame::{Frame, Image, Picture, Truth};
+use frame::{Frame, Image, Ladder, Picture, Truth};
 use metrics::{
     Equivalent, LadderRange, Measured, Metric, Reference, Region, Scores, measure, regions,
 };
 use tests::random::Random;
 use tests::synthetic::{Blur, VIEWING};
 
-use crate::{noisy, sliding_disc};
+use crate::{assert_near, noisy, sliding_disc};
 
 static FRAME: LazyLock<Frame> = LazyLock::new(|| sliding_disc().frame());
-
-static FRAME_PICTURE: LazyLock<Picture> = LazyLock::new(|| Picture {
-    color: FRAME.color.clone(),
-    coverage: FRAME.coverage.clone(),
-});
 
 /// Truth with little noise, from other seeds than the pictures measured against it.
 static TRUTH: LazyLock<Truth> =
     LazyLock::new(|| sliding_disc().truth([noisy(4096, 1), noisy(4096, 2)]));
 
 fn score(output: &Picture, truth: &Truth) -> Scores {
-    measure(output, &FRAME, truth, None, &VIEWING)
-        .expect("they agree")
-        .scores
+    let measured = measure(output, &FRAME, truth, None, &VIEWING);
+    measured.expect("they agree").scores
+}
+
+fn make_reference(ladder: Option<&Ladder>) -> Reference<'static> {
+    Reference::new(&FRAME, &TRUTH, ladder, &VIEWING).expect("they agree")
+}
+
+/// Scores a blur with as many samples, from a seed of its own.
+fn score_blur(reference: &Reference, blur: &Blur, samples: u32) -> Scores {
+    let output = sliding_disc().render(blur, noisy(samples, 9));
+    reference.measure(&output).expect("a finite picture").scores
 }
 
 fn get(scores: &Scores, name: &str) -> metrics::Score {
@@ -67,15 +71,10 @@ fn the_squared_error_is_unbiased_and_the_plain_one_is_not() {
         plain.push(plain_mse(&nearly_right, &truth.mean()));
     }
     let (mean, error) = mean_and_error(&unbiased);
-    assert!(
-        (mean - expected).abs() < 3.0 * error,
-        "unbiased {mean} +- {error}, converged {expected}"
-    );
+    assert_near("unbiased", mean, expected, 3.0 * error);
     let (mean, error) = mean_and_error(&plain);
-    assert!(
-        mean - expected > 10.0 * error,
-        "plain {mean} +- {error}, converged {expected}"
-    );
+    let bias = mean - expected;
+    assert!(bias > 10.0 * error, "plain: {bias} +- {error}");
 }
 
 #[test]
@@ -85,13 +84,7 @@ fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
         .map(|seed| sliding_disc().truth([noisy(16, 3000 + seed), noisy(16, 4000 + seed)]))
         .map(|truth| score(&converged, &truth))
         .collect();
-    for name in [
-        "mse_moving",
-        "mse_support",
-        "mse_full",
-        "relmse_moving",
-        "mse_frozen",
-    ] {
+    for name in "mse_moving mse_support mse_full relmse_moving mse_frozen".split(' ') {
         let found: Vec<metrics::Score> = truths.iter().map(|scores| get(scores, name)).collect();
         let root_mean_square = |values: &dyn Fn(&metrics::Score) -> f64| {
             let squares = found.iter().map(|score| values(score).powi(2));
@@ -103,23 +96,14 @@ fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
             let inside = |score: &&metrics::Score| score.value.abs() <= floors * score.floor;
             found.iter().filter(inside).count()
         };
-        println!(
-            "{name}: scatters by {scatter:.2e}, floor {floor:.2e}; {} of 100 within one floor, {} within two, {} within three",
-            within(1.0),
-            within(2.0),
-            within(3.0)
-        );
         // A standard deviation from 100 values errs by a fourteenth; noise that is not normal moves the floor by a
         // fifth.
-        assert!(
-            (0.7..1.25).contains(&(scatter / floor)),
-            "{name}: {scatter} {floor}"
-        );
+        let ratio = scatter / floor;
+        assert!((0.7..1.25).contains(&ratio), "{name}: {ratio}");
         // Of 100 normal values, 68, 95 and 99.7 are inside; four standard deviations below.
-        assert!(
-            within(1.0) >= 50 && within(2.0) >= 86 && within(3.0) >= 96,
-            "{name}"
-        );
+        for (floors, least) in [(1.0, 50), (2.0, 86), (3.0, 96)] {
+            assert!(within(floors) >= least, "{name} within {floors} floors");
+        }
     }
 }
 
@@ -128,15 +112,9 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
     let converged = TRUTH.mean();
     let truth = sliding_disc().truth([noisy(128, 5), noisy(128, 6)]);
     let scores = score(&converged, &truth);
-    for name in [
-        "flip_moving",
-        "flip_p95_moving",
-        "flip_hdr_moving",
-        "label_tv",
-        "label_tv_p95",
-        "deficit",
-        "object_label_tv",
-    ] {
+    let names =
+        "flip_moving flip_p95_moving flip_hdr_moving label_tv label_tv_p95 deficit object_label_tv";
+    for name in names.split(' ') {
         let score = get(&scores, name);
         let ratio = score.value / score.floor;
         // Half A and the mean differ by exactly the mean's noise, drawn once more: equal except for chance and, for
@@ -144,10 +122,10 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
         assert!((0.7..1.4).contains(&ratio), "{name}: {score:?}");
     }
     for name in ["lateral_growth", "row_gain", "row_loss"] {
-        let score = get(&scores, name);
+        let metrics::Score { value, floor } = get(&scores, name);
         assert!(
-            score.floor > 0.0 && score.value < 2.0 * score.floor,
-            "{name}: {score:?}"
+            floor > 0.0 && value < 2.0 * floor,
+            "{name}: {value} {floor}"
         );
     }
     // Below the noise, PSNR stays at the value that the truth can support.
@@ -164,61 +142,43 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
 fn floors_fall_as_the_truth_converges() {
     let output = &TRUTH.halves[0];
     let [coarse, fine] = [16, 1024].map(|samples| {
-        score(
-            output,
-            &sliding_disc().truth([noisy(samples, 7), noisy(samples, 8)]),
-        )
+        let truth = sliding_disc().truth([noisy(samples, 7), noisy(samples, 8)]);
+        score(output, &truth)
     });
     for metric in Metric::all() {
-        let (Measured::Score(coarse), Measured::Score(fine)) =
-            (coarse.get(metric), fine.get(metric))
-        else {
+        let floor_in = |scores: &Scores| match scores.get(metric) {
+            Measured::Score(score) => Some(score.floor),
+            Measured::NotApplicable { .. } => None,
+        };
+        let (Some(coarse), Some(fine)) = (floor_in(&coarse), floor_in(&fine)) else {
             continue;
         };
         let name = metric.name();
-        if name.contains("static")
-            || name == "mse_shading"
-            || name.starts_with("bleed")
-            || name == "energy"
-        {
-            // The still background has no noise, nothing is shaded anew, the margin hides noise, and one sum can be
-            // small by chance.
+        // The still background has no noise, nothing is shaded anew, the margin hides noise, and one sum can be small by
+        // chance.
+        let has_none = name.contains("static") || name.starts_with("bleed");
+        if has_none || ["mse_shading", "energy"].contains(&name.as_str()) {
             continue;
         }
-        if name.starts_with("psnr") {
-            assert!(
-                fine.floor > coarse.floor + 6.0,
-                "{name}: {coarse:?} {fine:?}"
-            );
-        } else if name.starts_with("ssim") {
-            assert!(
-                1.0 - fine.floor < 0.5 * (1.0 - coarse.floor),
-                "{name}: {coarse:?} {fine:?}"
-            );
-        } else {
-            assert!(
-                fine.floor < 0.5 * coarse.floor,
-                "{name}: {coarse:?} {fine:?}"
-            );
-        }
+        let falls = match name.split('_').next() {
+            Some("psnr") => fine > coarse + 6.0,
+            Some("ssim") => 1.0 - fine < 0.5 * (1.0 - coarse),
+            _ => fine < 0.5 * coarse,
+        };
+        assert!(falls, "{name}: {coarse:?} {fine:?}");
     }
 }
 
 #[test]
 fn an_accumulation_of_n_sub_frames_scores_as_n() {
     let ladder = sliding_disc().ladder(1024, [1000, 2000]);
-    let reference = Reference::new(&FRAME, &TRUTH, Some(&ladder), &VIEWING).expect("they agree");
+    let reference = make_reference(Some(&ladder));
     for subframes in [2, 4, 8, 16] {
-        // As many samples as a rung's two halves, from a seed of its own.
-        let output = sliding_disc().render(&Blur::accumulation(subframes), noisy(2048, 9));
-        let scores = reference.measure(&output).expect("a finite picture").scores;
+        // As many samples as a rung's two halves.
+        let scores = score_blur(&reference, &Blur::accumulation(subframes), 2048);
         for name in ["n_eq", "n_eq_flip", "n_eq_label_tv"] {
-            let found = get(&scores, name).value;
-            let ratio = found / f64::from(subframes);
-            assert!(
-                (0.95..1.05).contains(&ratio),
-                "{name} of {subframes}: {found}"
-            );
+            let ratio = get(&scores, name).value / f64::from(subframes);
+            assert_near(name, ratio, 1.0, 0.05);
         }
     }
 }
@@ -226,27 +186,22 @@ fn an_accumulation_of_n_sub_frames_scores_as_n() {
 #[test]
 fn noise_in_the_ladder_does_not_lower_the_bar() {
     let ladder = sliding_disc().ladder(8, [5000, 6000]);
-    let reference = Reference::new(&FRAME, &TRUTH, Some(&ladder), &VIEWING).expect("they agree");
+    let reference = make_reference(Some(&ladder));
     for subframes in [4, 8] {
-        let output = sliding_disc().render(&Blur::accumulation(subframes), noisy(4096, 11));
-        let scores = reference.measure(&output).expect("a finite picture").scores;
+        let scores = score_blur(&reference, &Blur::accumulation(subframes), 4096);
         let ratio = get(&scores, "n_eq").value / f64::from(subframes);
         // Two halves of 8 samples: unbiased, their noise scatters the counts by 3 %; counted as error, it adds at least
         // 14 %.
-        assert!(
-            (0.9..1.1).contains(&ratio),
-            "{subframes} sub-frames: ratio {ratio}"
-        );
+        assert_near("n_eq", ratio, 1.0, 0.1);
     }
 }
 
 #[test]
 fn counts_beyond_the_ladder_are_marked() {
     let ladder = sliding_disc().ladder(256, [3000, 4000]);
-    let reference = Reference::new(&FRAME, &TRUTH, Some(&ladder), &VIEWING).expect("they agree");
+    let reference = make_reference(Some(&ladder));
     let range = |blur: Blur| {
-        let output = sliding_disc().render(&blur, noisy(4096, 10));
-        let scores = reference.measure(&output).expect("a finite picture").scores;
+        let scores = score_blur(&reference, &blur, 4096);
         match scores.equivalent_subframes.label_total_variation {
             Equivalent::Subframes(subframes) => subframes.range,
             Equivalent::NotApplicable { reason } => panic!("{reason}"),
@@ -264,7 +219,7 @@ fn counts_beyond_the_ladder_are_marked() {
 
 #[test]
 fn frames_of_noise_separate_variance_from_bias() {
-    let reference = Reference::new(&FRAME, &TRUTH, None, &VIEWING).expect("they agree");
+    let reference = make_reference(None);
     let truth = TRUTH.mean().color;
     let (offset, amplitude, frames) = (0.25, 0.5, 4);
     let mut random = Random::new(7);
@@ -286,19 +241,16 @@ fn frames_of_noise_separate_variance_from_bias() {
     ] {
         let (mean, error) = mean_and_error(&values);
         assert!(error < 0.02 * expected, "too few to tell");
-        assert!(
-            (mean - expected).abs() < 4.0 * error,
-            "{mean} +- {error}, expected {expected}"
-        );
+        assert_near("mean", mean, expected, 4.0 * error);
     }
 }
 
 #[test]
 fn a_filter_without_noise_has_no_variance() {
-    let reference = Reference::new(&FRAME, &TRUTH, None, &VIEWING).expect("they agree");
+    let reference = make_reference(None);
     let outputs = vec![FRAME.color.clone(); 3];
     let jitter = reference.jitter(&outputs).expect("something moves");
     assert_eq!((jitter.variance, jitter.noise_share()), (0.0, 0.0));
-    let whole = score(&FRAME_PICTURE, &TRUTH);
-    assert!((jitter.bias - get(&whole, "mse_moving").value).abs() < 1e-9);
+    let whole = get(&score(&FRAME.picture(), &TRUTH), "mse_moving").value;
+    assert_near("bias", jitter.bias, whole, 1e-9);
 }

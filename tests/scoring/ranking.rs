@@ -7,6 +7,7 @@ use frame::Alignment;
 use metrics::{ImageMetric, Measured, Metric, Reference, Region, Scores};
 use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, overall};
 use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
+use tests::text::assert_contains;
 use tracer::{Family, RenderSettings, SceneId};
 
 /// Difficulty of a run's scenes relative to one another.
@@ -120,15 +121,6 @@ fn mean<'a>(run: &'a Run, filter: &str, metric: &str) -> &'a Overall {
     found.unwrap_or_else(|| panic!("{metric} of {filter} has no mean"))
 }
 
-/// Returns the names of the rows between two texts of the printed table, in order.
-fn rows(text: &str, from: &str, to: &str) -> Vec<String> {
-    let (_, text) = text.split_once(from).expect(from);
-    let text = text.split_once(to).map_or(text, |(text, _)| text);
-    let rows = text.lines().skip(1).filter(|line| line.starts_with("  "));
-    rows.map(|line| line.split_whitespace().next().unwrap().to_owned())
-        .collect()
-}
-
 /// Prints the run's table without colour codes.
 fn print_table(run: &Run) -> String {
     let mut text = String::new();
@@ -141,6 +133,22 @@ fn print_table(run: &Run) -> String {
     text
 }
 
+/// Returns the table of means whose heading comes so many times before, up to a text.
+fn print_means(run: &Run, heading: usize, end: &str) -> String {
+    let text = print_table(run);
+    let means = text.split("mean over 5 scenes").nth(heading).unwrap();
+    means.split(end).next().unwrap().to_owned()
+}
+
+/// Expects that names come one after the other.
+fn assert_order(text: &str, names: &[&str]) {
+    let places: Vec<usize> = names
+        .iter()
+        .map(|name| text.find(name).expect(name))
+        .collect();
+    assert!(places.is_sorted(), "{names:?} at {places:?} in {text}");
+}
+
 #[test]
 fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
     let run = make_run();
@@ -149,44 +157,27 @@ fn a_trailing_filter_of_more_skill_ranks_above_a_centred_one_of_less_flip() {
     });
     assert!(flip[0] > flip[1], "{flip:?}");
     // (0.156 - 0.100) / (0.156 - 0.050) and (0.154 - 0.087) / (0.154 - 0.024).
-    assert!(
-        (skill[0] - 0.5283).abs() < 1e-3 && (skill[1] - 0.5154).abs() < 1e-3,
-        "{skill:?}"
-    );
-    let text = print_table(&run);
-    let (_, ranking) = text.rsplit_once("mean over 5 scenes").unwrap();
-    let place = |name: &str| ranking.find(name).expect(name);
-    assert!(
-        place("jump_flood:paper") < place("kino:default"),
-        "{ranking}"
-    );
+    for (found, due) in skill.into_iter().zip([0.5283, 0.5154]) {
+        assert!((found - due).abs() < 1e-3, "{skill:?}");
+    }
+    let ranking = print_means(&run, 2, "Skill is by");
+    assert_order(&ranking, &["jump_flood:paper", "kino:default"]);
 }
 
 #[test]
 fn a_filter_worse_than_doing_nothing_ranks_below_it() {
     let run = make_run();
     let skill = mean(&run, "jimenez:wicked", "skill_flip");
-    assert!(
-        (skill.mean - (0.154 - 0.253) / 0.130).abs() < 1e-9,
-        "{skill:?}"
-    );
+    let due = (0.154 - 0.253) / 0.130;
+    assert!((skill.mean - due).abs() < 1e-9, "{skill:?}");
     assert!(skill.interval[1] < 0.0);
     // Its FLIP is nevertheless smaller than the identity's against the trailing truth.
     assert!(mean(&run, "jimenez:wicked", "flip_moving").mean < 0.270);
-    let text = print_table(&run);
-    let (_, ranking) = text.rsplit_once("mean over 5 scenes").unwrap();
-    let (ranking, _) = ranking.split_once("Skill is by").unwrap();
+    let ranking = print_means(&run, 2, "Skill is by");
     // The trailing frame lags: it is worse still, and its lag is told apart.
-    let place = |name: &str| ranking.find(name).unwrap();
-    assert!(
-        place("[accumulate:1]") < place("jimenez:wicked"),
-        "{ranking}"
-    );
-    assert!(place("[identity]") < place("jimenez:wicked"), "{ranking}");
-    assert!(
-        place("jimenez:wicked") < ranking.rfind("[identity]").unwrap(),
-        "{ranking}"
-    );
+    let (above, below) = ranking.split_once("jimenez:wicked").unwrap();
+    assert_contains(above, &["[accumulate:1]", "[identity]"]);
+    assert_contains(below, &["[identity]"]);
     assert_eq!(
         judge::lag_text(&run.cases).unwrap(),
         // 0.270 - 0.156, since the scenes' difficulties average 1.
@@ -196,31 +187,40 @@ fn a_filter_worse_than_doing_nothing_ranks_below_it() {
 
 #[test]
 fn a_ranking_by_flip_stays_within_a_shutter_and_shows_its_references() {
-    let text = print_table(&make_run());
-    let (_, means) = text.split_once("mean over 5 scenes").unwrap();
-    let (means, _) = means.split_once("mean over 5 scenes").unwrap();
-    assert_eq!(
-        rows(means, "trailing shutter", "centred shutter"),
-        [
-            "[scatter_oracle]",
-            "jump_flood:paper",
-            "[accumulate:1]",
-            "[identity]"
-        ]
-    );
-    assert_eq!(
-        rows(means, "centred shutter", "\n\n"),
-        [
-            "[scatter_oracle]",
-            "kino:default",
-            "[identity]",
-            "jimenez:wicked"
-        ]
-    );
-    assert!(
-        text.lines().all(|line| line.chars().count() <= 80),
-        "{text}"
-    );
+    let run = make_run();
+    let means = print_means(&run, 1, "Mean skill");
+    let (trailing, centred) = means.split_once("centred shutter").unwrap();
+    let centred = centred.split("\n\n").next().unwrap();
+    let trailing = trailing.split_once("trailing shutter").unwrap().1;
+    for (rows, names) in [
+        (
+            trailing,
+            [
+                "[scatter_oracle]",
+                "jump_flood:paper",
+                "[accumulate:1]",
+                "[identity]",
+            ],
+        ),
+        (
+            centred,
+            [
+                "[scatter_oracle]",
+                "kino:default",
+                "[identity]",
+                "jimenez:wicked",
+            ],
+        ),
+    ] {
+        let rows = rows.lines().skip(1).filter(|line| line.starts_with("  "));
+        let found: Vec<&str> = rows
+            .map(|line| line.split_whitespace().next().unwrap())
+            .collect();
+        assert_eq!(found, names);
+    }
+    let text = print_table(&run);
+    let fits = text.lines().all(|line| line.chars().count() <= 80);
+    assert!(fits, "{text}");
 }
 
 #[test]
@@ -261,10 +261,7 @@ fn scenes_without_skill_are_counted() {
     }
     run.overall = overall(&run.cases);
     let text = print_table(&run);
-    assert!(
-        text.contains("Scenes that skill applies to: 4 of 5 centred."),
-        "{text}"
-    );
+    assert_contains(&text, &["Scenes that skill applies to: 4 of 5 centred."]);
 }
 
 #[test]
@@ -282,37 +279,19 @@ fn bleed_is_the_largest_of_three_and_names_its_side() {
     let mut run = make_run();
     run.cases.truncate(ENTRIES.len());
     run.overall.clear();
-    let mover = &mut run.cases[7].scores.objects[0];
-    let sides = [
-        &mut mover.bleed_lateral,
-        &mut mover.bleed_leading,
-        &mut mover.bleed_trailing,
-    ];
-    for (side, pixels) in sides.into_iter().zip([0.0, 4.8, 4.7]) {
-        *side = Measured::score(pixels, 0.0);
+    for (pixels, shown) in [
+        ([0.0, 4.8, 4.7], " 4.80> "),
+        ([0.0, 4.8, 14.72], " 14.7< "),
+        ([15.0, 4.8, 14.72], " 15.0 "),
+    ] {
+        let mover = &mut run.cases[7].scores.objects[0];
+        let [lateral, leading, trailing] = pixels.map(|pixels| Measured::score(pixels, 0.0));
+        mover.bleed_lateral = lateral;
+        mover.bleed_leading = leading;
+        mover.bleed_trailing = trailing;
+        let text = print_table(&run);
+        let line = text.lines().find(|line| line.contains("wicked"));
+        assert!(line.unwrap().contains(shown), "{text}");
+        assert!(text.contains("ahead (>)"), "{text}");
     }
-    let ahead = print_table(&run);
-    let line = |text: &str| {
-        let mut lines = text.lines();
-        lines
-            .find(|line| line.contains("wicked"))
-            .unwrap()
-            .to_owned()
-    };
-    assert!(line(&ahead).contains(" 4.80> "), "{ahead}");
-    let mover = &mut run.cases[7].scores.objects[0];
-    mover.bleed_trailing = Measured::score(14.72, 0.0);
-    assert!(
-        line(&print_table(&run)).contains(" 14.7< "),
-        "{}",
-        print_table(&run)
-    );
-    let mover = &mut run.cases[7].scores.objects[0];
-    mover.bleed_lateral = Measured::score(15.0, 0.0);
-    assert!(
-        line(&print_table(&run)).contains(" 15.0 "),
-        "{}",
-        print_table(&run)
-    );
-    assert!(ahead.contains("ahead (>)"), "{ahead}");
 }

@@ -3,11 +3,20 @@
 use std::fs;
 
 use frame::{Image, Raster};
+use metrics::SequenceMetric::{
+    Error, ErrorAfterTaa, FixedPattern, Flicker, FlickerAfterTaa, FlickerAlong, Jod, Popping,
+};
 use metrics::{Instant, Measured, SequenceMeasurement, SequenceMetric, SequenceReference, measure};
 use tests::random::hash;
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
 use crate::noisy;
+
+/// Compares a score.
+#[track_caller]
+fn assert_near(found: f64, expected: f64, tolerance: f64) {
+    crate::assert_near("score", found, expected, tolerance);
+}
 
 /// Motion per frame in pixels: whole ones, so that taking a picture along is exact.
 const SPEED: [f64; 2] = [4.0, 2.0];
@@ -45,13 +54,10 @@ fn instant_of(scene: &Scene, samplings: [Sampling; 2]) -> Instant {
 /// Scenes, their instants without noise, and their true pictures.
 fn slide(speed: [f64; 2]) -> (Vec<Instant>, Vec<Image>) {
     let scenes = (0..FRAMES).map(|frame| disc_at(frame, speed));
-    let instants: Vec<Instant> = scenes
-        .map(|scene| instant_of(&scene, [Sampling::CLEAN; 2]))
-        .collect();
-    let truths = instants
-        .iter()
-        .map(|instant| instant.halves[0].clone())
-        .collect();
+    let instants = scenes.map(|scene| instant_of(&scene, [Sampling::CLEAN; 2]));
+    let instants: Vec<Instant> = instants.collect();
+    let truths = instants.iter().map(|instant| instant.halves[0].clone());
+    let truths = truths.collect();
     (instants, truths)
 }
 
@@ -61,9 +67,8 @@ fn add_noise(pictures: &[Image], seed: impl Fn(u64) -> u64) -> Vec<Image> {
         Raster::from_fn(picture.width, picture.height, |x, y| {
             let key = seed(frame) << 40 | u64::from(y) << 20 | u64::from(x);
             let unit = (hash(key) >> 40) as f32 / (1 << 24) as f32;
-            picture
-                .at(x, y)
-                .map(|value| value + NOISE * (2.0 * unit - 1.0))
+            let error = NOISE * (2.0 * unit - 1.0);
+            picture.at(x, y).map(|value| value + error)
         })
     };
     (0..).zip(pictures).map(noisy).collect()
@@ -82,55 +87,34 @@ fn value(measured: &SequenceMeasurement, metric: SequenceMetric) -> f64 {
     }
 }
 
-#[track_caller]
-fn assert_near(found: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (found - expected).abs() <= tolerance,
-        "{found}, expected {expected}"
-    );
-}
-
-/// The score of the truth itself.
-fn perfect(metric: SequenceMetric) -> f64 {
-    match metric {
-        SequenceMetric::Jod => 10.0,
-        _ => 0.0,
+fn assert_perfect(instants: &[Instant], truths: &[Image]) {
+    let measured = measure_all(instants, truths);
+    for metric in SequenceMetric::ALL {
+        let perfect = if metric == Jod { 10.0 } else { 0.0 };
+        assert_eq!(value(&measured, metric), perfect, "{metric:?}");
     }
 }
 
 #[test]
 fn the_truth_scores_perfectly() {
     let (instants, truths) = slide(SPEED);
-    let measured = measure_all(&instants, &truths);
-    for metric in SequenceMetric::ALL {
-        assert_eq!(value(&measured, metric), perfect(metric), "{metric:?}");
-    }
+    assert_perfect(&instants, &truths);
 }
 
 #[test]
 fn a_still_scene_has_no_change_to_get_wrong() {
     let (instants, truths) = slide([0.0, 0.0]);
     assert!(!instants[0].moving.pixels.contains(&true));
+    assert_perfect(&instants, &truths);
     // The same wrong picture in every frame.
-    let pictures = add_noise(&truths, |_| 1);
-    let measured = measure_all(&instants, &pictures);
-    for metric in [
-        SequenceMetric::Flicker,
-        SequenceMetric::FlickerAlong,
-        SequenceMetric::Popping,
-    ] {
+    let measured = measure_all(&instants, &add_noise(&truths, |_| 1));
+    let changes = [Flicker, FlickerAlong, Popping];
+    for metric in changes {
         assert_eq!(value(&measured, metric), 0.0, "{metric:?}");
     }
     // The variance of 6144 pixels scatters by a hundredth.
-    assert_near(
-        value(&measured, SequenceMetric::Error),
-        VARIANCE,
-        0.05 * VARIANCE,
-    );
-    let measured = measure_all(&instants, &truths);
-    for metric in SequenceMetric::ALL {
-        assert_eq!(value(&measured, metric), perfect(metric), "{metric:?}");
-    }
+    let error = value(&measured, Error);
+    assert_near(error, VARIANCE, 0.05 * VARIANCE);
 }
 
 #[test]
@@ -141,41 +125,30 @@ fn noise_that_changes_flickers_and_noise_that_stands_is_dirt() {
     // Some 1200 pixels move in each of 5 frames: four standard deviations of a mean square are below a tenth.
     let scatter = 0.1 * VARIANCE;
     for measured in [&changing, &standing] {
-        assert_near(value(measured, SequenceMetric::Error), VARIANCE, scatter);
-        assert!(value(measured, SequenceMetric::Jod) < 9.5, "noise is seen");
+        assert_near(value(measured, Error), VARIANCE, scatter);
+        assert!(value(measured, Jod) < 9.5, "noise is seen");
     }
-    for metric in [SequenceMetric::Flicker, SequenceMetric::FlickerAlong] {
+    for metric in [Flicker, FlickerAlong] {
         assert_near(value(&changing, metric), 2.0 * VARIANCE, 3.0 * scatter);
     }
     // The eye that follows the disc sees new noise on it, and none on the wall around.
-    let along = value(&standing, SequenceMetric::FlickerAlong);
+    let along = value(&standing, FlickerAlong);
     assert!((0.5 * VARIANCE..1.8 * VARIANCE).contains(&along), "{along}");
     // Rounding to 32 bits only.
-    assert_near(value(&standing, SequenceMetric::Flicker), 0.0, 1e-10);
+    assert_near(value(&standing, Flicker), 0.0, 1e-10);
     // The mean of 25 pixels is taken away.
     let fine = 0.96 * VARIANCE;
-    assert_near(
-        value(&standing, SequenceMetric::FixedPattern),
-        fine,
-        scatter,
-    );
-    assert_near(value(&changing, SequenceMetric::FixedPattern), 0.0, scatter);
-}
-
-#[test]
-fn temporal_antialiasing_takes_changing_noise_away() {
-    let (instants, truths) = slide(SPEED);
-    let changing = measure_all(&instants, &add_noise(&truths, |frame| frame));
-    let [before, after] = [
-        SequenceMetric::FlickerAlong,
-        SequenceMetric::FlickerAfterTaa,
-    ]
-    .map(|metric| value(&changing, metric));
-    // A tenth of each new picture counts; histories begin anew with the sequence and where a disc uncovers the wall.
-    assert!(after < 0.5 * before, "{after} of {before}");
-    let [before, after] = [SequenceMetric::Error, SequenceMetric::ErrorAfterTaa]
-        .map(|metric| value(&changing, metric));
-    assert!(after < before, "{after} of {before}");
+    assert_near(value(&standing, FixedPattern), fine, scatter);
+    assert_near(value(&changing, FixedPattern), 0.0, scatter);
+    // Temporal antialiasing takes changing noise away: a tenth of each new picture counts, and histories begin anew with the sequence
+    // and where a disc uncovers the wall.
+    for (before, after, part) in [
+        (FlickerAlong, FlickerAfterTaa, 0.5),
+        (Error, ErrorAfterTaa, 1.0),
+    ] {
+        let [before, after] = [before, after].map(|metric| value(&changing, metric));
+        assert!(after < part * before, "{after} of {before}");
+    }
 }
 
 #[test]
@@ -188,19 +161,16 @@ fn error_that_goes_with_its_object_does_not_flicker_along_the_motion() {
             Raster::from_fn(truth.width, truth.height, |x, y| {
                 let is_disc = *instant.object_id.at(x, y) == 1;
                 let place = [i64::from(x) - right, i64::from(y) - down];
-                let sign = if is_disc && (place[0] + place[1]).rem_euclid(4) == 0 {
-                    NOISE
-                } else {
-                    0.0
-                };
-                truth.at(x, y).map(|value| value + sign)
+                let is_striped = is_disc && (place[0] + place[1]).rem_euclid(4) == 0;
+                let error = if is_striped { NOISE } else { 0.0 };
+                truth.at(x, y).map(|value| value + error)
             })
         })
         .collect();
     let measured = measure_all(&instants, &pictures);
     // Rounding to 32 bits only.
-    assert_near(value(&measured, SequenceMetric::FlickerAlong), 0.0, 1e-10);
-    assert!(value(&measured, SequenceMetric::Flicker) > 1e-3);
+    assert_near(value(&measured, FlickerAlong), 0.0, 1e-10);
+    assert!(value(&measured, Flicker) > 1e-3);
 }
 
 #[test]
@@ -218,7 +188,7 @@ fn popping_is_the_largest_jump_of_an_objects_error() {
         .collect();
     let measured = measure_all(&instants, &pictures);
     // Rounding to 32 bits only.
-    assert_near(value(&measured, SequenceMetric::Popping), 0.2, 1e-6);
+    assert_near(value(&measured, Popping), 0.2, 1e-6);
 }
 
 #[test]
@@ -233,12 +203,7 @@ fn accumulations_get_better_with_their_subframes() {
             })
             .collect();
         let measured = measure_all(&instants, &pictures);
-        [
-            SequenceMetric::Error,
-            SequenceMetric::Flicker,
-            SequenceMetric::FlickerAlong,
-        ]
-        .map(|metric| value(&measured, metric))
+        [Error, Flicker, FlickerAlong].map(|metric| value(&measured, metric))
     });
     for pair in scores.windows(2) {
         for (fewer, more) in pair[0].iter().zip(&pair[1]) {
@@ -252,28 +217,19 @@ fn noise_of_the_truth_biases_nothing_and_is_the_floor() {
     let instants: Vec<Instant> = (0..FRAMES)
         .map(|frame| {
             let seeds = [2 * u64::from(frame), 2 * u64::from(frame) + 1];
-            instant_of(
-                &disc_at(frame, SPEED),
-                seeds.map(|seed| noisy(16, seed + 1)),
-            )
+            let samplings = seeds.map(|seed| noisy(16, seed + 1));
+            instant_of(&disc_at(frame, SPEED), samplings)
         })
         .collect();
     let (_, truths) = slide(SPEED);
     let measured = measure_all(&instants, &truths);
-    for metric in [
-        SequenceMetric::Error,
-        SequenceMetric::Flicker,
-        SequenceMetric::FlickerAlong,
-        SequenceMetric::FixedPattern,
-    ] {
+    for metric in [Error, Flicker, FlickerAlong, FixedPattern] {
         let Measured::Score(score) = measured.scores.get(metric) else {
             panic!("{metric:?} applies");
         };
         // The floor is one standard deviation, and noise of edges has heavy tails.
-        assert!(
-            score.floor > 0.0 && score.value.abs() < 4.0 * score.floor,
-            "{metric:?}: {score:?}"
-        );
+        let is_within = score.value.abs() < 4.0 * score.floor;
+        assert!(score.floor > 0.0 && is_within, "{metric:?}: {score:?}");
     }
 }
 
@@ -285,10 +241,8 @@ fn a_sequence_of_one_frame_has_the_error_of_the_frame() {
     let output = scene.render(&Blur::IDENTITY, Sampling::CLEAN);
     let single = measure(&output, &scene.frame(), &truth, None, &VIEWING).expect("they agree");
     let measured = measure_all(&[instant], &[output.color]);
-    assert_eq!(
-        Some(value(&measured, SequenceMetric::Error)),
-        single.scores.moving.mse.value()
-    );
+    let error = single.scores.moving.mse.value();
+    assert_eq!(Some(value(&measured, Error)), error);
     for metric in SequenceMetric::ALL.into_iter().skip(1) {
         assert_eq!(measured.scores.get(metric).value(), None, "{metric:?}");
     }
@@ -299,28 +253,23 @@ fn other_sizes_and_counts_are_refused() {
     let (instants, truths) = slide(SPEED);
     let reference = SequenceReference::new(instants, &VIEWING, 30.0);
     let refusal = reference.measure(&truths[1..]).unwrap_err().to_string();
+    let counts = ["4 frames", "5 frames"];
     assert!(
-        refusal.contains("4 frames") && refusal.contains("5 frames"),
+        counts.iter().all(|count| refusal.contains(count)),
         "{refusal}"
     );
     let mut small = truths.clone();
     small[2] = small[2].cropped(1);
     let refusal = reference.measure(&small).unwrap_err().to_string();
-    assert!(
-        refusal.contains("the picture of frame 2 is 94x62"),
-        "{refusal}"
-    );
+    let words = "the picture of frame 2 is 94x62";
+    assert!(refusal.contains(words), "{refusal}");
 }
 
 #[test]
 fn the_guide_names_every_score() {
     let guide = fs::read_to_string(tests::root().join("docs/sequences.md")).unwrap();
     for metric in SequenceMetric::ALL {
-        let row = metric.row();
-        let heading = format!("| `{}` |", row.name);
-        assert!(
-            guide.contains(&heading),
-            "docs/sequences.md lacks {heading}"
-        );
+        let heading = format!("| `{}` |", metric.row().name);
+        assert!(guide.contains(&heading), "it lacks {heading}");
     }
 }

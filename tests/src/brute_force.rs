@@ -33,33 +33,19 @@ pub fn expect_what_every_triangle_gives(
         let expected = stages[0].closest_of_all(poses.at(time), &ray);
         hits += u32::from(expected.is_some());
         for stage in &stages {
-            let path = stage.traversal();
+            let said = || format!("{}, time {time}, {ray:?}", stage.traversal());
             // Asked anew each time, since known poses change the way to the hit.
-            assert_eq!(
-                stage.closest(poses.at(time), &ray),
-                expected,
-                "{path}, time {time}, {ray:?}"
-            );
+            assert_eq!(stage.closest(poses.at(time), &ray), expected, "{}", said());
+            let mut is_blocked = |reach: f64| stage.is_blocked(poses.at(time), &ray, reach);
             match expected {
                 Some(hit) => {
-                    assert!(
-                        stage.is_blocked(poses.at(time), &ray, hit.t * (1.0 + 1e-9)),
-                        "{path}, {ray:?}"
-                    );
-                    assert!(
-                        !stage.is_blocked(poses.at(time), &ray, hit.t),
-                        "{path}, {ray:?}"
-                    );
+                    assert!(is_blocked(hit.t * (1.0 + 1e-9)), "{}", said());
+                    assert!(!is_blocked(hit.t), "{}", said());
                 }
-                None => assert!(
-                    !stage.is_blocked(poses.at(time), &ray, f64::INFINITY),
-                    "{path}, {ray:?}"
-                ),
+                None => assert!(!is_blocked(f64::INFINITY), "{}", said()),
             }
         }
     }
-    assert!(
-        hits > count / 10,
-        "only {hits} of {count} rays hit anything: the test shows little"
-    );
+    // Rays that miss everything show little.
+    assert!(hits > count / 10, "only {hits} of {count} rays hit");
 }

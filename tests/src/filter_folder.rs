@@ -45,6 +45,19 @@ fn work(@builtin(global_invocation_id) id: vec3<u32>) {{
     )
 }
 
+/// Writes a filter with one pass, `work`, which reads the colour and these textures. `more` is part of filter.toml.
+pub fn write_kernel(folder: &Path, more: &str, textures: &[&str], body: &str) {
+    let name = folder.file_name().unwrap().to_str().unwrap();
+    let manifest = format!(
+        "name = \"{name}\"\nsummary = \"It serves a test.\"\nalignment = \"trailing\"\n{more}\n[[pass]]\nentry = \"work\"\n"
+    );
+    let bind =
+        |(at, texture)| format!("@group(0) @binding({at}) var {texture}: texture_2d<f32>;\n");
+    let textures: String = (4..).zip(textures).map(bind).collect();
+    let kernels = textures + &one_kernel_without_parameters(body);
+    write_filter(folder, name, &manifest, &kernels);
+}
+
 /// Returns the folder of a built-in filter.
 pub fn shipped_filter(name: &str) -> PathBuf {
     let shaders = crate::root().join("shaders");
@@ -53,8 +66,13 @@ pub fn shipped_filter(name: &str) -> PathBuf {
 
 /// Copies a built-in filter.
 pub fn copy_shipped_filter(name: &str, copy: &Path) {
+    copy_folder(&shipped_filter(name), copy);
+}
+
+/// Copies the files of a folder.
+pub fn copy_folder(folder: &Path, copy: &Path) {
     fs::create_dir_all(copy).unwrap();
-    for entry in fs::read_dir(shipped_filter(name)).unwrap() {
+    for entry in fs::read_dir(folder).unwrap() {
         let file = entry.unwrap();
         fs::copy(file.path(), copy.join(file.file_name())).unwrap();
     }

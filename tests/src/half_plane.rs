@@ -6,27 +6,20 @@ use glam::DVec2;
 /// Returns the probability that a sum of independent uniform numbers in `[0, width]` is at most `limit`: a piecewise
 /// polynomial (Feller, volume 2, I.9).
 fn uniform_sum(limit: f64, widths: &[f64]) -> f64 {
-    let widths: Vec<f64> = widths
-        .iter()
-        .copied()
-        .filter(|width| *width > 1e-12)
-        .collect();
+    let widths = widths.iter().copied().filter(|width| *width > 1e-12);
+    let widths: Vec<f64> = widths.collect();
     if limit >= widths.iter().sum() {
         return 1.0;
     }
     let degree = widths.len() as i32;
     let sum: f64 = (0..1u32 << widths.len())
         .map(|subset| {
-            let taken = |index: usize| subset >> index & 1 == 1;
-            let shift: f64 = (0..widths.len())
-                .filter(|&index| taken(index))
-                .map(|index| widths[index])
-                .sum();
-            let sign = if subset.count_ones() % 2 == 1 {
-                -1.0
-            } else {
-                1.0
-            };
+            let taken = widths
+                .iter()
+                .enumerate()
+                .filter(|(index, _)| subset >> index & 1 == 1);
+            let shift: f64 = taken.map(|(_, width)| width).sum();
+            let sign = (-1.0f64).powi(subset.count_ones() as i32);
             sign * (limit - shift).max(0.0).powi(degree)
         })
         .sum();
@@ -41,12 +34,8 @@ pub fn half_plane(pixel: DVec2, normal: DVec2, offset: f64, speed: f64, shutter:
     let start = least(normal.x, pixel.x, pixel.x + 1.0)
         + least(normal.y, pixel.y, pixel.y + 1.0)
         + least(-speed, shutter.open, shutter.close);
-    let widths = [
-        normal.x.abs(),
-        normal.y.abs(),
-        (speed * shutter.exposure()).abs(),
-    ];
-    uniform_sum(offset - start, &widths)
+    let moved = speed * shutter.exposure();
+    uniform_sum(offset - start, &[normal.x, normal.y, moved].map(f64::abs))
 }
 
 /// Returns the part of a pixel in which `normal . p <= offset`.

@@ -10,8 +10,10 @@ mod tiles;
 
 pub use babylon::babylon_trail;
 pub use gathers::{jump_flood_trail, three_trail};
+pub use tiles::{cone, cylinder, half_velocity};
 
 use crate::ramp::Ramp;
+use crate::vector::{direction, dot, scaled};
 
 /// Even motion, with the exposure and the size of the picture.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +83,7 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
 
 /// Returns the part of an offset along the motion, in pixels.
 pub fn along_motion(steady: &Steady, offset: [f64; 2]) -> f64 {
-    dot(offset, direction(steady.velocity))
+    dot(offset, direction(steady.velocity, [1.0, 0.0]))
 }
 
 /// Makes a tap on the pixel itself.
@@ -118,24 +120,4 @@ fn on_trail(trail: [f64; 2], parts: impl IntoIterator<Item = f64>) -> Vec<Tap> {
         .into_iter()
         .flat_map(|part| bilinear(scaled(trail, part), 1.0))
         .collect()
-}
-
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-fn length(a: [f64; 2]) -> f64 {
-    dot(a, a).sqrt()
-}
-
-fn scaled(a: [f64; 2], factor: f64) -> [f64; 2] {
-    a.map(|component| component * factor)
-}
-
-/// Scales a vector to length 1; (1, 0) where it has no length.
-fn direction(a: [f64; 2]) -> [f64; 2] {
-    match length(a) {
-        0.0 => [1.0, 0.0],
-        length => scaled(a, 1.0 / length),
-    }
 }

@@ -2,10 +2,12 @@
 
 pub mod brute_force;
 pub mod filter_folder;
+mod gpu;
 pub mod half_plane;
 pub mod kernels;
 pub mod limits;
 pub mod mutants;
+pub mod near;
 pub mod picture;
 pub mod plate;
 pub mod presets;
@@ -15,11 +17,13 @@ pub mod shapes;
 pub mod statistics;
 pub mod synthetic;
 pub mod text;
+pub mod vector;
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use filters::Gpu;
+pub use gpu::{ready_blur, shared_gpu};
 use tracer::Progress;
 
 /// Watches a render and lets it go on.
@@ -27,7 +31,7 @@ pub fn unwatched(_: Progress) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// Opens the adapter that tests run filters on.
+/// Opens the adapter that tests run filters on, for a test that changes it, leaves it at work, or has no other.
 pub fn open_gpu() -> Gpu {
     Gpu::new(None).expect("these tests run filters")
 }

@@ -1,10 +1,11 @@
 //! Small frames of surfaces, each with its own motion, and their blurs.
 
 use filters::{Blur, Filter, Input, Settings};
-use frame::{Image, Plane, Raster, Vectors};
+use frame::{Frame, Image, Plane, Raster, Vectors};
 
-use crate::open_gpu;
 use crate::ramp::Ramp;
+use crate::random::Random;
+use crate::ready_blur;
 
 /// A surface as one pixel sees it.
 #[derive(Clone, Copy)]
@@ -15,6 +16,26 @@ pub struct Surface {
     pub velocity: [f32; 2],
     /// Depth, in metres.
     pub depth: f32,
+}
+
+impl Surface {
+    /// Paints the surface in this grey.
+    pub const fn gray(self, gray: f32) -> Self {
+        Self { gray, ..self }
+    }
+
+    /// Gives the surface this motion, in pixels per frame.
+    pub const fn moving(self, right: f32, down: f32) -> Self {
+        Self {
+            velocity: [right, down],
+            ..self
+        }
+    }
+
+    /// Puts the surface at this depth, in metres.
+    pub const fn at(self, depth: f32) -> Self {
+        Self { depth, ..self }
+    }
 }
 
 /// Still surface behind all others.
@@ -30,15 +51,6 @@ pub const fn white(speed: f32) -> Surface {
         gray: 1.0,
         velocity: [speed, 0.0],
         depth: 2.0,
-    }
-}
-
-/// Makes a grey surface that moves right by `speed` pixels per frame.
-pub const fn gray_moving_by(speed: f32) -> Surface {
-    Surface {
-        gray: 0.5,
-        velocity: [speed, 0.0],
-        depth: 3.0,
     }
 }
 
@@ -70,6 +82,30 @@ impl Picture {
         Self::new(width, height, |_, _| surface)
     }
 
+    /// Makes a picture of one surface left of the middle, and of another one right of it.
+    pub fn halves(width: u32, height: u32, left: Surface, right: Surface) -> Self {
+        Self::new(
+            width,
+            height,
+            |x, _| {
+                if x < width / 2 { left } else { right }
+            },
+        )
+    }
+
+    /// Gives the pixels of these columns and rows greys of their own, from 0 to 1.
+    pub fn speckled(mut self, seed: u64, is_speckled: impl Fn(u32, u32) -> bool) -> Self {
+        let mut random = Random::new(seed);
+        self.color = Raster::from_fn(self.color.width, self.color.height, |x, y| {
+            let gray = random.real(0.0, 1.0);
+            match is_speckled(x, y) {
+                true => [gray; 3],
+                false => *self.color.at(x, y),
+            }
+        });
+        self
+    }
+
     /// Makes the input of a filter with these colours in place of its own.
     pub fn input<'a>(&'a self, color: &'a [&'a Image]) -> Input<'a> {
         Input {
@@ -84,42 +120,59 @@ impl Picture {
         }
     }
 
-    /// Runs a filter with parameters set as on the command line, and returns its output.
-    pub fn blur(&self, filter: &str, preset: &str, overrides: &[(&str, &str)]) -> Image {
-        let (filter, settings) = settings(filter, preset, overrides);
-        let (width, height) = (self.color.width, self.color.height);
-        let gpu = open_gpu();
-        let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
-        blur.run(&self.input(&[&self.color])).unwrap().remove(0)
+    /// Runs a filter with parameters set to other values, such as `samples=9`, and returns its output.
+    pub fn blur(&self, filter: &str, preset: &str, overrides: &str) -> Image {
+        self.run(filter, Some(preset), overrides).1
     }
 
-    /// Runs a filter; returns one of its textures.
-    pub fn texture(
-        &self,
-        filter: &str,
-        overrides: &[(&str, &str)],
-        texture: &str,
-    ) -> Raster<[f32; 4]> {
-        let (filter, settings) = settings(
-            filter,
-            &Filter::builtin(filter).unwrap().presets[0].name,
-            overrides,
-        );
-        let (width, height) = (self.color.width, self.color.height);
-        let gpu = open_gpu();
-        let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
-        blur.run(&self.input(&[&self.color])).unwrap();
+    /// Runs a filter with its first preset; returns one of its textures.
+    pub fn texture(&self, filter: &str, overrides: &str, texture: &str) -> Raster<[f32; 4]> {
+        let (blur, _) = self.run(filter, None, overrides);
         blur.read_texture(texture).unwrap()
+    }
+
+    fn run(&self, filter: &str, preset: Option<&str>, overrides: &str) -> (Blur<'static>, Image) {
+        let size = (self.color.width, self.color.height);
+        let mut blur = make_blur(filter, preset, overrides, size);
+        let mut outputs = blur.run(&self.input(&[&self.color])).unwrap();
+        (blur, outputs.remove(0))
     }
 }
 
-fn settings(filter: &str, preset: &str, overrides: &[(&str, &str)]) -> (Filter, Settings) {
+/// Makes a built-in filter ready with parameters set to values: `samples=9 jitter=none`.
+pub fn make_blur(
+    filter: &str,
+    preset: Option<&str>,
+    overrides: &str,
+    size: (u32, u32),
+) -> Blur<'static> {
     let filter = Filter::builtin(filter).unwrap();
-    let mut settings = filter.settings(Some(preset)).unwrap();
-    for (parameter, value) in overrides {
-        settings.set(&filter, parameter, value).unwrap();
+    let settings = change_preset(&filter, preset, overrides);
+    ready_blur(&filter, &settings, size)
+}
+
+/// Makes the settings of a preset, or of the first one, with other values: `samples=9 jitter=none`.
+pub fn change_preset(filter: &Filter, preset: Option<&str>, overrides: &str) -> Settings {
+    let mut settings = filter.settings(preset).unwrap();
+    for change in overrides.split_whitespace() {
+        let (parameter, value) = change.split_once('=').unwrap();
+        settings.set(filter, parameter, value).unwrap();
     }
-    (filter, settings)
+    settings
+}
+
+/// Makes the input of a filter from a rendered frame, with these colours in place of its own.
+pub fn frame_input<'a>(frame: &'a Frame, color: &'a [&'a Image]) -> Input<'a> {
+    Input {
+        color,
+        velocity: &frame.velocity,
+        depth: &frame.depth,
+        reprojection: Some(frame.reprojection.moved(f64::from(frame.guard_band))),
+        camera: frame.camera,
+        exposure: frame.exposure,
+        frames_per_second: frame.frames_per_second,
+        frame_index: 0,
+    }
 }
 
 /// Returns the mean grey value of a column over all rows, which turns noise into its distribution.
@@ -132,28 +185,23 @@ pub fn column(image: &Image, x: u32) -> f64 {
 
 /// Returns the length in pixels of the even ramp with the same spread as a blurred edge.
 pub fn ramp_length(image: &Image) -> f64 {
-    let profile: Vec<(f64, f64)> = (0..image.width)
-        .map(|x| (f64::from(x), column(image, x)))
-        .collect();
-    Ramp::of(&profile).length
+    let profile = (0..image.width).map(|x| (f64::from(x), column(image, x)));
+    Ramp::of(&profile.collect::<Vec<_>>()).length
 }
 
 /// Makes a picture that is black left of the middle and white right of it, all in one motion at one depth.
 pub fn moving_edge(width: u32, height: u32, velocity: [f32; 2]) -> Picture {
-    Picture::new(width, height, |x, _| Surface {
-        gray: if x < width / 2 { 0.0 } else { 1.0 },
+    let ahead = Surface {
         velocity,
-        depth: 2.0,
-    })
+        ..white(0.0)
+    };
+    Picture::halves(width, height, ahead.gray(0.0), ahead)
 }
 
 /// Makes a black picture. Its lower half moves fast in front, and its upper half has something white that moves slower.
 pub fn slow_above_fast(slow: f32, fast: f32) -> Picture {
     Picture::new(320, 64, |x, y| match (x, y) {
-        (_, 32..) => Surface {
-            gray: 0.0,
-            ..white(fast)
-        },
+        (_, 32..) => white(fast).gray(0.0),
         (160.., _) => white(slow),
         _ => BLACK_WALL,
     })

@@ -4,21 +4,15 @@ use filters::{Filter, Settings};
 
 /// Returns every built-in filter with every preset.
 pub fn every_preset() -> Vec<(Filter, Settings)> {
-    let filters = Filter::builtin_names()
-        .into_iter()
-        .map(|name| Filter::builtin(&name).expect("built-in filters are checked"));
-    filters
-        .flat_map(|filter| {
-            let settings: Vec<Settings> = filter
-                .presets
-                .iter()
-                .map(|preset| filter.settings(Some(&preset.name)).expect("it is listed"))
-                .collect();
-            settings
-                .into_iter()
-                .map(move |settings| (filter.clone(), settings))
-        })
-        .collect()
+    let mut presets = Vec::new();
+    for name in Filter::builtin_names() {
+        let filter = Filter::builtin(&name).expect("built-in filters are checked");
+        for preset in &filter.presets {
+            let settings = filter.settings(Some(&preset.name)).expect("it is listed");
+            presets.push((filter.clone(), settings));
+        }
+    }
+    presets
 }
 
 /// Returns the sum of the weights of a preset's taps: 1 unless the original makes pictures brighter.

@@ -95,18 +95,13 @@ pub fn glowing(radiance: f32) -> Material {
 
 /// Makes a translation at a constant velocity (metres per frame) through `at` at `t = 0`.
 pub fn drift(at: DVec3, velocity: DVec3) -> Motion {
+    let key = |time: f64| Key {
+        time,
+        translation: at + time * velocity,
+        ..Key::REST
+    };
     Motion {
-        keys: vec![
-            Key {
-                translation: at,
-                ..Key::REST
-            },
-            Key {
-                time: 1.0,
-                translation: at + velocity,
-                ..Key::REST
-            },
-        ],
+        keys: vec![key(0.0), key(1.0)],
         ..Motion::default()
     }
 }
@@ -114,29 +109,28 @@ pub fn drift(at: DVec3, velocity: DVec3) -> Motion {
 /// Makes a rotation at a constant `rate` (radians per frame) about `axis` through `at`, at rest pose at `t = 0`.
 pub fn spin(at: DVec3, axis: DVec3, rate: f64) -> Motion {
     let turn = Turn { axis, angle: rate };
-    let key = Key {
+    let start = Key {
         translation: at,
         turn,
         ..Key::REST
     };
+    let end = Key {
+        time: 1.0,
+        orientation: DQuat::from_axis_angle(axis, rate),
+        turn: Turn::NONE,
+        ..start
+    };
     Motion {
-        keys: vec![
-            key,
-            Key {
-                time: 1.0,
-                orientation: DQuat::from_axis_angle(axis, rate),
-                turn: Turn::NONE,
-                ..key
-            },
-        ],
+        keys: vec![start, end],
         ..Motion::default()
     }
 }
 
 /// Makes a pose that never changes.
 pub fn placed(at: DVec3) -> Motion {
+    let translation = at;
     Motion::still(Key {
-        translation: at,
+        translation,
         ..Key::REST
     })
 }
@@ -173,80 +167,43 @@ pub fn disc(radius: f32, sides: u32) -> Mesh {
         let (sine, cosine) = (angle * f64::from(side)).sin_cos();
         Vec3::new((reach * cosine) as f32, (reach * sine) as f32, 0.0)
     });
-    mesh(
-        std::iter::once(Vec3::ZERO).chain(rim).collect(),
-        (0..sides)
-            .map(|side| [0, 1 + side, 1 + (side + 1) % sides])
-            .collect(),
-    )
+    let positions = [Vec3::ZERO].into_iter().chain(rim).collect();
+    let triangles = (0..sides).map(|side| [0, 1 + side, 1 + (side + 1) % sides]);
+    mesh(positions, triangles.collect())
 }
 
 /// Makes a closed box around the origin, wound outwards.
 pub fn cuboid(size: Vec3) -> Mesh {
-    let positions = (0..8)
-        .map(|corner: u32| {
-            let side = |bit: u32| (corner >> bit & 1) as f32 - 0.5;
-            size * Vec3::new(side(0), side(1), side(2))
-        })
-        .collect();
+    let corner = |corner: u32| {
+        let side = |bit: u32| (corner >> bit & 1) as f32 - 0.5;
+        size * Vec3::new(side(0), side(1), side(2))
+    };
+    let positions = (0..8).map(corner).collect();
+    #[rustfmt::skip]
     let quads = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
+        [0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5],
     ];
-    mesh(
-        positions,
-        quads
-            .into_iter()
-            .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
-            .collect(),
-    )
+    let halves = quads.map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    mesh(positions, halves.concat())
 }
 
 /// Makes a closed sphere around the origin: an icosahedron whose triangles are split into four `splits` times, with
 /// smooth normals.
 pub fn icosphere(radius: f32, splits: u32) -> Mesh {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
-    let mut directions: Vec<DVec3> = [
-        [-1.0, golden, 0.0],
-        [1.0, golden, 0.0],
-        [-1.0, -golden, 0.0],
-        [1.0, -golden, 0.0],
-        [0.0, -1.0, golden],
-        [0.0, 1.0, golden],
-        [0.0, -1.0, -golden],
-        [0.0, 1.0, -golden],
-        [golden, 0.0, -1.0],
-        [golden, 0.0, 1.0],
-        [-golden, 0.0, -1.0],
-        [-golden, 0.0, 1.0],
-    ]
-    .map(|corner| DVec3::from(corner).normalize())
-    .to_vec();
+    #[rustfmt::skip]
+    let corners = [
+        [-1.0, golden, 0.0], [1.0, golden, 0.0], [-1.0, -golden, 0.0], [1.0, -golden, 0.0],
+        [0.0, -1.0, golden], [0.0, 1.0, golden], [0.0, -1.0, -golden], [0.0, 1.0, -golden],
+        [golden, 0.0, -1.0], [golden, 0.0, 1.0], [-golden, 0.0, -1.0], [-golden, 0.0, 1.0],
+    ];
+    let mut directions = (corners.map(|corner| DVec3::from(corner).normalize())).to_vec();
+    #[rustfmt::skip]
     let mut triangles: Vec<[u32; 3]> = vec![
-        [0, 11, 5],
-        [0, 5, 1],
-        [0, 1, 7],
-        [0, 7, 10],
-        [0, 10, 11],
-        [1, 5, 9],
-        [5, 11, 4],
-        [11, 10, 2],
-        [10, 7, 6],
-        [7, 1, 8],
-        [3, 9, 4],
-        [3, 4, 2],
-        [3, 2, 6],
-        [3, 6, 8],
-        [3, 8, 9],
-        [4, 9, 5],
-        [2, 4, 11],
-        [6, 2, 10],
-        [8, 6, 7],
-        [9, 8, 1],
+        [0, 11, 5], [0, 5, 1], [0, 1, 7], [0, 7, 10], [0, 10, 11],
+        [1, 5, 9], [5, 11, 4], [11, 10, 2], [10, 7, 6], [7, 1, 8],
+        [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9],
+        [4, 9, 5], [2, 4, 11], [6, 2, 10], [8, 6, 7], [9, 8, 1],
     ];
     for _ in 0..splits {
         let mut middles = std::collections::BTreeMap::new();
@@ -257,25 +214,18 @@ pub fn icosphere(radius: f32, splits: u32) -> Mesh {
                 directions.len() as u32 - 1
             })
         };
-        triangles = triangles
-            .iter()
-            .flat_map(|&[a, b, c]| {
-                let ab = middle(a, b, &mut directions);
-                let bc = middle(b, c, &mut directions);
-                let ca = middle(c, a, &mut directions);
-                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-            })
-            .collect();
+        let split = triangles.iter().flat_map(|&[a, b, c]| {
+            let ab = middle(a, b, &mut directions);
+            let bc = middle(b, c, &mut directions);
+            let ca = middle(c, a, &mut directions);
+            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+        });
+        triangles = split.collect();
     }
-    let normals: Vec<Vec3> = directions
-        .iter()
-        .map(|direction| direction.as_vec3())
-        .collect();
+    let normals: Vec<Vec3> = directions.iter().map(|it| it.as_vec3()).collect();
+    let positions = normals.iter().map(|normal| radius * *normal).collect();
     Mesh {
-        normals: normals.clone(),
-        ..mesh(
-            normals.iter().map(|normal| radius * *normal).collect(),
-            triangles,
-        )
+        normals,
+        ..mesh(positions, triangles)
     }
 }

@@ -44,11 +44,8 @@ pub fn coverage_estimates(truth: &Truth, expected: impl Fn(u32, u32) -> f64) -> 
     let replicates = f64::from(truth.provenance.replicates);
     let floor = (0.3 * 0.7 / replicates).sqrt() / f64::from(samples);
     let mut estimates = estimate_pixels(truth, expected);
-    for estimate in &mut estimates {
-        if estimate.expected > 0.0 && estimate.expected < 1.0 {
-            estimate.floor = floor;
-        }
-    }
+    let partial = |it: &&mut Estimate| it.expected > 0.0 && it.expected < 1.0;
+    (estimates.iter_mut().filter(partial)).for_each(|estimate| estimate.floor = floor);
     estimates
 }
 
@@ -63,20 +60,17 @@ pub fn expect_agreement(what: &str, estimates: &[Estimate], replicates: u32) {
     let sidak = 1.0 - 0.99_f64.powf(1.0 / count);
     let p_value = |estimate: &Estimate| {
         let off = (estimate.value - estimate.expected).abs() - ROUNDING;
-        let error = estimate.error.max(estimate.floor);
-        if off <= 0.0 {
-            1.0
-        } else if error == 0.0 {
-            0.0
-        } else {
-            2.0 * student.sf(off / error)
+        match estimate.error.max(estimate.floor) {
+            _ if off <= 0.0 => 1.0,
+            0.0 => 0.0,
+            error => 2.0 * student.sf(off / error),
         }
     };
     for (name, least) in [("Sidak's level", sidak), ("four standard errors", 6.3e-5)] {
-        let outside: Vec<&Estimate> = estimates
+        let outside = estimates
             .iter()
-            .filter(|estimate| p_value(estimate) < least)
-            .collect();
+            .filter(|estimate| p_value(estimate) < least);
+        let outside: Vec<&Estimate> = outside.collect();
         assert!(
             outside.len() as f64 <= 0.0025 * count,
             "{what}: {} of {count} pixels are outside {name}, first {:?}",
@@ -90,9 +84,7 @@ pub fn expect_agreement(what: &str, estimates: &[Estimate], replicates: u32) {
 /// Fails unless the sum of all estimates, each times the weight of its index, agrees with the expected one. This finds
 /// errors that all pixels share and, with weights that grow across the picture, shifts.
 pub fn expect_total(what: &str, estimates: &[Estimate], weight: impl Fn(usize) -> f64) {
-    let mut sum = 0.0;
-    let mut variance = 0.0;
-    let mut rounding = 0.0;
+    let (mut sum, mut variance, mut rounding) = (0.0, 0.0, 0.0);
     for (index, estimate) in estimates.iter().enumerate() {
         let factor = weight(index);
         sum += factor * (estimate.value - estimate.expected);
@@ -116,11 +108,8 @@ pub fn expect_total(what: &str, estimates: &[Estimate], weight: impl Fn(usize) -
 pub fn expect_pooled_agreement(what: &str, estimates: &[Estimate]) {
     expect_total(what, estimates, |_| 1.0);
     let rms = |value: fn(&Estimate) -> f64| {
-        let squares: f64 = estimates
-            .iter()
-            .map(|estimate| value(estimate).powi(2))
-            .sum();
-        (squares / estimates.len() as f64).sqrt()
+        let squares = estimates.iter().map(|estimate| value(estimate).powi(2));
+        (squares.sum::<f64>() / estimates.len() as f64).sqrt()
     };
     let off = rms(|estimate| estimate.value - estimate.expected);
     let error = rms(|estimate| estimate.error);

@@ -2,6 +2,8 @@
 //!
 //! No tracer takes part, so that the right value of a metric is known in advance.
 
+use std::sync::Mutex;
+
 use frame::{
     Accumulation, Alignment, AtInstant, Display, FAR_DEPTH, FlipExposures, Frame, FrameOptions,
     Image, Ladder, Picture, Plane, Provenance, Raster, Replicate, Reprojection, Shutter,
@@ -15,7 +17,10 @@ mod sampling;
 pub use object::{Blur, Object, Shape};
 pub use sampling::Sampling;
 
+use object::Posed;
 use sampling::{pixel_offsets, sequence};
+
+use crate::vector::minus;
 
 /// Exposure of every synthetic frame, in frames. It is not 1, so that a forgotten factor shows.
 pub const EXPOSURE: f64 = 0.5;
@@ -53,12 +58,11 @@ impl Scene {
     pub fn render(&self, blur: &Blur, sampling: Sampling) -> Picture {
         let mut coverage: Vec<Plane> =
             vec![Raster::filled(self.width, self.height, 0.0); self.objects.len() + 1];
+        let movers = self.posed(blur);
         let color = Raster::from_fn(self.width, self.height, |x, y| {
-            if !self
-                .objects
-                .iter()
-                .any(|object| object.reaches([x, y], blur))
-            {
+            let near = |(_, object): &&(usize, Posed)| object.reaches([x, y]);
+            let near: Vec<_> = movers.iter().filter(near).collect();
+            if near.is_empty() {
                 coverage[0].pixels[(y * self.width + x) as usize] = 1.0;
                 return ground([x, y]).map(|value| value as f32);
             }
@@ -73,9 +77,11 @@ impl Scene {
                     None => w,
                 };
                 let time = blur.from + fraction * (blur.to - blur.from);
-                let (id, radiance) = self.sees(point, [x, y], time, blur);
+                let (id, radiance) = sees(&near, point, [x, y], time);
                 counts[id] += 1;
-                sum = std::array::from_fn(|c| sum[c] + radiance[c]);
+                for (sum, radiance) in sum.iter_mut().zip(radiance) {
+                    *sum += radiance;
+                }
             }
             let samples = f64::from(sampling.samples);
             for (plane, count) in coverage.iter_mut().zip(counts) {
@@ -90,18 +96,18 @@ impl Scene {
     pub fn frame(&self) -> Frame {
         let instant = self.render(&Blur::IDENTITY, Sampling::CLEAN);
         let center = |x: u32, y: u32| [f64::from(x) + 0.5, f64::from(y) + 0.5];
+        let instant_objects = self.posed(&Blur::IDENTITY);
         let seen = Raster::from_fn(self.width, self.height, |x, y| {
-            self.sees(center(x, y), [x, y], 0.0, &Blur::IDENTITY).0
+            let all: Vec<_> = instant_objects.iter().collect();
+            sees(&all, center(x, y), [x, y], 0.0).0
         });
         let velocity = Raster::from_fn(self.width, self.height, |x, y| match seen.at(x, y) {
             0 => [0.0, 0.0],
             id => {
                 let object = &self.objects[id - 1];
-                let [right, down] = [0, 1].map(|axis| center(x, y)[axis] - object.center[axis]);
-                [
-                    ((object.displacement[0] - object.turn * down) / EXPOSURE) as f32,
-                    ((object.displacement[1] + object.turn * right) / EXPOSURE) as f32,
-                ]
+                let [right, down] = minus(center(x, y), object.center);
+                let turned = [-object.turn * down, object.turn * right];
+                [0, 1].map(|axis| ((object.displacement[axis] + turned[axis]) / EXPOSURE) as f32)
             }
         });
         Frame {
@@ -126,12 +132,10 @@ impl Scene {
     /// Renders the truth of a trailing shutter, twice.
     pub fn truth(&self, samplings: [Sampling; 2]) -> Truth {
         let first = self.render(&Blur::TRUE, samplings[0]);
-        let second = if samplings[0] == samplings[1] {
-            first.clone()
-        } else {
-            self.render(&Blur::TRUE, samplings[1])
+        let halves = match samplings[0] == samplings[1] {
+            true => [first.clone(), first],
+            false => [first, self.render(&Blur::TRUE, samplings[1])],
         };
-        let halves = [first, second];
         let mut motion = Raster::filled(self.width, self.height, 0.0);
         for (object, index) in self.objects.iter().zip(1..) {
             if object.moves() {
@@ -157,8 +161,20 @@ impl Scene {
         }
     }
 
-    /// Finds the pixels that the open shutter sees: the same for all truths of the scene, whatever their noise.
+    /// Finds the pixels that the open shutter sees: the same for all truths of the scene, whatever their noise. It is rendered once per
+    /// scene and program.
     pub fn support(&self) -> Support {
+        static FOUND: Mutex<Vec<(Scene, Support)>> = Mutex::new(Vec::new());
+        let mut found = FOUND.lock().expect("no test fails in here");
+        if let Some((_, support)) = found.iter().find(|(scene, _)| scene == self) {
+            return support.clone();
+        }
+        let support = self.find_support();
+        found.push((self.clone(), support.clone()));
+        support
+    }
+
+    fn find_support(&self) -> Support {
         let probe = self.render(&Blur::TRUE, Sampling::CLEAN);
         let seen: Vec<Raster<bool>> = (probe.coverage.iter())
             .map(|plane| plane.map(|share| *share > 0.0))
@@ -179,10 +195,8 @@ impl Scene {
 
     /// Renders a replicate of the truth of a trailing shutter for each sampling.
     pub fn replicates(&self, samplings: impl IntoIterator<Item = Sampling>) -> Vec<Replicate> {
-        let still = std::iter::once(false);
-        let moving: Vec<bool> = still
-            .chain(self.objects.iter().map(Object::moves))
-            .collect();
+        let moving = self.objects.iter().map(Object::moves);
+        let moving: Vec<bool> = [false].into_iter().chain(moving).collect();
         let support = self.support();
         (0..)
             .zip(samplings)
@@ -229,66 +243,65 @@ impl Scene {
 
     fn names(&self) -> Vec<String> {
         let objects = (1..=self.objects.len()).map(|id| format!("object{id}"));
-        std::iter::once("background".to_owned())
+        ["background".to_owned()]
+            .into_iter()
             .chain(objects)
             .collect()
     }
 
-    /// Returns the id and radiance seen at a point.
-    fn sees(&self, point: [f64; 2], pixel: [u32; 2], time: f64, blur: &Blur) -> (usize, [f64; 3]) {
-        for (object, id) in self.objects.iter().zip(1..) {
-            let still = Blur::IDENTITY;
-            let (time, blur) = if object.moves() {
-                (time, blur)
-            } else {
-                (0.0, &still)
-            };
-            let local = object.local(point, time, blur);
-            if object.holds(local, blur.dilation) {
-                return (id, texture(local));
-            }
-        }
-        (0, ground(pixel))
+    /// Poses the objects for a blur, with their ids; still ones are not blurred.
+    fn posed(&self, blur: &Blur) -> Vec<(usize, Posed)> {
+        let pose = |object: &Object| match object.moves() {
+            true => Posed::new(object, blur),
+            false => Posed::new(object, &Blur::IDENTITY),
+        };
+        (1..).zip(self.objects.iter().map(pose)).collect()
     }
+}
+
+/// Returns the id and radiance seen at a point.
+fn sees(
+    objects: &[&(usize, Posed)],
+    point: [f64; 2],
+    pixel: [u32; 2],
+    time: f64,
+) -> (usize, [f64; 3]) {
+    for (id, object) in objects {
+        let local = object.local(point, time);
+        if object.holds(local) {
+            return (*id, texture(local));
+        }
+    }
+    (0, ground(pixel))
 }
 
 /// Makes a picture whose colour and labels are everywhere the mean of another's.
 pub fn constant(picture: &Picture) -> Picture {
+    let count = picture.color.pixels.len() as f64;
+    let mean =
+        |values: &mut dyn Iterator<Item = f32>| (values.map(f64::from).sum::<f64>() / count) as f32;
+    let pixels = &picture.color.pixels;
+    let color = [0, 1, 2].map(|c| mean(&mut pixels.iter().map(|pixel| pixel[c])));
+    let planes = picture.coverage.iter().map(|plane| {
+        let mean = mean(&mut plane.pixels.iter().copied());
+        plane.map(|_| mean)
+    });
     Picture {
-        color: constant_color(&picture.color),
-        coverage: picture
-            .coverage
-            .iter()
-            .map(|plane| {
-                let sum: f64 = plane.pixels.iter().map(|value| f64::from(*value)).sum();
-                let mean = (sum / plane.pixels.len() as f64) as f32;
-                plane.map(|_| mean)
-            })
-            .collect(),
+        color: picture.color.map(|_| color),
+        coverage: planes.collect(),
     }
 }
 
-fn constant_color(image: &Image) -> Image {
-    let mean: [f32; 3] = std::array::from_fn(|c| {
-        let sum: f64 = image.pixels.iter().map(|pixel| f64::from(pixel[c])).sum();
-        (sum / image.pixels.len() as f64) as f32
-    });
-    image.map(|_| mean)
-}
-
 fn shutter() -> Shutter {
-    Alignment::Trailing
-        .shutter(EXPOSURE)
-        .expect("the synthetic exposure is positive")
+    let shutter = Alignment::Trailing.shutter(EXPOSURE);
+    shutter.expect("the synthetic exposure is positive")
 }
 
 /// Returns the radiance on an object: bands fixed to it, 8 pixels wide.
 fn texture(local: [f64; 2]) -> [f64; 3] {
-    let bright = (local[0] / 8.0).floor() as i64 % 2 == 0;
-    if bright {
-        [0.9, 0.6, 0.2]
-    } else {
-        [0.5, 0.2, 0.1]
+    match (local[0] / 8.0).floor() as i64 % 2 {
+        0 => [0.9, 0.6, 0.2],
+        _ => [0.5, 0.2, 0.1],
     }
 }
 

@@ -1,4 +1,4 @@
-//! Checks of texts.
+//! Checks of texts, and tables in text.
 
 /// Fails, with the whole text, if it lacks one of `parts`.
 #[track_caller]
@@ -6,4 +6,13 @@ pub fn assert_contains(text: &str, parts: &[&str]) {
     for part in parts {
         assert!(text.contains(part), "\"{part}\" is missing from:\n{text}");
     }
+}
+
+/// Reads the rows of a table, `what => part | part`, as pairs.
+pub fn read_rows(table: &str) -> Vec<(&str, Vec<&str>)> {
+    let rows = table.lines().filter(|line| !line.trim().is_empty());
+    let split = |row| str::split_once(row, " => ").unwrap_or_else(|| panic!("no row: {row}"));
+    rows.map(split)
+        .map(|(what, parts)| (what.trim(), parts.split(" | ").map(str::trim).collect()))
+        .collect()
 }

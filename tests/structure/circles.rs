@@ -2,146 +2,119 @@
 
 use std::collections::BTreeSet;
 
-use crate::modules::{Graph, Module, find_folder_graph, find_graph, read_modules};
+use crate::modules::{Module, Pairs, Texts, find_folder_pairs, find_pairs, read_modules};
 use crate::sources;
 
 #[test]
 fn no_crate_has_a_circle_of_modules() {
-    let mut wrong = Vec::new();
+    let mut wrong = String::new();
     for folder in sources() {
-        let name = folder
-            .parent()
-            .and_then(|it| it.file_name())
-            .unwrap_or_default();
-        let name = name.to_string_lossy();
-        let graph = find_graph(&read_modules(&folder));
-        let circles = [
-            find_circles(&graph),
-            find_circles(&find_folder_graph(&graph)),
-        ]
-        .concat();
-        wrong.extend(circles.iter().map(|it| format!("{name}: {it}")));
+        for circles in find_all_circles(&read_modules(&folder)) {
+            wrong.extend(
+                circles
+                    .lines()
+                    .map(|line| format!("{}: {line}\n", folder.display())),
+            );
+        }
     }
     assert!(
         wrong.is_empty(),
-        "modules that use each other; move what both need into a module of its own:\n{}",
-        wrong.concat()
+        "modules that use each other; move what both need into a module of its own:\n{wrong}"
     );
 }
 
+/// Finds the circles of files, and those of folders.
+fn find_all_circles(texts: &Texts) -> [String; 2] {
+    let pairs = find_pairs(texts);
+    [
+        find_circles(&pairs),
+        find_circles(&find_folder_pairs(&pairs)),
+    ]
+}
+
 /// Finds the circles, each with the uses that close it.
-fn find_circles(graph: &Graph) -> Vec<String> {
-    let mut done = BTreeSet::new();
-    let mut circles = Vec::new();
-    for module in graph.keys() {
-        let mut circle = reach(graph, module);
-        circle.retain(|it| reach(graph, it).contains(module));
-        if circle.contains(module) && done.insert(circle.clone()) {
-            circles.push(describe(graph, &circle));
-        }
+fn find_circles(pairs: &Pairs) -> String {
+    let mut circles = BTreeSet::new();
+    for (module, _) in pairs {
+        let mut circle = reach(pairs, module);
+        circle.retain(|it| reach(pairs, it).contains(module));
+        circles.insert(circle);
     }
     circles
+        .iter()
+        .map(|circle| describe(pairs, circle))
+        .collect()
 }
 
 /// Finds the modules that a module uses, directly or through others.
-fn reach<'a>(graph: &'a Graph, from: &Module) -> BTreeSet<&'a Module> {
+fn reach<'a>(pairs: &'a Pairs, from: &'a Module) -> BTreeSet<&'a Module> {
     let mut reached = BTreeSet::new();
-    let mut open: Vec<&Module> = graph.get(from).into_iter().flatten().collect();
+    let mut open = vec![from];
     while let Some(module) = open.pop() {
-        if reached.insert(module) {
-            open.extend(graph.get(module).into_iter().flatten());
-        }
+        let from_here = pairs.range((module.clone(), Module::new())..);
+        let used = from_here.take_while(|it| it.0 == *module).map(|it| &it.1);
+        open.extend(used.filter(|it| reached.insert(*it)));
     }
     reached
 }
 
-fn describe(graph: &Graph, circle: &BTreeSet<&Module>) -> String {
-    let name = |module: &Module| match module.is_empty() {
-        true => "the root".to_owned(),
-        false => module.join("/"),
+/// Lists the uses between modules; the root's name is empty.
+fn describe(pairs: &Pairs, circle: &BTreeSet<&Module>) -> String {
+    let inner =
+        |(module, used): &&(Module, Module)| circle.contains(module) && circle.contains(used);
+    let line = |(module, used): &(Module, Module)| {
+        format!("{} uses {}\n", module.join("/"), used.join("/"))
     };
-    let mut text = String::new();
-    for module in circle {
-        let used = graph[*module].iter().filter(|it| circle.contains(it));
-        let used: Vec<String> = used.map(name).collect();
-        text += &format!("  {} uses {}\n", name(module), used.join(", "));
-    }
-    format!("{} modules\n{text}", circle.len())
+    pairs.iter().filter(inner).map(line).collect()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::modules::Texts;
+/// Crates with the circles of their files and of their folders. `//// NAME` begins a file.
+const ROWS: [[&str; 3]; 4] = [
+    [
+        "//// \nmod a;\nmod b;\nmod c;\nuse a::A;
+//// a\nuse crate::b::{self, B};
+//// b\nfn f() {\n    super::c::f();\n}
+//// c\n// The last one.\nuse std::fs;\n\nuse super::a::A as Other;\n",
+        "a uses b\nb uses c\nc uses a\n",
+        "a uses b\nb uses c\nc uses a\n",
+    ],
+    // Folders form a circle where no files do.
+    [
+        "//// a/one\nuse crate::b::one::One;
+//// a/two\n
+//// b/one\n
+//// b/two\nuse crate::{\n    a::{two::Two},\n};\n",
+        "",
+        "a uses b\nb uses a\n",
+    ],
+    // A circle through a re-export.
+    [
+        "//// \nmod a;\nmod b;\npub use a::inner::A;\npub(crate) use b::B as Renamed;
+//// a\nmod inner;
+//// a/inner\nuse crate::Renamed;
+//// b\nuse crate::A;\n",
+        "a/inner uses b\nb uses a/inner\n",
+        "a uses b\nb uses a\n",
+    ],
+    // Tests and re-exports close no circle.
+    [
+        "//// \nmod a;\nmod b;\npub use a::A;
+//// a\nuse crate::b::B;
+//// b\n#[cfg(test)]\nuse crate::A;\n\n#[cfg(test)]\nmod tests {\n    use crate::a::A;\n}\n",
+        "",
+        "",
+    ],
+];
 
-    /// Finds the circles of files and of folders in a crate of these files.
-    fn find(files: &[(&str, &str)]) -> [Vec<String>; 2] {
-        let texts: Texts = (files.iter())
-            .map(|(name, text)| {
-                let parts = name.split('/').filter(|part| !part.is_empty());
-                (parts.map(str::to_owned).collect(), (*text).to_owned())
-            })
-            .collect();
-        let graph = find_graph(&texts);
-        [
-            find_circles(&graph),
-            find_circles(&find_folder_graph(&graph)),
-        ]
-    }
-
-    #[test]
-    fn a_circle_of_files_is_found() {
-        let [files, folders] = find(&[
-            ("", "mod a;\nmod b;\nmod c;\nuse a::A;\n"),
-            ("a", "use crate::b::{self, B};\n"),
-            ("b", "fn f() {\n    super::c::f();\n}\n"),
-            (
-                "c",
-                "// The last one.\nuse std::fs;\n\nuse super::a::A as Other;\n",
-            ),
-        ]);
-        let found = "3 modules\n  a uses b\n  b uses c\n  c uses a\n";
-        assert_eq!(files, [found]);
-        assert_eq!(folders, [found]);
-    }
-
-    #[test]
-    fn a_circle_of_folders_is_found_where_no_files_form_one() {
-        let [files, folders] = find(&[
-            ("a/one", "use crate::b::one::One;\n"),
-            ("a/two", ""),
-            ("b/one", ""),
-            ("b/two", "use crate::{\n    a::{two::Two},\n};\n"),
-        ]);
-        assert_eq!(files, [""; 0]);
-        assert_eq!(folders, ["2 modules\n  a uses b\n  b uses a\n"]);
-    }
-
-    #[test]
-    fn a_circle_through_a_re_export_is_found() {
-        let [files, _] = find(&[
-            (
-                "",
-                "mod a;\nmod b;\npub use a::inner::A;\npub(crate) use b::B as Renamed;\n",
-            ),
-            ("a", "mod inner;\n"),
-            ("a/inner", "use crate::Renamed;\n"),
-            ("b", "use crate::A;\n"),
-        ]);
-        assert_eq!(files, ["2 modules\n  a/inner uses b\n  b uses a/inner\n"]);
-    }
-
-    #[test]
-    fn tests_and_re_exports_close_no_circle() {
-        let [files, folders] = find(&[
-            ("", "mod a;\nmod b;\npub use a::A;\n"),
-            ("a", "use crate::b::B;\n"),
-            (
-                "b",
-                "#[cfg(test)]\nuse crate::A;\n\n#[cfg(test)]\nmod tests {\n    use crate::a::A;\n}\n",
-            ),
-        ]);
-        assert_eq!(files, [""; 0]);
-        assert_eq!(folders, [""; 0]);
+#[test]
+fn circles_of_files_and_of_folders_are_found() {
+    for [files, of_files, of_folders] in ROWS {
+        let parts = files
+            .split("//// ")
+            .filter_map(|part| part.split_once('\n'));
+        let module = |name: &str| name.split_terminator('/').map(str::to_owned).collect();
+        let texts = parts.map(|(name, text)| (module(name), text.to_owned()));
+        let found = find_all_circles(&texts.collect());
+        assert_eq!(found, [of_files, of_folders]);
     }
 }

@@ -2,72 +2,56 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::rust_files;
-use crate::uses::{Use, find_uses};
+use crate::uses::find_uses;
 
-/// Path of a module below its crate's root: `["load", "mtl"]`. The root has none.
+/// Path of a module below its crate's root, in parts. The root has none.
 pub type Module = Vec<String>;
 
-/// For each module, the modules that it uses.
-pub type Graph = BTreeMap<Module, BTreeSet<Module>>;
+/// Pairs of modules: one that uses another, and that one.
+pub type Pairs = BTreeSet<(Module, Module)>;
 
 /// Sources of a crate by module.
 pub type Texts = BTreeMap<Module, String>;
 
 /// Reads the files of a crate.
 pub fn read_modules(sources: &Path) -> Texts {
-    let text = |path: &Path| fs::read_to_string(path).expect("sources are text");
-    let module = |path: &Path| {
+    let read = |path: PathBuf| {
         let below = path.strip_prefix(sources).expect("it is below");
-        let parts = below.with_extension("");
-        let mut parts: Module = parts.iter().map(|it| it.display().to_string()).collect();
-        parts.pop_if(|last| ["mod", "lib", "main"].contains(&last.as_str()));
-        parts
+        let stem = below.with_extension("");
+        let mut module: Module = stem.iter().map(|it| it.display().to_string()).collect();
+        module.pop_if(|last| ["mod", "lib", "main"].contains(&last.as_str()));
+        (module, fs::read_to_string(&path).expect("sources are text"))
     };
-    let files = rust_files(sources);
-    files
-        .iter()
-        .map(|path| (module(path), text(path)))
-        .collect()
+    rust_files(sources).into_iter().map(read).collect()
 }
 
 /// Finds what each module uses. A name that another module re-exports counts as a use of the module that it comes from; the
 /// re-export itself is no use.
-pub fn find_graph(texts: &Texts) -> Graph {
-    let uses: Vec<(&Module, Use)> = (texts.iter())
-        .flat_map(|(module, text)| find_uses(text).into_iter().map(move |own| (module, own)))
-        .collect();
-    let resolve = |module: &Module, path: &[String]| resolve(texts, module, path);
-    let mut exports = BTreeMap::new();
-    for (module, own) in uses.iter().filter(|(_, own)| own.is_export) {
-        if let Some(path) = resolve(module, &own.path) {
-            exports.insert(((*module).clone(), own.name.clone()), path);
+pub fn find_pairs(texts: &Texts) -> Pairs {
+    let (mut exports, mut uses) = (BTreeMap::new(), Vec::new());
+    for (module, text) in texts {
+        for found in find_uses(text) {
+            match resolve(texts, module, &found.path) {
+                Some(path) if found.is_export => {
+                    exports.insert((module.clone(), found.name), path);
+                }
+                Some(path) => uses.push((module.clone(), path)),
+                None => {}
+            }
         }
     }
-    let mut graph: Graph = texts
-        .keys()
-        .map(|it| (it.clone(), BTreeSet::new()))
-        .collect();
-    for (module, own) in uses.iter().filter(|(_, own)| !own.is_export) {
-        if let Some(path) = resolve(module, &own.path) {
-            let owner = find_owner(texts, &exports, path);
-            graph.entry((*module).clone()).or_default().insert(owner);
-        }
-    }
-    for (module, used) in &mut graph {
-        used.remove(module);
-    }
-    graph
+    let owner = |path| find_owner(texts, &exports, path);
+    let pairs = uses.into_iter().map(|(module, path)| (module, owner(path)));
+    pairs.filter(|(module, used)| module != used).collect()
 }
 
 /// Finds the path from the root; none for a path of another crate.
 fn resolve(texts: &Texts, module: &Module, path: &[String]) -> Option<Module> {
     let (first, rest) = path.split_first()?;
     let climbs = path.iter().take_while(|it| *it == "super").count();
-    let is_child =
-        || texts.contains_key(&[module.as_slice(), std::slice::from_ref(first)].concat());
     match first.as_str() {
         "crate" => Some(rest.to_vec()),
         "self" => Some([module, rest].concat()),
@@ -75,8 +59,10 @@ fn resolve(texts: &Texts, module: &Module, path: &[String]) -> Option<Module> {
             let above = &module[..module.len().checked_sub(climbs)?];
             Some([above, &path[climbs..]].concat())
         }
-        _ if is_child() => Some([module, path].concat()),
-        _ => None,
+        _ => {
+            let is_child = texts.contains_key(&[&module[..], &path[..1]].concat());
+            is_child.then(|| [module, path].concat())
+        }
     }
 }
 
@@ -88,33 +74,22 @@ fn find_owner(
 ) -> Module {
     let mut seen = BTreeSet::new();
     loop {
-        let parts = (0..=path.len())
-            .rev()
-            .find(|end| texts.contains_key(&path[..*end]));
-        let (module, rest) = path.split_at(parts.unwrap_or(0));
-        let next = rest.first().map(|name| (module.to_vec(), name.clone()));
-        match next
-            .filter(|next| seen.insert(next.clone()))
-            .and_then(|next| exports.get(&next))
-        {
+        let mut starts = (0..=path.len()).rev().map(|end| path.split_at(end));
+        let start = starts.find(|(module, _)| texts.contains_key(*module));
+        let (module, rest) = start.unwrap_or((&[], &path));
+        let name = rest.first().map(|name| (module.to_vec(), name.clone()));
+        let unseen = name.filter(|name| seen.insert(name.clone()));
+        match unseen.and_then(|name| exports.get(&name)) {
             Some(origin) => path = [origin, &rest[1..]].concat(),
             None => return module.to_vec(),
         }
     }
 }
 
-/// Returns what each folder, or file beside the root, uses of the others.
-pub fn find_folder_graph(graph: &Graph) -> Graph {
-    let mut folders = Graph::new();
-    for (module, used) in graph {
-        for other in used {
-            if let (Some(own), Some(other)) = (module.first(), other.first())
-                && own != other
-            {
-                let used = folders.entry(vec![own.clone()]).or_default();
-                used.insert(vec![other.clone()]);
-            }
-        }
-    }
-    folders
+/// Returns which folder, or file beside the root, uses which other.
+pub fn find_folder_pairs(pairs: &Pairs) -> Pairs {
+    let inner = |(module, used): &&(Module, Module)| !module.is_empty() && !used.is_empty();
+    let folders = |(module, used): &(Module, Module)| (module[..1].to_vec(), used[..1].to_vec());
+    let pairs = pairs.iter().filter(inner).map(folders);
+    pairs.filter(|(folder, used)| folder != used).collect()
 }

@@ -17,10 +17,7 @@ pub fn find_uses(text: &str) -> Vec<Use> {
     let mut uses = Vec::new();
     let mut other = String::new();
     for statement in text.split_inclusive(';') {
-        let start = ["\nuse ", " use "]
-            .iter()
-            .filter_map(|it| statement.rfind(it))
-            .max();
+        let start = statement.rfind("\nuse ").max(statement.rfind(" use "));
         let Some((before, tree)) = start.map(|at| statement.split_at(at)) else {
             other += statement;
             continue;
@@ -28,14 +25,14 @@ pub fn find_uses(text: &str) -> Vec<Use> {
         other += before;
         let word = before.split_whitespace().next_back().unwrap_or_default();
         let is_export = word == "pub" || word.starts_with("pub(") || word.ends_with("super)");
-        let tree: String = tree[" use ".len()..]
+        let tree = tree[" use ".len()..]
             .trim_end_matches(';')
             .replace(" as ", "@");
         let tree: String = tree.split_whitespace().collect();
         uses.extend(expand(&tree).iter().map(|path| parse(path, is_export)));
     }
     let words = other.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':');
-    let inner = words.filter(|word| word.starts_with("crate::") || word.starts_with("super::"));
+    let inner = words.filter(|word| ["crate::", "super::"].iter().any(|it| word.starts_with(it)));
     uses.extend(inner.map(|path| parse(path.trim_end_matches(':'), false)));
     uses
 }
@@ -44,9 +41,8 @@ pub fn find_uses(text: &str) -> Vec<Use> {
 fn parse(text: &str, is_export: bool) -> Use {
     let (path, name) = text.split_once('@').unwrap_or((text, ""));
     let path: Vec<String> = path.split("::").map(str::to_owned).collect();
-    let own = path.last().cloned().unwrap_or_default();
     let name = match name {
-        "" => own,
+        "" => path.last().cloned().unwrap_or_default(),
         name => name.to_owned(),
     };
     Use {
@@ -61,25 +57,15 @@ fn expand(tree: &str) -> Vec<String> {
     let Some((start, rest)) = tree.split_once('{') else {
         return vec![tree.trim_end_matches("::self").to_owned()];
     };
-    let inner = rest.strip_suffix('}').unwrap_or(rest);
-    let mut paths = Vec::new();
-    let (mut depth, mut from) = (0, 0);
-    for (at, c) in inner.char_indices().chain([(inner.len(), ',')]) {
-        match c {
-            '{' => depth += 1,
-            '}' => depth -= 1,
-            ',' if depth == 0 => {
-                let part = &inner[from..at];
-                from = at + 1;
-                if !part.is_empty() {
-                    let whole = format!("{start}{part}");
-                    paths.extend(expand(&whole));
-                }
-            }
-            _ => {}
-        }
-    }
-    paths
+    let mut depth = 0;
+    let parts = rest.strip_suffix('}').unwrap_or(rest).split(|c| {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        c == ',' && depth == 0
+    });
+    let parts = parts.filter(|part| !part.is_empty());
+    parts
+        .flat_map(|part| expand(&format!("{start}{part}")))
+        .collect()
 }
 
 /// Removes comments, and what follows `#[cfg(test)]` up to its end.
@@ -90,16 +76,10 @@ fn strip(text: &str) -> String {
         let code = line.split("//").next().unwrap_or_default();
         let indent = line.len() - line.trim_start().len();
         match end {
-            Some(own) => {
-                if indent == own && (code.ends_with(';') || code.trim() == "}") {
-                    end = None;
-                }
-            }
+            Some(own) if indent == own && (code.ends_with(';') || code.trim() == "}") => end = None,
+            Some(_) => {}
             None if code.trim() == "#[cfg(test)]" => end = Some(indent),
-            None => {
-                kept += code;
-                kept.push('\n');
-            }
+            None => kept += &format!("{code}\n"),
         }
     }
     kept

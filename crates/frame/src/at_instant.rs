@@ -105,3 +105,30 @@ fn nearest_half(value: f32) -> f32 {
         value
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rounded_state_holds_the_nearest_halves() {
+        // Halves from 1 to 2 are 1/1024 apart, and the largest is 65504.
+        let step = 1.0 / 1024.0;
+        let (given, nearest) = (
+            [1.0 + 0.4 * step, -1.0 - 0.6 * step, 1e6],
+            [1.0, -1.0 - step, 1e6],
+        );
+        let state = AtInstant {
+            offset: Raster::filled(1, 1, [given[0], given[1]]),
+            spread: Raster::filled(1, 1, given),
+            placed: Raster::filled(1, 1, given[0]),
+            ..AtInstant::unknown(1, 1)
+        };
+        let expected = AtInstant {
+            offset: Raster::filled(1, 1, [nearest[0], nearest[1]]),
+            spread: Raster::filled(1, 1, nearest),
+            ..state.clone()
+        };
+        assert_eq!(state.rounded(), expected);
+    }
+}

@@ -106,8 +106,11 @@ pub fn hash_program() -> Option<String> {
     hash_file(&std::env::current_exe().ok()?).ok()
 }
 
+/// Hashes a file piece by piece: the program, hashed by every run, has a hundred megabytes where it can be debugged.
 fn hash_file(path: &Path) -> std::io::Result<String> {
-    Ok(hex(&std::fs::read(path)?))
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(std::fs::File::open(path)?)?;
+    Ok(hasher.finalize().to_hex().to_string())
 }
 
 fn hex(bytes: &[u8]) -> String {

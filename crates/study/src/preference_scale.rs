@@ -141,7 +141,7 @@ mod tests {
     }
 
     /// Returns the share of intervals that hold the strengths that very many such people have.
-    fn coverage(people: usize, times: usize, spread: f64) -> f64 {
+    fn coverage(people: usize, times: usize, spread: f64, studies: usize) -> f64 {
         let mut random = Random(7);
         let expected = match spread {
             0.0 => KNOWN.to_vec(),
@@ -150,9 +150,8 @@ mod tests {
                 fit_strengths(&PairedCounts::new(KNOWN.len(), &many)).unwrap()
             }
         };
-        const STUDIES: usize = 300;
         let mut held = 0;
-        for _ in 0..STUDIES {
+        for _ in 0..studies {
             let study = simulate(&mut random, people, times, spread);
             let found = scale_preferences(&study, KNOWN.len(), 200).unwrap();
             let intervals = found.intervals.unwrap();
@@ -160,14 +159,45 @@ mod tests {
                 .filter(|([low, high], own)| (low..=high).contains(own))
                 .count();
         }
-        held as f64 / (STUDIES * KNOWN.len()) as f64
+        held as f64 / (studies * KNOWN.len()) as f64
     }
 
     #[test]
+    fn intervals_are_the_scatter_of_resamples_times_student_s_t() {
+        // The 97.5th percentile of Student's t with 4 degrees of freedom, and with the 29 of 30 answers.
+        for (people, factor) in [
+            (5, 2.776_445 * f64::sqrt(5.0 / 4.0)),
+            (1, 2.045_230 * f64::sqrt(30.0 / 29.0)),
+        ] {
+            let times = if people == 1 { 3 } else { 1 };
+            let study = simulate(&mut Random(3), people, times, 0.7);
+            let found = scale_preferences(&study, KNOWN.len(), 100).unwrap();
+            assert!(found.resamples.len() >= 95);
+            for (item, [low, high]) in found.intervals.unwrap().into_iter().enumerate() {
+                let values: Vec<f64> = found.resamples.iter().map(|own| own[item]).collect();
+                let mean = values.iter().sum::<f64>() / values.len() as f64;
+                let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+                let half = factor * (squares / values.len() as f64).sqrt();
+                assert!((high - found.strengths[item] - half).abs() < 1e-5 * half);
+                assert!((found.strengths[item] - low - half).abs() < 1e-5 * half);
+            }
+        }
+    }
+
+    #[test]
+    fn about_95_of_100_intervals_of_people_hold_the_known_strengths() {
+        let found = coverage(5, 2, 0.7, 75);
+        // Over 300 studies it is 0.963; a standard error of 75 is at most 0.022. Resamples that do not scatter as people do hold much
+        // less.
+        assert!(found >= 0.92, "{found}");
+    }
+
+    #[test]
+    #[ignore = "prove: one person who answers often, few people, and many, who are alike or not"]
     fn about_95_of_100_intervals_hold_the_known_strengths() {
-        // One person who answers often, few people, and many, who are alike or not. Measured 0.955, 0.963, 0.964 and 0.959.
+        // Measured 0.955, 0.963, 0.964 and 0.959.
         for (people, times, spread) in [(1, 3, 0.0), (5, 2, 0.7), (10, 1, 0.0), (20, 2, 0.7)] {
-            let found = coverage(people, times, spread);
+            let found = coverage(people, times, spread, 300);
             // A standard error of 300 studies is at most 0.013.
             assert!((0.925..=0.985).contains(&found), "{people} people: {found}");
         }

@@ -62,11 +62,11 @@ pub fn sobol_indices<E>(
         });
     }
     let mut random = Random(seed);
-    let samples: Vec<Vec<&Row>> = (0..SAMPLES)
-        .map(|_| (0..rows).map(|_| &asked[random.below(rows)]).collect())
+    let samples: Vec<Sample> = (0..SAMPLES)
+        .map(|_| Sample::new((0..rows).map(|_| &asked[random.below(rows)]).collect()))
         .collect();
-    let all: Vec<&Row> = asked.iter().collect();
-    let estimate = |axis: usize, index: fn(&[&Row], usize) -> f64| {
+    let all = Sample::new(asked.iter().collect());
+    let estimate = |axis: usize, index: fn(&Sample, usize) -> f64| {
         let mut values: Vec<f64> = samples.iter().map(|rows| index(rows, axis)).collect();
         values.sort_by(f64::total_cmp);
         let at = |part: f64| values[(part * (SAMPLES - 1) as f64).round() as usize];
@@ -78,30 +78,41 @@ pub fn sobol_indices<E>(
     };
     Ok((0..axes)
         .map(|axis| SobolIndices {
-            first: estimate(axis, first_index),
-            total: estimate(axis, total_index),
+            first: estimate(axis, |sample, axis| sample.first_index(axis)),
+            total: estimate(axis, |sample, axis| sample.total_index(axis)),
         })
         .collect())
 }
 
-fn first_index(rows: &[&Row], axis: usize) -> f64 {
-    share_of_variance(rows, |row| row.b - row.mixed[axis]).map_or(0.0, |share| 1.0 - share)
+/// Rows, some of them several times, with the variance of their values.
+struct Sample<'a> {
+    rows: Vec<&'a Row>,
+    variance: f64,
 }
 
-fn total_index(rows: &[&Row], axis: usize) -> f64 {
-    share_of_variance(rows, |row| row.a - row.mixed[axis]).unwrap_or(0.0)
-}
+impl<'a> Sample<'a> {
+    fn new(rows: Vec<&'a Row>) -> Self {
+        let values = || rows.iter().flat_map(|row| [row.a, row.b]);
+        let count = 2.0 * rows.len() as f64;
+        let mean = values().sum::<f64>() / count;
+        let variance = values().map(|it| (it - mean).powi(2)).sum::<f64>() / count;
+        Self { rows, variance }
+    }
 
-/// Divides half of the mean of squared differences by the variance; none of a constant function.
-fn share_of_variance(rows: &[&Row], difference: impl Fn(&Row) -> f64) -> Option<f64> {
-    let variance = pooled_variance(rows);
-    let squares: f64 = rows.iter().map(|row| difference(row).powi(2)).sum();
-    (variance > 0.0).then(|| squares / (2.0 * rows.len() as f64 * variance))
-}
+    fn first_index(&self, axis: usize) -> f64 {
+        let share = self.share_of_variance(|row| row.b - row.mixed[axis]);
+        share.map_or(0.0, |share| 1.0 - share)
+    }
 
-fn pooled_variance(rows: &[&Row]) -> f64 {
-    let values = || rows.iter().flat_map(|row| [row.a, row.b]);
-    let count = 2.0 * rows.len() as f64;
-    let mean = values().sum::<f64>() / count;
-    values().map(|it| (it - mean).powi(2)).sum::<f64>() / count
+    fn total_index(&self, axis: usize) -> f64 {
+        let share = self.share_of_variance(|row| row.a - row.mixed[axis]);
+        share.unwrap_or(0.0)
+    }
+
+    /// Divides half of the mean of squared differences by the variance; none of a constant function.
+    fn share_of_variance(&self, difference: impl Fn(&Row) -> f64) -> Option<f64> {
+        let squares: f64 = self.rows.iter().map(|row| difference(row).powi(2)).sum();
+        let share = squares / (2.0 * self.rows.len() as f64 * self.variance);
+        (self.variance > 0.0).then_some(share)
+    }
 }

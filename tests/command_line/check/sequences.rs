@@ -6,10 +6,11 @@ use judge::Outcome;
 use metrics::{Metric, SequenceMetric};
 use suite::Run;
 
-use super::{IDENTITY, assert_ends, json};
-use crate::sandbox::{Sandbox, assert_done, assert_refused, split};
+use tests::text::assert_contains;
 
-const THREE: [&str; 2] = ["--frames", "3"];
+use super::calibrated::{assert_limits, calibrate};
+use super::{assert_ends, check, json};
+use crate::sandbox::{Sandbox, assert_refused, split};
 
 /// Makes a sandbox whose plate has limits on a single frame and on sequences of three frames. The identity's flicker is some hundredths
 /// of display white, squared.
@@ -31,34 +32,28 @@ jod = { limit = 1.0, frames = 3, fps = 60, why = \"it serves a test\", level = \
 #[test]
 fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
     let sandbox = bounded_sequence();
-    let single = sandbox.check(&IDENTITY);
     let parts = [
         "3 required bounds: 1 met, 2 not judged",
         "1 target: 1 not judged",
-        "not judged: limits on sequences of 3 frames, 3 frames at 60 per second; measure with --frames 3, --frames 3 --fps 60",
+        "not judged: limits on sequences of 3 frames, 3 frames at 60 per second; \
+         measure with --frames 3, --frames 3 --fps 60",
         "PASS",
     ];
-    assert_ends(&single, 0, &parts);
-    let not_judged = sandbox.read_findings();
-    let outcomes = |findings: &[judge::Finding]| -> Vec<(String, Outcome)> {
-        let pairs = findings.iter().map(|own| (own.metric.name(), own.outcome));
-        pairs.collect()
-    };
-    let due = |names: [(&str, Outcome); 4]| names.map(|(name, own)| (name.to_owned(), own));
-    assert_eq!(
-        outcomes(&not_judged),
-        due([
-            ("flip_moving", Outcome::Kept),
-            ("flicker", Outcome::NotJudged),
-            ("jod", Outcome::NotJudged),
-            ("popping", Outcome::NotJudged),
-        ])
-    );
+    check(&sandbox, "", 0, &parts);
+    let findings = sandbox.read_findings();
+    let outcomes = findings.iter().map(|own| (own.metric.name(), own.outcome));
+    let due = [
+        ("flip_moving", Outcome::Kept),
+        ("flicker", Outcome::NotJudged),
+        ("jod", Outcome::NotJudged),
+        ("popping", Outcome::NotJudged),
+    ];
+    let due = due.map(|(name, outcome)| (name.to_owned(), outcome));
+    assert_eq!(outcomes.collect::<Vec<_>>(), due);
     let text = |run: &Run| serde_json::to_string(&run.cases).unwrap();
     let alone = text(&sandbox.read_run());
 
-    let more = [&THREE[..], &["--junit", "junit.xml"]].concat();
-    let output = sandbox.check(&[&IDENTITY[..], &more].concat());
+    // With frames, the first one is judged as without them.
     let broken = [
         "plate / identity:default",
         "BROKEN flicker over 3 frames 0.0",
@@ -70,101 +65,75 @@ fn a_check_judges_the_sequence_and_the_first_frame_as_without_it() {
         "1 target: 1 met",
         "FAIL",
     ];
-    let printed = assert_ends(&output, 1, &broken);
+    let printed = check(&sandbox, "--frames 3 --junit junit.xml", 1, &broken);
     assert!(!printed.contains("not judged"), "{printed}");
-    let run = sandbox.read_run();
-    assert_eq!(text(&run), alone, "bit for bit");
-    let findings = sandbox.read_findings();
-    assert_eq!(findings[0], not_judged[0]);
-    let flicker = &findings[1];
-    assert_eq!(
-        (flicker.outcome, flicker.frames),
-        (Outcome::Broken, Some(3))
-    );
-    let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
-    let interval = own.intervals[&Metric::Sequence(SequenceMetric::Flicker)];
-    assert_eq!(flicker.interval, Some(interval));
-    assert!(interval.low < flicker.value.unwrap() && flicker.value.unwrap() < interval.high);
-    let worst = own.worst_frames[&Metric::Sequence(SequenceMetric::Flicker)];
-    assert_eq!(flicker.worst_frame, Some(worst));
-    assert_eq!(flicker.pictures, own.frames[worst as usize].folder);
-    assert!(
-        sandbox
-            .path("out")
-            .join(&flicker.pictures)
-            .join("change.png")
-            .is_file()
-    );
+    assert_eq!(text(&sandbox.read_run()), alone, "bit for bit");
+    assert_eq!(sandbox.read_findings()[0], findings[0]);
+    let worst = assert_flicker(&sandbox);
 
-    let junit = fs::read_to_string(sandbox.path("junit.xml")).unwrap();
-    for part in [
+    let read = |name: &str| fs::read_to_string(sandbox.path(name)).unwrap();
+    let limit = "BROKEN flicker over 3 frames";
+    let parts = [
         "identity:default flicker",
-        "BROKEN flicker over 3 frames",
+        limit,
         &format!("; worst in frame {worst}"),
-    ] {
-        assert!(junit.contains(part), "{part}: {junit}");
-    }
-    let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
-    for part in ["BROKEN flicker over 3 frames", "sequences.html"] {
-        assert!(page.contains(part), "{part}");
-    }
-    let json = json(&sandbox, &THREE);
-    assert_eq!(json["findings"][1]["kind"], "broken");
-    assert_eq!(json["findings"][1]["frames"], 3);
-    assert_eq!(json["findings"][2]["fps"], 60.0);
+    ];
+    assert_contains(&read("junit.xml"), &parts);
+    assert_contains(&read("out/report.html"), &[limit, "sequences.html"]);
+    let json = &json(&sandbox, "--filters identity --frames 3")["findings"];
+    assert_eq!(json[1]["kind"], "broken");
+    assert_eq!(json[1]["frames"], 3);
+    assert_eq!(json[2]["fps"], 60.0);
 
     // The finished run is judged again, without an adapter, and refuses what it cannot measure.
-    let judge = |words: &[&str]| sandbox.without_adapter(&[&["check", "out"], words].concat());
-    assert_ends(&judge(&[]), 1, &["BROKEN flicker over 3 frames"]);
-    assert_refused(
-        &judge(&THREE),
-        2,
-        &["--frames", "cannot be used with", "RUN"],
-    );
-    let other = sandbox.check(&[&IDENTITY[..], &["--frames", "2"]].concat());
+    let judge = |line: &str| sandbox.without_adapter(&split(line));
+    assert_ends(&judge("check out"), 1, &[limit]);
+    let parts = ["--frames", "cannot be used with", "RUN"];
+    assert_refused(&judge("check out --frames 3"), 2, &parts);
+    let other = sandbox.check(&split("--filters identity --frames 2"));
     let parts = [
-        "bounds.toml:4: the limit on flicker holds for sequences of 3 frames, and they are to have 2 frames",
+        "bounds.toml:4: the limit on flicker holds for sequences of 3 frames, \
+         and they are to have 2 frames",
         "shuttertruth limits calibrate",
     ];
     assert_refused(&other, 2, &parts);
 }
 
+/// Checks the finding about flicker against what was measured; returns the worst frame.
+fn assert_flicker(sandbox: &Sandbox) -> u32 {
+    let flicker = sandbox.read_findings().remove(1);
+    assert_eq!(flicker.outcome, Outcome::Broken);
+    assert_eq!(flicker.frames, Some(3));
+    let run = sandbox.read_run();
+    let own = run.sequences.iter().find(|own| !own.is_reference).unwrap();
+    let metric = Metric::Sequence(SequenceMetric::Flicker);
+    let interval = own.intervals[&metric];
+    assert_eq!(flicker.interval, Some(interval));
+    let value = flicker.value.unwrap();
+    assert!(interval.low < value && value < interval.high);
+    let worst = own.worst_frames[&metric];
+    assert_eq!(flicker.worst_frame, Some(worst));
+    assert_eq!(flicker.pictures, own.frames[worst as usize].folder);
+    let pictures = sandbox.path("out").join(&flicker.pictures);
+    assert!(pictures.join("change.png").is_file());
+    worst
+}
+
 #[test]
 fn calibrated_limits_of_sequences_pass_the_filter_and_fail_a_worse_one() {
     let sandbox = Sandbox::new();
-    let words = split(
-        "limits calibrate --quiet --out calibrated --size 64x32 --samples-per-pixel 64 --runs 2 --filters \
-         velocity_gather:fine --frames 2 --jitter-frames 0",
-    );
-    let refused = sandbox.shuttertruth(&[&words[..13], &["--metrics", "flicker"]].concat());
-    assert_refused(
-        &refused,
-        2,
-        &["--metrics: flicker is a score of a sequence", "--frames"],
-    );
-    assert_done(&sandbox.shuttertruth(&words));
-    let proposed = fs::read_to_string(sandbox.path("calibrated/plate.bounds.toml")).unwrap();
+    let parts = ["--metrics: flicker is a score of a sequence", "--frames"];
+    let line = "limits calibrate --filters identity --metrics flicker";
+    sandbox.refuse(line, &parts);
+    let (_, proposed) = calibrate(&sandbox, "--frames 2 --jitter-frames 0");
     // Nothing is bounded yet: all eight scores of sequences, and four of single frames.
     assert_eq!(proposed.matches(", frames = 2, ").count(), 8, "{proposed}");
-    assert!(
-        proposed.contains(", frames = 2, fps = 60.0, size = [64, 32]"),
-        "{proposed}"
-    );
+    assert_contains(&proposed, &[", frames = 2, fps = 60.0, size = [64, 32]"]);
     // The dirt of two small frames is mostly noise of the truth, whose intervals differ from seed to seed.
     let lines = proposed
         .lines()
         .filter(|line| !line.starts_with("fixed_pattern"));
     sandbox.write("bounds.toml", &lines.collect::<Vec<_>>().join("\n"));
-    // A seed that neither run has.
-    let fine = [
-        "--filters",
-        "velocity_gather:fine",
-        "--seed",
-        "9",
-        "--frames",
-        "2",
-    ];
-    assert_ends(&sandbox.check(&fine), 0, &["11 required bounds: 11 met"]);
-    let worse = [&fine[..], &["--set", "velocity_gather.samples=2"]].concat();
-    assert_ends(&sandbox.check(&worse), 1, &["BROKEN error over 2 frames"]);
+    let met = "11 required bounds: 11 met";
+    assert_limits(&sandbox, "--frames 2", met, "BROKEN error over 2 frames");
 }

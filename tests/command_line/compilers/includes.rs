@@ -1,135 +1,89 @@
 //! What a shader includes, from its own folder and from nowhere else.
 
 use std::fs;
+use std::os::unix::fs::symlink;
 
-use tests::filter_folder::write_script;
 use tests::root;
+use tests::text::assert_contains;
 
-use super::installed::find_program;
-use super::{BINDINGS, COPY, list, write_pass};
-use crate::sandbox::{Sandbox, assert_done, stderr};
+use super::installed::install_glslang;
+use super::{BINDINGS, COPY, list, refuse, write_compiler, write_pass};
+use crate::sandbox::{Sandbox, assert_done};
+
+const GLSL: &str = "#version 450\n#extension GL_GOOGLE_include_directive : require\n";
+
+/// Writes a file that says so if a compiler opens it; returns its path.
+fn write_secret(sandbox: &Sandbox) -> String {
+    let path = sandbox.path("secret.txt");
+    fs::write(&path, "#error the_secret\n").unwrap();
+    path.display().to_string()
+}
 
 /// What a stranger's shader includes comes from its own folder.
 #[test]
 fn nothing_outside_of_the_folder_is_included() {
     let sandbox = Sandbox::new();
-    fs::write(sandbox.path("secret.txt"), "the secret\n").unwrap();
-    let secret = sandbox.path("secret.txt").display().to_string();
-    let outside = "outside of the filter's folder";
-    let glsl = "#version 450\n#extension GL_GOOGLE_include_directive : require\n";
-    // (file, text, line, part of the message)
-    let mut cases = vec![
-        (
-            "blur.comp",
-            format!("{glsl}#include \"../../../etc/passwd\"\n"),
-            3,
-            outside,
-        ),
-        (
-            "blur.comp",
-            format!("{glsl}#include \"in/../../secret.txt\"\n"),
-            3,
-            outside,
-        ),
-        (
-            "blur.comp",
-            format!("{glsl}#inc\\\nlude \"{secret}\"\n"),
-            3,
-            outside,
-        ),
-        (
-            "blur.comp",
-            format!("{glsl}#include \"own.h\"\n"),
-            1,
-            outside,
-        ),
-        (
-            "blur.comp",
-            format!("{glsl}#define FILE \"{secret}\"\n#include FILE\n"),
-            4,
-            "by a macro",
-        ),
-        (
-            "blur.comp",
-            format!("{glsl}#include \"link.h\"\n"),
-            3,
-            outside,
-        ),
-        (
-            "blur.comp",
-            format!("{glsl}#define U \"\\\"/*\"\n#include \"{secret}\"\n"),
-            4,
-            outside,
-        ),
-        (
-            "blur.comp",
-            format!("{glsl}#include \"linked/secret.txt\"\n"),
-            3,
-            outside,
-        ),
-    ];
-    for (file, line) in [("blur.hlsl", 2), ("blur.fx", 2), ("blur.slang", 2)] {
-        cases.push((file, "\n# include <../secret.txt>\n".into(), line, outside));
-        cases.push((file, format!("\n#include \"{secret}\"\n"), line, outside));
-    }
-    cases.push(("blur.slang", "\nimport \"../secret\";\n".into(), 2, outside));
-    for (file, text, line, says) in cases {
-        let folder = sandbox.path("translated");
+    let secret = write_secret(&sandbox);
+    let folder = sandbox.path("translated");
+    let write = |file: &str| {
         _ = fs::remove_dir_all(&folder);
         write_pass(&sandbox, file, "");
-        fs::write(folder.join(file), &text).unwrap();
-        fs::write(folder.join("own.h"), format!("#include \"{secret}\"\n")).unwrap();
-        std::os::unix::fs::symlink(&secret, folder.join("link.h")).unwrap();
-        std::os::unix::fs::symlink(sandbox.path(""), folder.join("linked")).unwrap();
-        fs::create_dir_all(sandbox.path("bin")).unwrap();
         // A compiler that would tell.
-        for program in ["glslangValidator", "slangc"] {
-            write_script(
-                &sandbox.path("bin").join(program),
-                "echo the secret; exit 1",
-            );
+        for program in ["glslangValidator", "slangc", "wesl"] {
+            write_compiler(&sandbox, program, "echo the_secret; exit 1");
         }
-        let listed = list(&sandbox);
-        assert_eq!(listed.status.code(), Some(2), "{text}");
-        let said = stderr(&listed);
-        let named = if text.contains("own.h") {
-            "own.h"
-        } else {
-            file
+    };
+    let refuse = |parts: &[&str]| {
+        let said = refuse(&sandbox);
+        assert_contains(&said, parts);
+        assert!(!said.contains("the_secret"), "{said}");
+    };
+    for (line, text, says) in [
+        (3, "#include \"../../../etc/passwd\"", ""),
+        (3, "#include \"in/../../secret.txt\"", ""),
+        (3, "#inc\\\nlude \"SECRET\"", ""),
+        (1, "#include \"own.h\"", ""),
+        (4, "#define FILE \"SECRET\"\n#include FILE", "by a macro"),
+        (3, "#include \"link.h\"", ""),
+        (3, "#include \"linked/secret.txt\"", ""),
+        (2, "\n# include <../secret.txt>", ""),
+        (2, "\n#include \"SECRET\"", ""),
+        (2, "\nimport \"../secret\";", ""),
+    ] {
+        let files = match (text.starts_with('\n'), text.contains("import")) {
+            (false, _) => &["blur.comp"][..],
+            (true, false) => &["blur.hlsl", "blur.fx", "blur.slang"],
+            (true, true) => &["blur.slang"],
         };
-        for part in [&format!("translated/{named}:{line}: ")[..], says] {
-            assert!(said.contains(part), "{text}: no \"{part}\" in: {said}");
+        for file in files {
+            write(file);
+            let head = if *file == "blur.comp" { GLSL } else { "" };
+            let text = text.replace("SECRET", &secret);
+            fs::write(folder.join(file), format!("{head}{text}\n")).unwrap();
+            let own = format!("#include \"{secret}\"\n");
+            fs::write(folder.join("own.h"), own).unwrap();
+            symlink(&secret, folder.join("link.h")).unwrap();
+            symlink(sandbox.path(""), folder.join("linked")).unwrap();
+            let named = if line == 1 { "own.h" } else { file };
+            let says = match says {
+                "" => "outside of the filter's folder",
+                other => other,
+            };
+            refuse(&[&format!("translated/{named}:{line}: "), says]);
         }
-        assert!(!said.contains("the secret"), "{said}");
     }
     // Modules of WESL and Slang are looked for by their names.
     for (file, link) in [("blur.wesl", "secret.wesl"), ("blur.slang", "secret.slang")] {
-        let folder = sandbox.path("translated");
-        _ = fs::remove_dir_all(&folder);
-        write_pass(&sandbox, file, "");
-        std::os::unix::fs::symlink(&secret, folder.join(link)).unwrap();
-        write_script(&sandbox.path("bin/wesl"), "echo the secret; exit 1");
-        let said = stderr(&list(&sandbox));
-        assert!(
-            said.contains(&format!("translated/{link}: is a link")),
-            "{said}"
-        );
+        write(file);
+        symlink(&secret, folder.join(link)).unwrap();
+        refuse(&[&format!("translated/{link}: is a link")]);
     }
+    // A shader, too, is a file of the folder.
+    write("blur.comp");
+    fs::remove_file(folder.join("blur.comp")).unwrap();
+    symlink(&secret, folder.join("blur.comp")).unwrap();
+    refuse(&["translated/blur.comp: is a link to a file outside of the filter's folder"]);
 }
-
-/// Puts the real glslangValidator, and nothing else, on the bench's PATH.
-fn install_glslang(sandbox: &Sandbox) {
-    let found = find_program("glslangValidator").expect("apt-get install glslang-tools");
-    fs::create_dir_all(sandbox.path("bin")).unwrap();
-    _ = std::os::unix::fs::symlink(found, sandbox.path("bin/glslangValidator"));
-}
-
-/// Writes a file that says so if a compiler opens it.
-fn write_secret(sandbox: &Sandbox) {
-    fs::write(sandbox.path("secret.txt"), "#error the_secret\n").unwrap();
-}
-
-const GLSL: &str = "#version 450\n#extension GL_GOOGLE_include_directive : require\n";
 
 /// A compiler looks for a file in the folders of all files that are being included.
 #[test]
@@ -149,13 +103,13 @@ fn no_folder_of_an_includer_leads_outside() {
         fs::write(folder.join(file), text).unwrap();
     }
     install_glslang(&sandbox);
-    let said = stderr(&list(&sandbox));
+    let said = refuse(&sandbox);
     let parts = [
         "deep.h:1",
         "../../secret.txt",
         "which is no file of this filter",
     ];
-    tests::text::assert_contains(&said, &parts);
+    assert_contains(&said, &parts);
     assert!(!said.contains("the_secret"), "{said}");
 }
 
@@ -163,18 +117,14 @@ fn no_folder_of_an_includer_leads_outside() {
 #[test]
 fn no_directive_is_hidden_from_the_program() {
     let sandbox = Sandbox::new();
-    write_secret(&sandbox);
+    let place = write_secret(&sandbox);
     install_glslang(&sandbox);
     // From the folder of the copies: a compiler may join an absolute path to that.
-    let secret = format!(
-        "{}..{}",
-        "../".repeat(11),
-        sandbox.path("secret.txt").display()
-    );
+    let secret = format!("{}..{place}", "../".repeat(11));
     let include = format!("#include \"{secret}\"");
     let texts = [
         include.clone(),
-        format!("#include \"{}\"", sandbox.path("secret.txt").display()),
+        format!("#include \"{place}\""),
         format!("#define U \"\\\"/*\"\n{include}\n"),
         format!("/\\\n* \" */ {include}\n"),
         format!("#define U \"/*\n\"*/ {include}\n"),
@@ -195,9 +145,7 @@ fn no_directive_is_hidden_from_the_program() {
         fs::create_dir_all(sandbox.path("translated/zz")).unwrap();
         let shader = format!("{GLSL}{text}\nvoid main() {{}}\n");
         fs::write(sandbox.path("translated/blur.comp"), shader).unwrap();
-        let listed = list(&sandbox);
-        assert_eq!(listed.status.code(), Some(2), "{text}");
-        let said = stderr(&listed);
+        let said = refuse(&sandbox);
         assert!(!said.contains("the_secret"), "{text}: {said}");
         assert!(said.contains("translated/blur.comp"), "{text}: {said}");
     }
@@ -245,9 +193,8 @@ fn honest_includes_work_and_errors_name_their_lines() {
         let place = folder.join("in").join(file);
         let honest = fs::read_to_string(&place).unwrap();
         fs::write(&place, text).unwrap();
-        let said = stderr(&list(&sandbox));
+        assert_contains(&refuse(&sandbox), &[line, "broken"]);
         fs::write(&place, honest).unwrap();
-        tests::text::assert_contains(&said, &[line, "broken"]);
     };
     // Before the body: two lines of the comment, two that are joined, two includes, and three lines that a condition leaves out.
     breaks(
@@ -278,36 +225,17 @@ fn modules_are_named_from_the_copy_itself() {
         "lib/other.slang",
         "__include\n\"noise\"; import \"nowhere\";\n",
     );
-    fs::create_dir_all(sandbox.path("bin")).unwrap();
     let script = "for word; do case \"$word\" in *.slang) \
                   /bin/cat \"$word\" \"${word%/*}/lib/other.slang\";; esac; done; exit 1";
-    write_script(&sandbox.path("bin/slangc"), script);
-    let said = stderr(&list(&sandbox));
+    write_compiler(&sandbox, "slangc", script);
     let parts = [
         "import lib.other; import \"lib/other\";",
         "import \"noise.slang\";",
         "#include \"own.h\"\n",
         "\"../noise\"; import \"nowhere\";",
     ];
-    tests::text::assert_contains(&said, &parts);
+    assert_contains(&refuse(&sandbox), &parts);
     write("blur.slang", "import \"../nowhere\";\n");
-    let said = stderr(&list(&sandbox));
-    let parts = ["blur.slang:1: imports \"../nowhere\", which is no file"];
-    tests::text::assert_contains(&said, &parts);
-}
-
-/// A shader, too, is a file of the folder.
-#[test]
-fn a_shader_is_no_link_out_of_the_folder() {
-    let sandbox = Sandbox::new();
-    let secret = sandbox.path("secret.comp");
-    fs::write(&secret, "the secret\n").unwrap();
-    write_pass(&sandbox, "blur.comp", "");
-    let shader = sandbox.path("translated/blur.comp");
-    _ = fs::remove_file(&shader);
-    std::os::unix::fs::symlink(&secret, &shader).unwrap();
-    let said = stderr(&list(&sandbox));
-    let parts = ["translated/blur.comp: is a link to a file outside of the filter's folder"];
-    tests::text::assert_contains(&said, &parts);
-    assert!(!said.contains("the secret"), "{said}");
+    let says = "blur.slang:1: imports \"../nowhere\", which is no file";
+    assert_contains(&refuse(&sandbox), &[says]);
 }

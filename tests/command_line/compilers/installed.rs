@@ -5,34 +5,30 @@ use std::path::{Path, PathBuf};
 
 use tests::root;
 
-use crate::sandbox::{Sandbox, assert_done};
+use crate::conventions::largest_difference;
+use crate::sandbox::{Sandbox, assert_done, read_below, split};
 
 /// Finds a program on the PATH.
-pub fn find_program(name: &str) -> Option<PathBuf> {
+fn find_program(name: &str) -> Option<PathBuf> {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     let mut candidates = std::env::split_paths(&folders).map(|folder| folder.join(name));
     candidates.find(|candidate| candidate.is_file())
 }
 
-/// Copies the fixtures of one language into the folder of a filter, whose head is that of the documented example.
+/// Puts the real glslangValidator, and nothing else, on the bench's PATH.
+pub fn install_glslang(sandbox: &Sandbox) {
+    let found = find_program("glslangValidator").expect("apt-get install glslang-tools");
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
+    std::os::unix::fs::symlink(found, sandbox.path("bin/glslangValidator")).unwrap();
+}
+
+/// Copies the fixtures into the folder of a filter in one language, whose head is that of the documented example.
 fn write_fixture(sandbox: &Sandbox, language: &str, head: &str) {
-    let folder = sandbox.path(language);
     let fixtures = root().join("tests/fixtures/shaders");
-    fs::create_dir_all(folder.join("random")).unwrap();
+    sandbox.write_files(language, &read_below(&fixtures));
     let passes = fs::read_to_string(fixtures.join(format!("{language}.toml"))).unwrap();
-    fs::write(folder.join("filter.toml"), format!("{head}{passes}")).unwrap();
-    let copied = [
-        "centre_blur.hlsl",
-        "noise.hlsli",
-        "centre_blur.slang",
-        "noise.slang",
-        "centre_blur.wesl",
-        "random/gradient.wesl",
-        "random/constants.wesl",
-    ];
-    for file in copied {
-        fs::copy(fixtures.join(file), folder.join(file)).unwrap();
-    }
+    let manifest = sandbox.path(language).join("filter.toml");
+    fs::write(manifest, format!("{head}{passes}")).unwrap();
 }
 
 /// One filter in three languages, each through every compiler of it that is installed. `glslangValidator` always is.
@@ -46,39 +42,14 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
     let sandbox = Sandbox::new();
     sandbox.write_filter("centre_blur", block("toml"), block("wgsl"));
     let head = block("toml").split_once("[[pass]]").unwrap().0;
-    sandbox.execute(&[
-        "truths",
-        "render",
-        "--quiet",
-        "--out",
-        "r",
-        "--scenes",
-        "plate",
-        "--samples-per-pixel",
-        "16",
-        "--alignments",
-        "centred",
-    ]);
-    let blur = |filter: &str, preset: &str, path: &Path| {
-        let filter = format!("./{filter}:{preset}");
-        let words = [
-            "engine",
-            "blur",
-            "--filter",
-            &filter,
-            "--frame",
-            "r/plate/frame.exr",
-            "--frame-index",
-            "3",
-            "--out",
-            "b.exr",
-        ];
+    let words = "truths render --quiet --out r --scenes plate --samples-per-pixel 16";
+    sandbox.done(&format!("{words} --alignments centred"));
+    let blur = |filter: &str, path: &Path| {
+        let words = "engine blur --frame r/plate/frame.exr --frame-index 3 --out b.exr --filter";
+        let words = [split(words), vec![filter]].concat();
         let output = sandbox.command(&words).env("PATH", path).output().unwrap();
         assert_done(&output);
-        frame::read_exr(&sandbox.path("b.exr"))
-            .unwrap()
-            .color("")
-            .unwrap()
+        sandbox.read_color("b.exr")
     };
     let mut tried = Vec::new();
     for (language, program) in [
@@ -97,15 +68,11 @@ fn each_compiler_makes_the_picture_that_wgsl_makes() {
         _ = std::os::unix::fs::symlink(found, bin.join(program));
         write_fixture(&sandbox, language, head);
         for preset in ["fast", "fine"] {
-            let expected = blur("centre_blur", preset, &bin);
-            let found = blur(language, preset, &bin);
-            let pixels = expected.pixels.iter().zip(&found.pixels);
-            let differences = pixels.flat_map(|(a, b)| [0, 1, 2].map(|i| (a[i] - b[i]).abs()));
-            let difference = differences.fold(0.0, f32::max);
-            assert!(
-                difference < 1e-5,
-                "{language}, {program}, {preset}: {difference}"
-            );
+            let [expected, found] =
+                ["centre_blur", language].map(|filter| blur(&format!("./{filter}:{preset}"), &bin));
+            let difference = largest_difference(&expected, &found);
+            let tried = format!("{language}, {program}, {preset}");
+            assert!(difference < 1e-5, "{tried}: {difference}");
         }
         tried.push(program);
     }

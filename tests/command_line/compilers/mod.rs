@@ -8,11 +8,12 @@ mod includes;
 mod installed;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Output;
 
 use tests::filter_folder::write_script;
 use tests::root;
+use tests::text::{assert_contains, read_rows};
 
 use crate::sandbox::{Sandbox, assert_done, stderr};
 
@@ -30,84 +31,61 @@ fn write_pass(sandbox: &Sandbox, file: &str, more: &str) {
 
 /// Lists the filter with no other programs on the PATH than those in `bin`.
 fn list(sandbox: &Sandbox) -> Output {
-    fs::create_dir_all(sandbox.path("bin")).unwrap();
     let mut command = sandbox.command(&["list", "--filter", "translated"]);
     command.env("PATH", sandbox.path("bin")).output().unwrap()
 }
 
-/// Bindings of the module that fake compilers hand out.
-const BINDINGS: &str = r#"entry = "main"
-over = "tile_motion"
-
-[[pass.binding]]
-binding = 0
-texture = "velocity"
-sampler = "nearest"
-
-[[pass.binding]]
-set = 1
-binding = 3
-texture = "tile_motion"
-
-[[pass.binding]]
-push_constants = true
-values = { picture = ["width", "height"], side = 8, unused = 0 }
-
-[[pass]]
-shader = "copy.wgsl"
-"#;
-
-/// The pass after it.
-const COPY: &str = r"
-@group(0) @binding(0) var color: texture_2d<f32>;
-@group(0) @binding(1) var tile_motion: texture_2d<f32>;
-@group(0) @binding(2) var output: texture_storage_2d<rgba32float, write>;
-
-@compute @workgroup_size(8, 8)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if all(id.xy < textureDimensions(color)) {
-        let motion = textureLoad(tile_motion, id.xy, 0);
-        textureStore(output, id.xy, textureLoad(color, id.xy, 0) + 0.001 * motion);
-    }
+/// Lists the filter, which must be refused; returns the message.
+#[track_caller]
+fn refuse(sandbox: &Sandbox) -> String {
+    let listed = list(sandbox);
+    let said = stderr(&listed);
+    assert_eq!(listed.status.code(), Some(2), "{said}");
+    said
 }
-";
+
+/// Writes a compiler that is a script.
+fn write_compiler(sandbox: &Sandbox, program: &str, lines: &str) {
+    fs::create_dir_all(sandbox.path("bin")).unwrap();
+    write_script(&sandbox.path("bin").join(program), lines);
+}
+
+/// A module that was compiled before.
+fn find_module() -> PathBuf {
+    fs::canonicalize(root().join("tests/fuzz/corpus/spirv/fastest")).unwrap()
+}
+
+/// Writes a compiler that hands out a module, and logs that it ran.
+fn write_honest_compiler(sandbox: &Sandbox, program: &str, module: &Path) {
+    let script = format!(
+        "echo {program} >> {}\nfor word; do case \"$word\" in *.spv) /bin/cp {} \"$word\";; esac; done",
+        sandbox.path("log.txt").display(),
+        module.display()
+    );
+    write_compiler(sandbox, program, &script);
+}
+
+fn read_log(sandbox: &Sandbox) -> String {
+    fs::read_to_string(sandbox.path("log.txt")).unwrap()
+}
+
+/// Bindings of the module that fake compilers hand out.
+const BINDINGS: &str = include_str!("../../fixtures/shaders/fastest_pass.toml");
+/// The pass after it.
+const COPY: &str = include_str!("../../fixtures/shaders/copy.wgsl");
 
 #[test]
 fn a_language_without_its_compiler_names_the_way_out() {
     let sandbox = Sandbox::new();
-    for (file, parts) in [
-        (
-            "blur.comp",
-            [
-                "GLSL needs glslangValidator on the PATH",
-                "apt-get install glslang-tools",
-            ],
-        ),
-        (
-            "blur.slang",
-            ["Slang needs slangc on the PATH", "or compile it to SPIR-V"],
-        ),
-        (
-            "blur.hlsl",
-            [
-                "HLSL needs slangc or dxc or glslangValidator on the PATH",
-                "apt-get install glslang-tools",
-            ],
-        ),
-        (
-            "blur.wesl",
-            [
-                "WESL needs wesl on the PATH",
-                "cargo install wesl-cli@0.4.0",
-            ],
-        ),
-    ] {
+    for (file, parts) in read_rows(
+        "
+        blur.comp => GLSL needs glslangValidator on the PATH | apt-get install glslang-tools
+        blur.slang => Slang needs slangc on the PATH | or compile it to SPIR-V
+        blur.hlsl => HLSL needs slangc or dxc or glslangValidator on the PATH | apt-get install glslang-tools
+        blur.wesl => WESL needs wesl on the PATH | cargo install wesl-cli@0.4.0",
+    ) {
         write_pass(&sandbox, file, "");
-        let listed = list(&sandbox);
-        assert_eq!(listed.status.code(), Some(2), "{listed:?}");
-        for part in parts {
-            assert!(stderr(&listed).contains(part), "{}", stderr(&listed));
-        }
+        assert_contains(&refuse(&sandbox), &parts);
     }
 }
 
@@ -115,64 +93,48 @@ fn a_language_without_its_compiler_names_the_way_out() {
 #[cfg(unix)]
 #[test]
 fn slang_hlsl_and_wesl_go_through_their_compilers() {
-    let module = root().join("tests/fuzz/corpus/spirv/fastest");
-    let module = fs::canonicalize(module).unwrap();
-    // (file, compiler, words that it must get, hands out)
-    let cases: [(&str, &str, &str, &Path); 3] = [
+    let module = find_module().display().to_string();
+    for (file, compiler, words) in [
         (
             "blur.slang",
             "slangc",
             "*-lang?slang*-target?spirv*-entry?main*-stage?compute*-o?",
-            &module,
         ),
-        (
-            "blur.hlsl",
-            "dxc",
-            "*-spirv*-T?cs_6_0*-E?main*-Fo?",
-            &module,
-        ),
+        ("blur.hlsl", "dxc", "*-spirv*-T?cs_6_0*-E?main*-Fo?"),
         (
             "blur.hlsl",
             "slangc",
             "*-target?spirv*-entry?main*-stage?compute*-o?",
-            &module,
         ),
-    ];
-    for (file, compiler, words, module) in cases {
+    ] {
         let sandbox = Sandbox::new();
         write_pass(&sandbox, file, BINDINGS);
         fs::write(sandbox.path("translated/copy.wgsl"), COPY).unwrap();
-        fs::create_dir_all(sandbox.path("bin")).unwrap();
-        let module = module.display();
         let script = format!(
             "case \"$*\" in {words}*) ;; *) echo \"called as $*\"; exit 3;; esac\n\
              for word; do case \"$word\" in *.spv) /bin/cp {module} \"$word\";; esac; done"
         );
-        write_script(&sandbox.path("bin").join(compiler), &script);
+        write_compiler(&sandbox, compiler, &script);
         assert_done(&list(&sandbox));
     }
     let sandbox = Sandbox::new();
     write_pass(&sandbox, "blur.wesl", "conditions = [\"FAST\", \"FINE\"]\n");
-    let wgsl = COPY.replace(
+    let manifest = sandbox.path("translated/filter.toml");
+    let text = fs::read_to_string(&manifest).unwrap();
+    let (texture, binding) = (
+        "[[texture]]\nname = \"tile_motion\"\nformat = \"rg32float\"\n\n",
         "@group(0) @binding(1) var tile_motion: texture_2d<f32>;\n",
-        "",
     );
+    fs::write(&manifest, text.replace(texture, "")).unwrap();
+    let wgsl = COPY.replace(binding, "");
     let wgsl = wgsl.replace("textureLoad(tile_motion, id.xy, 0)", "vec4<f32>()");
-    fs::create_dir_all(sandbox.path("bin")).unwrap();
     fs::write(sandbox.path("compiled.wgsl"), wgsl).unwrap();
     let script = format!(
         "case \"$*\" in \"compile -D FAST -D FINE \"/*/blur.wesl) ;; *) echo \"called as $*\" >&2; exit 3;; esac\n\
          /bin/cat {}",
         sandbox.path("compiled.wgsl").display()
     );
-    write_script(&sandbox.path("bin/wesl"), &script);
-    let manifest = sandbox.path("translated/filter.toml");
-    let text = fs::read_to_string(&manifest).unwrap();
-    let without_texture = text.replace(
-        "[[texture]]\nname = \"tile_motion\"\nformat = \"rg32float\"\n\n",
-        "",
-    );
-    fs::write(&manifest, without_texture).unwrap();
+    write_compiler(&sandbox, "wesl", &script);
     assert_done(&list(&sandbox));
 }
 
@@ -180,7 +142,6 @@ fn slang_hlsl_and_wesl_go_through_their_compilers() {
 #[cfg(unix)]
 #[test]
 fn a_compiler_runs_once_for_each_content() {
-    let module = fs::canonicalize(root().join("tests/fuzz/corpus/spirv/fastest")).unwrap();
     let sandbox = Sandbox::new();
     write_pass(&sandbox, "blur.slang", BINDINGS);
     let folder = sandbox.path("translated");
@@ -190,19 +151,16 @@ fn a_compiler_runs_once_for_each_content() {
     // The third pass has another text.
     let third = first.replace("blur.slang", "other.slang");
     let passes = [head, first, first, &third, rest].join("[[pass]]");
-    fs::write(folder.join("filter.toml"), passes).unwrap();
-    fs::write(folder.join("other.slang"), "another text of a shader\n").unwrap();
-    fs::write(folder.join("copy.wgsl"), COPY).unwrap();
-    fs::create_dir_all(sandbox.path("bin")).unwrap();
-    let log = sandbox.path("log.txt");
-    let script = format!(
-        "echo called >> {}\nfor word; do case \"$word\" in *.spv) /bin/cp {} \"$word\";; esac; done",
-        log.display(),
-        module.display()
-    );
-    write_script(&sandbox.path("bin/slangc"), &script);
+    for (name, text) in [
+        ("filter.toml", passes.as_str()),
+        ("other.slang", "another text of a shader\n"),
+        ("copy.wgsl", COPY),
+    ] {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    write_honest_compiler(&sandbox, "slangc", &find_module());
     assert_done(&list(&sandbox));
-    assert_eq!(fs::read_to_string(log).unwrap(), "called\ncalled\n");
+    assert_eq!(read_log(&sandbox), "slangc\nslangc\n");
 }
 
 #[cfg(unix)]
@@ -210,33 +168,18 @@ fn a_compiler_runs_once_for_each_content() {
 fn what_a_compiler_says_is_shown_with_its_line() {
     let sandbox = Sandbox::new();
     write_pass(&sandbox, "blur.slang", "");
-    fs::create_dir_all(sandbox.path("bin")).unwrap();
     // Slang puts the line in brackets.
     let script = "for word; do case \"$word\" in *.slang) echo \"$word(7): error 20001: unexpected token\" >&2;; esac; done\nexit 1";
-    write_script(&sandbox.path("bin/slangc"), script);
-    let said = stderr(&list(&sandbox));
-    assert!(
-        said.contains("translated/blur.slang:7: slangc refuses it: "),
-        "{said}"
-    );
-    assert!(
-        said.contains("translated/blur.slang(7): error 20001: unexpected token"),
-        "{said}"
-    );
-}
-
-/// `wesl` 0.4 ends with exit code 0 where it finds no file, and prints in colours.
-#[cfg(unix)]
-#[test]
-fn a_compiler_that_makes_nothing_has_failed() {
-    let sandbox = Sandbox::new();
+    write_compiler(&sandbox, "slangc", script);
+    let parts = [
+        "translated/blur.slang:7: slangc refuses it: ",
+        "translated/blur.slang(7): error 20001: unexpected token",
+    ];
+    assert_contains(&refuse(&sandbox), &parts);
+    // `wesl` 0.4 ends with exit code 0 where it finds no file, and prints in colours.
     write_pass(&sandbox, "blur.wesl", "");
-    fs::create_dir_all(sandbox.path("bin")).unwrap();
     let script = "printf '\\033[1m\\033[91merror\\033[0m: file not found\\n' >&2";
-    write_script(&sandbox.path("bin/wesl"), script);
-    let said = stderr(&list(&sandbox));
-    assert!(
-        said.contains("translated/blur.wesl: wesl refuses it: error: file not found"),
-        "{said}"
-    );
+    write_compiler(&sandbox, "wesl", script);
+    let says = "translated/blur.wesl: wesl refuses it: error: file not found";
+    assert_contains(&refuse(&sandbox), &[says]);
 }

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use tests::root;
 
 use super::page::{Step, find_steps};
-use crate::sandbox::files_below;
+use crate::sandbox::read_below;
 
 /// A copy of what the commands of the guides need of the repository.
 pub struct Reader {
@@ -21,7 +21,9 @@ impl Reader {
             folder: tempfile::tempdir().unwrap(),
         };
         for folder in ["scenes", "examples"] {
-            reader.copy(&root().join(folder), folder);
+            for (name, bytes) in read_below(&root().join(folder)) {
+                reader.write(Path::new(folder).join(name), bytes);
+            }
         }
         for name in ["Makefile", "Cargo.toml"] {
             fs::copy(root().join(name), reader.path(name)).unwrap();
@@ -31,7 +33,7 @@ impl Reader {
         std::os::unix::fs::symlink(program, reader.path("bin/shuttertruth")).unwrap();
         for step in find_steps(include_str!("../../../docs/add-a-filter.md")) {
             if let Step::Write { path, text } = step {
-                reader.write(&path, &text);
+                reader.write(path, text);
             }
         }
         reader
@@ -41,16 +43,9 @@ impl Reader {
         self.folder.path().join(below)
     }
 
-    fn copy(&self, from: &Path, to: &str) {
-        for file in files_below(from) {
-            let name = Path::new(to).join(file.strip_prefix(from).unwrap());
-            self.write(name.to_str().unwrap(), fs::read(&file).unwrap());
-        }
-    }
-
     /// Writes a file, with the folders that hold it.
-    pub fn write(&self, path: &str, bytes: impl AsRef<[u8]>) {
-        let path = self.path(path);
+    pub fn write(&self, path: impl AsRef<Path>, bytes: impl AsRef<[u8]>) {
+        let path = self.folder.path().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, bytes).unwrap();
     }

@@ -43,7 +43,7 @@ fn the_ranking_of_the_readme_has_the_means_of_the_results() {
 }
 
 #[test]
-#[ignore = "takes six minutes: `make guides` runs it"]
+#[ignore = "prove: the tables of the pages, as `run` prints them"]
 fn the_tables_are_what_run_prints() {
     let reader = Reader::new();
     let printed = [format!("{RUN} --table"), RUN.to_owned()].map(|command| {

@@ -4,8 +4,7 @@ use std::fs;
 
 #[test]
 fn the_page_of_limits_agrees_with_the_constants() {
-    let root = tests::root();
-    let read = |path: &str| fs::read_to_string(root.join(path)).unwrap();
+    let read = |path: &str| fs::read_to_string(tests::root().join(path)).unwrap();
     let page = read("docs/limits.md");
     // Each row holds a number, and the constant that defines it as `NAME` in `path`.
     let rows: Vec<Vec<&str>> = (page.lines())
@@ -13,16 +12,17 @@ fn the_page_of_limits_agrees_with_the_constants() {
         .map(|line| line.split('|').map(str::trim).collect())
         .collect();
     for row in &rows {
-        let written: f64 = row[2].replace(',', "").parse().unwrap();
         let place: Vec<&str> = row[4].split('`').collect();
         let (name, path) = (place[1], place[3]);
         let source = read(path);
-        let declared = source
-            .split_once(&format!("const {name}:"))
-            .unwrap_or_else(|| panic!("{path} has no constant {name}"));
-        let (_, value) = declared.1.split_once('=').unwrap();
-        let (value, _) = value.split_once(';').unwrap();
-        assert_eq!(written, number(value), "{name} in {path}");
+        let declared = source.split_once(&format!("const {name}:"));
+        let (_, rest) = declared.unwrap_or_else(|| panic!("{path} has no constant {name}"));
+        let value = rest.split_once('=').unwrap().1.split(';').next().unwrap();
+        assert_eq!(
+            number(&row[2].replace(',', "")),
+            number(value),
+            "{name} in {path}"
+        );
     }
     let source = read("crates/tracer/src/limits.rs");
     for line in source.lines().filter(|line| line.starts_with("pub const")) {
@@ -37,9 +37,9 @@ fn number(text: &str) -> f64 {
     let text = text.trim().replace('_', "");
     match text.split_once("<<") {
         Some((one, bits)) => number(one) * number(bits).exp2(),
-        None => (text
+        None => text
             .split('*')
-            .map(|factor| factor.trim().parse::<f64>().unwrap()))
-        .product(),
+            .map(|part| part.trim().parse::<f64>().unwrap())
+            .product(),
     }
 }

@@ -3,6 +3,5 @@
 mod damage;
 mod journals;
 mod names;
-mod numbers;
 mod parts;
 mod pictures;

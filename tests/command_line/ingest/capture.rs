@@ -1,19 +1,18 @@
 //! A capture, made of our own scene as an engine with conventions of its own would make it.
 
 use std::fs;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use frame::{
     Alignment, Channel, ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Raster, Samples,
     VelocityKind, read_exr, write_exr, write_half_exr,
 };
+use tests::unwatched;
 use tracer::{RenderSettings, load_scene, trace_frame};
 
 use crate::sandbox::Sandbox;
 
 pub const EXPOSURE: f64 = 0.5;
-pub const SIZE: &str = "96x54";
 const WIDTH: u32 = 96;
 const HEIGHT: u32 = 54;
 const NEAR: f32 = 0.1;
@@ -66,17 +65,21 @@ impl<'a> Capture<'a> {
         } = &capture.frame;
         capture.write_color("color.exr", color);
         let [x, y] = [2.0 / WIDTH as f32, -2.0 / HEIGHT as f32];
-        let mut file = ExrFile::new(WIDTH, HEIGHT);
-        file.push_plane("R", &velocity.map(|motion| motion[0] * x));
-        file.push_plane("G", &velocity.map(|motion| motion[1] * y));
-        write_half_exr(&capture.path("velocity.exr"), file).unwrap();
+        let velocity = [
+            velocity.map(|motion| motion[0] * x),
+            velocity.map(|motion| motion[1] * y),
+        ];
         let reversed = depth.map(|depth| match *depth == FAR_DEPTH {
             true => 0.0,
             false => NEAR / depth,
         });
-        let mut file = ExrFile::new(WIDTH, HEIGHT);
-        file.push_plane("R", &reversed);
-        write_half_exr(&capture.path("depth.exr"), file).unwrap();
+        for (name, planes) in [("velocity.exr", &velocity[..]), ("depth.exr", &[reversed])] {
+            let mut file = ExrFile::new(WIDTH, HEIGHT);
+            for (channel, plane) in ["R", "G"].iter().zip(planes) {
+                file.push_plane(channel, plane);
+            }
+            write_half_exr(&capture.path(name), file).unwrap();
+        }
         let mut file = ExrFile::new(WIDTH, HEIGHT);
         file.channels.push(Channel {
             name: "object".into(),
@@ -86,17 +89,13 @@ impl<'a> Capture<'a> {
         capture
     }
 
-    /// Adds sub-frames at the midpoints of equal parts of the shutter, and as the engine's blur the mean of the first four.
     pub fn with_subframes(self, count: u32) -> Self {
         self.add_subframes(count, false)
     }
 
-    /// Adds sub-frames that hold object ids beside their colours.
-    pub fn with_subframes_and_ids(self, count: u32) -> Self {
-        self.add_subframes(count, true)
-    }
-
-    fn add_subframes(self, count: u32, has_ids: bool) -> Self {
+    /// Adds sub-frames at the midpoints of equal parts of the shutter, with object ids or without, and as the engine's blur the
+    /// mean of the first four.
+    pub fn add_subframes(self, count: u32, has_ids: bool) -> Self {
         fs::create_dir(self.path("subframes")).unwrap();
         let shutter = Alignment::Trailing.shutter(EXPOSURE).unwrap();
         let mut blurred = self.frame.color.map(|_| [0.0; 3]);
@@ -157,12 +156,12 @@ fn render_instant(sandbox: &Sandbox, time: f64) -> Frame {
     let settings = RenderSettings {
         width: WIDTH,
         height: HEIGHT,
-        samples_per_pixel: 64,
+        samples_per_pixel: 16,
         options: FrameOptions {
             velocity: VelocityKind::PreviousFrame,
             ..FrameOptions::default()
         },
         ..RenderSettings::default()
     };
-    trace_frame(&scene, &settings, &|_| ControlFlow::Continue(())).unwrap()
+    trace_frame(&scene, &settings, &unwatched).unwrap()
 }

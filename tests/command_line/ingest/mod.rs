@@ -7,18 +7,20 @@ mod use_of_folders;
 
 use std::fs;
 
-use capture::{Capture, SIZE};
+use capture::Capture;
 use frame::{FAR_DEPTH, Frame, Truth, VelocityKind};
 use metrics::{Measured, Metric};
+use suite::{Case, Run};
+use tests::text::assert_contains;
 
-use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, split, stdout};
+use crate::sandbox::{SCENE, Sandbox, split, stderr, stdout};
 
 /// Name of the scene in every table.
 const NAME: &str = "mine@Test_Engine_1.2";
 const OUT: &str = "out/engine/mine";
 
 fn ingest(sandbox: &Sandbox) -> String {
-    sandbox.execute(&split("engine ingest capture --quiet -o out/engine/mine"))
+    sandbox.done("engine ingest capture --quiet -o out/engine/mine")
 }
 
 /// Relative error of a half float, and of a few roundings of single ones.
@@ -42,10 +44,8 @@ fn a_capture_in_another_convention_comes_back_as_our_own_frame() {
         assert!(std::iter::zip(found, due).all(|(found, due)| near(*found, *due)));
     }
     for (found, due) in frame.velocity.pixels.iter().zip(&ours.velocity.pixels) {
-        assert!(
-            near(found[0], due[0]) && near(found[1], due[1]),
-            "{found:?} {due:?}"
-        );
+        let is_near = near(found[0], due[0]) && near(found[1], due[1]);
+        assert!(is_near, "{found:?} {due:?}");
     }
     let mut motions = frame.velocity.pixels.iter();
     let moves = motions.any(|motion| motion[0] > 9.0 && motion[1] > 4.0);
@@ -61,19 +61,16 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
     let sandbox = Sandbox::new();
     Capture::new(&sandbox).with_subframes(16);
     let told = ingest(&sandbox);
-    for words in [
+    let parts = [
         "drawn by Test Engine 1.2",
         "mean of 16 sub-frames, trailing shutter, open for 0.5 frames; not path traced",
         "0.58 px between two sub-frames",
         "equivalent sub-frames are told up to 4",
         "advice: 20 sub-frames would have steps of half a pixel",
         "next: shuttertruth run --scenes plate,./out/engine/mine",
-    ] {
-        assert!(told.contains(words), "{words}\n{told}");
-    }
-    sandbox.execute(&split(
-        "truths render --quiet --scenes plate --size 96x54 --samples-per-pixel 256",
-    ));
+    ];
+    assert_contains(&told, &parts);
+    sandbox.done("truths render --quiet --scenes plate --size 96x54 --samples-per-pixel 64");
     let read = |path: &str| Truth::read(&sandbox.path(path)).unwrap();
     let engines = read("out/engine/mine/truth_trailing.exr");
     let ours = read("out/plate/truth_trailing.exr");
@@ -96,6 +93,31 @@ fn the_mean_of_sub_frames_is_our_truth_within_its_limit() {
     }
 }
 
+/// Finds the case of a filter, of the plate or of what the engine drew.
+fn find<'a>(run: &'a Run, scene: &str, filter: &str) -> &'a Case {
+    let mut cases = run.cases.iter();
+    let found = cases.find(|case| case.scene == scene && case.filter == filter);
+    found.unwrap_or_else(|| panic!("no {scene} / {filter}"))
+}
+
+/// Reads a score of a filter, of what the engine drew and of the plate.
+fn read_scores(run: &Run, filter: &str, metric: &str) -> [f64; 2] {
+    let metric: Metric = metric.parse().unwrap();
+    [NAME, "plate"].map(|scene| {
+        let scores = &find(run, scene, filter).scores;
+        scores.get(metric).value().unwrap()
+    })
+}
+
+#[track_caller]
+fn assert_absent(case: &Case, metric: &str, why: &str) {
+    let found = case.scores.get(metric.parse().unwrap());
+    let Measured::NotApplicable { reason } = found else {
+        panic!("{metric}: {found:?}");
+    };
+    assert!(reason.contains(why), "{metric}: {reason}");
+}
+
 #[test]
 fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
     let sandbox = Sandbox::new();
@@ -103,89 +125,50 @@ fn a_run_on_a_capture_scores_near_our_own_scene_and_ranks_the_engine() {
     ingest(&sandbox);
     let words = "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 64 --filter identity,jump_flood:paper \
                  --input velocity=float32";
-    let printed = sandbox.execute(&split(words));
-    assert!(printed.contains("Test_Engine_1.2"), "{printed}");
+    let printed = sandbox.done(words);
+    assert_contains(&printed, &["Test_Engine_1.2"]);
     let run = sandbox.read_run();
-    assert_eq!(format!("{}x{}", run.render.width, run.render.height), SIZE);
-    let case = |scene: &str, filter: &str| {
-        let mut cases = run.cases.iter();
-        let found = cases.find(|case| case.scene == scene && case.filter == filter);
-        found.unwrap_or_else(|| panic!("no {scene} / {filter}"))
-    };
-    let score = |scene: &str, filter: &str, metric: &str| {
-        let metric: Metric = metric.parse().unwrap();
-        case(scene, filter).scores.get(metric)
-    };
+    assert_eq!((run.render.width, run.render.height), (96, 54));
     for filter in ["identity", "jump_flood", "scatter_oracle"] {
-        let [engines, ours] = [NAME, "plate"].map(|scene| score(scene, filter, "flip_moving"));
-        let [engines, ours] = [engines, ours].map(|score| score.value().unwrap());
+        let [engines, ours] = read_scores(&run, filter, "flip_moving");
         // The truths differ by strobing of 0.29 px, and the regions by the pixels at their borders.
-        assert!(
-            (engines / ours - 1.0).abs() < 0.15,
-            "{filter}: {engines} {ours}"
-        );
+        let ratio = engines / ours;
+        assert!((ratio - 1.0).abs() < 0.15, "{filter}: {engines} {ours}");
     }
-    let own = case(NAME, "Test_Engine_1.2");
+    let own = find(&run, NAME, "Test_Engine_1.2");
     assert!(!own.is_reference && own.preset.is_empty());
     assert_eq!(own.name(), "Test_Engine_1.2");
     let drawn = own.drawn.as_ref().unwrap();
-    assert_eq!(
-        (drawn.engine.as_str(), drawn.subframes),
-        ("Test Engine 1.2", 32)
-    );
+    assert_eq!(drawn.engine, "Test Engine 1.2");
+    assert_eq!(drawn.subframes, 32);
     assert_eq!(drawn.scene, Some("plate".parse().unwrap()));
-    assert!(case("plate", "identity").drawn.is_none());
+    assert!(find(&run, "plate", "identity").drawn.is_none());
     // What an engine's pictures do not tell is absent, and not zero.
-    for metric in [
-        "label_tv",
-        "bleed_lateral",
-        "lateral_growth",
-        "energy",
-        "flip_frozen",
-        "flip_knowable",
-        "flip_unknowable",
-        "gather_offset",
-    ] {
-        let found = score(NAME, "jump_flood", metric);
-        let Measured::NotApplicable { reason } = found else {
-            panic!("{metric}: {found:?}");
-        };
-        assert!(
-            reason.contains("an engine's sub-frames"),
-            "{metric}: {reason}"
-        );
+    let metrics = "label_tv bleed_lateral lateral_growth energy flip_frozen flip_knowable flip_unknowable gather_offset";
+    for metric in split(metrics) {
+        let case = find(&run, NAME, "jump_flood");
+        assert_absent(case, metric, "an engine's sub-frames");
     }
-    let accumulations: Vec<_> = (run.cases.iter())
-        .filter(|case| case.scene == NAME && case.filter == "accumulate")
-        .map(|case| case.preset.as_str())
-        .collect();
-    assert_eq!(
-        accumulations,
-        ["1", "4", "8"],
-        "the truth tells no more of 32 sub-frames"
-    );
+    let cases = run.cases.iter();
+    let ladder = cases.filter(|case| case.scene == NAME && case.filter == "accumulate");
+    // The truth tells no more of 32 sub-frames.
+    assert!(ladder.map(|case| &case.preset).eq(["1", "4", "8"]));
     // The same again is read back.
-    let again = sandbox.execute(&split(words));
-    assert!(again.contains("cases: 17, 17 of them read back"), "{again}");
-    sandbox.execute(&split("report out --html again.html --exr layers"));
+    let again = sandbox.done(words);
+    assert_contains(&again, &["cases: 17, 17 of them read back"]);
+    sandbox.done("report out --html again.html --exr layers");
 }
 
 #[test]
 fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
     let sandbox = Sandbox::new();
-    Capture::new(&sandbox).with_subframes_and_ids(16);
+    Capture::new(&sandbox).add_subframes(16, true);
     let told = ingest(&sandbox);
     assert!(told.contains("objects: plate\n"), "{told}");
     let words = "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 64 --filter jump_flood:paper \
                  --frame-sampling antialiased";
-    sandbox.execute(&split(words));
+    sandbox.done(words);
     let run = sandbox.read_run();
-    let score = |scene: &str, filter: &str, metric: &str| {
-        let mut cases = run.cases.iter();
-        let found = cases.find(|case| case.scene == scene && case.filter == filter);
-        let metric: Metric = metric.parse().unwrap();
-        found.unwrap().scores.get(metric).value().unwrap()
-    };
     // An id is all or nothing in a pixel, where our frame has shares; sub-frames lie 0.58 px apart.
     for (filter, metric, most) in [
         ("identity", "label_tv", 0.03),
@@ -195,62 +178,40 @@ fn ids_in_the_sub_frames_bring_the_scores_of_objects() {
         ("jump_flood", "centroid", 0.6),
         ("jump_flood", "extent", 0.15),
     ] {
-        let [engines, ours] = [NAME, "plate"].map(|scene| score(scene, filter, metric));
-        assert!(
-            (engines - ours).abs() < most,
-            "{filter} {metric}: {engines} {ours}"
-        );
+        let [engines, ours] = read_scores(&run, filter, metric);
+        let difference = (engines - ours).abs();
+        assert!(difference < most, "{filter} {metric}: {engines} {ours}");
     }
-    let own = run
-        .cases
-        .iter()
-        .find(|case| case.filter == "Test_Engine_1.2")
-        .unwrap();
-    let Measured::NotApplicable { reason } = own.scores.get("bleed_lateral".parse().unwrap())
-    else {
-        panic!("the engine's own picture has no mattes");
-    };
-    assert!(
-        reason.contains("an engine's picture does not say"),
-        "{reason}"
-    );
-    sandbox.execute(&split("report out --html again.html --exr layers"));
+    let own = find(&run, NAME, "Test_Engine_1.2");
+    assert_absent(own, "bleed_lateral", "an engine's picture does not say");
+    sandbox.done("report out --html again.html --exr layers");
 }
 
 #[test]
-fn a_page_says_which_truth_is_the_engines() {
+fn an_engine_s_truth_and_picture_are_named_wherever_they_are_scored() {
     let sandbox = Sandbox::new();
     Capture::new(&sandbox).with_subframes(8);
     ingest(&sandbox);
-    sandbox.execute(&split(
+    let words = "score --truth out/engine/mine/truth_trailing.exr --frame out/engine/mine/frame.exr --image \
+                 out/engine/mine/blurred.exr --ladder out/engine/mine/ladder_trailing";
+    let told = sandbox.done(words);
+    let truth = "truth: mean of 8 sub-frames that Test Engine 1.2 drew";
+    assert_contains(&told, &[truth, "flip"]);
+    sandbox.done(
         "run --quiet --scenes plate,out/engine/mine --samples-per-pixel 16 --filter identity",
-    ));
+    );
     let page = fs::read_to_string(sandbox.path("out/report.html")).unwrap();
-    for words in [
+    let parts = [
         "<td class=\"text\">mean of 8 sub-frames that Test Engine 1.2 drew</td>",
         "<td class=\"text\">path traced</td>",
         "frame and truth are not ours",
         "Ours is that of <strong>plate</strong>, path traced",
         "traced_truth:",
         "&quot;Engine's truth&quot;",
-    ] {
-        assert!(page.contains(words), "{words}");
+    ];
+    for part in parts {
+        assert!(page.contains(part), "{part}");
     }
-}
-
-#[test]
-fn the_engines_picture_is_scored_alone_too() {
-    let sandbox = Sandbox::new();
-    Capture::new(&sandbox).with_subframes(8);
-    ingest(&sandbox);
-    let words = "score --truth out/engine/mine/truth_trailing.exr --frame out/engine/mine/frame.exr --image \
-                 out/engine/mine/blurred.exr --ladder out/engine/mine/ladder_trailing";
-    let told = sandbox.execute(&split(words));
-    assert!(
-        told.contains("truth: mean of 8 sub-frames that Test Engine 1.2 drew"),
-        "{told}"
-    );
-    assert!(told.contains("flip"), "{told}");
 }
 
 #[test]
@@ -260,42 +221,25 @@ fn a_check_holds_an_engine_to_the_bounds_beside_its_own_scene() {
     ingest(&sandbox);
     // Bounds of our plate say nothing about the engine's.
     sandbox.write_bound(0.0001);
-    let words = split("check --quiet --scenes out/engine/mine --filter identity");
-    assert_refused(
-        &sandbox.shuttertruth(&words),
-        2,
-        &[NAME, "has no bound", "identity"],
-    );
-    let bound = |limit: f64| {
-        let text = format!(
-            "[default]\nflip_moving = {{ limit = {limit:?}, level = \"required\", why = \"it serves a test\" }}\n"
-        );
+    let words = "check --quiet --scenes out/engine/mine --filter identity";
+    sandbox.refuse(words, &[NAME, "has no bound", "identity"]);
+    let bound = |limit: &str| {
+        let text = format!("[default]\nflip_moving = {{ {limit}, why = \"it serves a test\" }}\n");
         fs::write(sandbox.path(OUT).join("bounds.toml"), text).unwrap();
-        sandbox.shuttertruth(&words)
+        let output = sandbox.shuttertruth(&split(words));
+        let told = stdout(&output) + &stderr(&output);
+        (output.status.code(), told)
     };
     // The identity scores about 0.3, and three noise floors are about 0.15.
-    assert_done(&bound(0.9));
-    let broken = bound(0.2);
-    assert_eq!(broken.status.code(), Some(1), "{}", stdout(&broken));
-    assert!(
-        !stdout(&broken).contains("95 % CI"),
-        "sub-frames are no samples"
-    );
+    let (code, told) = bound("limit = 0.9, level = \"required\"");
+    assert_eq!(code, Some(0), "{told}");
+    let (code, told) = bound("limit = 0.2, level = \"required\"");
+    assert_eq!(code, Some(1), "{told}");
+    assert!(!told.contains("95 % CI"), "sub-frames are no samples");
     let finished = sandbox.shuttertruth(&split("check out --scenes-dir out/engine"));
     assert_eq!(finished.status.code(), Some(1), "{}", stdout(&finished));
-    assert_refused(
-        &sandbox.shuttertruth(&split("check out")),
-        2,
-        &[NAME, "--scenes-dir"],
-    );
-    fs::remove_file(sandbox.path(OUT).join("bounds.toml")).unwrap();
-    fs::write(
-        sandbox.path(OUT).join("bounds.toml"),
-        "[default]\nflip_moving = { limit = 0.001, why = \"it serves a test\" }\n",
-    )
-    .unwrap();
-    let strict = sandbox.shuttertruth(&words);
-    assert_eq!(strict.status.code(), Some(2));
-    let told = [stdout(&strict), crate::sandbox::stderr(&strict)].concat();
-    assert!(told.contains("capture more sub-frames than 16"), "{told}");
+    sandbox.refuse("check out", &[NAME, "--scenes-dir"]);
+    let (code, told) = bound("limit = 0.001");
+    assert_eq!(code, Some(2));
+    assert_contains(&told, &["capture more sub-frames than 16"]);
 }

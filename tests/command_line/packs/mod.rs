@@ -6,13 +6,15 @@ mod round_trip;
 mod verification;
 
 use std::fs;
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::Path;
+use std::process::Output;
+use std::sync::OnceLock;
 
 use frame::{Replicate, Truth};
 use store::Manifest;
 
-use crate::sandbox::{Sandbox, split};
+use crate::sandbox::{Files, Sandbox, assert_refused, split};
 
 /// Options that measure in next to no time.
 const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
@@ -20,18 +22,44 @@ const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames
 /// Replicates of a truth.
 const REPLICATES: u32 = 8;
 
-/// Measures a plate into the folder `out`, with the filters.
-fn run(sandbox: &Sandbox, filters: &str, more: &[&str]) {
-    let words = [&["run", "--filter", filters], &split(QUICK)[..], more].concat();
-    sandbox.execute(&words);
+/// Runs a line of words with the quick options.
+fn quick(sandbox: &Sandbox, line: &str) -> Output {
+    sandbox.shuttertruth(&split(&format!("{line} {QUICK}")))
+}
+
+/// Measures into the folder `out`, or another one.
+fn run(sandbox: &Sandbox, line: &str) {
+    sandbox.execute(&split(&format!("run {line} {QUICK}")));
 }
 
 /// Makes a sandbox with a finished run of the identity in `out`, and its pack `truths.tar.zst`.
 fn packed() -> Sandbox {
-    let sandbox = Sandbox::new();
-    run(&sandbox, "identity", &[]);
-    sandbox.execute(&["truths", "pack"]);
-    sandbox
+    static FILES: OnceLock<Files> = OnceLock::new();
+    Sandbox::of(FILES.get_or_init(|| {
+        let sandbox = Sandbox::new();
+        run(&sandbox, "--filter identity");
+        sandbox.execute(&["truths", "pack"]);
+        sandbox.read_files()
+    }))
+}
+
+/// Packs the run in `out` as `forged.tar.zst`.
+fn pack_forged(sandbox: &Sandbox) {
+    sandbox.execute(&split("truths pack --out forged.tar.zst"));
+}
+
+/// Refuses `forged.tar.zst` in `verify`, with this exit code, and in a run, which leaves nothing of it.
+#[track_caller]
+fn refuse_forged(sandbox: &Sandbox, code: i32, parts: &[&str]) {
+    let verified = sandbox.shuttertruth(&split("truths verify forged.tar.zst"));
+    assert_refused(&verified, code, parts);
+    let taken = quick(
+        sandbox,
+        "run --filter identity --truths forged.tar.zst --out fresh",
+    );
+    assert_refused(&taken, 2, parts);
+    assert!(!sandbox.path("fresh/plate").exists());
+    assert!(!sandbox.path("fresh/.shuttertruth.unpacked").exists());
 }
 
 /// An entry of an archive.
@@ -46,18 +74,16 @@ struct Packed {
 fn entries(pack: &Path) -> Vec<Packed> {
     let bytes = zstd::decode_all(fs::File::open(pack).unwrap()).unwrap();
     let mut archive = tar::Archive::new(&bytes[..]);
-    let entries = archive.entries().unwrap().map(Result::unwrap);
-    entries
-        .map(|mut entry| {
-            let mut bytes = Vec::new();
-            std::io::Read::read_to_end(&mut entry, &mut bytes).unwrap();
-            Packed {
-                name: String::from_utf8(entry.path_bytes().into_owned()).unwrap(),
-                kind: entry.header().entry_type(),
-                bytes,
-            }
-        })
-        .collect()
+    let entries = archive.entries().unwrap().map(|entry| {
+        let (mut entry, mut bytes) = (entry.unwrap(), Vec::new());
+        entry.read_to_end(&mut bytes).unwrap();
+        Packed {
+            name: String::from_utf8(entry.path_bytes().into_owned()).unwrap(),
+            kind: entry.header().entry_type(),
+            bytes,
+        }
+    });
+    entries.collect()
 }
 
 /// Writes an archive of any entries, whether they may stand in a pack or not.
@@ -75,32 +101,34 @@ fn write(pack: &Path, entries: &[Packed]) {
     compress(pack, &archive.into_inner().unwrap());
 }
 
-/// Changes the manifest of a pack that was taken apart.
-fn change_manifest(entries: &mut [Packed], change: impl FnOnce(&mut Manifest)) {
-    let mut manifest: Manifest = serde_json::from_slice(&entries[0].bytes).unwrap();
-    change(&mut manifest);
-    entries[0].bytes = serde_json::to_vec(&manifest).unwrap();
-}
-
 fn compress(pack: &Path, bytes: &[u8]) {
     let mut encoder = zstd::Encoder::new(fs::File::create(pack).unwrap(), 1).unwrap();
     encoder.write_all(bytes).unwrap();
     encoder.finish().unwrap();
 }
 
-/// Changes the lowest bit of one number of a replicate, and makes the truth anew, as a forger would who knows the program.
-fn forge(sandbox: &Sandbox, out: &str, file: &str, pixel: usize) {
-    let path = sandbox.path(file);
-    let mut replicate = Replicate::read(&path).unwrap();
-    let red = &mut replicate.picture.color.pixels[pixel][0];
-    *red = f32::from_bits(red.to_bits() ^ 1);
-    replicate.write(&path).unwrap();
-    renew_truth(sandbox, out);
+/// Reads the manifest of a pack that was taken apart.
+fn manifest(entries: &[Packed]) -> Manifest {
+    serde_json::from_slice(&entries[0].bytes).unwrap()
 }
 
-/// Makes the truth of the replicates that lie beside it.
-fn renew_truth(sandbox: &Sandbox, out: &str) {
-    let folder = sandbox.path(out).join("plate");
+/// Changes the manifest of a pack that was taken apart.
+fn change_manifest(entries: &mut [Packed], change: impl FnOnce(&mut Manifest)) {
+    let mut manifest = manifest(entries);
+    change(&mut manifest);
+    entries[0].bytes = serde_json::to_vec(&manifest).unwrap();
+}
+
+/// Changes a replicate, with a valid checksum.
+fn change_replicate(path: &Path, change: impl FnOnce(&mut Replicate)) {
+    let mut replicate = Replicate::read(path).unwrap();
+    change(&mut replicate);
+    replicate.write(path).unwrap();
+}
+
+/// Makes the truth of the replicates that lie beside it, as a forger would who knows the program.
+fn renew_truth(sandbox: &Sandbox) {
+    let folder = sandbox.path("out/plate");
     let replicates: Vec<Replicate> = replicate_files()
         .map(|file| Replicate::read(&folder.join(file)).unwrap())
         .collect();
@@ -108,7 +136,12 @@ fn renew_truth(sandbox: &Sandbox, out: &str) {
     truth.write(&folder.join("truth_trailing.exr")).unwrap();
 }
 
+/// Names a replicate in the folder of its scene.
+fn replicate_file(index: u32) -> String {
+    format!("truth_trailing/replicate_{index:03}.exr")
+}
+
 /// Lists the files of the truth's replicates in the folder of their scene.
 fn replicate_files() -> impl Iterator<Item = String> + Clone {
-    (0..REPLICATES).map(|index| format!("truth_trailing/replicate_{index:03}.exr"))
+    (0..REPLICATES).map(replicate_file)
 }

@@ -6,13 +6,14 @@ use std::process::Command;
 use store::Manifest;
 use tar::EntryType;
 
-use super::{Packed, QUICK, change_manifest, compress, entries, packed, run, write};
+use super::{
+    Packed, change_manifest, compress, entries, manifest, packed, quick, refuse_forged, run, write,
+};
 use crate::sandbox::{Sandbox, assert_refused, make_fifo, quick_command, split};
 
 #[track_caller]
-fn refuse_to_pack(sandbox: &Sandbox, words: &[&str], parts: &[&str]) {
-    let all = [&["truths", "pack"], words, &["--out", "none.tar.zst"]].concat();
-    assert_refused(&sandbox.shuttertruth(&all), 2, parts);
+fn refuse_to_pack(sandbox: &Sandbox, words: &str, parts: &[&str]) {
+    sandbox.refuse(&format!("truths pack {words} --out none.tar.zst"), parts);
     assert!(!sandbox.path("none.tar.zst").exists());
 }
 
@@ -22,14 +23,11 @@ fn what_is_no_finished_run_is_not_packed() {
     fs::create_dir(sandbox.path("empty")).unwrap();
     refuse_to_pack(
         &sandbox,
-        &["empty"],
+        "empty",
         &["empty/run.json", "there is no such file"],
     );
-    refuse_to_pack(
-        &sandbox,
-        &["--scenes", "plat"],
-        &["--scenes: no \"plat\" there", "did you mean plate?"],
-    );
+    let parts = ["--scenes: no \"plat\" there", "did you mean plate?"];
+    refuse_to_pack(&sandbox, "--scenes plat", &parts);
     for file in [
         "frame.exr",
         "truth_trailing.exr",
@@ -39,33 +37,29 @@ fn what_is_no_finished_run_is_not_packed() {
         let path = sandbox.path("out/plate").join(file);
         let bytes = fs::read(&path).unwrap();
         fs::remove_file(&path).unwrap();
-        refuse_to_pack(
-            &sandbox,
-            &[],
-            &[file, "there is no such file", "unfinished"],
-        );
+        refuse_to_pack(&sandbox, "", &[file, "there is no such file", "unfinished"]);
         fs::write(&path, &bytes[..40]).unwrap();
-        refuse_to_pack(&sandbox, &[], &[file, "not a complete file"]);
+        refuse_to_pack(&sandbox, "", &[file, "not a complete file"]);
         fs::write(&path, &bytes).unwrap();
     }
-    // Another truth in the folder than the run was measured with.
-    let render = "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16 --seed 2 --out out";
-    sandbox.execute(&split(render));
+    // A ladder of another truth, and another truth than the run was measured with.
+    let rung = "plate/ladder_trailing/n8.exr";
+    let path = sandbox.path("out").join(rung);
+    let (own, other) = (fs::read(&path).unwrap(), with_other_seed());
+    fs::copy(other.path("other").join(rung), &path).unwrap();
+    refuse_to_pack(&sandbox, "", &[rung, "its header has the hash"]);
+    fs::write(&path, own).unwrap();
+    let render = "truths render --quiet --scenes plate --size 64x32 --samples-per-pixel 16";
+    sandbox.execute(&split(&format!("{render} --seed 2 --out out")));
     let parts = ["plate/truth_trailing.exr", "the run was measured with"];
-    refuse_to_pack(&sandbox, &[], &parts);
+    refuse_to_pack(&sandbox, "", &parts);
 }
 
-#[test]
-fn a_ladder_of_another_truth_is_not_packed() {
-    let sandbox = packed();
-    run(&sandbox, "identity", &["--seed", "2", "--out", "other"]);
-    let rung = "plate/ladder_trailing/n8.exr";
-    fs::copy(
-        sandbox.path("other").join(rung),
-        sandbox.path("out").join(rung),
-    )
-    .unwrap();
-    refuse_to_pack(&sandbox, &[], &[rung, "its header has the hash"]);
+/// Measures the plate with another seed into the folder `other`.
+fn with_other_seed() -> Sandbox {
+    let sandbox = Sandbox::new();
+    run(&sandbox, "--filter identity --seed 2 --out other");
+    sandbox
 }
 
 /// A pack, taken apart.
@@ -84,14 +78,7 @@ impl Parts {
     /// Refuses the archive `forged.tar.zst`, in `verify` and in a run, which leaves nothing of it.
     #[track_caller]
     fn refused(&self, parts: &[&str]) {
-        let parts = [&["forged.tar.zst"], parts].concat();
-        let verify = ["truths", "verify", "forged.tar.zst"];
-        assert_refused(&self.sandbox.shuttertruth(&verify), 2, &parts);
-        let words = "run --filter identity --truths forged.tar.zst --out fresh";
-        let output = (self.sandbox).shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
-        assert_refused(&output, 2, &parts);
-        assert!(!self.sandbox.path("fresh/plate").exists());
-        assert!(!self.sandbox.path("fresh/.shuttertruth.unpacked").exists());
+        refuse_forged(&self.sandbox, 2, &[&["forged.tar.zst"], parts].concat());
     }
 
     /// Changes the entries, and expects that the archive is refused.
@@ -105,51 +92,31 @@ impl Parts {
 
     /// Changes the manifest alone.
     #[track_caller]
-    fn refuse_manifest(&self, change: impl FnOnce(&mut Manifest), parts: &[&str]) {
+    fn refuse_manifest(&self, change: impl FnOnce(&mut Manifest), part: &str) {
         let change = |entries: &mut Vec<Packed>| change_manifest(entries, change);
-        self.refuse_entries(change, parts);
-    }
-
-    /// Changes the bytes of the archive.
-    #[track_caller]
-    fn refuse_bytes(&self, change: impl FnOnce(&mut Vec<u8>), parts: &[&str]) {
-        let mut bytes = fs::read(self.sandbox.path("truths.tar.zst")).unwrap();
-        change(&mut bytes);
-        fs::write(self.sandbox.path("forged.tar.zst"), bytes).unwrap();
-        self.refused(parts);
+        self.refuse_entries(change, &[part]);
     }
 }
 
 #[test]
 fn an_archive_that_differs_from_its_manifest_is_refused() {
     let parts = Parts::new();
-    let name = &parts.entries[5].name.clone();
-    let next = &parts.entries[6].name.clone();
-    let last = &parts.entries.last().unwrap().name.clone();
+    let [name, next] = [5, 6].map(|at| parts.entries[at].name.clone());
+    let last = parts.entries.last().unwrap().clone();
 
-    parts.refuse_entries(
-        |entries| entries[5].bytes[300] ^= 1,
-        &[name, "with other bytes than its manifest.json says"],
-    );
-    parts.refuse_entries(
-        |entries| entries[5].bytes.push(0),
-        &[name, "bytes of", "and its manifest.json says"],
-    );
-    parts.refuse_entries(
-        |entries| entries[5].bytes.truncate(300),
-        &[name, "bytes of", "and its manifest.json says"],
-    );
+    let bytes = [&name, "with other bytes than its manifest.json says"];
+    parts.refuse_entries(|entries| entries[5].bytes[300] ^= 1, &bytes);
+    let size = [&name, "bytes of", "and its manifest.json says"];
+    parts.refuse_entries(|entries| entries[5].bytes.push(0), &size);
+    parts.refuse_entries(|entries| entries[5].bytes.truncate(300), &size);
     let missing = format!("holds {next} where its manifest.json names {name}");
     parts.refuse_entries(|entries| drop(entries.remove(5)), &[&missing]);
-    let missing = format!("ends before {last}");
+    let missing = format!("ends before {}", last.name);
     parts.refuse_entries(|entries| drop(entries.pop()), &[&missing]);
     let twice = format!("holds {name} where its manifest.json names {next}");
     parts.refuse_entries(|entries| entries.insert(6, entries[5].clone()), &[&twice]);
-    let more = format!("holds {last}, which its manifest.json does not name");
-    parts.refuse_entries(
-        |entries| entries.push(entries.last().unwrap().clone()),
-        &[&more],
-    );
+    let more = format!("holds {}, which its manifest.json does not name", last.name);
+    parts.refuse_entries(|entries| entries.push(last), &[&more]);
     let late = ["does not begin with manifest.json"];
     parts.refuse_entries(|entries| drop(entries.remove(0)), &late);
     parts.refuse_entries(|entries| entries.swap(0, 1), &late);
@@ -178,9 +145,7 @@ fn links_and_names_that_leave_the_folder_are_refused() {
     for outside in ["../frame.exr", "plate/../../frame.exr", "/tmp/frame.exr"] {
         let change = |entries: &mut Vec<Packed>| {
             outside.clone_into(&mut entries[1].name);
-            change_manifest(entries, |manifest| {
-                outside.clone_into(&mut manifest.files[0].path);
-            });
+            change_manifest(entries, |all| outside.clone_into(&mut all.files[0].path));
         };
         let found = format!("manifest.json names \"{outside}\"");
         parts.refuse_entries(change, &[&found]);
@@ -190,22 +155,24 @@ fn links_and_names_that_leave_the_folder_are_refused() {
 #[test]
 fn manifests_that_promise_too_much_are_refused() {
     let parts = Parts::new();
+    parts.refuse_manifest(|all| all.format = 2, "it has format 2; allowed: 1");
+    parts.refuse_manifest(|all| all.files.clear(), "names no file");
+    parts.refuse_manifest(|all| all.files.swap(2, 3), "allowed: the order of paths");
+    parts.refuse_manifest(|all| all.files[3] = all.files[2].clone(), "twice");
     parts.refuse_manifest(
-        |manifest| manifest.format = 2,
-        &["it has format 2; allowed: 1"],
-    );
-    parts.refuse_manifest(|manifest| manifest.files.clear(), &["names no file"]);
-    parts.refuse_manifest(
-        |manifest| manifest.files.swap(2, 3),
-        &["allowed: the order of paths"],
+        |all| all.files[3].bytes = 1 << 40,
+        "allowed: up to 4294967296",
     );
     parts.refuse_manifest(
-        |manifest| manifest.files[3] = manifest.files[2].clone(),
-        &["twice"],
+        |all| all.files[3].bytes = 1 << 31,
+        "allowed: 64 times as many",
     );
-    let file = |number: usize, bytes: u64| store::PackedFile {
+    let change = |entries: &mut Vec<Packed>| entries[0].bytes = b"{".to_vec();
+    parts.refuse_entries(change, &["manifest.json is no manifest of a pack"]);
+    // A folder and a file for each would take half a minute.
+    let empty = |number: usize| store::PackedFile {
         path: format!("s{number:06}/frame.exr"),
-        bytes,
+        bytes: 0,
         blake3: blake3::hash(b"").to_hex().to_string(),
         content_hash: "0".repeat(64),
         scene: "s".to_owned(),
@@ -213,102 +180,79 @@ fn manifests_that_promise_too_much_are_refused() {
         height: 16,
         samples_per_pixel: 16,
     };
-    // A folder and a file for each would take half a minute.
-    parts.refuse_manifest(
-        |manifest| manifest.files = (0..200_000).map(|number| file(number, 0)).collect(),
-        &[
-            "names 200000 files in an archive of",
-            "one for each 64 bytes",
-        ],
-    );
-    parts.refuse_manifest(
-        |manifest| manifest.files[3].bytes = 1 << 40,
-        &["allowed: up to 4294967296"],
-    );
-    parts.refuse_manifest(
-        |manifest| manifest.files[3].bytes = 1 << 31,
-        &["in an archive of", "allowed: 64 times as many"],
-    );
-    let change = |entries: &mut Vec<Packed>| entries[0].bytes = b"{".to_vec();
-    parts.refuse_entries(change, &["manifest.json is no manifest of a pack"]);
+    let change = |all: &mut Manifest| all.files = (0..200_000).map(empty).collect();
+    let change = |entries: &mut Vec<Packed>| change_manifest(entries, change);
+    let found = "names 200000 files in an archive of";
+    parts.refuse_entries(change, &[found, "one for each 64 bytes"]);
 }
 
 #[test]
 fn an_archive_that_was_cut_off_or_goes_on_is_refused() {
     let parts = Parts::new();
-    let cut = ["cut off"];
-    parts.refuse_bytes(|bytes| bytes.truncate(bytes.len() / 2), &cut);
-    parts.refuse_bytes(|bytes| bytes.truncate(bytes.len() - 1), &cut);
-    parts.refuse_bytes(|bytes| bytes.extend(b"more"), &cut);
-    parts.refuse_bytes(Vec::clear, &cut);
-    parts.refuse_bytes(|bytes| bytes.fill(b'x'), &cut);
-    let whole = zstd::decode_all(&fs::read(parts.sandbox.path("truths.tar.zst")).unwrap()[..]);
-    let mut whole = whole.unwrap();
+    let forged = parts.sandbox.path("forged.tar.zst");
+    let bytes = fs::read(parts.sandbox.path("truths.tar.zst")).unwrap();
+    for bytes in [
+        &bytes[..bytes.len() / 2],
+        &bytes[..bytes.len() - 1],
+        &[&bytes[..], b"more"].concat(),
+        &[],
+        &vec![b'x'; bytes.len()],
+    ] {
+        fs::write(&forged, bytes).unwrap();
+        parts.refused(&["cut off"]);
+    }
+    let mut whole = zstd::decode_all(&bytes[..]).unwrap();
     whole.extend([1; 512]);
-    compress(&parts.sandbox.path("forged.tar.zst"), &whole);
+    compress(&forged, &whole);
     parts.refused(&["goes on behind its last file"]);
     // A header that promises more than there is.
-    let mut huge = whole.clone();
-    let header = tar::Header::from_byte_slice(&huge[..512]);
-    let mut header = header.clone();
+    let mut header = tar::Header::from_byte_slice(&whole[..512]).clone();
     header.set_size(1 << 36);
     header.set_cksum();
-    huge[..512].copy_from_slice(header.as_bytes());
-    compress(&parts.sandbox.path("forged.tar.zst"), &huge);
+    whole[..512].copy_from_slice(header.as_bytes());
+    compress(&forged, &whole);
     parts.refused(&["manifest.json"]);
 }
 
 #[test]
 fn a_file_whose_header_has_another_hash_than_the_manifest_is_refused() {
-    let parts = Parts::new();
-    run(
-        &parts.sandbox,
-        "identity",
-        &["--seed", "2", "--out", "other"],
-    );
-    let pack = ["truths", "pack", "other", "--out", "other.tar.zst"];
-    parts.sandbox.execute(&pack);
-    let other = entries(&parts.sandbox.path("other.tar.zst"));
-    let other: Manifest = serde_json::from_slice(&other[0].bytes).unwrap();
-    let mut forged = parts.entries.clone();
-    change_manifest(&mut forged, |manifest| {
-        for (file, other) in manifest.files.iter_mut().zip(&other.files) {
-            file.content_hash.clone_from(&other.content_hash);
+    let Parts {
+        sandbox,
+        mut entries,
+    } = Parts::new();
+    let other = with_other_seed();
+    other.execute(&split("truths pack other --out other.tar.zst"));
+    let other = manifest(&super::entries(&other.path("other.tar.zst")));
+    change_manifest(&mut entries, |manifest| {
+        for (file, other) in manifest.files.iter_mut().zip(other.files) {
+            file.content_hash = other.content_hash;
         }
     });
-    write(&parts.sandbox.path("forged.tar.zst"), &forged);
+    write(&sandbox.path("forged.tar.zst"), &entries);
     let words = "run --filter identity --seed 2 --truths forged.tar.zst --out fresh";
-    let output = (parts.sandbox).shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
     let found = ["has another content_hash than manifest.json says"];
-    assert_refused(&output, 2, &found);
-    assert!(!parts.sandbox.path("fresh/plate").exists());
+    assert_refused(&quick(&sandbox, words), 2, &found);
+    assert!(!sandbox.path("fresh/plate").exists());
 }
 
 #[test]
 fn a_check_refuses_a_pack_that_git_tracks() {
     let sandbox = packed();
     sandbox.write_bound(1.0);
-    let git = |words: &[&str]| {
+    let git = |line: &str| {
         let mut git = Command::new("git");
-        let output = git
-            .current_dir(sandbox.path(""))
-            .args(words)
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "git {words:?}: {output:?}");
+        git.current_dir(sandbox.path("")).args(split(line));
+        assert!(git.status().unwrap().success(), "git {line}");
     };
     let check = || {
-        let words = [&quick_command("check", "16")[..], &["--filter", "identity"]].concat();
-        sandbox.outside_ci(&[&words[..], &["--truths", "truths.tar.zst"]].concat())
+        let more = split("--filter identity --truths truths.tar.zst");
+        sandbox.outside_ci(&[&quick_command("check", "16")[..], &more].concat())
     };
-    git(&["init", "-q"]);
-    git(&["add", "scenes"]);
-    assert_eq!(
-        check().status.code(),
-        Some(0),
-        "it lies beside tracked files"
-    );
-    git(&["add", "truths.tar.zst"]);
+    git("init -q");
+    git("add scenes");
+    let beside = check().status.code();
+    assert_eq!(beside, Some(0), "it lies beside tracked files");
+    git("add truths.tar.zst");
     let parts = ["truths.tar.zst is tracked by git", "--truths"];
     assert_refused(&check(), 2, &parts);
 }
@@ -317,8 +261,7 @@ fn a_check_refuses_a_pack_that_git_tracks() {
 fn truths_that_are_neither_a_folder_nor_a_file_are_refused() {
     let sandbox = Sandbox::new();
     make_fifo(&sandbox.path("pipe"));
-    let words = "run --filter identity --truths pipe --out fresh";
-    let output = sandbox.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
-    let parts = ["--truths pipe: is neither a folder nor a regular file"];
-    assert_refused(&output, 2, &parts);
+    let output = quick(&sandbox, "run --filter identity --truths pipe --out fresh");
+    let part = "--truths pipe: is neither a folder nor a regular file";
+    assert_refused(&output, 2, &[part]);
 }

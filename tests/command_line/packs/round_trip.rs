@@ -1,37 +1,29 @@
 //! Packs that a run takes its truths from.
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::PathBuf;
 
 use frame::{read_exr, write_exr};
 use suite::TRAVERSALS;
 use tests::text::assert_contains;
 
-use super::{QUICK, entries, packed, run};
-use crate::sandbox::{Sandbox, assert_done, files_below, split, stderr, stdout};
+use super::{QUICK, entries, manifest, packed, quick, run};
+use crate::sandbox::{Files, Sandbox, assert_done, split, stderr};
 
-/// Names of the files that a run renders.
-fn is_rendered(name: &str) -> bool {
-    let is_of = |folder: &str| name.contains(folder) && name.ends_with(".exr");
-    name.ends_with("frame.exr") || is_of("truth_") || is_of("ladder_")
-}
-
-/// Reads all rendered files of a folder, by their names.
-fn rendered(sandbox: &Sandbox, out: &str) -> BTreeMap<String, Vec<u8>> {
-    let root = sandbox.path(out);
-    let name = |path: &PathBuf| path.strip_prefix(&root).unwrap().display().to_string();
-    files_below(&root)
-        .into_iter()
-        .filter(|path| is_rendered(&name(path)))
-        .map(|path| (name(&path), fs::read(&path).unwrap()))
-        .collect()
+/// Reads all files of a folder that a run renders.
+fn rendered(sandbox: &Sandbox, out: &str) -> Files {
+    let below = |(path, bytes): (std::path::PathBuf, Vec<u8>)| {
+        let name = path.strip_prefix(out).ok()?.to_str().unwrap().to_owned();
+        let is_of = |folder: &str| name.contains(folder) && name.ends_with(".exr");
+        let is_rendered = name.ends_with("frame.exr") || is_of("truth_") || is_of("ladder_");
+        is_rendered.then(|| (name.into(), bytes))
+    };
+    sandbox.read_files().into_iter().filter_map(below).collect()
 }
 
 /// Writes into every rendered file that it was traced by the instructions of another machine. Nothing depends on them, and what is
 /// rendered anew names others.
 fn mark(sandbox: &Sandbox, out: &str) {
-    for name in rendered(sandbox, out).into_keys() {
+    for (name, _) in rendered(sandbox, out) {
         let path = sandbox.path(out).join(name);
         let mut file = read_exr(&path).unwrap();
         let own = file.get::<String>("traversal").unwrap();
@@ -48,70 +40,65 @@ fn scores(sandbox: &Sandbox, out: &str) -> String {
     run.to_string()
 }
 
-/// Filters of both shutters.
-const FILTERS: &str = "identity,kino:default";
+/// Runs with the truths of the pack; returns what it says.
+fn run_from_pack(sandbox: &Sandbox, line: &str) -> String {
+    let output = quick(sandbox, &format!("run {line} --truths truths.tar.zst"));
+    assert_done(&output);
+    stderr(&output)
+}
 
 #[test]
 fn a_check_from_a_pack_renders_nothing_and_has_the_same_scores() {
     let sandbox = Sandbox::two_scenes();
     sandbox.write_bound(1.0);
     sandbox.copy_bound("slow");
-    let check = |more: &[&str]| {
-        let words = [&["check", "--filter", FILTERS], &split(QUICK)[..], more].concat();
-        let output = sandbox.outside_ci(&words);
+    // Filters of both shutters.
+    let check = |more: &str| {
+        let line = format!("check --filter identity,kino:default {QUICK} {more}");
+        let output = sandbox.outside_ci(&split(&line));
         assert_done(&output);
-        output
+        stderr(&output)
     };
-    check(&[]);
+    check("");
     mark(&sandbox, "out");
-    sandbox.execute(&["truths", "pack", "out", "--out", "kept/truths.tar.zst"]);
+    sandbox.execute(&split("truths pack out --out kept/truths.tar.zst"));
     fs::create_dir(sandbox.path("elsewhere")).unwrap();
     fs::rename(sandbox.path("kept"), sandbox.path("elsewhere/kept")).unwrap();
     let pack = "elsewhere/kept/truths.tar.zst";
-    let output = check(&["--truths", pack, "--out", "fresh"]);
-    assert_contains(
-        &stderr(&output),
-        &[pack, "traced 8 tiles again", "; nothing is rendered"],
-    );
+    let from_pack = format!("--truths {pack} --out fresh");
+    let parts = [pack, "traced 8 tiles again", "; nothing is rendered"];
+    assert_contains(&check(&from_pack), &parts);
     // Each scene has a frame, two truths of eight replicates, and the sharp picture of the trailing shutter's middle.
     let kept = rendered(&sandbox, "out");
     assert_eq!(kept.len(), 2 * (1 + 2 * (1 + 8) + 1));
+    let fresh = rendered(&sandbox, "fresh");
     assert!(
-        kept == rendered(&sandbox, "fresh"),
+        kept == fresh,
         "a file was rendered again, or is another one"
     );
     assert_eq!(scores(&sandbox, "fresh"), scores(&sandbox, "out"));
     assert!(!sandbox.path("fresh/.shuttertruth.unpacked").exists());
     // A second check finds all of it in its folder.
-    let output = check(&["--truths", pack, "--out", "fresh"]);
-    let parts = ["took no file; nothing is rendered"];
-    assert_contains(&stderr(&output), &parts);
+    assert_contains(&check(&from_pack), &["took no file; nothing is rendered"]);
 }
 
 #[test]
 fn one_run_gives_one_archive_with_the_manifest_first() {
     let sandbox = packed();
     let first = fs::read(sandbox.path("truths.tar.zst")).unwrap();
-    // Another folder, with files of another time.
-    for file in files_below(&sandbox.path("out")) {
-        let below = file.strip_prefix(sandbox.path("out")).unwrap();
-        let to = sandbox.path("copy").join(below);
-        fs::create_dir_all(to.parent().unwrap()).unwrap();
-        fs::write(to, fs::read(&file).unwrap()).unwrap();
-    }
-    let printed = sandbox.execute(&["truths", "pack", "copy", "--out", "again.tar.zst"]);
+    // Another sandbox, with files of another time.
+    let copy = packed();
+    let printed = copy.execute(&split("truths pack out --out again.tar.zst"));
     assert_contains(&printed, &["written: again.tar.zst", "1 truth in 17 files"]);
-    assert!(fs::read(sandbox.path("again.tar.zst")).unwrap() == first);
+    assert!(fs::read(copy.path("again.tar.zst")).unwrap() == first);
 
     let entries = entries(&sandbox.path("truths.tar.zst"));
-    let manifest: store::Manifest = serde_json::from_slice(&entries[0].bytes).unwrap();
+    let manifest = manifest(&entries);
     assert_eq!(entries[0].name, "manifest.json");
     assert_eq!(manifest.format, store::PACK_FORMAT);
-    let names: Vec<&String> = entries[1..].iter().map(|entry| &entry.name).collect();
-    let listed: Vec<&String> = manifest.files.iter().map(|file| &file.path).collect();
-    assert_eq!(names, listed);
-    let truth_hash = &sandbox.read_run().cases[0].truth_hash;
+    assert_eq!(manifest.files.len(), entries.len() - 1);
     for (file, entry) in manifest.files.iter().zip(&entries[1..]) {
+        assert_eq!(file.path, entry.name);
         assert_eq!(file.bytes, entry.bytes.len() as u64);
         assert_eq!(file.blake3, blake3::hash(&entry.bytes).to_hex().to_string());
         assert_eq!(
@@ -119,7 +106,9 @@ fn one_run_gives_one_archive_with_the_manifest_first() {
             ("plate", 64, 32)
         );
     }
-    let truth = (manifest.files.iter()).find(|file| file.path == "plate/truth_trailing.exr");
+    let mut files = manifest.files.iter();
+    let truth = files.find(|file| file.path == "plate/truth_trailing.exr");
+    let truth_hash = &sandbox.read_run().cases[0].truth_hash;
     assert_eq!(&truth.unwrap().content_hash, truth_hash);
     assert_eq!(truth.unwrap().samples_per_pixel, 16);
 }
@@ -127,32 +116,24 @@ fn one_run_gives_one_archive_with_the_manifest_first() {
 #[test]
 fn a_pack_of_chosen_scenes_leaves_the_others_to_be_rendered() {
     let sandbox = Sandbox::two_scenes();
-    run(&sandbox, "identity", &[]);
-    sandbox.execute(&["truths", "pack", "--scenes", "sl*"]);
-    let words = "run --filter identity --truths truths.tar.zst --out fresh";
-    let output = sandbox.shuttertruth(&[&split(words)[..], &split(QUICK)].concat());
-    assert_done(&output);
+    run(&sandbox, "--filter identity");
+    sandbox.execute(&split("truths pack --scenes sl*"));
+    let said = run_from_pack(&sandbox, "--filter identity --out fresh");
     let parts = [
         "took 17 files, and traced 3 tiles again",
         "renders what it lacks: frame of plate, trailing truth of plate.",
     ];
-    assert_contains(&stderr(&output), &parts);
+    assert_contains(&said, &parts);
     assert_eq!(scores(&sandbox, "fresh"), scores(&sandbox, "out"));
 }
 
 #[test]
 fn truths_of_other_settings_stay_in_the_pack() {
     let sandbox = packed();
-    let words = "run --filter identity --seed 2 --out";
-    let run = |more: &[&str]| {
-        let output = sandbox.shuttertruth(&[&split(words), more, &split(QUICK)].concat());
-        assert_done(&output);
-        stderr(&output)
-    };
-    let said = run(&["other", "--truths", "truths.tar.zst"]);
-    let parts = ["took no file; renders what it lacks: frame of plate, trailing truth of plate"];
-    assert_contains(&said, &parts);
-    run(&["alone"]);
+    let said = run_from_pack(&sandbox, "--filter identity --seed 2 --out other");
+    let part = "took no file; renders what it lacks: frame of plate, trailing truth of plate";
+    assert_contains(&said, &[part]);
+    run(&sandbox, "--filter identity --seed 2 --out alone");
     assert_eq!(scores(&sandbox, "other"), scores(&sandbox, "alone"));
 }
 
@@ -160,17 +141,14 @@ fn truths_of_other_settings_stay_in_the_pack() {
 fn later_frames_of_sequences_are_packed_too() {
     let sandbox = Sandbox::new();
     let sequence = "--filter identity --frames 2";
-    run(&sandbox, "identity", &["--frames", "2"]);
+    run(&sandbox, sequence);
     mark(&sandbox, "out");
     sandbox.execute(&["truths", "pack"]);
-    let words = [&["run"], &split(sequence)[..], &split(QUICK)].concat();
-    let more = ["--truths", "truths.tar.zst", "--out", "fresh"];
-    let output = sandbox.shuttertruth(&[&words[..], &more].concat());
-    assert_done(&output);
-    assert_contains(&stderr(&output), &["; nothing is rendered"]);
+    let said = run_from_pack(&sandbox, &format!("{sequence} --out fresh"));
+    assert_contains(&said, &["; nothing is rendered"]);
     assert!(rendered(&sandbox, "fresh") == rendered(&sandbox, "out"));
     assert_eq!(scores(&sandbox, "fresh"), scores(&sandbox, "out"));
-    let printed = sandbox.execute(&["truths", "verify", "truths.tar.zst"]);
+    let printed = sandbox.execute(&split("truths verify truths.tar.zst"));
     assert_contains(
         &printed,
         &["6 tiles of 16x16", "2 truths equal to the mean"],
@@ -180,12 +158,8 @@ fn later_frames_of_sequences_are_packed_too() {
 #[test]
 fn plans_and_calibrations_take_packs() {
     let sandbox = packed();
-    let words = [
-        &["truths", "plan", "--filter", "identity"],
-        &split(QUICK)[..],
-    ]
-    .concat();
-    let plan = sandbox.execute(&[&words[..], &["--truths", "truths.tar.zst", "--json"]].concat());
+    let line = "truths plan --filter identity --truths truths.tar.zst --json";
+    let plan = sandbox.execute(&split(&format!("{line} {QUICK}")));
     assert!(!plan.contains("truths/plate"), "they are in the pack");
     for line in plan.lines() {
         let job: serde_json::Value = serde_json::from_str(line).unwrap();
@@ -194,8 +168,7 @@ fn plans_and_calibrations_take_packs() {
         assert_eq!(inputs.contains("truths.tar.zst"), measures, "{line}");
     }
     let words = "limits calibrate --filter identity --size 64x32 --samples-per-pixel 16 --runs 2 --out seeds";
-    let more = ["--truths", "truths.tar.zst"];
-    let output = sandbox.shuttertruth(&[&split(words)[..], &more].concat());
+    let output = sandbox.shuttertruth(&split(&format!("{words} --truths truths.tar.zst")));
     assert_done(&output);
     // The first of the two seeds is that of the pack. A calibration takes one rung of the ladder.
     let parts = [
@@ -204,25 +177,20 @@ fn plans_and_calibrations_take_packs() {
         "took no file; renders",
     ];
     assert_contains(&stderr(&output), &parts);
-    assert!(stdout(&output).contains("seeds/plate.bounds.toml"));
+    assert!(sandbox.path("seeds/plate.bounds.toml").is_file());
 }
 
 #[test]
 fn a_pack_removes_what_a_killed_one_left_and_nothing_else() {
     let sandbox = packed();
-    let there = |name: &str| sandbox.path(name).exists();
-    for name in [
-        ".shuttertruth-killed.tmp",
-        ".shuttertruth-notes",
-        "kept.tmp",
-    ] {
+    fs::create_dir(sandbox.path("below")).unwrap();
+    let killed = [".shuttertruth-killed.tmp", "below/.shuttertruth-killed.tmp"];
+    let others = [".shuttertruth-notes", "kept.tmp"];
+    for name in killed.into_iter().chain(others) {
         fs::write(sandbox.path(name), "").unwrap();
     }
     sandbox.execute(&["truths", "pack"]);
-    assert!(!there(".shuttertruth-killed.tmp"));
-    assert!(there(".shuttertruth-notes") && there("kept.tmp"));
-    fs::create_dir(sandbox.path("below")).unwrap();
-    fs::write(sandbox.path("below/.shuttertruth-killed.tmp"), "").unwrap();
-    sandbox.execute(&["truths", "pack", "--out", "below/truths.tar.zst"]);
-    assert!(!there("below/.shuttertruth-killed.tmp"));
+    sandbox.execute(&split("truths pack --out below/truths.tar.zst"));
+    assert!(killed.iter().all(|name| !sandbox.path(name).exists()));
+    assert!(others.iter().all(|name| sandbox.path(name).exists()));
 }

@@ -9,18 +9,18 @@ use study::{
     Answer, AnswerFile, Chosen, Clip, DisplayFacts, Question, SHARP_CLIP, ShownPair, Study,
     TRUTH_CLIP, draw_session,
 };
-use tests::text::assert_contains;
+use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, files_below};
+use crate::sandbox::{Sandbox, assert_same_files, files_below, read_below, split};
 
 /// Filters of the trailing shutter, from the best to the worst.
 const FILTERS: &str = "jump_flood:paper,velocity_gather:fine,identity";
 
 /// Makes a run of three filters on two scenes, and the page that asks about it; returns the study.
-fn make_study(sandbox: &Sandbox, more: &[&str]) -> Study {
+fn make_study(sandbox: &Sandbox, more: &str) -> Study {
     sandbox.add_slow_scene();
-    assert_done(&sandbox.run(&[&["--filters", FILTERS][..], more].concat()));
-    let written = sandbox.execute(&["people", "ask", "out", "--out", "page", "--json"]);
+    sandbox.measure(&format!("--filters {FILTERS} --jitter-frames 0 {more}"));
+    let written = sandbox.done("people ask out --out page --json");
     let written: Value = serde_json::from_str(&written).unwrap();
     assert_eq!(written["page"], "page/index.html");
     serde_json::from_value(written["study"].clone()).unwrap()
@@ -72,10 +72,10 @@ fn prefer_first(pair: &ShownPair) -> Chosen {
         Clip::Filter(filter) => filter as i32,
         Clip::Sharp => 100,
     };
-    match rank(pair.left).cmp(&rank(pair.right)) {
-        std::cmp::Ordering::Less => Chosen::Left,
-        std::cmp::Ordering::Greater => Chosen::Right,
-        std::cmp::Ordering::Equal => Chosen::Neither,
+    match rank(pair.left) - rank(pair.right) {
+        ..0 => Chosen::Left,
+        0 => Chosen::Neither,
+        1.. => Chosen::Right,
     }
 }
 
@@ -98,18 +98,14 @@ fn write_answers(sandbox: &Sandbox, files: &[AnswerFile]) -> Vec<String> {
 }
 
 fn preferences<'a>(answers: &'a [String], more: &[&'a str]) -> Vec<&'a str> {
-    let answers = answers.iter().map(String::as_str);
-    ["people", "preferences"]
-        .into_iter()
-        .chain(answers)
-        .chain(more.iter().copied())
-        .collect()
+    let answers: Vec<&str> = answers.iter().map(String::as_str).collect();
+    [&["people", "preferences"], &answers[..], more].concat()
 }
 
 #[test]
 fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
     let sandbox = Sandbox::new();
-    let study = make_study(&sandbox, &["--frames", "2", "--fps", "12"]);
+    let study = make_study(&sandbox, "--frames 2 --fps 12");
     assert_eq!((study.frames.count, study.frames.per_second), (2, 12.0));
     assert_eq!(study.scenes, ["plate", "slow"]);
     // Two scenes of the sharp frame, the truth and three filters, two frames each, and the page.
@@ -122,72 +118,38 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
     ] {
         assert_eq!(picture(copy), picture(original), "{copy}");
     }
-    let text = sandbox.execute(&[
-        "people",
-        "ask",
-        "out",
-        "--out",
-        "other",
-        "--filters",
-        "jump_flood,ident*",
-        "--scenes",
-        "slow",
-    ]);
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert_contains(
-        &text,
-        &[
-            "2 filters of the trailing shutter on 1 scene",
-            "every pair once, and 2 checks",
-            "128 pixels",
-            "Nobody has answered yet",
-        ],
-    );
+    let text = sandbox.done("people ask out --out other --filters jump_flood,ident* --scenes slow");
+    let parts = [
+        "2 filters of the trailing shutter on 1 scene",
+        "every pair once, and 2 checks",
+        "128 pixels",
+        "Nobody has answered yet",
+    ];
+    assert_contains(&split(&text).join(" "), &parts);
     finish_half_a_page(&sandbox);
-    let ask =
-        |more: &[&'static str]| [&["people", "ask", "out", "--out", "new"][..], more].concat();
-    for (words, parts) in [
-        (
-            ask(&["--filters", "identity"]),
-            &["this many filters of the trailing shutter: 1", "2 to 64"][..],
-        ),
-        (
-            ask(&["--filters", "bevy"]),
-            &[
-                "\"bevy\" fits nothing in the run; it has",
-                "jump_flood:paper",
-            ],
-        ),
-        (
-            ask(&["--scenes", "fan"]),
-            &["\"fan\" fits nothing", "plate, slow"],
-        ),
-        (ask(&["--pairs", "2"]), &["allows 2 pairs", "3 or more"]),
-        (
-            ask(&["--question", "best"]),
-            &["'best' for '--question <QUESTION>'", "better"],
-        ),
-        (
-            vec!["people", "ask", "out", "--out", "page"],
-            &["page: holds 2 files or folders", "a new folder"],
-        ),
-        (vec!["people", "ask", "none"], &["no such file"]),
-    ] {
-        assert_refused(&sandbox.shuttertruth(&words), 2, parts);
-        assert!(!sandbox.path("new").exists(), "{words:?}");
+    for (words, parts) in read_rows(
+        r#"
+        out --filters identity => this many filters of the trailing shutter: 1 | 2 to 64
+        out --filters bevy => "bevy" fits nothing in the run; it has | jump_flood:paper
+        out --scenes fan => "fan" fits nothing | plate, slow
+        out --pairs 2 => allows 2 pairs | 3 or more
+        out --question best => 'best' for '--question <QUESTION>' | better
+        none => no such file"#,
+    ) {
+        sandbox.refuse(&format!("people ask {words} --out new"), &parts);
+        assert!(!sandbox.path("new").exists(), "{words}");
     }
+    let parts = ["page: holds 2 files or folders", "a new folder"];
+    sandbox.refuse("people ask out --out page", &parts);
     fs::remove_file(sandbox.path("out/slow/0001/frame.png")).unwrap();
-    assert_refused(
-        &sandbox.shuttertruth(&ask(&[])),
-        2,
-        &["slow/0001/frame.png: cannot read"],
-    );
+    let parts = ["slow/0001/frame.png: cannot read"];
+    sandbox.refuse("people ask out --out new", &parts);
 }
 
 #[test]
-fn answers_become_a_scale_beside_the_scores_of_the_run() {
+fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
     let sandbox = Sandbox::new();
-    let study = make_study(&sandbox, &[]);
+    let study = make_study(&sandbox, "");
     // Six people choose the better filter, but for one answer in four; the last one does so in every check, too.
     let people: Vec<AnswerFile> = (0..6)
         .map(|seed| {
@@ -217,29 +179,17 @@ fn answers_become_a_scale_beside_the_scores_of_the_run() {
         .iter()
         .map(|own| own["filter"].as_str().unwrap())
         .collect();
-    assert_eq!(
-        order,
-        [
-            "jump_flood:paper",
-            "velocity_gather:fine",
-            "identity:default"
-        ]
-    );
-    let sum: f64 = filters
-        .iter()
-        .map(|own| own["scale"].as_f64().unwrap())
-        .sum();
-    assert!(sum.abs() < 1e-9, "{sum}");
+    let due = "jump_flood:paper velocity_gather:fine identity:default";
+    assert_eq!(order, split(due));
     let number = |value: &Value| value.as_f64().unwrap();
-    for own in filters {
+    let places: Vec<f64> = filters.iter().map(|own| number(&own["scale"])).collect();
+    assert!(places.iter().sum::<f64>().abs() < 1e-9, "{places:?}");
+    for (own, place) in filters.iter().zip(&places) {
         let [low, high] = [0, 1].map(|end| number(&own["interval"][end]));
-        assert!(
-            low < number(&own["scale"]) && number(&own["scale"]) < high,
-            "{own}"
-        );
+        assert!(low < *place && *place < high, "{own}");
     }
     // Without a mistake the distance would be that of the prior.
-    let distance = number(&filters[0]["scale"]) - number(&filters[2]["scale"]);
+    let distance = places[0] - places[2];
     assert!((0.3..2.0).contains(&distance), "{distance}");
     let score = |name: &str| {
         let mut all = scale["scores"].as_array().unwrap().iter();
@@ -247,39 +197,34 @@ fn answers_become_a_scale_beside_the_scores_of_the_run() {
     };
     // FLIP ranks the filters as these people do; `run` measures it.
     assert_eq!(score("flip_moving")["correlation"], 1.0);
-    assert!(score("flip_moving")["predicted"].as_f64().unwrap() > 0.6);
+    assert!(number(&score("flip_moving")["predicted"]) > 0.6);
     assert_eq!(score("psnr_moving")["correlation"], 1.0);
 
     let table = sandbox.execute(&preferences(&names, &["--run", "out"]));
-    let words = table.split_whitespace().collect::<Vec<_>>().join(" ");
-    for part in [
+    let parts = [
         "Which looks more like the truth?",
         "6 sessions, 48 answers",
         "answers_5.json",
         "1000 resamples of sessions",
         "people chose alike in",
         "flip_moving +1.00",
-    ] {
-        assert!(words.contains(part), "\"{part}\" is missing from:\n{table}");
-    }
-    assert!(
-        table.lines().all(|line| line.chars().count() <= 80),
-        "{table}"
-    );
+    ];
+    assert_contains(&split(&table).join(" "), &parts);
+    let mut lines = table.lines();
+    assert!(lines.all(|line| line.chars().count() <= 80), "{table}");
 
     // One person alone, who always chooses alike: no sample of people, and only the prior holds the distances.
     let one = answer(&study, Question::Better, 9, |pair, _| prefer_first(pair));
     let names = write_answers(&sandbox, &[one]);
     let table = sandbox.execute(&preferences(&names, &[]));
-    let words = table.split_whitespace().collect::<Vec<_>>().join(" ");
-    for part in [
+    let parts = [
         "1 session, 8 answers",
         "fewer than 5 sessions",
         "the prior alone holds",
         "0 of 2 checks failed",
-    ] {
-        assert!(words.contains(part), "\"{part}\" is missing from:\n{table}");
-    }
+    ];
+    assert_contains(&split(&table).join(" "), &parts);
+    refusals::assert_answers_are_refused(&sandbox, &study);
 }
 
 /// Makes a page where a killed process had begun another one.
@@ -288,17 +233,11 @@ fn finish_half_a_page(sandbox: &Sandbox) {
     fs::create_dir_all(half.join("pictures")).unwrap();
     fs::write(half.join("pictures/99_0.png"), "of another study").unwrap();
     fs::write(half.join(".shuttertruth-killed.tmp"), "").unwrap();
-    let ask = ["people", "ask", "out", "--out", "half"];
+    let ask = "people ask out --out half";
     let parts = ["half: holds 1 files or folders", "a new folder"];
-    assert_refused(&sandbox.shuttertruth(&ask), 2, &parts);
+    sandbox.refuse(ask, &parts);
     fs::write(half.join(".shuttertruth.unfinished"), "").unwrap();
-    sandbox.execute(&ask);
-    let names = |folder: &str| -> Vec<std::path::PathBuf> {
-        let root = sandbox.path(folder);
-        let files = files_below(&root).into_iter();
-        files
-            .map(|file| file.strip_prefix(&root).unwrap().to_owned())
-            .collect()
-    };
-    assert_eq!(names("half"), names("page"));
+    sandbox.done(ask);
+    let [half, page] = ["half", "page"].map(|folder| read_below(&sandbox.path(folder)));
+    assert_same_files(&half, &page);
 }

@@ -4,86 +4,54 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use frame::{Frame, Truth, read_exr};
+use tests::text::assert_contains;
 
-use crate::sandbox::{IDENTITY, Sandbox, assert_done, assert_refused, files_below, stdout};
+use crate::sandbox::{Sandbox, files_below, quick_command, stdout};
 
 #[test]
 fn run_and_check_write_the_page_that_report_writes() {
     let sandbox = Sandbox::new();
     sandbox.write_bound(0.2);
-    let make_page = || {
-        sandbox.execute(&["report", "out", "--html", "page.html"]);
-        fs::read(sandbox.path("page.html")).unwrap()
-    };
-    let output = sandbox.run(&[&IDENTITY[..], &["--html", "own.html"]].concat());
-    assert_done(&output);
-    assert!(
-        stdout(&output).contains("report: own.html ("),
-        "{}",
-        stdout(&output)
-    );
-    assert!(
-        fs::read(sandbox.path("own.html")).unwrap() == make_page(),
-        "run writes another page"
-    );
-    let output = sandbox.check(&[&IDENTITY[..], &["--html", "own.html"]].concat());
-    assert_eq!(output.status.code(), Some(1), "the bound is broken");
-    assert!(
-        stdout(&output).contains("report: own.html ("),
-        "{}",
-        stdout(&output)
-    );
-    assert!(
-        fs::read(sandbox.path("own.html")).unwrap() == make_page(),
-        "check writes another page"
-    );
+    let read = |name: &str| fs::read(sandbox.path(name)).unwrap();
+    let words = ["--filters", "identity", "--html", "own.html"];
+    for (command, code) in [("run", 0), ("check", 1)] {
+        let output = sandbox.outside_ci(&[&quick_command(command, "64")[..], &words].concat());
+        assert_eq!(output.status.code(), Some(code));
+        assert_contains(&stdout(&output), &["report: own.html ("]);
+        sandbox.done("report out --html page.html");
+        let is_same = read("own.html") == read("page.html");
+        assert!(is_same, "{command} writes another page");
+    }
 }
 
 #[test]
 fn layers_equal_the_files_of_the_case() {
     let sandbox = Sandbox::new();
-    let words = ["--filters", "velocity_gather:fine", "--guard-band", "4"];
-    assert_done(&sandbox.run(&words));
-    sandbox.execute(&["report", "out", "--exr", "layers", "--quiet"]);
-    let run = sandbox.read_run();
-    assert_eq!(
-        files_below(&sandbox.path("layers")).len(),
-        run.cases.len(),
-        "one file a case"
-    );
-    let layers = read_exr(&sandbox.path("layers/plate/velocity_gather_fine.exr")).unwrap();
-    let case = sandbox.path("out/plate/velocity_gather_fine");
-    let output = read_exr(&case.join("output.exr")).unwrap();
-    let errors = read_exr(&case.join("errors.exr")).unwrap();
+    sandbox.measure("--filters velocity_gather:fine --guard-band 4");
+    sandbox.done("report out --exr layers --quiet");
+    let files = files_below(&sandbox.path("layers"));
+    assert_eq!(files.len(), sandbox.read_run().cases.len());
+    let exr = |name: &str| read_exr(&sandbox.path(name)).unwrap();
+    let layers = exr("layers/plate/velocity_gather_fine.exr");
+    let output = exr("out/plate/velocity_gather_fine/output.exr");
+    let errors = exr("out/plate/velocity_gather_fine/errors.exr");
     let truth = Truth::read(&sandbox.path("out/plate/truth_trailing.exr")).unwrap();
-    let frame = Frame::read(&sandbox.path("out/plate/frame.exr"))
-        .unwrap()
-        .cropped();
-    assert_eq!(
-        (layers.width, layers.height),
-        (64, 32),
-        "the guard band is cropped"
-    );
-    assert_eq!(layers.color("truth").unwrap(), truth.mean().color);
-    assert_eq!(layers.color("output").unwrap(), output.color("").unwrap());
-    assert_eq!(layers.color("instant").unwrap(), frame.color);
-    assert_eq!(layers.plane("flip").unwrap(), errors.plane("flip").unwrap());
-    assert_eq!(
-        layers.plane("velocity.X").unwrap(),
-        frame.velocity.map(|velocity| velocity[0])
-    );
-    assert_eq!(
-        layers.plane("velocity.Y").unwrap(),
-        frame.velocity.map(|velocity| velocity[1])
-    );
-    assert_eq!(
-        layers.plane("coverage.plate").unwrap(),
-        truth.mean().coverage[1]
-    );
-    assert_eq!(
-        layers.plane("output_coverage.plate").unwrap(),
-        output.plane("coverage.plate").unwrap()
-    );
+    let frame = Frame::read(&sandbox.path("out/plate/frame.exr")).unwrap();
+    let (truth, frame) = (truth.mean(), frame.cropped());
+    let size = (layers.width, layers.height);
+    assert_eq!(size, (64, 32), "the guard band is cropped");
+    let color = |name: &str| layers.color(name).unwrap();
+    let plane = |name: &str| layers.plane(name).unwrap();
+    assert_eq!(color("truth"), truth.color);
+    assert_eq!(color("output"), output.color("").unwrap());
+    assert_eq!(color("instant"), frame.color);
+    assert_eq!(plane("flip"), errors.plane("flip").unwrap());
+    for (axis, name) in ["velocity.X", "velocity.Y"].into_iter().enumerate() {
+        assert_eq!(plane(name), frame.velocity.map(|velocity| velocity[axis]));
+    }
+    assert_eq!(plane("coverage.plate"), truth.coverage[1]);
+    let own = output.plane("coverage.plate").unwrap();
+    assert_eq!(plane("output_coverage.plate"), own);
     assert_eq!(layers.attributes["filter"], "velocity_gather:fine");
     // tev shows the part before the last dot as a group.
     let mut groups: BTreeMap<&str, usize> = BTreeMap::new();
@@ -107,17 +75,12 @@ fn layers_equal_the_files_of_the_case() {
 
 #[test]
 fn a_report_needs_no_names_and_refuses_missing_files() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&IDENTITY));
+    let sandbox = Sandbox::measured();
     fs::remove_file(sandbox.path("out/report.html")).unwrap();
     // The folder and the page have the names that `run` gives them.
-    assert_done(&sandbox.shuttertruth(&["report"]));
+    sandbox.done("report");
     assert!(sandbox.path("out/report.html").is_file());
-    fs::remove_file(sandbox.path("out/plate/identity_default/errors.exr")).unwrap();
-    let words = ["report", "out", "--exr", "layers", "--quiet"];
-    assert_refused(
-        &sandbox.shuttertruth(&words),
-        2,
-        &["identity_default/errors.exr"],
-    );
+    let errors = "identity_default/errors.exr";
+    fs::remove_file(sandbox.path("out/plate").join(errors)).unwrap();
+    sandbox.refuse("report out --exr layers --quiet", &[errors]);
 }

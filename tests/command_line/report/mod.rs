@@ -7,15 +7,14 @@ mod tuning;
 
 use std::fs;
 
-use crate::sandbox::{Sandbox, assert_done, stdout};
+use crate::sandbox::Sandbox;
 
-const WORDS: [&str; 4] = ["report", "out/run.json", "--html", "page/report.html"];
+const REPORT: &str = "report out/run.json --html page/report.html";
 
 /// Makes the page of the bench's last run.
 fn make_page(sandbox: &Sandbox) -> String {
-    let output = sandbox.shuttertruth(&WORDS);
-    assert_done(&output);
-    assert!(stdout(&output).contains("written: page/report.html ("));
+    let printed = sandbox.done(REPORT);
+    assert!(printed.contains("written: page/report.html ("), "{printed}");
     fs::read_to_string(sandbox.path("page/report.html")).unwrap()
 }
 
@@ -29,11 +28,8 @@ fn between<'a>(page: &'a str, before: &str, after: &str) -> Vec<&'a str> {
 
 /// Reads the planes of a page's scenes.
 fn planes(page: &str) -> Vec<Vec<String>> {
-    let texts = between(
-        page,
-        "<script type=\"application/json\" data-scene=\"",
-        "</script>",
-    );
+    let start = "<script type=\"application/json\" data-scene=\"";
+    let texts = between(page, start, "</script>");
     (texts.into_iter())
         .map(|text| serde_json::from_str(text.split_once('>').unwrap().1).unwrap())
         .collect()

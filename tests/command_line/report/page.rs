@@ -2,64 +2,104 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::sync::OnceLock;
 
 use metrics::Metric;
+use tests::text::assert_contains;
 
-use super::{WORDS, address, between, find_article, make_page, panel, planes};
-use crate::sandbox::{Sandbox, assert_done, assert_refused, split};
+use super::{REPORT, address, between, find_article, make_page, panel, planes};
+use crate::sandbox::{Files, Sandbox, assert_done};
+
+/// Makes a sandbox with a run of three filters on two scenes.
+fn measured() -> Sandbox {
+    static FILES: OnceLock<Files> = OnceLock::new();
+    Sandbox::once(&FILES, || {
+        let sandbox = Sandbox::two_scenes();
+        sandbox.measure("--filters identity,velocity_gather:fine,jump_flood:corrected");
+        sandbox
+    })
+}
 
 #[test]
 fn a_page_shows_the_scores_and_means_of_the_run() {
-    let sandbox = Sandbox::two_scenes();
-    assert_done(&sandbox.run(&["--filters", "identity,velocity_gather:fine"]));
+    let sandbox = measured();
     let page = make_page(&sandbox);
+    let again = make_page(&sandbox);
+    assert!(again == page, "the same run makes another page");
     let run = sandbox.read_run();
     for case in &run.cases {
         let link = format!("href=\"#{}\"", address(case));
         for (metric, digits) in [("flip_moving", 3), ("row_loss", 2), ("psnr_moving", 1)] {
             let value = case.scores.get(metric.parse().unwrap()).value().unwrap();
             let cell = format!("{link}>{value:.digits$}</a>");
-            assert_eq!(
-                panel(&page, metric).matches(&cell).count(),
-                1,
-                "{metric}: {cell}"
-            );
+            let count = panel(&page, metric).matches(&cell).count();
+            assert_eq!(count, 1, "{metric}: {cell}");
         }
-        let count = &case.scores.equivalent_subframes.mse;
-        let count = count.to_string().replace('<', "&lt;").replace('>', "&gt;");
-        let cell = format!("{link}>{count}</a>");
-        assert!(panel(&page, "n_eq").contains(&cell), "{cell}");
-        let article = find_article(&page, case);
-        assert!(article.contains(&format!("{} / {}", case.scene, case.name())));
-        assert!(article.contains("nothing: it serves the tests"));
-        assert!(article.contains(&case.truth_hash));
+        let count = case.scores.equivalent_subframes.mse.to_string();
+        let count = count.replace('<', "&lt;").replace('>', "&gt;");
+        assert_contains(panel(&page, "n_eq"), &[&format!("{link}>{count}</a>")]);
     }
-    let ranking = between(&page, "aria-label=\"FLIP of every case\"", "</table>")[0];
-    let mut means: Vec<_> = (run.overall.iter())
-        .filter(|mean| mean.metric == Metric::FLIP)
-        .collect();
+    // Each follows the one before.
+    let mut rest = between(&page, "aria-label=\"FLIP of every case\"", "</table>")[0];
+    let means = run
+        .overall
+        .iter()
+        .filter(|mean| mean.metric == Metric::FLIP);
+    let mut means: Vec<_> = means.collect();
     means.sort_by(|a, b| a.mean.total_cmp(&b.mean));
-    assert_eq!(means.len(), 9, "seven references and two filters");
-    let mut rest = ranking;
-    for mean in means {
-        let [low, high] = mean.interval;
+    assert_eq!(means.len(), 10, "seven references and three filters");
+    for own in means {
+        let (mean, [low, high]) = (own.mean, own.interval);
         let cells = format!(
-            "data-value=\"{}\">{:.3}</td><td class=\"note\">{low:.3} to {high:.3}</td>",
-            mean.mean, mean.mean
+            "data-value=\"{mean}\">{mean:.3}</td><td class=\"note\">{low:.3} to {high:.3}</td>"
         );
-        // Each follows the one before.
         rest = rest.split_once(&cells).expect(&cells).1;
     }
-    for words in [&run.program, "--samples-per-pixel 16", "seed 1"] {
-        assert!(page.contains(words), "{words}");
+    assert_contains(&page, &[&run.program, "--samples-per-pixel 16", "seed 1"]);
+}
+
+#[test]
+fn every_case_has_an_article_with_its_layers() {
+    let sandbox = measured();
+    let page = make_page(&sandbox);
+    let scenes = planes(&page);
+    assert_eq!(scenes.len(), 2, "one list per scene");
+    for own in &scenes {
+        let once: BTreeSet<&String> = own.iter().collect();
+        assert_eq!(once.len(), own.len(), "a plane stands there twice");
+    }
+    let run = sandbox.read_run();
+    for case in &run.cases {
+        let article = find_article(&page, case);
+        let title = format!("{} / {}", case.scene, case.name());
+        let exposes = "nothing: it serves the tests";
+        assert_contains(article, &[&title, exposes, &case.truth_hash]);
+        let layers = between(article, "data-layers=\"", "\"")[0];
+        let scene: usize = between(article, "data-scene=\"", "\"")[0].parse().unwrap();
+        let pairs = layers.split(' ').map(|pair| pair.split_once(':').unwrap());
+        for plane in pairs.clone().flat_map(|(_, planes)| planes.split(',')) {
+            let plane: usize = plane.parse().unwrap();
+            assert!(plane < scenes[scene].len(), "{layers}");
+        }
+        let names: Vec<&str> = pairs.map(|(name, _)| name).collect();
+        let dilated = if case.filter == "jump_flood" {
+            " dilated"
+        } else {
+            ""
+        };
+        let due = format!(
+            "truth output instant flip signed bleed label_tv unknowable velocity depth\
+             {dilated} objects"
+        );
+        assert_eq!(names.join(" "), due, "{}", case.name());
     }
 }
 
 #[test]
 fn the_page_of_a_check_ranks_as_the_terminal_does() {
     let sandbox = Sandbox::two_scenes();
-    let bounds = "[default]\nflip_moving = { limit = 0.9, why = \"it serves a test\" }\n";
-    fs::write(sandbox.path("scenes/bounds.toml"), bounds).unwrap();
+    sandbox.write_bound(0.9);
+    sandbox.copy_bound("slow");
     let filters = "identity,velocity_gather:fine,mcguire:paper,bevy:high";
     assert_done(&sandbox.check(&["--filters", filters]));
     let page = make_page(&sandbox);
@@ -84,12 +124,11 @@ fn the_page_of_a_check_ranks_as_the_terminal_does() {
         assert!((ranked.mean - (first + second) / 2.0).abs() < 1e-12);
         let ([low, high], mean) = (ranked.interval.unwrap(), ranked.mean);
         let on_page = format!("{mean:.3}</td><td class=\"note\">{low:.3} to {high:.3}</td>");
-        assert!(table.contains(&on_page), "{on_page}");
-        let row = (terminal.lines()).find(|line| line.contains(&ranked.name));
-        let row = row.expect(&ranked.name);
-        for text in [format!("{mean:.3}"), format!("{low:.3} to {high:.3}")] {
-            assert!(row.contains(&text), "{text}: {row}");
-        }
+        assert_contains(table, &[&on_page]);
+        let mut rows = terminal.lines();
+        let row = rows.find(|line| line.contains(&ranked.name)).unwrap();
+        let cells = [format!("{mean:.3}"), format!("{low:.3} to {high:.3}")];
+        assert_contains(row, &[&cells[0], &cells[1]]);
     }
     // Both name the same best filters, and the same ties.
     let best = between(&page, "<ul class=\"winners\">", "</ul>")[0];
@@ -110,7 +149,7 @@ fn rankings_by_flip_are_grouped_by_shutter_and_rankings_by_skill_are_not() {
     let sandbox = Sandbox::new();
     // A slow scene of few samples has no skill: the oracle's gain there is noise.
     sandbox.copy_scene("fast", |text| text.replace("-1.6, 0, 0", "-3.2, 0, 0"));
-    assert_done(&sandbox.run(&["--filters", "velocity_gather:fine,bevy:high"]));
+    sandbox.measure("--filters velocity_gather:fine,bevy:high");
     let page = make_page(&sandbox);
     let ranking = |title: &str| {
         let label = format!("aria-label=\"{title} of every case\"");
@@ -139,154 +178,56 @@ fn rankings_by_flip_are_grouped_by_shutter_and_rankings_by_skill_are_not() {
 }
 
 #[test]
-fn a_page_holds_every_plane_once_and_fetches_nothing() {
-    let sandbox = Sandbox::two_scenes();
-    assert_done(&sandbox.run(&["--filters", "identity,jump_flood:paper"]));
-    let page = make_page(&sandbox);
-    let scenes = planes(&page);
-    assert_eq!(scenes.len(), 2, "one list per scene");
-    for own in &scenes {
-        let once: BTreeSet<&String> = own.iter().collect();
-        assert_eq!(once.len(), own.len(), "a plane stands there twice");
-    }
-    for case in sandbox.read_run().cases {
-        let article = find_article(&page, &case);
-        let layers = between(article, "data-layers=\"", "\"")[0];
-        let scene: usize = between(article, "data-scene=\"", "\"")[0].parse().unwrap();
-        let mut names = Vec::new();
-        for pair in layers.split(' ') {
-            let (name, planes) = pair.split_once(':').unwrap();
-            names.push(name);
-            for plane in planes.split(',') {
-                let plane: usize = plane.parse().unwrap();
-                assert!(plane < scenes[scene].len(), "{pair}");
-            }
-        }
-        let mut due = vec![
-            "truth",
-            "output",
-            "instant",
-            "flip",
-            "signed",
-            "bleed",
-            "label_tv",
-            "unknowable",
-            "velocity",
-            "depth",
-        ];
-        if case.filter == "jump_flood" {
-            due.push("dilated");
-        }
-        due.push("objects");
-        assert_eq!(names, due, "{}", case.name());
-    }
-
-    assert!(page.contains("content=\"default-src 'none'; img-src data:;"));
-    for attribute in [" src=\"", " href=\""] {
-        for address in between(&page, attribute, "\"") {
-            assert!(
-                address.starts_with('#') || address.starts_with("data:"),
-                "{address}"
-            );
-        }
-    }
-    for words in ["@import", "url(", "fetch("] {
-        assert!(!page.contains(words), "{words}");
-    }
-    // An address is text for the reader. It must not begin an attribute or a string of a script.
-    for scheme in ["http://", "https://"] {
-        for (place, _) in page.match_indices(scheme) {
-            let before = &page[..place];
-            assert!(
-                !before.ends_with(['"', '\'', '=', '(', '`']),
-                "{}",
-                &before[before.len() - 60..]
-            );
-        }
-    }
-}
-
-#[test]
-fn the_same_run_makes_the_same_page() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "identity"]));
-    assert!(make_page(&sandbox) == make_page(&sandbox));
-}
-
-#[cfg(unix)] // Elsewhere no folder has such a name.
-#[test]
-fn a_scene_name_with_a_script_is_shown_as_text() {
-    const NAME: &str = "<script>alert(1)";
-    let sandbox = Sandbox::new();
-    sandbox.copy_scene(NAME, |text| {
-        text.replace("nothing: it serves", "<img src=x onerror=alert(2)> & it's")
-    });
-    let words = ["--filters", "identity", "--scenes", NAME];
-    assert_done(&sandbox.run(&words));
-    let page = make_page(&sandbox);
-    assert!(page.contains("<h2 tabindex=\"-1\">&lt;script&gt;alert(1) / <a href="));
-    assert!(page.contains("&lt;img src=x onerror=alert(2)&gt; &amp; it"));
-    assert!(!page.contains("<script>alert") && !page.contains("<img src=x"));
-    // Nine scripts, the colours, the picture kinds and the numbers of one scene belong to the page itself.
-    assert_eq!(page.matches("<script").count(), 12);
-}
-
-#[test]
 fn costs_come_from_the_bench_beside_the_run() {
     let sandbox = Sandbox::new();
     let words = "--filters identity,mcguire:paper --set mcguire.samples=7";
-    assert_done(&sandbox.run(&split(words)));
-    let without = make_page(&sandbox);
-    assert!(without.contains("This run has no bench.json."));
-    let words =
-        "bench --quiet --filters identity,jump_flood:paper,mcguire:paper --size 64x32 --out out";
-    assert_done(&sandbox.shuttertruth(&split(words)));
+    let overridden = "mcguire:paper samples=7";
+    for more in ["", "--table"] {
+        assert_contains(&sandbox.measure(&format!("{words} {more}")), &[overridden]);
+    }
+    let parts = ["This run has no bench.json.", overridden];
+    assert_contains(&make_page(&sandbox), &parts);
+    let output = "out/plate/mcguire_paper_samples_7/output.exr";
+    assert!(sandbox.path(output).is_file());
+    let filters = "identity,jump_flood:paper,mcguire:paper";
+    let bench = "bench --quiet --size 64x32 --out out --filters";
+    sandbox.done(&format!("{bench} {filters}"));
     let page = make_page(&sandbox);
-    let text = fs::read_to_string(sandbox.path("out/bench.json")).unwrap();
-    let timed: suite::Bench = serde_json::from_str(&text).unwrap();
-    let seconds = timed
-        .cases
-        .iter()
+    let timed: suite::Bench = sandbox.read_json("out/bench.json");
+    let mut costs = timed.cases.iter();
+    let seconds = costs
         .find(|cost| cost.filter == "identity")
         .unwrap()
         .seconds;
     // Every table of scores has one cell for the filter that was both run and timed. Filters that were only timed, or
     // run with other parameters, have none.
-    let cell = format!("<td class=\"cost\" data-value=\"{}\">", seconds.median);
-    assert_eq!(page.matches(&cell).count(), 9);
-    assert_eq!(page.matches("<td class=\"cost\" data-value").count(), 9);
+    let cell = "<td class=\"cost\" data-value";
+    let own = format!("{cell}=\"{}\">", seconds.median);
+    for cell in [cell, &own] {
+        assert_eq!(page.matches(cell).count(), 9, "{cell}");
+    }
     let costs = between(&page, "<section class=\"costs\">", "</section>")[0];
-    for words in [
+    let adapter = timed.adapter.name.as_str();
+    let parts = [
         "identity:default",
         "copy",
         "256 px",
         "accumulate:64 (trailing)",
-        timed.adapter.name.as_str(),
-    ] {
-        assert!(
-            costs.contains(words),
-            "\"{words}\" is missing from:\n{costs}"
-        );
-    }
-    fs::write(
-        sandbox.path("out/bench.json"),
-        text.replace("\"format\": 1", "\"format\": 0"),
-    )
-    .unwrap();
-    let parts = [
-        "out/bench.json: has format 0; allowed: 1",
-        "`shuttertruth bench`",
+        adapter,
     ];
-    assert_refused(&sandbox.shuttertruth(&WORDS), 2, &parts);
+    assert_contains(costs, &parts);
+    let bench = sandbox.path("out/bench.json");
+    let text = fs::read_to_string(&bench).unwrap();
+    fs::write(bench, text.replace("\"format\": 1", "\"format\": 0")).unwrap();
+    let row = "| out/bench.json: has format 0; allowed: 1 | `shuttertruth bench`";
+    sandbox.refuse_rows(REPORT, row);
 }
 
 #[test]
 fn a_run_keeps_the_jump_flood_s_dilated_map() {
-    let sandbox = Sandbox::new();
-    assert_done(&sandbox.run(&["--filters", "jump_flood:corrected"]));
-    let case = &sandbox.read_filter_cases()[0];
-    let output =
-        frame::read_exr(&sandbox.path("out").join(&case.folder).join("output.exr")).unwrap();
+    let sandbox = measured();
+    let case = sandbox.path("out/plate/jump_flood_corrected/output.exr");
+    let output = frame::read_exr(&case).unwrap();
     let frame = frame::Frame::read(&sandbox.path("out/plate/frame.exr")).unwrap();
     let [x, y] = ["dilated.X", "dilated.Y"].map(|name| output.plane(name).unwrap());
     let motion = *frame.velocity.at(32, 16);
@@ -299,47 +240,39 @@ fn a_run_keeps_the_jump_flood_s_dilated_map() {
         (60, 16, [0.0; 2]),
         (32, 2, [0.0; 2]),
     ] {
-        assert_eq!(
-            [*x.at(column, row), *y.at(column, row)],
-            due,
-            "({column}, {row})"
-        );
+        let found = [*x.at(column, row), *y.at(column, row)];
+        assert_eq!(found, due, "({column}, {row})");
     }
 }
 
 #[test]
 fn a_report_refuses_a_file_without_a_run_or_its_pictures() {
-    let sandbox = Sandbox::new();
-    fs::create_dir(sandbox.path("out")).unwrap();
-    let refused = |parts: &[&str]| {
-        assert_refused(&sandbox.shuttertruth(&WORDS), 2, parts);
+    let sandbox = Sandbox::measured();
+    let refuse = |parts: &[&str]| {
+        sandbox.refuse(REPORT, parts);
         assert!(!sandbox.path("page").exists());
     };
-    refused(&["out/run.json", "read"]);
-    fs::write(sandbox.path("out/run.json"), "{}").unwrap();
-    refused(&["out/run.json: no run of this program", "`shuttertruth run`"]);
-    fs::remove_file(sandbox.path("out/run.json")).unwrap();
-    assert_done(&sandbox.run(&["--filters", "identity"]));
-    let picture = sandbox.path("out/plate/identity_default/output.exr");
-    let other = sandbox.path("out/other.exr");
-    fs::copy(&picture, &other).unwrap();
-    fs::write(&picture, "no picture").unwrap();
-    refused(&["out/plate/identity_default/output.exr"]);
-    fs::remove_file(&picture).unwrap();
-    refused(&["out/plate/identity_default/output.exr", "read"]);
+    let write = |name: &str, bytes: &[u8]| fs::write(sandbox.path(name), bytes).unwrap();
+    let output = "out/plate/identity_default/output.exr";
+    let whole = fs::read(sandbox.path(output)).unwrap();
+    write(output, b"no picture");
+    refuse(&[output]);
+    fs::remove_file(sandbox.path(output)).unwrap();
+    refuse(&[output, "read"]);
     let mut small = frame::ExrFile::new(16, 16);
     small.push_color("", &frame::Raster::filled(16, 16, [0.0; 3]));
-    frame::write_exr(&picture, &small).unwrap();
-    refused(&[
-        "out/plate/identity_default/output.exr: has 16x16 pixels, the run's pictures have 64x32",
-        "run it again",
-    ]);
-    fs::rename(&other, &picture).unwrap();
+    frame::write_exr(&sandbox.path(output), &small).unwrap();
+    let size = "has 16x16 pixels, the run's pictures have 64x32";
+    refuse(&[&format!("{output}: {size}"), "run it again"]);
+    write(output, &whole);
 
-    let text = fs::read_to_string(sandbox.path("out/run.json")).unwrap();
-    let mut run: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let mut run: serde_json::Value = sandbox.read_json("out/run.json");
     fs::remove_file(sandbox.path("out/judgement.json")).unwrap();
     run["cases"] = serde_json::json!([]);
-    fs::write(sandbox.path("out/run.json"), run.to_string()).unwrap();
-    refused(&["the run has no cases"]);
+    write("out/run.json", run.to_string().as_bytes());
+    refuse(&["the run has no cases"]);
+    write("out/run.json", b"{}");
+    refuse(&["out/run.json: no run of this program", "`shuttertruth run`"]);
+    fs::remove_file(sandbox.path("out/run.json")).unwrap();
+    refuse(&["out/run.json", "read"]);
 }

@@ -1,14 +1,18 @@
 //! The page of a tuning.
 
 use std::fs;
+use std::sync::OnceLock;
 
+use tests::text::assert_contains;
 use tune::{Sensitivity, Tuning};
 
-use crate::sandbox::{Sandbox, assert_refused, split};
+use crate::sandbox::{Files, Sandbox};
 
-const TUNE: &str = "tune search --quiet --filter jump_flood --from paper --vary samples=2..16,jitter,foreground_extent --objective flip,bleed \
-                    --scenes plate,slow --size 64x32 --samples-per-pixel 16 --out tuned";
+const WORDS: &str = "--quiet --filter jump_flood --from paper \
+    --vary samples=2..16,jitter,foreground_extent --objective flip,bleed --scenes plate,slow --size 64x32 --samples-per-pixel 16 --out tuned";
+const REPORT: &str = "report tuned --html page.html";
 
+/// Makes a sandbox with two scenes of different families and one to hold out.
 fn set_up() -> Sandbox {
     let sandbox = Sandbox::new();
     sandbox.copy_scene("slow", |text| {
@@ -19,12 +23,19 @@ fn set_up() -> Sandbox {
     sandbox
 }
 
-fn tune(sandbox: &Sandbox, more: &[&str]) {
-    sandbox.execute(&[&split(TUNE)[..], more].concat());
+/// Makes a sandbox with a finished tuning.
+fn tuned() -> Sandbox {
+    static FILES: OnceLock<Files> = OnceLock::new();
+    Sandbox::once(&FILES, || {
+        let sandbox = set_up();
+        let held_out = "--held-out held_out --held-out-size 64x32 --held-out-samples-per-pixel 16";
+        sandbox.done(&format!("tune search {WORDS} --budget 14 {held_out}"));
+        sandbox
+    })
 }
 
 fn make_page(sandbox: &Sandbox) -> String {
-    sandbox.execute(&["report", "tuned", "--html", "page.html"]);
+    sandbox.done(REPORT);
     fs::read_to_string(sandbox.path("page.html")).unwrap()
 }
 
@@ -40,84 +51,50 @@ fn find_section<'a>(page: &'a str, heading: &str) -> &'a str {
 
 #[test]
 fn the_page_of_a_tuning_shows_trials_choice_and_folds() {
-    let sandbox = set_up();
-    tune(
-        &sandbox,
-        &split(
-            "--budget 14 --held-out held_out --held-out-size 64x32 --held-out-samples-per-pixel 16",
-        ),
-    );
+    let sandbox = tuned();
     let page = make_page(&sandbox);
     let tuning: Tuning = sandbox.read_json("tuned/tune.json");
-    assert!(page.contains("from paper, 14 trials on 2 scenes"));
-    let convergence = find_section(&page, "Convergence");
-    assert_eq!(
-        convergence.matches("<circle").count(),
-        14,
-        "one mark a trial"
-    );
-    let front = find_section(&page, "Trials that ran on every scene");
+    assert_contains(&page, &["from paper, 14 trials on 2 scenes"]);
+    let section = |heading: &str| find_section(&page, heading);
+    let circles = section("Convergence").matches("<circle").count();
+    assert_eq!(circles, 14, "one mark a trial");
+    let front = section("Trials that ran on every scene");
     for trial in &tuning.front {
-        assert!(
-            front.contains(&format!(
-                "<th scope=\"row\" data-label=\"trial\">{}",
-                trial.trial
-            )),
-            "trial {}",
-            trial.trial
-        );
+        let head = "<th scope=\"row\" data-label=\"trial\">";
+        assert_contains(front, &[&format!("{head}{}", trial.trial)]);
     }
-    let folds = find_section(&page, "Cross-validation");
     assert_eq!(tuning.folds.len(), 2, "two families");
     for fold in &tuning.folds {
-        assert!(
-            folds.contains(&fold.family) && folds.contains(&format!("{:+.3}", fold.gap)),
-            "{fold:?}"
-        );
+        let gap = format!("{:+.3}", fold.gap);
+        assert_contains(section("Cross-validation"), &[&fold.family, &gap]);
     }
-    let held_out = find_section(&page, "Choice against start on held-out scenes");
-    let [start, chosen] = &tuning.held_out[0].paired.scenes["held_out"];
-    for score in [start, chosen] {
-        assert!(held_out.contains(&format!("<td>{:.4}</td>", score.flip)));
+    for score in &tuning.held_out[0].paired.scenes["held_out"] {
+        let cell = format!("<td>{:.4}</td>", score.flip);
+        assert_contains(section("Choice against start on held-out scenes"), &[&cell]);
     }
-    let values = find_section(&page, "Values");
     for (name, value) in &tuning.chosen.values {
-        assert!(
-            values.contains(name.as_str()) && values.contains(&format!("{value}")),
-            "{name}"
-        );
+        assert_contains(section("Values"), &[name, &value.to_string()]);
     }
-    // One chart per varied parameter.
-    assert_eq!(
-        find_section(&page, "Error along each parameter")
-            .matches("<svg")
-            .count(),
-        3
-    );
+    let charts = section("Error along each parameter").matches("<svg");
+    assert_eq!(charts.count(), 3, "one chart per varied parameter");
     for (_, hash) in &tuning.journal.scenes {
-        assert!(find_section(&page, "Provenance").contains(hash.as_str()));
+        assert_contains(section("Provenance"), &[hash]);
     }
-    assert!(
-        !page.contains("http:") && !page.contains("https:"),
-        "something is fetched"
-    );
+    for words in ["http:", "https:"] {
+        assert!(!page.contains(words), "something is fetched");
+    }
 }
 
 #[test]
 fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
     let sandbox = set_up();
-    let words: Vec<&str> = TUNE.split_whitespace().skip(2).collect();
-    sandbox.execute(&[&["tune", "sensitivity", "--rows", "4"], &words[..]].concat());
+    sandbox.done(&format!("tune sensitivity --rows 4 {WORDS}"));
     let page = make_page(&sandbox);
-    let found: Sensitivity =
-        serde_json::from_slice(&fs::read(sandbox.path("tuned/sensitivity.json")).unwrap()).unwrap();
+    let found: Sensitivity = sandbox.read_json("tuned/sensitivity.json");
     let table = find_section(&page, "Which parameters can become constants");
-    for (name, own) in &found.parameters {
+    for own in found.parameters.values() {
         let total = own.indices.total;
-        assert!(
-            table.contains(&format!("{:.3} to {:.3}", total.low, total.high)),
-            "{name}"
-        );
+        assert_contains(table, &[&format!("{:.3} to {:.3}", total.low, total.high)]);
     }
     let slices = find_section(&page, "Error along each parameter");
     assert_eq!(slices.matches("<polyline").count(), found.parameters.len());
@@ -127,67 +104,38 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
         own["indices"] = serde_json::Value::Null;
     }
     fs::write(sandbox.path("tuned/sensitivity.json"), old.to_string()).unwrap();
-    assert_refused(
-        &sandbox.shuttertruth(&["report", "tuned", "--html", "page.html"]),
-        2,
-        &[
-            "tuned/sensitivity.json",
-            "no Sobol indices",
-            "`shuttertruth tune search`",
-        ],
-    );
+    let row = "| tuned/sensitivity.json | no Sobol indices | `shuttertruth tune search`";
+    sandbox.refuse_rows(REPORT, row);
 }
 
 #[test]
 fn an_unfinished_tuning_has_a_page_and_an_empty_folder_is_refused() {
-    let sandbox = set_up();
-    tune(&sandbox, &["--budget", "3"]);
+    let sandbox = tuned();
     fs::remove_file(sandbox.path("tuned/tune.json")).unwrap();
     let journal = sandbox.path("tuned/journal.jsonl");
     let text = fs::read_to_string(&journal).unwrap();
-    // A fourth trial is half written.
-    fs::write(&journal, format!("{text}{{\"trial\": 3, \"val")).unwrap();
-    assert_eq!(
-        find_section(&make_page(&sandbox), "Convergence")
-            .matches("<circle")
-            .count(),
-        3
-    );
-    let words = ["report", "tuned", "--html", "page.html"];
-    fs::write(&journal, format!("{text}{{\"trial\": 3}}\n")).unwrap();
-    assert_refused(
-        &sandbox.shuttertruth(&words),
-        2,
-        &["tuned/journal.jsonl:5", "is no trial"],
-    );
+    // A line is half written.
+    fs::write(&journal, format!("{text}{{\"trial\": 14, \"val")).unwrap();
+    let page = make_page(&sandbox);
+    let convergence = find_section(&page, "Convergence");
+    assert_eq!(convergence.matches("<circle").count(), 14);
+    fs::write(&journal, format!("{text}{{\"trial\": 14}}\n")).unwrap();
+    sandbox.refuse(REPORT, &["tuned/journal.jsonl:16", "is no trial"]);
     fs::remove_file(&journal).unwrap();
-    assert_refused(
-        &sandbox.shuttertruth(&words),
-        2,
-        &["tuned: holds neither a run.json nor"],
-    );
-    let layers = ["report", "tuned", "--exr", "layers"];
-    assert_refused(
-        &sandbox.shuttertruth(&layers),
-        2,
-        &["--exr", "keeps no pictures"],
-    );
+    sandbox.refuse(REPORT, &["tuned: holds neither a run.json nor"]);
+    let layers = "report tuned --exr layers";
+    sandbox.refuse(layers, &["--exr", "keeps no pictures"]);
 }
 
 #[test]
 fn texts_of_a_filter_are_shown_as_text() {
-    let sandbox = set_up();
-    tune(&sandbox, &["--budget", "3"]);
-    let path = sandbox.path("tuned/tune.json");
-    let mut tuning: Tuning = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
-    tuning
-        .failed
-        .insert(2, "<script>alert(1)</script>".to_owned());
-    fs::write(&path, serde_json::to_string(&tuning).unwrap()).unwrap();
+    let sandbox = tuned();
+    let mut tuning: Tuning = sandbox.read_json("tuned/tune.json");
+    let reason = "<script>alert(1)</script>".to_owned();
+    tuning.failed.insert(2, reason);
+    let text = serde_json::to_string(&tuning).unwrap();
+    fs::write(sandbox.path("tuned/tune.json"), text).unwrap();
     let page = make_page(&sandbox);
-    assert!(
-        page.contains("&lt;script&gt;alert(1)"),
-        "the reason is not shown"
-    );
+    assert_contains(&page, &["&lt;script&gt;alert(1)"]);
     assert!(!page.contains("<script>alert(1)"), "the reason is a script");
 }

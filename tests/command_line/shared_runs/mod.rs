@@ -3,19 +3,21 @@
 mod refusals;
 mod same_bytes;
 
+use std::sync::OnceLock;
+
 use serde_json::Value;
 
-use crate::sandbox::{Sandbox, split};
+use crate::sandbox::{Files, Sandbox};
 
 /// Filters of both shutters, one of them with two presets.
-const FILTERS: &str = "--filter velocity_gather,kino:default,identity";
+const FILTERS: &str = "velocity_gather:fine,velocity_gather:coarse,kino:default";
 
 /// Options that measure in next to no time.
 const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
 
 /// Plans a command; returns one job per line.
-fn plan(sandbox: &Sandbox, words: &[&str]) -> Vec<Value> {
-    let text = sandbox.execute(&[&["truths", "plan"], words, &["--json"]].concat());
+fn plan(sandbox: &Sandbox, words: &str) -> Vec<Value> {
+    let text = sandbox.done(&format!("truths plan {words} --json"));
     let lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
     lines.collect()
 }
@@ -31,28 +33,29 @@ fn list(job: &Value, key: &str) -> Vec<String> {
 /// Runs a job, whose inputs must be there; it must leave all its outputs. Returns what it prints.
 #[track_caller]
 fn execute(sandbox: &Sandbox, job: &Value) -> String {
-    for input in list(job, "inputs") {
-        assert!(sandbox.path(&input).is_file(), "{}: no {input}", job["job"]);
-    }
-    let words = list(job, "arguments");
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let printed = sandbox.execute(&words);
-    for output in list(job, "outputs") {
-        assert!(
-            sandbox.path(&output).is_file(),
-            "{}: no {output}",
-            job["job"]
-        );
-    }
+    let assert_files = |key: &str| {
+        for file in list(job, key) {
+            assert!(sandbox.path(&file).is_file(), "{}: no {file}", job["job"]);
+        }
+    };
+    assert_files("inputs");
+    let printed = sandbox.done(&list(job, "arguments").join(" "));
+    assert_files("outputs");
     printed
 }
 
-/// Measures two scenes in one folder each, with one filter and the references.
-fn two_parts() -> Sandbox {
-    let sandbox = Sandbox::two_scenes();
-    for scene in ["plate", "slow"] {
-        let out = ["--filter", "identity", "--scenes", scene, "--out", scene];
-        sandbox.execute(&[&["run"], &split(QUICK)[..], &out].concat());
-    }
-    sandbox
+/// Measures two scenes in one folder each, with one filter and the references; and another filter without them.
+fn parts() -> Sandbox {
+    static FILES: OnceLock<Files> = OnceLock::new();
+    Sandbox::once(&FILES, || {
+        let sandbox = Sandbox::two_scenes();
+        for line in [
+            "--filter identity --scenes plate --out plate",
+            "--filter identity --scenes slow --out slow",
+            "--filter jump_flood:paper --scenes plate --part filters --out flood",
+        ] {
+            sandbox.done(&format!("run {QUICK} {line}"));
+        }
+        sandbox
+    })
 }

@@ -2,40 +2,45 @@
 
 use std::fs;
 use std::process::Command;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use super::{read_journal, set_up, tuning_words};
-use crate::sandbox::assert_refused;
+use super::{ON_TWO, TUNE, read_journal, set_up, tune};
+use crate::sandbox::{assert_refused, split, stderr};
+
+const BUDGET: &str = "--scenes a,b --budget 24";
+
+/// Returns the journal of a tuning that nothing stopped. It runs once for all tests.
+fn whole() -> &'static str {
+    static JOURNAL: OnceLock<String> = OnceLock::new();
+    JOURNAL.get_or_init(|| {
+        let sandbox = set_up();
+        tune(&sandbox, "out", BUDGET);
+        read_journal(&sandbox, "out")
+    })
+}
 
 #[test]
 fn a_killed_tuning_resumes_and_ends_with_the_same_bytes() {
     let sandbox = set_up();
-    sandbox.execute(&tuning_words("whole", "30", &[]));
-    let mut child = sandbox
-        .command(&tuning_words("killed", "30", &[]))
-        .spawn()
-        .unwrap();
-    let path = sandbox.path("killed/journal.jsonl");
+    let words = format!("{TUNE} --out out {BUDGET}");
+    let mut child = sandbox.command(&split(&words)).spawn().unwrap();
+    let path = sandbox.path("out/journal.jsonl");
     let began = Instant::now();
-    while fs::read_to_string(&path).map_or(0, |text| text.lines().count()) < 8 {
+    while fs::read_to_string(&path).map_or(0, |text| text.lines().count()) < 4 {
         // A generous limit: it takes a second or two.
-        assert!(
-            began.elapsed() < Duration::from_secs(120),
-            "no trial after two minutes"
-        );
-        std::thread::sleep(Duration::from_millis(5));
+        let waited = began.elapsed();
+        assert!(waited < Duration::from_secs(120), "no trial began");
+        std::thread::sleep(Duration::from_millis(1));
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    let left = read_journal(&sandbox, "killed");
-    assert!(left.lines().count() < 31, "it was killed on its way");
+    let left = read_journal(&sandbox, "out");
+    assert!(left.lines().count() < 25, "it was killed on its way");
     // A power failure left this line half written.
     fs::write(&path, format!("{left}{{\"trial\":7")).unwrap();
-    sandbox.execute(&tuning_words("killed", "30", &[]));
-    assert_eq!(
-        read_journal(&sandbox, "killed"),
-        read_journal(&sandbox, "whole")
-    );
+    tune(&sandbox, "out", BUDGET);
+    assert_eq!(read_journal(&sandbox, "out"), whole());
 }
 
 #[test]
@@ -49,8 +54,8 @@ fn a_foreign_journal_is_left_unchanged() {
         "first line\nsecond line\n",
     ] {
         fs::write(&path, foreign).unwrap();
-        let refused = sandbox.shuttertruth(&tuning_words("out", "4", &[]));
-        assert_refused(&refused, 2, &["journal.jsonl:1:", "another output folder"]);
+        let parts = ["journal.jsonl:1:", "another output folder"];
+        sandbox.refuse(&format!("{TUNE} --out out {ON_TWO} --budget 4"), &parts);
         assert_eq!(fs::read_to_string(&path).unwrap(), foreign);
     }
 }
@@ -58,22 +63,24 @@ fn a_foreign_journal_is_left_unchanged() {
 #[test]
 fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently() {
     let sandbox = set_up();
-    sandbox.execute(&tuning_words("out", "12", &[]));
-    let first = read_journal(&sandbox, "out");
-    sandbox.execute(&tuning_words("out", "16", &[]));
-    let second = read_journal(&sandbox, "out");
-    assert!(second.starts_with(&first) && second.lines().count() == 17);
-    let other = tuning_words("out", "16", &["--search-seed", "2"]);
-    let output = sandbox.shuttertruth(&other);
+    let mut before = String::new();
+    for (budget, lines) in [("4", 5), ("8", 9)] {
+        tune(&sandbox, "out", &format!("{ON_TWO} --budget {budget}"));
+        let journal = read_journal(&sandbox, "out");
+        assert!(journal.starts_with(&before) && journal.lines().count() == lines);
+        before = journal;
+    }
+    let other = format!("{TUNE} --out out {ON_TWO} --budget 8 --search-seed 2");
+    let output = sandbox.shuttertruth(&split(&other));
     let parts = [
         "journal.jsonl:1: it was begun with another seed: found 1, this command has 2",
         "to go on with it, search with the seed 1",
         "another output folder",
     ];
     assert_refused(&output, 2, &parts);
-    let said = crate::sandbox::stderr(&output);
+    let said = stderr(&output);
     assert!(said.len() < 400, "a wall of numbers: {said}");
-    assert_eq!(read_journal(&sandbox, "out"), second, "nothing is lost");
+    assert_eq!(read_journal(&sandbox, "out"), before, "nothing is lost");
 }
 
 /// Limits the size of files, which stands in for a full disk: either way, a write fails.
@@ -81,7 +88,7 @@ fn a_larger_budget_extends_a_smaller_one_and_another_seed_searches_differently()
 #[test]
 fn a_full_disk_loses_nothing() {
     let sandbox = set_up();
-    sandbox.execute(&tuning_words("out", "1", &[]));
+    tune(&sandbox, "out", &format!("{ON_TWO} --budget 1"));
     let begun = read_journal(&sandbox, "out");
     // Blocks of 512 bytes, with room for a few more trials.
     let blocks = (begun.len() + 2000).div_ceil(512).to_string();
@@ -90,22 +97,16 @@ fn a_full_disk_loses_nothing() {
     let mut full = Command::new("sh");
     full.current_dir(sandbox.path(""))
         .args(["-c", &script, "sh"]);
-    let output = full.args(tuning_words("out", "20", &[])).output().unwrap();
-    assert_refused(
-        &output,
-        2,
-        &[
-            "journal.jsonl: cannot be written",
-            "whole trials are safe",
-            "run the same command again",
-        ],
-    );
+    let words = format!("{TUNE} --out out {BUDGET}");
+    let output = full.args(split(&words)).output().unwrap();
+    let parts = [
+        "journal.jsonl: cannot be written",
+        "whole trials are safe",
+        "run the same command again",
+    ];
+    assert_refused(&output, 2, &parts);
     let left = read_journal(&sandbox, "out");
     assert!(left.starts_with(&begun) && left.len() > begun.len());
-    sandbox.execute(&tuning_words("out", "20", &[]));
-    sandbox.execute(&tuning_words("whole", "20", &[]));
-    assert_eq!(
-        read_journal(&sandbox, "out"),
-        read_journal(&sandbox, "whole")
-    );
+    tune(&sandbox, "out", BUDGET);
+    assert_eq!(read_journal(&sandbox, "out"), whole());
 }

@@ -8,7 +8,7 @@ use std::fs;
 
 use tune::{Trial, Tuning};
 
-use crate::sandbox::{MTL, OBJ, SCENE, Sandbox, split};
+use crate::sandbox::Sandbox;
 
 /// Scenes: name, distance that the plate moves in one frame in metres, and family.
 const SCENES: [(&str, &str, &str); 7] = [
@@ -25,42 +25,48 @@ const SCENES: [(&str, &str, &str); 7] = [
 fn set_up() -> Sandbox {
     let sandbox = Sandbox::new();
     for (name, way, family) in SCENES {
-        let scene = SCENE
-            .replace("translation = [-1.6,", &format!("translation = [{way},"))
-            .replace("\"translation\"", &format!("\"{family}\""));
-        let folder = sandbox.path("scenes").join(name);
-        fs::create_dir_all(&folder).unwrap();
-        for (file, text) in [
-            ("scene.toml", scene.as_str()),
-            ("plate.obj", OBJ),
-            ("plate.mtl", MTL),
-        ] {
-            fs::write(folder.join(file), text).unwrap();
-        }
+        sandbox.copy_scene(name, |text| {
+            let exposes = text.replace("nothing:", "a copy:");
+            let moved = exposes.replace("translation = [-1.6,", &format!("translation = [{way},"));
+            moved.replace("\"translation\"", &format!("\"{family}\""))
+        });
     }
     sandbox
 }
 
-/// Tuning of five parameters on six scenes, by scores that do not depend on a clock.
+/// Tuning of five parameters by scores that do not depend on a clock.
 const TUNE: &str = "tune search --quiet --filter jump_flood --from paper \
     --vary samples=2..16,probes,match_threshold,jitter,foreground_extent --objective flip,bleed \
-    --scenes a,b,c,d,e,f,g --size 64x32 --samples-per-pixel 16 --budget";
+    --size 64x32 --samples-per-pixel 16";
 
-fn tuning_words<'w>(out: &'w str, budget: &'w str, more: &[&'w str]) -> Vec<&'w str> {
-    [&split(TUNE)[..], &[budget, "--out", out], more].concat()
+/// Does it on a few scenes, or on more.
+const ON_TWO: &str = "--scenes a,b";
+const ON_SEVEN: &str = "--scenes a,b,c,d,e,f,g";
+
+/// Tunes in a folder; returns what it prints.
+#[track_caller]
+fn tune(sandbox: &Sandbox, out: &str, more: &str) -> String {
+    sandbox.done(&format!("{TUNE} --out {out} {more}"))
 }
 
 fn read_journal(sandbox: &Sandbox, out: &str) -> String {
     fs::read_to_string(sandbox.path(out).join("journal.jsonl")).unwrap()
 }
 
-fn parse_trials(journal: &str) -> Vec<Trial> {
+fn read_trials(sandbox: &Sandbox) -> Vec<Trial> {
+    let journal = read_journal(sandbox, "out");
     let lines = journal.lines().skip(1);
     lines
         .map(|line| serde_json::from_str(line).unwrap())
         .collect()
 }
 
-fn read_tuning(sandbox: &Sandbox, out: &str) -> Tuning {
-    sandbox.read_json(&format!("{out}/tune.json"))
+fn read_tuning(sandbox: &Sandbox) -> Tuning {
+    sandbox.read_json("out/tune.json")
+}
+
+/// Joins the lines of a text, which break at the width of the terminal.
+fn unwrap_lines(text: &str) -> String {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    words.join(" ")
 }

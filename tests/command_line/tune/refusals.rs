@@ -3,98 +3,54 @@
 use std::fs;
 
 use tests::filter_folder::{write_manifest, write_script};
+use tests::text::assert_contains;
 
-use super::{read_tuning, set_up};
-use crate::sandbox::{SCENE, Sandbox, assert_done, assert_refused, split, stderr, stdout};
+use super::{read_tuning, set_up, unwrap_lines};
+use crate::sandbox::{SCENE, Sandbox, assert_done, split, stderr, stdout};
+
+const SEARCH: &str = "tune search --quiet --size 64x32 --samples-per-pixel 16 --out out";
 
 #[test]
 fn bad_tunings_are_refused_and_leave_no_files() {
     let sandbox = set_up();
-    fs::write(
-        sandbox.path("scenes/g/scene.toml"),
-        SCENE.replace("translation = [-1.6,", "translation = [0,"),
-    )
-    .unwrap();
-    let rows: [(&[&str], &[&str]); 9] = [
-        (&["--budget", "0"], &["--budget <N>", "0 is not in 1.."]),
-        (
-            &["--vary", "sample"],
-            &["parameter sample:", "no parameter", "samples"],
-        ),
-        (
-            &["--vary", "samples=9..3"],
-            &["parameter samples=9..3", "the range is empty"],
-        ),
-        (
-            &["--scenes", "nowhere"],
-            &["no scene \"nowhere\"", "allowed: a, b"],
-        ),
-        (&["--scenes", "a,a"], &["a is named twice"]),
-        (&["--held-out", "b"], &["scene b", "proves nothing"]),
-        (
-            &["--cost-at-most", "1x"],
-            &["cost has a limit", "objectives: flip,cost"],
-        ),
-        (&["--objective", "speed"], &["allowed: flip, bleed, cost"]),
-        (&["--from", "fastest"], &["no preset \"fastest\"", "paper"]),
-    ];
-    let usual = [
-        ("--budget", "2"),
-        ("--filter", "jump_flood"),
-        ("--scenes", "a"),
-        ("--out", "out"),
-    ];
-    for (more, parts) in rows {
-        let mut words = vec!["tune", "search", "--quiet", "--objective", "flip"];
-        if more[0] == "--objective" {
-            words.truncate(2);
-        }
-        for (name, value) in usual.iter().filter(|(name, _)| *name != more[0]) {
-            words.extend([name, value]);
-        }
-        if more[0] == "--held-out" {
-            words.extend(["--vary", "samples"]);
-            let at = words.iter().position(|word| *word == "a").unwrap();
-            words[at] = "a,b";
-        }
-        assert_refused(
-            &sandbox.shuttertruth(&[&words[..], more].concat()),
-            2,
-            parts,
-        );
-        assert!(
-            !sandbox.path("out").exists(),
-            "{more:?} left something behind"
-        );
-    }
-    let still = split("tune search --quiet --filter jump_flood --scenes g --size 64x32 --out out");
-    let few = ["--samples-per-pixel", "16"];
-    let output = sandbox.shuttertruth(&[&still[..], &few].concat());
-    assert_refused(
-        &output,
-        2,
-        &["scene g: nothing moves", "leave the scene out"],
+    let still = SCENE.replace("translation = [-1.6,", "translation = [0,");
+    fs::write(sandbox.path("scenes/g/scene.toml"), still).unwrap();
+    let search = format!("{SEARCH} --filter jump_flood --budget 2");
+    sandbox.refuse_rows(
+        &format!("{search} --objective flip"),
+        r#"
+        --scenes nowhere | no scene "nowhere" | allowed: a, b
+        --scenes a,a | a is named twice
+        --scenes a,b --held-out b --vary samples | scene b | proves nothing
+        --scenes a --vary sample | parameter sample: | no parameter | samples
+        --scenes a --vary samples=9..3 | parameter samples=9..3 | the range is empty
+        --scenes a --cost-at-most 1x | cost has a limit | objectives: flip,cost
+        --scenes a --from fastest | no preset "fastest" | paper
+        "#,
     );
+    let rows = "--scenes a --objective speed | allowed: flip, bleed, cost";
+    sandbox.refuse_rows(&search, rows);
+    let no_budget = search.replace("--budget 2", "--budget 0");
+    sandbox.refuse(&no_budget, &["--budget <N>", "0 is not in 1.."]);
+    assert!(!sandbox.path("out").exists(), "nothing is written");
+    let parts = ["scene g: nothing moves", "leave the scene out"];
+    sandbox.refuse(&format!("{search} --scenes g"), &parts);
 }
 
 #[test]
 fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
     let sandbox = set_up();
-    let words =
-        split("tune search --quiet --filter jump_flood --from paper --vary samples=2..16,jitter");
-    let few = split("--objective flip --scenes a,b --size 64x32 --samples-per-pixel 16 --out out");
     fs::create_dir(sandbox.path("out")).unwrap();
     fs::write(sandbox.path("out/preset.toml"), "of an earlier tuning").unwrap();
-    let text = sandbox.execute(&[&words[..], &few, &["--budget", "12"]].concat());
-    let text: Vec<&str> = text.split_whitespace().collect();
-    let text = text.join(" ");
-    let trial = read_tuning(&sandbox, "out").choice.trial;
-    let reason = match trial {
+    let more = "--filter jump_flood --from paper --vary samples=2..16,jitter \
+        --objective flip --scenes a,b --budget 12";
+    let text = unwrap_lines(&sandbox.done(&format!("{SEARCH} {more}")));
+    let reason = match read_tuning(&sandbox).choice.trial {
         0 => "no trial beats it".to_owned(),
         trial => format!("2 scenes cannot tell trial {trial} from it, and 5 or more may"),
     };
     let sentence = format!("keep the start, no preset.toml is written: {reason}");
-    assert!(text.contains(&sentence), "{text}");
+    assert_contains(&text, &[&sentence]);
     assert!(!sandbox.path("out/preset.toml").exists());
     assert!(sandbox.path("out/params.json").is_file());
 }
@@ -117,43 +73,24 @@ fn fails_above_a_half(sandbox: &Sandbox, name: &str, default: &str) {
 fn a_failing_candidate_is_reported_and_the_tuning_goes_on() {
     let sandbox = set_up();
     fails_above_a_half(&sandbox, "fragile", "0.25");
-    let tune = |filter| {
-        let words = [
-            "tune",
-            "search",
-            "--quiet",
-            "--allow-commands",
-            "--filter",
-            filter,
-            "--objective",
-            "flip",
-            "--scenes",
-            "a,b",
-        ];
-        let more = split("--size 64x32 --samples-per-pixel 16 --budget 8 --out out");
-        sandbox.shuttertruth(&[&words[..], &more].concat())
+    fails_above_a_half(&sandbox, "broken", "0.75");
+    let tune = |filter: &str| {
+        let more = "--allow-commands --objective flip --scenes a,b --budget 8";
+        let line = format!("{SEARCH} {more} --filter {filter}");
+        sandbox.shuttertruth(&split(&line))
     };
     let output = tune("./fragile");
     assert_done(&output);
-    let tuning = read_tuning(&sandbox, "out");
+    let tuning = read_tuning(&sandbox);
     assert_eq!(tuning.trials, 8);
     assert!((1..8).contains(&tuning.failed.len()), "{:?}", tuning.failed);
-    let text = stdout(&output);
-    assert!(
-        text.contains("failed: trial") && text.contains("too strong"),
-        "{text}"
-    );
-    for (trial, reason) in &tuning.failed {
-        assert!(reason.contains("too strong"), "trial {trial}: {reason}");
+    assert_contains(&stdout(&output), &["failed: trial", "too strong"]);
+    for reason in tuning.failed.values() {
+        assert_contains(reason, &["too strong"]);
     }
     // A start that fails leaves nothing to compare with.
-    fails_above_a_half(&sandbox, "broken", "0.75");
     fs::remove_dir_all(sandbox.path("out")).unwrap();
     let output = tune("./broken");
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("too strong"),
-        "{}",
-        stderr(&output)
-    );
+    assert_contains(&stderr(&output), &["too strong"]);
 }

@@ -1,4 +1,4 @@
-//! Measured lengths of every filter's smear against promised ones, on the scene `sliding_panel` at several speeds and
+//! Measured lengths and places of every filter's smear against promised ones, on the scene `sliding_panel` at several speeds and
 //! angles.
 
 mod outcome;
@@ -7,50 +7,42 @@ mod promised;
 mod silhouette;
 
 use frame::Alignment;
-use outcome::{ANGLES, OUTCOMES, Outcome, SHOTS};
-use panel::{HALF_BAND, HALF_PANEL, TRUTHS};
+use outcome::{Outcome, blur_shots};
+use panel::{HALF_BAND, HALF_PANEL, Shot};
 use promised::{promised_smear, stated_lengths};
-use tests::kernels::{Tap, along_motion, expected_ramp, place_taps};
+use silhouette::Light;
+use tests::kernels::{Tap, along_motion, place_taps};
+use tests::near::assert_near;
 use tests::ramp::Ramp;
 
-/// Cuts out the part of a profile on one side of the panel's middle, with positions counted from the panel's edge
-/// there.
-fn edge(profile: &[(f64, f64)], front: bool) -> Vec<(f64, f64)> {
-    let side = if front { 1.0 } else { -1.0 };
-    profile
-        .iter()
-        .filter(|(position, _)| position * side >= 0.0)
-        .map(|(position, value)| (position - side * HALF_PANEL, *value))
-        .collect()
-}
-
 #[test]
-fn the_panel_moves_at_the_requested_speed() {
-    for shot in SHOTS.iter() {
-        let middle = shot.frame.velocity.at(panel::WIDTH / 2, panel::HEIGHT / 2);
-        for (found, expected) in middle.iter().zip(shot.steady().velocity) {
-            // 32-bit floats of up to 48 pixels.
-            assert!((f64::from(*found) - expected).abs() < 1e-4);
+fn the_truth_s_smear_is_as_long_as_the_exposure_and_takes_as_much_as_it_gives() {
+    let shot = Shot::new(24.0, 30.0, 1.0);
+    // The truth of a trailing shutter leaves half its smear behind, that of a centred one an eighth on each side of both edges.
+    for (alignment, middle, light) in [
+        (Alignment::Trailing, -0.5, [0.5, 0.0, 0.5, 0.0]),
+        (Alignment::Centred, 0.0, [0.125; 4]),
+    ] {
+        let truth = shot.true_matte(alignment);
+        let found = Light::of(&shot, &truth).all();
+        for (found, expected) in found.into_iter().zip(light) {
+            // The panel's edge lies within a pixel, and the tent is 2 wide.
+            assert_near(found, expected * shot.speed, 0.5);
         }
-    }
-}
-
-#[test]
-fn the_truth_s_smear_is_as_long_as_the_exposure() {
-    let (shot, truths) = &*TRUTHS;
-    let instant = shot.profile(shot.matte());
-    for (alignment, truth) in truths {
-        let truth = shot.profile(truth);
-        let middle = match alignment {
-            Alignment::Trailing => -0.5 * shot.speed,
-            _ => 0.0,
-        };
-        for front in [true, false] {
-            let before = Ramp::of(&edge(&instant, front));
-            let found = Ramp::of(&edge(&truth, front)).beyond(before);
+        let truth = shot.profile(&truth);
+        for side in [1.0, -1.0] {
+            // One side of the panel's middle, with positions counted from the panel's edge there.
+            let [before, after] = [&shot.matte_profile, &truth].map(|profile| {
+                let own = profile
+                    .iter()
+                    .filter(|(position, _)| position * side >= 0.0);
+                let edge = own.map(|(position, value)| (position - side * HALF_PANEL, *value));
+                Ramp::of(&edge.collect::<Vec<_>>())
+            });
+            let found = after.beyond(before);
             // Noise of 32 samples in a band of 33 pixels, weighted by squared distances.
-            assert!((found.length - shot.speed).abs() < 0.2, "{found:?}");
-            assert!((found.middle - middle).abs() < 0.2, "{found:?}");
+            assert_near(found.length, shot.speed, 0.2);
+            assert_near(found.middle, middle * shot.speed, 0.2);
         }
     }
 }
@@ -58,117 +50,120 @@ fn the_truth_s_smear_is_as_long_as_the_exposure() {
 /// Returns whether the panel is long enough for the taps of a preset, and the picture too if the preset pushes taps
 /// inwards at its border.
 fn fits(outcome: &Outcome) -> bool {
-    let steady = outcome.shot().steady();
-    let noise = [0.0, 0.25, 0.5, 0.75, 0.999_999];
-    let taps: Vec<Tap> = noise
+    let steady = &outcome.steady;
+    let taps: Vec<Tap> = [0.0, 0.25, 0.5, 0.75, 0.999_999]
         .into_iter()
-        .flat_map(|noise| place_taps(&outcome.filter, &outcome.preset, &steady, noise))
+        .flat_map(|noise| place_taps(&outcome.filter, &outcome.preset, steady, noise))
         .collect();
     let farthest = |part: &dyn Fn([f64; 2]) -> f64| {
         let parts = taps.iter().map(|tap| part(tap.offset).abs());
         parts.fold(0.0, f64::max)
     };
-    let reach = farthest(&|offset| along_motion(&steady, offset));
+    let reach = farthest(&|offset| along_motion(steady, offset));
     // A trail that is turned leaves the panel beside the band, too.
-    let aside = farthest(&|[x, y]| along_motion(&steady, [-y, x]));
+    let aside = farthest(&|[x, y]| along_motion(steady, [-y, x]));
     let pushes = outcome.filter == "jimenez" && outcome.preset.starts_with("wicked");
-    let room = if pushes {
-        0.5 * outcome.shot().to_border()
-    } else {
-        f64::INFINITY
+    let room = match pushes {
+        true => 0.5 * outcome.shot.to_border(),
+        false => f64::INFINITY,
     };
     reach < (HALF_PANEL - 3.0).min(room) && aside + HALF_BAND < HALF_PANEL - 3.0
 }
 
-/// Returns the ramp that a preset's taps make of an edge painted on the panel. The camera stands still.
-fn expect_ramp(outcome: &Outcome) -> Ramp {
-    match outcome.filter.as_str() {
+/// Compares the edge painted on the panel with the ramp that a preset's taps make of it, and its length with what the filter's text
+/// says. Returns what is wrong.
+fn check_ramp(outcome: &Outcome) -> Option<String> {
+    let Outcome { filter, preset, .. } = outcome;
+    let trail = outcome.shot.speed * outcome.shot.exposure;
+    let painted = Ramp::of(&outcome.shot.profile(&outcome.painted));
+    let found = painted.beyond(outcome.shot.painted_ramp);
+    let expected = match filter.as_str() {
+        // The camera stands still.
         "camera_gather" | "babylon_screen" => Ramp {
             length: 0.0,
             middle: 0.0,
         },
-        filter => expected_ramp(filter, &outcome.preset, &outcome.shot().steady()),
+        _ => outcome.ramp,
+    };
+    let tolerance = match preset.as_str() {
+        // Two taps at whole pixels: the noise has about nine values along a row, and rounding moves either end of a
+        // smear by up to half a pixel. The largest measured error is 1.1.
+        "msaa" => 1.2,
+        // Noise in a band of 33 pixels, mostly with two taps.
+        // Of two pixels that are equally near, all rows may take the same one: half a pixel for the middle.
+        _ if filter == "babylon" => 0.7,
+        _ => 0.2 + 0.01 * trail,
+    };
+    let off = (found.length - expected.length).abs();
+    if off.max((found.middle - expected.middle).abs()) > tolerance {
+        return Some(format!("{found:?} instead of {expected:?}"));
     }
+    let promise = promised_smear(filter, preset, &outcome.steady);
+    if promise == 0.0 {
+        return (found.length > 0.01).then(|| format!("{found:?} instead of none"));
+    }
+    let part = (100.0 * found.length / promise).round() / 100.0;
+    println!(
+        "    {part:.2} of the promised length, which is {:.2} of the true one",
+        promise / trail
+    );
+    let stated = stated_lengths(filter, preset);
+    // three.js turns the trail, here across the motion. At lower speeds, interpolation and the pixel grid weigh more.
+    let is_stated = promise < 1e-9 || trail < 8.0 || stated.contains(&part);
+    (!is_stated).then(|| format!("{part} of the promised length, stated {stated:?}"))
 }
 
-/// Measures the edge painted on the panel; none if the panel is too short.
-fn measure_ramp(outcome: &Outcome) -> Option<Ramp> {
-    let shot = outcome.shot();
-    let before = Ramp::of(&shot.profile(&shot.painted()));
-    fits(outcome).then(|| Ramp::of(&shot.profile(&outcome.painted)).beyond(before))
-}
-
-fn promised_length(outcome: &Outcome) -> f64 {
-    promised_smear(&outcome.filter, &outcome.preset, &outcome.shot().steady())
-}
-
-#[test]
-fn an_edge_on_the_panel_smears_as_far_as_each_filter_s_taps_predict() {
-    let mut wrong = Vec::new();
-    let mut compared = 0;
-    for outcome in OUTCOMES.iter() {
-        let Some(found) = measure_ramp(outcome) else {
-            continue;
-        };
-        let expected = expect_ramp(outcome);
-        let off = [
-            found.length - expected.length,
-            found.middle - expected.middle,
-        ];
-        let tolerance = match outcome.preset.as_str() {
-            // Two taps at whole pixels: the noise has about nine values along a row, and rounding moves either end of a
-            // smear by up to half a pixel. The largest measured error is 1.1.
-            "msaa" => 1.2,
-            // Noise in a band of 33 pixels, mostly with two taps.
-            // Of two pixels that are equally near, all rows may take the same one: half a pixel for the middle.
-            _ if outcome.filter == "babylon" => 0.7,
-            _ => 0.2 + 0.01 * outcome.shot().speed,
-        };
-        if off.iter().any(|off| off.abs() > tolerance) {
-            let said = outcome.describe();
-            wrong.push(format!("{said}: {found:?} instead of {expected:?}"));
+/// Measures every preset on shots of these speeds, in pixels per frame, angles, in degrees, and exposures, in frames.
+fn measure_presets(shots: &[(f64, f64, f64)]) {
+    let shots: Vec<Shot> = (shots.iter())
+        .map(|(speed, degrees, exposure)| Shot::new(*speed, *degrees, *exposure))
+        .collect();
+    for shot in &shots {
+        let middle = shot.frame.velocity.at(panel::WIDTH / 2, panel::HEIGHT / 2);
+        for (found, expected) in middle.iter().zip(shot.steady().velocity) {
+            // 32-bit floats of up to 48 pixels.
+            assert_near(*found, expected, 1e-4);
         }
-        compared += 1;
+    }
+    let outcomes = blur_shots(&shots);
+    let mut wrong = Vec::new();
+    let mut measured = 0;
+    for outcome in &outcomes {
+        println!("{}", outcome.describe());
+        let light = Light::of(outcome.shot, &outcome.matte);
+        let mut found = vec![silhouette::check_growth(outcome, light)];
+        if fits(outcome) {
+            found.push(check_ramp(outcome));
+            found.push(silhouette::check_light(outcome, light));
+            measured += 1;
+        }
+        let found = found.into_iter().flatten();
+        wrong.extend(found.map(|found| format!("{}: {found}", outcome.describe())));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     // All except long smears of seven presets.
-    assert!(compared + 40 > OUTCOMES.len(), "only {compared} compared");
+    assert!(
+        (20 * (outcomes.len() - measured)) <= 40 * shots.len(),
+        "only {measured} measured"
+    );
 }
 
 #[test]
-fn smears_are_as_long_as_each_filter_s_text_says() {
-    println!("measured / promised length (promised / true) at {ANGLES:?} degrees");
-    let mut wrong = Vec::new();
-    for row in OUTCOMES.chunks(ANGLES.len()) {
-        let (name, speed) = (
-            format!("{} {}", row[0].filter, row[0].preset),
-            row[0].shot().speed,
-        );
-        let cells = row.iter().map(|outcome| {
-            let Some(found) = measure_ramp(outcome) else {
-                return "longer than the panel".to_owned();
-            };
-            let promise = promised_length(outcome);
-            if promise == 0.0 {
-                if found.length > 0.01 {
-                    wrong.push(format!("{}: {found:?} instead of none", outcome.describe()));
-                }
-                return "none".to_owned();
-            }
-            // three.js turns the trail, here across the motion.
-            if promise < 1e-9 {
-                return "across".to_owned();
-            }
-            let part = (100.0 * found.length / promise).round() / 100.0;
-            let stated = stated_lengths(&outcome.filter, &outcome.preset);
-            // At lower speeds, interpolation and the pixel grid weigh more.
-            if speed >= 8.0 && !stated.contains(&part) {
-                wrong.push(format!("{}: {part}, stated {stated:?}", outcome.describe()));
-            }
-            format!("{part:.2} ({:.2})", promise / speed)
-        });
-        let cells: Vec<String> = cells.collect();
-        println!("{name:<28} {speed:>2} px  {}", cells.join("  "));
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+fn smears_are_as_long_as_each_filter_s_text_says_and_lie_where_its_taps_put_them() {
+    measure_presets(&[
+        (3.0, 135.0, 1.0),
+        (8.0, 90.0, 1.0),
+        (16.0, 0.0, 1.0),
+        (24.0, 30.0, 1.0),
+        (48.0, 135.0, 1.0),
+        (48.0, 180.0, 0.5),
+    ]);
+}
+
+#[test]
+#[ignore = "prove: five speeds at four angles"]
+fn smears_of_every_speed_and_angle_are_as_each_filter_s_text_says() {
+    let speeds = [3.0, 8.0, 16.0, 24.0, 48.0].into_iter();
+    let shots = speeds.flat_map(|speed| [0.0, 30.0, 90.0, 135.0].map(|angle| (speed, angle, 1.0)));
+    measure_presets(&shots.collect::<Vec<_>>());
 }

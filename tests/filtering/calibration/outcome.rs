@@ -1,79 +1,66 @@
-//! Every shot, blurred by every filter.
+//! A shot, blurred by a filter.
 
-use std::sync::LazyLock;
-
-use filters::{Blur, Input};
+use filters::Input;
 use frame::Plane;
-use tests::open_gpu;
+use tests::kernels::{Steady, expected_ramp};
+use tests::picture::frame_input;
 use tests::presets::{every_preset, gain};
+use tests::ramp::Ramp;
+use tests::ready_blur;
 
-use super::panel::{EXPOSURE, HEIGHT, Shot, WIDTH};
+use super::panel::{HEIGHT, Shot, WIDTH};
 
-pub const SPEEDS: [f64; 5] = [3.0, 8.0, 16.0, 24.0, 48.0];
-pub const ANGLES: [f64; 4] = [0.0, 30.0, 90.0, 135.0];
-
-pub struct Outcome {
+pub struct Outcome<'s> {
     pub filter: String,
     pub preset: String,
-    /// Index into [`SHOTS`].
-    pub shot: usize,
+    pub shot: &'s Shot,
+    pub steady: Steady,
+    /// Ramp that the taps make of an edge that moves with everything.
+    pub ramp: Ramp,
     /// Blur of [`Shot::painted`], without the gain of the preset.
     pub painted: Plane,
     /// Blur of [`Shot::matte`], without the gain of the preset.
     pub matte: Plane,
 }
 
-/// A shot for every angle at every speed.
-pub static SHOTS: LazyLock<Vec<Shot>> = LazyLock::new(|| {
-    let speeds = SPEEDS.into_iter();
-    speeds
-        .flat_map(|speed| ANGLES.map(|degrees| Shot::new(speed, degrees)))
-        .collect()
-});
-
-/// Blurs by every preset, in the order of the shots.
-pub static OUTCOMES: LazyLock<Vec<Outcome>> = LazyLock::new(|| {
-    let gpu = open_gpu();
+/// Blurs every shot by every preset.
+pub fn blur_shots(shots: &[Shot]) -> Vec<Outcome<'_>> {
     let mut outcomes = Vec::new();
     for (filter, settings) in every_preset() {
-        let mut blur = Blur::new(&gpu, &filter, &settings, WIDTH, HEIGHT).unwrap();
-        for (index, shot) in SHOTS.iter().enumerate() {
+        let mut blur = ready_blur(&filter, &settings, (WIDTH, HEIGHT));
+        for shot in shots {
             // Colours get the same weights, so that one run blurs both.
-            let color = shot.painted().zip(shot.matte(), |a, b| [*a, *b, 0.0]);
+            let color = shot.painted.zip(shot.matte(), |a, b| [*a, *b, 0.0]);
+            let colors = [&color];
             let input = Input {
-                color: &[&color],
-                velocity: &shot.frame.velocity,
-                depth: &shot.frame.depth,
-                reprojection: Some(shot.frame.reprojection),
-                camera: shot.frame.camera,
-                exposure: EXPOSURE,
                 frames_per_second: None,
-                frame_index: 0,
+                ..frame_input(&shot.frame, &colors)
             };
             let gain = gain(&filter, &settings);
             let blurred = blur.run(&input).unwrap().remove(0);
             outcomes.push(Outcome {
                 filter: filter.name.clone(),
                 preset: settings.preset.clone(),
-                shot: index,
+                shot,
+                steady: shot.steady(),
+                ramp: expected_ramp(&filter.name, &settings.preset, &shot.steady()),
                 painted: blurred.map(|[painted, ..]| painted / gain),
                 matte: blurred.map(|[_, matte, _]| matte / gain),
             });
         }
     }
     outcomes
-});
+}
 
-impl Outcome {
-    pub fn shot(&self) -> &'static Shot {
-        &SHOTS[self.shot]
-    }
-
+impl Outcome<'_> {
     pub fn describe(&self) -> String {
-        let shot = self.shot();
-        format!(
-            "{} {} at {} px and {} degrees",
-            self.filter, self.preset, shot.speed, shot.degrees
-        )
+        let Shot {
+            speed,
+            degrees,
+            exposure,
+            ..
+        } = self.shot;
+        let Self { filter, preset, .. } = self;
+        format!("{filter} {preset} at {speed} px, {degrees} degrees and {exposure} frames")
     }
 }

@@ -1,10 +1,9 @@
 //! The scene `sliding_panel` with a larger panel that faces its motion, at any speed.
 
-use std::sync::LazyLock;
-
 use frame::{Alignment, Frame, Plane, Raster};
 use glam::{DQuat, DVec2, DVec3};
 use tests::kernels::Steady;
+use tests::ramp::Ramp;
 use tests::{half_plane, unwatched};
 use tracer::{Key, Motion, RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 
@@ -21,15 +20,6 @@ pub const HALF_BAND: f64 = 16.0;
 /// Half the width of the tent, in pixels. The rows of pixels in a tilted band lie up to 0.7 apart; a narrower tent
 /// would resolve them.
 const TENT: f64 = 2.0;
-pub const EXPOSURE: f64 = 1.0;
-
-/// Two truths of one shot, which two tests need.
-pub static TRUTHS: LazyLock<(Shot, [(Alignment, Plane); 2])> = LazyLock::new(|| {
-    let shot = Shot::new(24.0, 30.0);
-    let alignments = [Alignment::Trailing, Alignment::Centred];
-    let truths = alignments.map(|alignment| (alignment, shot.true_matte(alignment)));
-    (shot, truths)
-});
 
 /// A moving panel at the middle of the picture.
 pub struct Shot {
@@ -37,20 +27,27 @@ pub struct Shot {
     pub speed: f64,
     /// Angle of the motion in degrees: 0 to the right, 90 upwards.
     pub degrees: f64,
+    /// Exposure, in frames.
+    pub exposure: f64,
     pub frame: Frame,
+    /// White behind the panel's middle and black ahead of it, as if painted on the panel and on everything beyond.
+    pub painted: Plane,
+    /// The edge that is painted, and the light along the motion of the panel at the instant.
+    pub painted_ramp: Ramp,
+    pub matte_profile: Vec<(f64, f64)>,
+    /// Index of the panel among the objects.
+    panel: usize,
     scene: Scene,
 }
 
 impl Shot {
-    pub fn new(speed: f64, degrees: f64) -> Self {
+    pub fn new(speed: f64, degrees: f64, exposure: f64) -> Self {
         let folder = tests::scenes().join("sliding_panel");
         let mut scene = load_scene(&folder, None).unwrap();
         let turned = DQuat::from_rotation_z(degrees.to_radians());
         let step = turned * DVec3::X * speed * METRES_PER_PIXEL;
-        let panel = scene
-            .objects
-            .iter_mut()
-            .find(|object| object.name == "panel");
+        let mut objects = scene.objects.iter_mut();
+        let panel = objects.find(|object| object.name == "panel");
         let panel = panel.expect("the scene has a panel");
         let key = |time: f64| Key {
             time,
@@ -63,18 +60,29 @@ impl Shot {
             keys: vec![key(-1.0), key(1.0)],
             ..Motion::default()
         };
+        let direction = direction(degrees);
+        let painted = Raster::from_fn(WIDTH, HEIGHT, |x, y| {
+            let pixel = DVec2::new(f64::from(x), f64::from(y));
+            half_plane::area(pixel, direction, direction.dot(middle())) as f32
+        });
+        let frame = trace_frame(&scene, &render_settings(4, exposure), &unwatched).unwrap();
+        let panel = frame.objects.iter().position(|name| name == "panel");
+        let panel = panel.expect("the frame lists the panel");
         Self {
             speed,
             degrees,
-            frame: trace_frame(&scene, &render_settings(4), &unwatched).unwrap(),
+            exposure,
+            painted_ramp: Ramp::of(&measure_profile(&painted, direction, speed)),
+            painted,
+            matte_profile: measure_profile(&frame.coverage[panel], direction, speed),
+            frame,
+            panel,
             scene,
         }
     }
 
-    /// Returns the direction of the motion, +y down.
     pub fn direction(&self) -> DVec2 {
-        let (sine, cosine) = self.degrees.to_radians().sin_cos();
-        DVec2::new(cosine, -sine)
+        direction(self.degrees)
     }
 
     /// Returns the distance from the middle of the picture to its border along the motion, in pixels.
@@ -86,74 +94,67 @@ impl Shot {
     pub fn steady(&self) -> Steady {
         Steady {
             velocity: (self.speed * self.direction()).to_array(),
-            exposure: EXPOSURE,
+            exposure: self.exposure,
             size: [WIDTH, HEIGHT],
         }
     }
 
-    /// Makes a picture that is white behind the panel's middle and black ahead of it, as if painted on the panel and on
-    /// everything beyond.
-    pub fn painted(&self) -> Plane {
-        let normal = self.direction();
-        let offset = normal.dot(middle());
-        Raster::from_fn(WIDTH, HEIGHT, |x, y| {
-            let pixel = DVec2::new(f64::from(x), f64::from(y));
-            half_plane::area(pixel, normal, offset) as f32
-        })
-    }
-
     /// Returns the part of each pixel that the panel covers at the instant.
     pub fn matte(&self) -> &Plane {
-        &self.frame.coverage[self.panel()]
+        &self.frame.coverage[self.panel]
     }
 
     /// Returns the part of each pixel that the panel covers while the shutter is open.
-    fn true_matte(&self, alignment: Alignment) -> Plane {
-        let truth = trace_truth(&self.scene, &render_settings(32), alignment, &unwatched).unwrap();
-        let [first, second] = truth.halves.map(|half| half.coverage[self.panel()].clone());
+    pub fn true_matte(&self, alignment: Alignment) -> Plane {
+        let settings = render_settings(32, self.exposure);
+        let truth = trace_truth(&self.scene, &settings, alignment, &unwatched).unwrap();
+        let [first, second] = truth.halves.map(|half| half.coverage[self.panel].clone());
         first.zip(&second, |a, b| 0.5 * (a + b))
     }
 
-    fn panel(&self) -> usize {
-        let index = self.frame.objects.iter().position(|name| name == "panel");
-        index.expect("the frame lists the panel")
-    }
-
-    /// Measures the brightness along the motion, at every whole pixel from the panel's middle: the mean over a band,
-    /// smoothed by a tent.
     pub fn profile(&self, plane: &Plane) -> Vec<(f64, f64)> {
-        let direction = self.direction();
-        let reach = (HALF_PANEL + self.speed + 16.0).ceil() as i32;
-        let mut sums = vec![(0.0, 0.0); (2 * reach + 1) as usize];
-        for (index, value) in plane.pixels.iter().enumerate() {
-            let (x, y) = (index as u32 % WIDTH, index as u32 / WIDTH);
-            let from_middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - middle();
-            if direction.perp_dot(from_middle).abs() > HALF_BAND {
-                continue;
-            }
-            let along = direction.dot(from_middle);
-            let first = (along - TENT).ceil() as i32;
-            let last = (along + TENT).floor() as i32;
-            for position in first.max(-reach)..=last.min(reach) {
-                let share = TENT - (f64::from(position) - along).abs();
-                let sum = &mut sums[(position + reach) as usize];
-                *sum = (sum.0 + share, sum.1 + share * f64::from(*value));
-            }
-        }
-        let positions = (-reach..=reach).map(f64::from).zip(sums);
-        // Samples beyond the picture show nothing.
-        positions
-            .filter(|(_, (share, _))| *share > HALF_BAND)
-            .map(|(position, (share, sum))| (position, sum / share))
-            .collect()
+        measure_profile(plane, self.direction(), self.speed)
     }
 }
 
-fn render_settings(samples_per_pixel: u32) -> RenderSettings {
+/// Returns the direction of a motion, +y down.
+fn direction(degrees: f64) -> DVec2 {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    DVec2::new(cosine, -sine)
+}
+
+/// Measures the brightness along the motion, at every whole pixel from the panel's middle: the mean over a band, smoothed by a tent.
+fn measure_profile(plane: &Plane, direction: DVec2, speed: f64) -> Vec<(f64, f64)> {
+    let reach = (HALF_PANEL + speed + 16.0).ceil() as i32;
+    let mut sums = vec![(0.0, 0.0); (2 * reach + 1) as usize];
+    for (index, value) in plane.pixels.iter().enumerate() {
+        let (x, y) = (index as u32 % WIDTH, index as u32 / WIDTH);
+        let from_middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) - middle();
+        if direction.perp_dot(from_middle).abs() > HALF_BAND {
+            continue;
+        }
+        let along = direction.dot(from_middle);
+        let first = (along - TENT).ceil() as i32;
+        let last = (along + TENT).floor() as i32;
+        for position in first.max(-reach)..=last.min(reach) {
+            let share = TENT - (f64::from(position) - along).abs();
+            let sum = &mut sums[(position + reach) as usize];
+            *sum = (sum.0 + share, sum.1 + share * f64::from(*value));
+        }
+    }
+    let positions = (-reach..=reach).map(f64::from).zip(sums);
+    // Samples beyond the picture show nothing.
+    positions
+        .filter(|(_, (share, _))| *share > HALF_BAND)
+        .map(|(position, (share, sum))| (position, sum / share))
+        .collect()
+}
+
+fn render_settings(samples_per_pixel: u32, exposure: f64) -> RenderSettings {
     RenderSettings {
         width: WIDTH,
         height: HEIGHT,
-        exposure: Some(EXPOSURE),
+        exposure: Some(exposure),
         samples_per_pixel,
         replicates: 2,
         ..RenderSettings::default()

@@ -1,30 +1,29 @@
 //! Both modes of Babylon.js's blur.
 
-use filters::{Blur, Filter, Input};
 use frame::{FAR_DEPTH, Frame, Image};
-use tests::open_gpu;
-use tests::picture::{Picture, Surface, moving_edge, ramp_length, white};
+use tests::near::{assert_near, assert_within};
+use tests::picture::{Picture, frame_input, make_blur, moving_edge, ramp_length, white};
 
 use super::super::camera_gather::render_frame;
+use crate::reference::{read_clamped, sample_linear};
 
 #[test]
 fn the_longest_trail_has_as_many_pixels_as_there_are_samples() {
     for (speed, samples, expected) in [(90.0, "32", 32.0), (90.0, "64", 64.0), (24.0, "32", 24.0)] {
         let picture = moving_edge(256, 16, [speed, 0.0]);
-        let found = ramp_length(&picture.blur("babylon", "default", &[("samples", samples)]));
+        let found = ramp_length(&picture.blur("babylon", "default", &format!("samples={samples}")));
         // The step from one pixel to the next, 8 bits of velocity, and the first tap, which the pixel itself replaces.
-        assert!((found - expected).abs() < 3.0, "{speed} {samples}: {found}");
+        assert_near(found, expected, 3.0);
     }
 }
 
 #[test]
 fn a_wide_picture_turns_diagonals_upright() {
-    let picture = Picture::new(160, 80, |x, y| Surface {
-        gray: if x == 80 && y == 40 { 1.0 } else { 0.0 },
-        velocity: [20.0, -20.0],
-        depth: 2.0,
+    let picture = Picture::new(160, 80, |x, y| {
+        let dot = (x, y) == (80, 40);
+        white(0.0).moving(20.0, -20.0).gray(dot.into())
     });
-    let output = picture.blur("babylon", "default", &[("fetch", "filtered")]);
+    let output = picture.blur("babylon", "default", "fetch=filtered");
     let lit = (0..160).flat_map(|x| (0..80).map(move |y| (x, y)));
     let lit = lit.filter(|(x, y)| output.at(*x, *y)[0] > 1e-3);
     let [mut across, mut up] = [0.0f64; 2];
@@ -33,80 +32,42 @@ fn a_wide_picture_turns_diagonals_upright() {
         up = up.max((f64::from(y) - 40.0).abs());
     }
     // In parts of width and height the motion is twice as steep.
-    assert!((up / across - 2.0).abs() < 0.25, "{across} across, {up} up");
+    assert_near(up / across, 2.0, 0.25);
 }
 
 #[test]
 fn eight_bits_of_velocity_change_the_length_by_their_step() {
     // 31.1 of 160 pixels: the cube root is 201.4 of 255 steps. The nearest one holds 30.65 pixels, a whole one and a tap less.
     let picture = moving_edge(160, 16, [31.1, 0.0]);
-    let length = |storage: &str| {
-        let changes = [
-            ("storage", storage),
-            ("fetch", "filtered"),
-            ("samples", "64"),
-        ];
-        ramp_length(&picture.blur("babylon", "default", &changes))
-    };
     // The spread of the pixel itself and 30 taps from -14 to 15, or 29 from -13.5 to 14.5, which lie between two pixels each.
     for (storage, expected) in [("exact", 29.497), ("packed", 28.548)] {
-        let found = length(storage);
-        assert!((found - expected).abs() < 0.01, "{storage}: {found}");
+        let changes = format!("storage={storage} fetch=filtered samples=64");
+        let output = picture.blur("babylon", "default", &changes);
+        assert_near(ramp_length(&output), expected, 0.01);
     }
 }
 
 #[test]
 fn neither_mode_blurs_the_sky() {
-    let picture = Picture::new(40, 20, |x, _| Surface {
-        gray: (x % 2) as f32,
-        depth: FAR_DEPTH,
-        ..white(12.0)
-    });
-    assert!(picture.blur("babylon", "default", &[]) == picture.color);
+    let sky = white(12.0).at(FAR_DEPTH);
+    let picture = Picture::new(40, 20, |x, _| sky.gray((x % 2) as f32));
+    assert!(picture.blur("babylon", "default", "") == picture.color);
     let frame = render_frame(0);
     let output = by_camera(&frame);
     let sky = (0..frame.depth.pixels.len()).filter(|i| frame.depth.pixels[*i] == FAR_DEPTH);
     let sky: Vec<usize> = sky.collect();
     assert!(sky.len() > 100, "the flight shows a sky");
-    assert!(
-        sky.iter()
-            .all(|i| output.pixels[*i] == frame.color.pixels[*i])
-    );
+    let is_sharp = |i: &usize| output.pixels[*i] == frame.color.pixels[*i];
+    assert!(sky.iter().all(is_sharp));
 }
 
 fn by_camera(frame: &Frame) -> Image {
-    let gpu = open_gpu();
-    let filter = Filter::builtin("babylon_screen").unwrap();
-    let mut settings = filter.settings(None).unwrap();
     // Between pixels, so that rounding decides nothing.
-    settings.set(&filter, "fetch", "filtered").unwrap();
-    let (width, height) = frame.size();
-    let mut blur = Blur::new(&gpu, &filter, &settings, width, height).unwrap();
-    let input = Input {
-        color: &[&frame.color],
-        velocity: &frame.velocity,
-        depth: &frame.depth,
-        reprojection: Some(frame.reprojection),
-        camera: frame.camera,
-        exposure: frame.exposure,
-        frames_per_second: frame.frames_per_second,
-        frame_index: 0,
-    };
-    blur.run(&input).unwrap().remove(0)
-}
-
-/// Reads between pixel centres, in 64 bits.
-fn linear(image: &Image, x: f64, y: f64) -> f64 {
-    let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
-    let (across, down) = (x - 0.5 - left, y - 0.5 - top);
-    let at = |dx: f64, dy: f64| {
-        let column = (left + dx).clamp(0.0, f64::from(image.width - 1));
-        let row = (top + dy).clamp(0.0, f64::from(image.height - 1));
-        f64::from(image.at(column as u32, row as u32)[0])
-    };
-    let above = at(0.0, 0.0) * (1.0 - across) + at(1.0, 0.0) * across;
-    let below = at(0.0, 1.0) * (1.0 - across) + at(1.0, 1.0) * across;
-    above * (1.0 - down) + below * down
+    let changes = "fetch=filtered";
+    let mut blur = make_blur("babylon_screen", None, changes, frame.size());
+    blur.run(&frame_input(frame, &[&frame.color]))
+        .unwrap()
+        .remove(0)
 }
 
 #[test]
@@ -130,19 +91,18 @@ fn the_screen_based_mode_equals_its_source_in_64_bits() {
         }
         let samples = speed.clamp(1.0, 32.0) as i32;
         let (u, v) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let mut result = linear(&frame.color, u, v);
+        let linear =
+            |x, y| sample_linear([x, y], |x, y| read_clamped(&frame.color, x, y)[0].into());
+        let mut result = linear(u, v);
         for i in 1..samples {
             let part = f64::from(i) / f64::from(samples - 1) - 0.5;
-            result += linear(&frame.color, u + velocity[0] * part, v + velocity[1] * part);
+            result += linear(u + velocity[0] * part, v + velocity[1] * part);
         }
         result /= f64::from(samples);
         let found = f64::from(output.at(x, y)[0]);
         // Positions in 32 bits err by 1e-5 pixels, and neighbouring pixels differ by up to 2.
-        assert!(
-            (found - result).abs() < 1e-3,
-            "{x} {y}: {found} instead of {result}"
-        );
+        assert_near(found, result, 1e-3);
         blurred += i32::from((found - f64::from(frame.color.at(x, y)[0])).abs() > 0.01);
     }
-    assert!(blurred > 40, "only {blurred} pixels are blurred");
+    assert_within(blurred, 41.0..);
 }

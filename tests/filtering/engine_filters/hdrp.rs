@@ -1,85 +1,72 @@
 //! The presets of Unity HDRP.
 
+use tests::near::{assert_near, assert_within};
 use tests::picture::{
     BLACK_WALL, Picture, Surface, column, light, moving_edge, ramp_length, white,
 };
-use tests::random::Random;
+
+const BACKGROUND: Surface = BLACK_WALL.moving(24.0, 0.0);
+
+/// Makes a picture of stripes, one pixel wide, that moves right.
+fn stripes(speed: f32) -> Picture {
+    Picture::new(160, 64, |x, _| white(speed).gray((x % 2) as f32))
+}
+
+/// Fails unless every pixel is a mean of this many zeros and ones.
+fn assert_mean_of(picture: &Picture, taps: f32) {
+    for pixel in &picture.blur("jimenez", "hdrp", "").pixels {
+        let ones = taps * pixel[0];
+        assert_near(ones, ones.round(), 1e-5);
+    }
+}
 
 #[test]
 fn an_intensity_of_one_is_a_shutter_of_180_degrees() {
     let picture = moving_edge(160, 64, [24.0, 0.0]);
-    let length = |intensity: &str| {
-        let overrides = [("strength", intensity)];
-        ramp_length(&picture.blur("jimenez", "hdrp", &overrides))
-    };
-    // A quarter of the motion to each side. Nearest fetches round by half a pixel.
-    assert!((length("1") - 12.0).abs() < 0.5, "{}", length("1"));
-    assert!((length("2") - 24.0).abs() < 0.5, "{}", length("2"));
+    for (intensity, expected) in [("1", 12.0), ("2", 24.0)] {
+        let output = picture.blur("jimenez", "hdrp", &format!("strength={intensity}"));
+        // A quarter of the motion to each side. Nearest fetches round by half a pixel.
+        assert_near(ramp_length(&output), expected, 0.5);
+    }
 }
 
 #[test]
 fn the_noise_of_hdrp_shifts_all_taps_of_a_pixel_to_one_side() {
     // Brightness is the column, so a mean of taps is their mean position.
-    let picture = Picture::new(200, 64, |x, _| Surface {
-        gray: x as f32,
-        ..white(24.0)
-    });
-    let output = picture.blur("jimenez", "hdrp", &[]);
+    let picture = Picture::new(200, 64, |x, _| white(24.0).gray(x as f32));
+    let output = picture.blur("jimenez", "hdrp", "");
     let pixels = (50..150).flat_map(|x| (0..48).map(move |y| (x, y)));
     let shifts: Vec<f32> = pixels.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
     let mean = shifts.iter().map(|shift| shift.abs()).sum::<f32>() / shifts.len() as f32;
     // Taps shift by up to half a step of 3 pixels. With nearest fetches, a third of the noise shifts them by 1.5 pixels
     // and the rest by 0.5. Mirrored taps would not shift.
-    assert!((mean - 5.0 / 6.0).abs() < 0.05, "{mean}");
+    assert_near(mean, 5.0 / 6.0, 0.05);
 }
 
 #[test]
 fn hdrp_reads_the_nearest_pixels() {
-    let picture = Picture::new(160, 64, |x, _| Surface {
-        gray: (x % 2) as f32,
-        ..white(25.0)
-    });
-    let output = picture.blur("jimenez", "hdrp", &[]);
-    // All taps have equal weight: a mean of eight zeros and ones.
-    for pixel in &output.pixels {
-        let ones = 8.0 * pixel[0];
-        assert!((ones - ones.round()).abs() < 1e-5, "{ones} of 8");
-    }
+    // All taps have equal weight.
+    assert_mean_of(&stripes(25.0), 8.0);
 }
 
 #[test]
 fn short_trails_of_hdrp_have_fewer_taps() {
-    // The same for a trail of a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes
-    // it a tenth longer.
-    let picture = Picture::new(160, 64, |x, _| Surface {
-        gray: (x % 2) as f32,
-        ..white(2.4)
-    });
-    let output = picture.blur("jimenez", "hdrp", &[]);
-    for pixel in &output.pixels {
-        let ones = 6.0 * pixel[0];
-        assert!((ones - ones.round()).abs() < 1e-5, "{ones} of 6");
-    }
+    // A trail of a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes it a tenth
+    // longer.
+    assert_mean_of(&stripes(2.4), 6.0);
 }
 
 #[test]
 fn a_tap_that_moves_half_as_far_as_the_trail_counts_whole() {
     // Something white in front moves half as fast as the background.
-    let picture = Picture::new(160, 64, |x, _| match x {
-        80.. => white(12.0),
-        _ => Surface {
-            velocity: [24.0, 0.0],
-            ..BLACK_WALL
-        },
-    });
-    let output = |direction: &str| {
-        let overrides = [("direction", direction), ("plain_tiles", "never")];
+    let picture = Picture::halves(160, 64, BACKGROUND, white(12.0));
+    let [weighted, ignored] = ["weighted", "ignored"].map(|direction| {
+        let overrides = format!("direction={direction} plain_tiles=never");
         picture.blur("jimenez", "hdrp", &overrides)
-    };
-    let (weighted, ignored) = (output("weighted"), output("ignored"));
+    });
     let pairs = weighted.pixels.iter().zip(&ignored.pixels);
     let apart = pairs.map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
-    assert!(apart < 1e-5, "{apart}");
+    assert_within(apart, ..1e-5);
 }
 
 #[test]
@@ -87,24 +74,15 @@ fn directions_count_only_where_the_pixel_itself_moves() {
     // At the bottom, something fast in front sets the trail; at the top, something white moves down past a wall.
     let seen = |wall: f32| {
         let picture = Picture::new(160, 64, |x, y| match (x, y) {
-            (_, 40..) => Surface {
-                gray: 0.0,
-                ..white(25.0)
-            },
-            (80.., _) => Surface {
-                velocity: [0.0, 9.0],
-                ..white(0.0)
-            },
-            _ => Surface {
-                velocity: [wall, 0.0],
-                ..BLACK_WALL
-            },
+            (_, 40..) => white(25.0).gray(0.0),
+            (80.., _) => white(0.0).moving(0.0, 9.0),
+            _ => BLACK_WALL.moving(wall, 0.0),
         });
-        let output = picture.blur("jimenez", "hdrp", &[("plain_tiles", "never")]);
+        let output = picture.blur("jimenez", "hdrp", "plain_tiles=never");
         (32..38).map(|y| output.at(76, y)[0]).fold(0.0, f32::max)
     };
     // 4 of the 12 pixels that trails reach.
-    assert!(seen(0.0) > 0.1, "{}", seen(0.0));
+    assert_within(seen(0.0), 0.1..);
     assert_eq!(seen(4.0), 0.0);
 }
 
@@ -113,73 +91,53 @@ fn a_pixel_that_moves_like_the_fastest_shows_only_its_taps() {
     // A moving wall behind something still: half of its taps have no weight beside the still thing.
     let picture = Picture::new(160, 64, |x, _| match x {
         0..80 => white(0.0),
-        _ => Surface {
-            gray: if x < 81 { 1.0 } else { 0.0 },
-            velocity: [24.0, 0.0],
-            ..BLACK_WALL
-        },
+        80 => BACKGROUND.gray(1.0),
+        _ => BACKGROUND,
     });
-    let seen = |rest: &str| column(&picture.blur("jimenez", "hdrp", &[("rest", rest)]), 80);
+    let seen = |rest: &str| {
+        column(
+            &picture.blur("jimenez", "hdrp", &format!("rest={rest}")),
+            80,
+        )
+    };
     // The white thing keeps half of itself beside the wall's black.
-    assert!(seen("own") > 0.5, "{}", seen("own"));
+    assert_within(seen("own"), 0.5..);
     // One of about four taps may read the pixel itself.
-    assert!(seen("layers") < 0.3, "{}", seen("layers"));
+    assert_within(seen("layers"), ..0.3);
 }
 
 /// Makes a speckled background that moves right, with something still and black in front on the left.
 fn still_in_front() -> Picture {
-    let mut random = Random::new(5);
-    let speckles: Vec<f32> = (0..160 * 64).map(|_| random.real(0.0, 1.0)).collect();
-    Picture::new(160, 64, |x, y| match x {
-        0..80 => Surface {
-            gray: 0.0,
-            ..white(0.0)
-        },
-        _ => Surface {
-            gray: speckles[(y * 160 + x) as usize],
-            velocity: [24.0, 0.0],
-            ..BLACK_WALL
-        },
-    })
+    let picture = Picture::halves(160, 64, white(0.0).gray(0.0), BACKGROUND);
+    picture.speckled(5, |x, _| x >= 80)
 }
 
 #[test]
 fn hdrp_leaves_moving_background_sharp_beside_a_still_foreground() {
     let picture = still_in_front();
     let change = |mirror: &str| {
-        let output = picture.blur("jimenez", "hdrp_mirrored", &[("mirror", mirror)]);
+        let output = picture.blur("jimenez", "hdrp_mirrored", &format!("mirror={mirror}"));
         let changes = (0..64).map(|y| output.at(80, y)[0] - picture.color.at(80, y)[0]);
         changes.map(|change| f64::from(change.abs())).sum::<f64>() / 64.0
     };
     // Speckles differ by a third on average. A mean of several differs from each of them by about a quarter, and half
     // of the taps read the pixel's own colour again.
     let usual = change("slow_background");
-    assert!(usual > 0.08, "{usual}");
+    assert_within(usual, 0.08..);
     // Nearly all pairs reach the still thing. Its motion is zero, and both taps of a pair get its weight.
-    let turned = change("fast_background");
-    assert!(turned < 0.1 * usual, "{turned} and {usual}");
+    assert_within(change("fast_background"), ..0.1 * usual);
 }
 
 #[test]
 fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
     // A background pixel beside something still in front; a step is 3 pixels.
-    let picture = Picture::new(160, 64, |x, _| match x {
-        0..80 => white(0.0),
-        _ => Surface {
-            velocity: [24.0, 0.0],
-            ..BLACK_WALL
-        },
-    });
+    let picture = Picture::halves(160, 64, white(0.0), BACKGROUND);
     let seen = |spread: &str| {
-        let overrides = [
-            ("mirror", "off"),
-            ("spread", spread),
-            ("direction", "ignored"),
-        ];
+        let overrides = format!("mirror=off spread={spread} direction=ignored");
         column(&picture.blur("jimenez", "hdrp", &overrides), 80)
     };
     // One of eight taps lies less than a step to the left, and counts for the remaining part of the step.
-    assert!(seen("steps") > 0.03, "{}", seen("steps"));
+    assert_within(seen("steps"), 0.03..);
     assert_eq!(seen("late_steps"), 0.0);
 }
 
@@ -187,11 +145,7 @@ fn steps_that_end_late_keep_still_things_out_of_the_trail_at_its_start() {
 fn late_steps_equal_normal_steps_after_the_first() {
     let picture = still_in_front();
     let output = |placement: &str, spread: &str| {
-        let overrides = [
-            ("placement", placement),
-            ("spread", spread),
-            ("noise", "none"),
-        ];
+        let overrides = format!("placement={placement} spread={spread} noise=none");
         picture.blur("jimenez", "hdrp", &overrides)
     };
     // Taps at the ends of steps lie one step away or more.
@@ -202,26 +156,14 @@ fn late_steps_equal_normal_steps_after_the_first() {
 #[test]
 fn weighted_directions_exclude_motion_across_the_trail() {
     // Something white on the right moves down; everything around it moves right.
-    let picture = Picture::new(160, 64, |x, _| match x {
-        80.. => Surface {
-            velocity: [0.0, 9.0],
-            ..white(0.0)
-        },
-        _ => Surface {
-            velocity: [25.0, 0.0],
-            ..BLACK_WALL
-        },
-    });
+    let [left, right] = [BLACK_WALL.moving(25.0, 0.0), white(0.0).moving(0.0, 9.0)];
+    let picture = Picture::halves(160, 64, left, right);
     let seen = |direction: &str| {
-        let overrides = [
-            ("direction", direction),
-            ("plain_tiles", "never"),
-            ("mirror", "off"),
-        ];
+        let overrides = format!("direction={direction} plain_tiles=never mirror=off");
         column(&picture.blur("jimenez", "hdrp", &overrides), 76)
     };
     // A third of the right half of the taps lies beyond 4 of 12 pixels.
-    assert!(seen("ignored") > 0.2, "{}", seen("ignored"));
+    assert_within(seen("ignored"), 0.2..);
     assert_eq!(seen("weighted"), 0.0);
 }
 
@@ -229,10 +171,11 @@ fn weighted_directions_exclude_motion_across_the_trail() {
 fn a_still_foreground_stays_sharp() {
     let picture = still_in_front();
     for preset in ["slides_2014", "hdrp", "hdrp_mirrored"] {
-        let output = picture.blur("jimenez", preset, &[]);
+        let output = picture.blur("jimenez", preset, "");
         // Up to one step, 12 / pairs pixels, where a still pixel's spread ends.
         assert_eq!(light(&output, 0..76), 0.0, "{preset}");
     }
-    let output = picture.blur("jimenez", "hdrp", &[]);
-    assert!(light(&output, 0..80) < 0.01, "late steps end at once");
+    // Late steps end at once.
+    let output = picture.blur("jimenez", "hdrp", "");
+    assert_within(light(&output, 0..80), ..0.01);
 }

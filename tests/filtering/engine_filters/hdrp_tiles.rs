@@ -1,44 +1,29 @@
 //! The tiles of Unity HDRP.
 
-use tests::picture::{BLACK_WALL, Picture, Surface, column, white};
+use tests::near::{assert_near, assert_within};
+use tests::picture::{BLACK_WALL, Picture, column, white};
 
 #[test]
 fn plain_tiles_forget_depth_where_motions_are_alike() {
     // Something white in front moves 8 pixels, and the background 24: the least motion in their tiles is over a
     // quarter.
-    let picture = Picture::new(160, 64, |x, _| match x {
-        80.. => white(8.0),
-        _ => Surface {
-            velocity: [24.0, 0.0],
-            ..BLACK_WALL
-        },
-    });
+    let picture = Picture::halves(160, 64, BLACK_WALL.moving(24.0, 0.0), white(8.0));
     let seen = |plain: &str| {
-        let overrides = [("plain_tiles", plain), ("mirror", "off")];
+        let overrides = format!("plain_tiles={plain} mirror=off");
         column(&picture.blur("jimenez", "hdrp", &overrides), 72)
     };
     // It moves 4 pixels to each side; a distance of 8 is more than a step of 3 beyond that.
-    assert!(seen("never") < 0.01, "{}", seen("never"));
+    assert_within(seen("never"), ..0.01);
     // A box of 24 pixels, 4.5 of which lie in it.
-    assert!(
-        (seen("similar") - 4.5 / 24.0).abs() < 0.03,
-        "{}",
-        seen("similar")
-    );
+    assert_near(seen("similar"), 4.5 / 24.0, 0.03);
 }
 
 #[test]
 fn neighbouring_tiles_cut_long_smears_and_tiles_along_the_motion_do_not() {
     // Half of 160 pixels to each side. Unity HDRP cuts twice that at 200, in parts of the picture's diagonal.
-    let picture = Picture::new(
-        320,
-        64,
-        |x, _| {
-            if x < 160 { BLACK_WALL } else { white(160.0) }
-        },
-    );
+    let picture = Picture::halves(320, 64, BLACK_WALL, white(160.0));
     let reach = |preset: &str| {
-        let output = picture.blur("jimenez", preset, &[("tile_dither", "0")]);
+        let output = picture.blur("jimenez", preset, "tile_dither=0");
         (0..160).filter(|x| column(&output, *x) > 0.0).count()
     };
     // One tile of 20 pixels beside the mover's.
@@ -48,20 +33,13 @@ fn neighbouring_tiles_cut_long_smears_and_tiles_along_the_motion_do_not() {
 }
 
 /// Returns the tiles of 16 pixels that know the velocity of one moving pixel in tile (10, 4).
-fn tiles_told_of(velocity: [f32; 2]) -> Vec<(u32, u32)> {
+fn tiles_told_of(speed: f32) -> Vec<(u32, u32)> {
     let picture = Picture::new(320, 160, |x, y| match (x, y) {
-        (160, 72) => Surface {
-            velocity,
-            ..white(0.0)
-        },
+        (160, 72) => white(speed),
         _ => BLACK_WALL,
     });
-    let overrides = [
-        ("tile_size", "16"),
-        ("tile_reach", "9"),
-        ("dilation", "walk"),
-    ];
-    let tiles = picture.texture("jimenez", &overrides, "near_motion");
+    let overrides = "tile_size=16 tile_reach=9 dilation=walk";
+    let tiles = picture.texture("jimenez", overrides, "near_motion");
     let places = (0..10).flat_map(|y| (0..20).map(move |x| (x, y)));
     let is_told = |x: u32, y: u32| tiles.at(x, y)[..2] != [0.0, 0.0];
     places.filter(|(x, y)| is_told(*x, *y)).collect()
@@ -71,21 +49,11 @@ fn tiles_told_of(velocity: [f32; 2]) -> Vec<(u32, u32)> {
 fn unity_s_walk_over_tiles_misses_the_left_one() {
     // Half of 100 pixels is a little over three tiles. The integers of Cohen 1994 take the walk from (9, 3) 5 to the
     // right and 1 down, and 2 to the left and 1 down.
-    let expected = [
-        (8, 3),
-        (10, 3),
-        (11, 3),
-        (7, 4),
-        (8, 4),
-        (10, 4),
-        (11, 4),
-        (12, 4),
-        (13, 4),
-        (14, 4),
-    ];
-    assert_eq!(tiles_told_of([100.0, 0.0]), expected);
+    let above = [8, 10, 11].map(|x| (x, 3));
+    let beside = [7, 8, 10, 11, 12, 13, 14].map(|x| (x, 4));
+    assert_eq!(tiles_told_of(100.0), [&above[..], &beside[..]].concat());
     // Motion of up to half a pixel stays in its tile.
-    assert_eq!(tiles_told_of([0.5, 0.0]), [(10, 4)]);
+    assert_eq!(tiles_told_of(0.5), [(10, 4)]);
 }
 
 #[test]
@@ -95,7 +63,7 @@ fn the_last_tiles_of_unity_know_only_the_pixel_in_their_corner() {
             (at, 40) if at == x => white(24.0),
             _ => BLACK_WALL,
         });
-        let overrides = [("tile_size", "16"), ("last_tiles", last_tiles)];
+        let overrides = format!("tile_size=16 last_tiles={last_tiles}");
         let tiles = picture.texture("jimenez", &overrides, "tile_motion");
         tiles.at(x / 16, 2)[0] > 0.0
     };

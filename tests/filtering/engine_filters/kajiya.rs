@@ -1,26 +1,17 @@
 //! The preset of kajiya.
 
+use tests::near::{assert_near, assert_within};
 use tests::picture::{
-    BLACK_WALL, Picture, Surface, column, light_above, moving_edge, ramp_length, slow_above_fast,
-    white,
+    BLACK_WALL, Picture, column, light_above, moving_edge, ramp_length, slow_above_fast, white,
 };
-use tests::random::Random;
 
 #[test]
 fn kajiya_smears_seven_sixteenths_of_the_motion() {
     let picture = moving_edge(160, 64, [48.0, 0.0]);
-    let length = |preset: &str| ramp_length(&picture.blur("jimenez", preset, &[]));
+    let length = |preset: &str| ramp_length(&picture.blur("jimenez", preset, ""));
     // Seven steps of a sixteenth; half a pixel for 32 shifts in 64 rows.
-    assert!(
-        (length("kajiya") - 21.0).abs() < 0.5,
-        "{}",
-        length("kajiya")
-    );
-    assert!(
-        (length("kajiya_scaled") - 48.0).abs() < 1.0,
-        "{}",
-        length("kajiya_scaled")
-    );
+    assert_near(length("kajiya"), 21.0, 0.5);
+    assert_near(length("kajiya_scaled"), 48.0, 1.0);
 }
 
 #[test]
@@ -28,11 +19,11 @@ fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
     // To each side the slow thing should smear 12 * 3.5 / 16 = 2.6 pixels; steps are 9 / 16 pixels.
     let picture = slow_above_fast(12.0, 48.0);
     let smear = |spread: &str| {
-        let overrides = [("pairs", "16"), ("spread", spread)];
+        let overrides = format!("pairs=16 spread={spread}");
         picture.blur("jimenez", "kajiya", &overrides)
     };
     // Three of 33 taps, half of which count.
-    assert!(light_above(&smear("pixels"), 3..5) > 0.2);
+    assert_within(light_above(&smear("pixels"), 3..5), 0.2..);
     // A pixel less than half its motion, and one pixel for fetches.
     assert_eq!(light_above(&smear("pixels"), 6..30), 0.0);
     // One step more than its own.
@@ -42,23 +33,19 @@ fn kajiya_lets_things_smear_twice_as_far_as_they_move() {
 #[test]
 fn kajiya_shifts_taps_by_one_of_32_numbers() {
     // Brightness is the column, so a mean of taps is their mean position.
-    let picture = Picture::new(256, 64, |x, _| Surface {
-        gray: x as f32,
-        ..white(-48.0)
-    });
-    let output = picture.blur("jimenez", "kajiya", &[]);
+    let picture = Picture::new(256, 64, |x, _| white(-48.0).gray(x as f32));
+    let output = picture.blur("jimenez", "kajiya", "");
     let mut shifts: Vec<i32> = (64..192)
         .flat_map(|x| (0..64).map(move |y| (x, y)))
         // Taps lie 3 pixels apart; the centre, one of seven, reads whole pixels.
         .map(|(x, y)| {
             let mean = output.at(x, y)[0] - x as f32;
-            (-20..=20)
-                .min_by_key(|shift| {
-                    let place = *shift as f32 * 0.1;
-                    let taps = (6.0 * place + (place + 0.5).floor()) / 7.0;
-                    ((taps - mean).abs() * 1e6) as i32
-                })
-                .expect("there are some")
+            let distance = |shift: &i32| {
+                let place = *shift as f32 * 0.1;
+                let taps = (6.0 * place + (place + 0.5).floor()) / 7.0;
+                ((taps - mean).abs() * 1e6) as i32
+            };
+            (-20..=20).min_by_key(distance).expect("there are some")
         })
         .collect();
     shifts.sort_unstable();
@@ -69,46 +56,37 @@ fn kajiya_shifts_taps_by_one_of_32_numbers() {
 
 #[test]
 fn kajiya_displaces_still_pixels_near_a_mover() {
-    let mut random = Random::new(7);
-    let speckles: Vec<f32> = (0..160 * 64).map(|_| random.real(0.0, 1.0)).collect();
-    let picture = Picture::new(160, 64, |x, y| match y {
-        40.. => white(48.0),
-        _ => Surface {
-            gray: speckles[(y * 160 + x) as usize],
-            ..BLACK_WALL
-        },
-    });
-    let changed = |preset: &str, overrides: &[(&str, &str)]| {
-        let output = picture.blur("jimenez", preset, overrides);
+    let picture = Picture::new(
+        160,
+        64,
+        |_, y| if y < 40 { BLACK_WALL } else { white(48.0) },
+    )
+    .speckled(7, |_, y| y < 40);
+    let changed = |overrides: &str| {
+        let output = picture.blur("jimenez", "kajiya", overrides);
         let wall = (0..38).flat_map(|y| (0..160).map(move |x| (x, y)));
         wall.filter(|(x, y)| (output.at(*x, *y)[0] - picture.color.at(*x, *y)[0]).abs() > 0.05)
             .count()
     };
     // The wall has 6080 pixels. Those change that lie in tiles that know the mover and shift by at least half a pixel
     // of 1.5.
-    assert!(changed("kajiya", &[]) > 2000, "{}", changed("kajiya", &[]));
+    assert!(changed("") > 2000, "{}", changed(""));
     // Without noise the pixel does not shift, and a still pixel has no spread.
-    assert_eq!(changed("kajiya", &[("noise", "none")]), 0);
+    assert_eq!(changed("noise=none"), 0);
 }
 
 #[test]
 fn taps_off_the_picture_are_dropped_or_read_its_border() {
     // A white column at the border, which moves with everything else.
-    let picture = Picture::new(80, 64, |x, _| Surface {
-        gray: if x == 0 { 1.0 } else { 0.0 },
-        velocity: [48.0, 0.0],
-        depth: 2.0,
-    });
+    let picture = Picture::new(80, 64, |x, _| white(48.0).gray((x == 0).into()));
     let seen = |border: &str| {
-        let output = picture.blur("jimenez", "kajiya", &[("border", border)]);
-        column(&output, 4)
+        column(
+            &picture.blur("jimenez", "kajiya", &format!("border={border}")),
+            4,
+        )
     };
     // Two of seven taps, 3 pixels apart around 4.5, lie off the picture; one is in the first three columns.
     let one = 1.0 / 3.0;
-    assert!(
-        (seen("clamp") - (2.0 + one) / 7.0).abs() < 0.05,
-        "{}",
-        seen("clamp")
-    );
-    assert!((seen("drop") - one / 5.0).abs() < 0.04, "{}", seen("drop"));
+    assert_near(seen("clamp"), (2.0 + one) / 7.0, 0.05);
+    assert_near(seen("drop"), one / 5.0, 0.04);
 }

@@ -1,88 +1,52 @@
 //! KinoMotion.
 
-use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_length, white};
-
-#[test]
-fn falling_weights_make_the_smear_shorter_than_the_exposure() {
-    // 5 % of 480 rows are 24 pixels, so half of 24 is not cut.
-    let picture = moving_edge(120, 480, [24.0, 0.0]);
-    let found = ramp_length(&picture.blur("kino", "default", &[])) / 24.0;
-    // Four taps on each side, spread evenly over a quarter of the half trail each, with falling weights.
-    let taps: Vec<(f64, f64)> = (0..4)
-        .map(|pair| 1.0 - (f64::from(pair) + 0.5) / 4.0)
-        .map(|along| (along * along + 1.0 / 192.0, 2.0 * (1.2 - along) / 12.0))
-        .collect();
-    let pixel = 1.2 / (12.0 * 8.0);
-    let total: f64 = pixel + taps.iter().map(|(_, weight)| weight).sum::<f64>();
-    let square = taps
-        .iter()
-        .map(|(square, weight)| square * weight)
-        .sum::<f64>()
-        / total;
-    // An even ramp of half length 1 has the mean square 1/3.
-    let expected = (3.0 * square).sqrt();
-    // Weights fall to zero in the last pixel of the trail, which the formula leaves out: up to 1/24.
-    assert!(
-        (found - expected).abs() < 0.04,
-        "{found} instead of {expected}"
-    );
-    assert!(found < 0.85);
-}
+use tests::near::{assert_near, assert_within};
+use tests::picture::{BLACK_WALL, Picture, column, moving_edge, white};
 
 /// Makes a white bar of 40 pixels that moves right, in the right or left half of a still black picture.
 fn bar(right: bool) -> Picture {
     Picture::new(160, 64, |x, _| {
         let from_middle = if right { x as i32 - 80 } else { 79 - x as i32 };
-        if (0..40).contains(&from_middle) {
-            white(40.0)
-        } else {
-            BLACK_WALL
+        match from_middle {
+            0..40 => white(40.0),
+            _ => BLACK_WALL,
         }
     })
 }
 
 #[test]
 fn the_order_of_taps_makes_a_mover_s_two_sides_differ() {
-    let overrides = [
-        ("jitter", "none"),
-        ("storage", "exact"),
-        ("radius_percent", "40"),
-    ];
+    let overrides = "jitter=none storage=exact radius_percent=40";
     // The still pixels beside the bar: 1 to 18 of the 20 that its smear covers.
-    let right = bar(true).blur("kino", "default", &overrides);
-    let left = bar(false).blur("kino", "default", &overrides);
-    let light = |distances: [f64; 18]| distances.iter().sum::<f64>();
-    let behind = light(std::array::from_fn(|i| column(&right, 79 - i as u32)));
-    let ahead = light(std::array::from_fn(|i| column(&left, 80 + i as u32)));
+    let light = |is_right: bool, pixel: fn(u32) -> u32| -> f64 {
+        let output = bar(is_right).blur("kino", "default", overrides);
+        (0..18).map(|i| column(&output, pixel(i))).sum()
+    };
     // The right tap is the first of each pair. If the bar is seen first, the background counts as moving as far, and
     // the bar's own share shrinks. Without this order both sides would be equal up to rounding.
-    assert!(behind < 0.97 * ahead, "{behind} and {ahead}");
+    assert_within(light(true, |i| 79 - i), ..0.97 * light(false, |i| 80 + i));
 }
 
 #[test]
 fn packed_motion_has_steps_and_no_zero() {
-    let picture = Picture::new(64, 360, |x, _| Surface {
-        velocity: [2.0 * x as f32 / 100.0, 0.0],
-        ..BLACK_WALL
+    let picture = Picture::new(64, 360, |x, _| {
+        BLACK_WALL.moving(2.0 * x as f32 / 100.0, 0.0)
     });
     // 5 % of 360 rows are 18 pixels.
     let step = 2.0 * 18.0 / 1023.0;
-    let packed = picture.texture("kino", &[], "motion");
-    let still = packed.at(0, 7);
+    let packed = picture.texture("kino", "", "motion");
     // Zero lies half-way between two of 1024 values.
-    assert!((still[0] - 0.5 * step).abs() < 1e-5, "{still:?}");
-    assert!((still[1] - 0.5 * step).abs() < 1e-5, "{still:?}");
+    let still = packed.at(0, 7);
+    assert_near(still[0], 0.5 * step, 1e-5);
+    assert_near(still[1], 0.5 * step, 1e-5);
     for x in 0..64 {
-        let steps = packed.at(x, 7)[0] / step - 0.5;
-        assert!(
-            (steps - steps.round()).abs() < 1e-3,
-            "column {x}: {steps} steps"
-        );
+        let found = f64::from(packed.at(x, 7)[0]);
+        let steps = found / step - 0.5;
+        assert_near(steps, steps.round(), 1e-3);
         // Half of the motion, to the nearest step; 1e-5 for rounding.
-        let off = packed.at(x, 7)[0] - x as f32 / 100.0;
-        assert!(off.abs() <= 0.5 * step + 1e-5, "column {x}: off by {off}");
+        assert_near(found, f64::from(x) / 100.0, 0.5 * step + 1e-5);
     }
-    let exact = picture.texture("kino", &[("storage", "exact")], "motion");
+    let exact = picture.texture("kino", "storage=exact", "motion");
     assert_eq!(exact.at(0, 7)[0], 0.0);
     // A depth of 20 metres, of 1000, to the nearest of 1024 values.
     assert_eq!(packed.at(0, 7)[2], 20.0 / 1023.0);
@@ -91,25 +55,23 @@ fn packed_motion_has_steps_and_no_zero() {
 #[test]
 fn a_tile_is_the_radius_rounded_up_to_eight() {
     for (rows, tile) in [(180, 16), (360, 24), (480, 24), (481, 24), (500, 32)] {
-        let picture = Picture::new(130, rows, |x, y| {
-            if (x, y) == (100, 50) {
-                white(400.0)
-            } else {
-                BLACK_WALL
-            }
+        println!("{rows} rows");
+        let picture = Picture::new(130, rows, |x, y| match (x, y) {
+            (100, 50) => white(400.0),
+            _ => BLACK_WALL,
         });
-        let overrides = [("storage", "exact"), ("tiles", "partial")];
-        let tiles = picture.texture("kino", &overrides, "tile_max");
+        let overrides = "storage=exact tiles=partial";
+        let tiles = picture.texture("kino", overrides, "tile_max");
         let radius = (rows * 5 / 100) as f32;
+        let [column, row] = [100 / tile, 50 / tile];
         // Motion is cut at the radius.
-        assert!((tiles.at(100 / tile, 50 / tile)[0] - radius).abs() < 1e-4);
+        assert_near(tiles.at(column, row)[0], radius, 1e-4);
         let moving = tiles.pixels.iter().filter(|motion| motion[0] > 0.0).count();
-        assert_eq!(moving, 1, "{rows} rows");
+        assert_eq!(moving, 1);
         // A tile's own motion counts 1.01 times, so neighbours' motion arrives shorter by that factor.
-        let near = picture.texture("kino", &overrides, "neighbor_max");
-        assert!((near.at(100 / tile, 50 / tile)[0] - radius).abs() < 1e-4);
-        let beside = near.at(100 / tile - 1, 50 / tile)[0];
-        assert!((beside - radius / 1.01).abs() < 1e-4, "{beside}");
+        let near = picture.texture("kino", overrides, "neighbor_max");
+        assert_near(near.at(column, row)[0], radius, 1e-4);
+        assert_near(near.at(column - 1, row)[0], radius / 1.01, 1e-4);
     }
 }
 
@@ -117,7 +79,7 @@ fn a_tile_is_the_radius_rounded_up_to_eight() {
 fn half_motion_under_two_pixels_stays_sharp() {
     for (speed, blurs) in [(3.9, false), (4.1, true)] {
         let picture = moving_edge(60, 360, [speed, 0.0]);
-        let output = picture.blur("kino", "default", &[("storage", "exact")]);
+        let output = picture.blur("kino", "default", "storage=exact");
         assert_eq!(output != picture.color, blurs, "{speed} pixels per frame");
     }
 }

@@ -1,25 +1,21 @@
 //! The preset of the Open 3D Engine.
 
-use tests::picture::{BLACK_WALL, Picture, Surface, column, moving_edge, ramp_length, white};
-use tests::random::Random;
+use tests::near::{assert_near, assert_within};
+use tests::picture::{BLACK_WALL, Picture, column, moving_edge, ramp_length, white};
 
 #[test]
 fn o3de_smears_ten_times_as_far_as_the_exposure() {
     let picture = moving_edge(400, 64, [24.0, 0.0]);
-    let found = ramp_length(&picture.blur("jimenez", "o3de", &[]));
+    let found = ramp_length(&picture.blur("jimenez", "o3de", ""));
     // 24 pairs, a quarter of a step to and fro, at whole pixels of the 120 to each side.
-    let offsets: Vec<f64> = (0..24)
-        .flat_map(|i| [f64::from(i) - 0.25, f64::from(i) + 0.25])
-        .map(|steps| (steps * 5.0).trunc())
-        .collect();
-    let square = offsets.iter().map(|at| at * at).sum::<f64>() / offsets.len() as f64;
-    let expected = (12.0 * square).sqrt();
+    let steps = (0..24).flat_map(|i| [f64::from(i) - 0.25, f64::from(i) + 0.25]);
+    let square = steps
+        .map(|steps| (steps * 5.0).trunc().powi(2))
+        .sum::<f64>()
+        / 48.0;
     // The edge lies between texels; offsets are whole.
-    assert!(
-        (found - expected).abs() < 0.5,
-        "{found} instead of {expected}"
-    );
-    assert!(found / 24.0 > 9.0);
+    assert_near(found, (12.0 * square).sqrt(), 0.5);
+    assert_within(found / 24.0, 9.0..);
 }
 
 #[test]
@@ -27,59 +23,40 @@ fn o3de_cuts_offsets_to_whole_pixels() {
     // Motion that it takes for 1.05 pixels to each side.
     let picture = moving_edge(60, 64, [0.21, 0.0]);
     let seen = |placement: &str| {
-        let overrides = [("placement", placement)];
+        let overrides = format!("placement={placement}");
         column(&picture.blur("jimenez", "o3de", &overrides), 29)
     };
     // At the edge, at most two of 24 pairs reach a whole pixel.
-    let published = seen("whole_pixels");
-    assert!(published <= 2.0 / 48.0, "{published}");
+    assert_within(seen("whole_pixels"), ..=2.0 / 48.0);
     // Half of the taps lie 0.5 pixels to the right on average.
-    let between = seen("middles");
-    assert!((between - 0.25).abs() < 0.03, "{between}");
+    assert_near(seen("middles"), 0.25, 0.03);
 }
 
 /// Makes a still white post at 60..70 in front of a black wall; from row 40 on, something black moves in front of both.
 fn post_above_motion() -> Picture {
     Picture::new(160, 64, |x, y| match (x, y) {
-        (_, 40..) => Surface {
-            gray: 0.0,
-            ..white(24.0)
-        },
-        (60..70, _) => Surface {
-            velocity: [0.0, 0.0],
-            ..white(0.0)
-        },
+        (_, 40..) => white(24.0).gray(0.0),
+        (60..70, _) => white(0.0),
         _ => BLACK_WALL,
     })
 }
 
 #[test]
 fn o3de_keeps_the_sign_of_its_innermost_offset() {
-    let picture = post_above_motion();
-    let output = picture.blur("jimenez", "o3de", &[("pairs", "24")]);
+    let output = post_above_motion().blur("jimenez", "o3de", "pairs=24");
     // Beside the post, and in odd rows, taps lie at i - 1/4 steps of 5 pixels, cut: -1, 3, 8 .. and the same to the
     // left. The first tap on the post is at -1/4 steps, within a still thing's spread of one step: it counts whole. At
     // 3/4 steps it counts a quarter, and farther ones do not count.
     for row in [37, 39] {
-        let found = output.at(70, row)[0];
-        let expected = (1.0 + 0.25) / 48.0;
-        assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+        assert_near(output.at(70, row)[0], (1.0 + 0.25) / 48.0, 1e-5);
     }
 }
 
 #[test]
 fn o3de_mixes_the_motion_of_tiles() {
-    let mut random = Random::new(11);
-    let speckles: Vec<f32> = (0..400 * 200).map(|_| random.real(0.0, 1.0)).collect();
-    let picture = Picture::new(400, 200, |x, y| match x {
-        0..200 => Surface {
-            gray: speckles[(y * 400 + x) as usize],
-            ..BLACK_WALL
-        },
-        _ => white(24.0),
-    });
+    let picture = Picture::halves(400, 200, BLACK_WALL, white(24.0)).speckled(11, |x, _| x < 200);
     let changes = |lookup: &str, x: u32| {
-        let overrides = [("tile_dither", "0"), ("tile_lookup", lookup)];
+        let overrides = format!("tile_dither=0 tile_lookup={lookup}");
         let output = picture.blur("jimenez", "o3de_scaled", &overrides);
         (0..200).any(|y| output.at(x, y) != picture.color.at(x, y))
     };
@@ -92,13 +69,13 @@ fn o3de_mixes_the_motion_of_tiles() {
 fn o3de_mixes_still_things_near_a_mover_with_their_background() {
     let picture = post_above_motion();
     // The rows above the mover, within reach of its tiles.
-    let darkest = |overrides: &[(&str, &str)]| {
+    let darkest = |overrides: &str| {
         let output = picture.blur("jimenez", "o3de", overrides);
         let post = (22..38).flat_map(|y| (60..70).map(move |x| (x, y)));
         post.map(|(x, y)| output.at(x, y)[0]).fold(1.0, f32::min)
     };
-    assert!(darkest(&[]) < 0.5, "{}", darkest(&[]));
+    assert_within(darkest(""), ..0.5);
     // With the pixel's own motion in place of the tile's, only taps within a step of a still pixel count: one pair of
     // 24.
-    assert!(darkest(&[("spread", "steps")]) > 0.9);
+    assert_within(darkest("spread=steps"), 0.9..);
 }

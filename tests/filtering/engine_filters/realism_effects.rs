@@ -1,18 +1,13 @@
 //! The blur of realism-effects.
 
-use tests::picture::{Picture, Surface, moving_edge, ramp_length, white};
-
-/// Makes a picture whose brightness is the column, so that a mean of taps is their mean place.
-fn columns(speed: f32) -> Picture {
-    Picture::new(240, 64, |x, _| Surface {
-        gray: x as f32,
-        ..white(speed)
-    })
-}
+use tests::near::assert_near;
+use tests::picture::{Picture, white};
 
 /// Returns how far ahead the taps lie on average, in every pixel of the picture's middle.
 fn shifts(jitter: &str) -> Vec<f64> {
-    let output = columns(24.0).blur("realism_effects", "scaled", &[("jitter", jitter)]);
+    // Brightness is the column, so that a mean of taps is their mean place.
+    let picture = Picture::new(240, 64, |x, _| white(24.0).gray(x as f32));
+    let output = picture.blur("realism_effects", "scaled", &format!("jitter={jitter}"));
     let pixels = (90..150).flat_map(|x| (0..64).map(move |y| (x, y)));
     pixels
         .map(|(x, y)| f64::from(output.at(x, y)[0]) - f64::from(x))
@@ -26,31 +21,14 @@ fn noise_moves_the_trail_ahead_and_never_back() {
     let found = shifts("1");
     let mean = found.iter().sum::<f64>() / found.len() as f64;
     assert!(found.iter().all(|shift| (-1e-3..farthest).contains(shift)));
-    assert!((mean - 0.5 * farthest).abs() < 0.3, "{mean}");
+    assert_near(mean, 0.5 * farthest, 0.3);
     // Without noise the trail is centred, as the comments of the original say.
     assert!(shifts("0").iter().all(|shift| shift.abs() < 1e-3));
 }
 
 #[test]
-fn sixty_frames_per_second_leave_six_tenths_of_the_motion() {
-    let picture = moving_edge(240, 64, [40.0, 0.0]);
-    let length =
-        |preset: &str| ramp_length(&picture.blur("realism_effects", preset, &[("jitter", "0")]));
-    // Eighteen colours, of which two lie in the middle: seventeen steps of a sixteenth, less what the middle takes.
-    assert!(
-        (length("scaled") - 40.0 * 1.03).abs() < 0.5,
-        "{}",
-        length("scaled")
-    );
-    assert!((length("default") / length("scaled") - 0.6).abs() < 0.01);
-}
-
-#[test]
 fn the_sky_stays_sharp_however_it_moves() {
-    let picture = Picture::new(40, 20, |x, _| Surface {
-        gray: (x % 2) as f32,
-        velocity: [12.0, 0.0],
-        depth: frame::FAR_DEPTH,
-    });
-    assert!(picture.blur("realism_effects", "default", &[]) == picture.color);
+    let sky = white(12.0).at(frame::FAR_DEPTH);
+    let picture = Picture::new(40, 20, |x, _| sky.gray((x % 2) as f32));
+    assert!(picture.blur("realism_effects", "default", "") == picture.color);
 }

@@ -1,35 +1,27 @@
 //! The blur of three.js.
 
-use tests::picture::{Picture, Surface, moving_edge, ramp_length, white};
-
-#[test]
-fn everything_becomes_brighter_by_a_sixteenth_unless_corrected() {
-    let picture = Picture::uniform(40, 20, white(8.0));
-    let shipped = picture.blur("three", "default", &[]);
-    assert!(shipped.pixels.iter().all(|pixel| pixel[0] == 17.0 / 16.0));
-    assert!(picture.blur("three", "corrected", &[]) == picture.color);
-}
+use tests::near::assert_near;
+use tests::picture::{Picture, moving_edge, ramp_length, white};
 
 #[test]
 fn a_blur_amount_of_a_half_is_the_exposure() {
     let picture = moving_edge(160, 16, [24.0, 0.0]);
     let length = |preset: &str, amount: &str| {
-        ramp_length(&picture.blur("three", preset, &[("blur_amount", amount)]))
+        ramp_length(&picture.blur("three", preset, &format!("blur_amount={amount}")))
     };
     // Sixteen taps a fifteenth apart are a fifteenth longer than the trail, and the pixel's own colour weighs on the middle: 1.04.
-    assert!((length("default", "0.5") - 24.0).abs() < 1.2);
-    assert!((length("default", "1") - 48.0).abs() < 2.4);
-    assert!((length("corrected", "1") - 24.0).abs() < 1.2);
+    assert_near(length("default", "0.5"), 24.0, 1.2);
+    assert_near(length("default", "1"), 48.0, 2.4);
+    assert_near(length("corrected", "1"), 24.0, 1.2);
 }
 
 /// Blurs a bright dot that moves up to the right; returns the light at a distance from it, in pixels to the right and down.
 fn blurred_dot(preset: &str) -> impl Fn(i32, i32) -> f32 {
-    let picture = Picture::new(65, 65, |x, y| Surface {
-        gray: if x == 32 && y == 32 { 1.0 } else { 0.0 },
-        velocity: [15.0, -15.0],
-        depth: 2.0,
+    let picture = Picture::new(65, 65, |x, y| {
+        let dot = (x, y) == (32, 32);
+        white(0.0).moving(15.0, -15.0).gray(dot.into())
     });
-    let output = picture.blur("three", preset, &[]);
+    let output = picture.blur("three", preset, "");
     move |x, y| output.at((32 + x) as u32, (32 + y) as u32)[0]
 }
 

@@ -1,31 +1,23 @@
 //! The preset of Wicked Engine.
 
+use tests::near::{assert_near, assert_within};
 use tests::picture::{
-    Picture, Surface, column, light_above, moving_edge, ramp_length, slow_above_fast,
+    Picture, column, light_above, moving_edge, ramp_length, slow_above_fast, white,
 };
 
 #[test]
 fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
-    let length = |width: u32| {
-        let picture = moving_edge(width, 64, [12.0, 0.0]);
-        ramp_length(&picture.blur("jimenez", "wicked", &[]))
-    };
-    // 1500 pixels per picture width of motion, scaled by noise whose mean square is a third; 16 taps at (2 i - 15) /
-    // 15.
-    let expected = |width: u32| {
-        let taps: f64 = (0..16)
-            .map(|i| ((2.0 * f64::from(i) - 15.0) / 15.0).powi(2))
-            .sum();
-        let square = taps / 16.0 / 3.0;
-        (3.0 * square).sqrt() * 1500.0 * 12.0 / f64::from(width)
-    };
     for width in [240, 480] {
+        println!("{width} wide");
+        let picture = moving_edge(width, 64, [12.0, 0.0]);
+        let found = ramp_length(&picture.blur("jimenez", "wicked", ""));
+        // 1500 pixels per picture width of motion, scaled by noise whose mean square is a third; 16 taps at
+        // (2 i - 15) / 15.
+        let taps = (0..16).map(|i| ((2.0 * f64::from(i) - 15.0) / 15.0).powi(2));
+        let square = taps.sum::<f64>() / 16.0 / 3.0;
+        let expected = (3.0 * square).sqrt() * 1500.0 * 12.0 / f64::from(width);
         // A twentieth: noise of 64 rows.
-        let (found, expected) = (length(width), expected(width));
-        assert!(
-            (found / expected - 1.0).abs() < 0.05,
-            "{width} wide: {found} instead of {expected}"
-        );
+        assert_near(found / expected, 1.0, 0.05);
     }
 }
 
@@ -33,20 +25,15 @@ fn the_smear_of_wicked_depends_on_the_width_of_the_picture() {
 fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
     // 750 pixels per picture width to each side, of 24 / 480: 37.5 pixels.
     let picture = moving_edge(480, 128, [24.0, 0.0]);
-    let output = picture.blur("jimenez", "wicked", &[]);
+    let output = picture.blur("jimenez", "wicked", "");
     let share = |part: f64| {
         let reach = (37.5 * part).round() as u32;
         column(&output, 240 + reach - 1) - column(&output, 240 - reach)
     };
     // Uniform taps times uniform noise have the density -ln|x| / 2, so x (1 - ln x) lies within x of the middle.
     for part in [0.2f64, 0.4] {
-        let expected = part * (1.0 - part.ln());
         // 16 taps of 128 rows, in whole pixels of 37.5.
-        assert!(
-            (share(part) - expected).abs() < 0.05,
-            "{part}: {} instead of {expected}",
-            share(part)
-        );
+        assert_near(share(part), part * (1.0 - part.ln()), 0.05);
     }
 }
 
@@ -54,11 +41,11 @@ fn the_kernel_of_wicked_is_peaked_and_not_a_box() {
 fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
     // To each side the fast half smears 750 * 24 / 320 = 56 pixels, and the slow thing should smear 11.
     let picture = slow_above_fast(4.8, 24.0);
-    let as_published = picture.blur("jimenez", "wicked", &[]);
-    assert!(light_above(&as_published, 20..40) > 1.0);
+    let as_published = picture.blur("jimenez", "wicked", "");
+    assert_within(light_above(&as_published, 20..40), 1.0..);
     // Compared with the taps' distances, it ends after its own length and a step of 8 pixels. Half a pixel for fetches.
-    let by_steps = picture.blur("jimenez", "wicked", &[("spread", "steps")]);
-    assert!(light_above(&by_steps, 1..8) > 1.0);
+    let by_steps = picture.blur("jimenez", "wicked", "spread=steps");
+    assert_within(light_above(&by_steps, 1..8), 1.0..);
     assert_eq!(light_above(&by_steps, 20..40), 0.0);
 }
 
@@ -66,20 +53,20 @@ fn wicked_lets_slow_things_smear_as_far_as_fast_ones() {
 fn wicked_counts_motion_fully_above_a_tenth_of_the_fastest_and_not_below() {
     let light = |part: f32| {
         let picture = slow_above_fast(24.0 * part, 24.0);
-        light_above(&picture.blur("jimenez", "wicked", &[]), 1..40)
+        light_above(&picture.blur("jimenez", "wicked", ""), 1..40)
     };
     // In its unit the fastest motion is 7.5, and motions from 6.5 / 75 to 7.5 / 75 of it count in part.
     assert_eq!(light(0.08), 0.0);
     assert!(light(0.095) > 0.0 && light(0.095) < 0.9 * light(0.11));
     // Below that, the fast half hides itself; equal up to rounding.
-    assert!((light(0.11) / light(0.8) - 1.0).abs() < 1e-3);
+    assert_near(light(0.11) / light(0.8), 1.0, 1e-3);
 }
 
 #[test]
 fn wicked_scaled_smears_as_far_as_the_exposure_at_any_width() {
     for width in [160, 320] {
         let picture = moving_edge(width, 64, [24.0, 0.0]);
-        let output = picture.blur("jimenez", "wicked_scaled", &[]);
+        let output = picture.blur("jimenez", "wicked_scaled", "");
         let middle = width / 2;
         // 12 pixels to each side, which the largest noise of 64 rows almost reaches.
         assert_eq!(column(&output, middle - 13), 0.0);
@@ -93,16 +80,12 @@ fn wicked_scaled_smears_as_far_as_the_exposure_at_any_width() {
 fn wicked_pushes_trails_inwards_where_they_begin() {
     // Everything moves far enough for taps 2 pixels apart, which spread a white column at the border.
     let seen = |speed: f32, border: &str| {
-        let picture = Picture::new(80, 64, |x, _| Surface {
-            gray: if x == 0 { 1.0 } else { 0.0 },
-            velocity: [speed, 0.0],
-            depth: 2.0,
-        });
-        let overrides = [("noise", "none"), ("tile_dither", "0"), ("border", border)];
+        let picture = Picture::new(80, 64, |x, _| white(speed).gray((x == 0).into()));
+        let overrides = format!("noise=none tile_dither=0 border={border}");
         column(&picture.blur("jimenez", "wicked", &overrides), 2)
     };
     // Motion points back, so trails begin ahead. Seven of 16 taps around 2.5 lie off the picture.
-    assert!((seen(-1.6, "push") - 1.0 / 16.0).abs() < 1e-5);
-    assert!((seen(1.6, "push") - 7.0 / 16.0).abs() < 1e-5);
-    assert!((seen(-1.6, "clamp") - 7.0 / 16.0).abs() < 1e-5);
+    assert_near(seen(-1.6, "push"), 1.0 / 16.0, 1e-5);
+    assert_near(seen(1.6, "push"), 7.0 / 16.0, 1e-5);
+    assert_near(seen(-1.6, "clamp"), 7.0 / 16.0, 1e-5);
 }

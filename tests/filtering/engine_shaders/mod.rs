@@ -12,63 +12,26 @@ mod routes;
 mod texture_sizes;
 mod vertex;
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use filters::{Blur, Filter, FilterError, Input, Settings};
+use filters::{Blur, Filter, Input, Settings};
 use frame::Image;
+use tests::near::assert_within;
 use tests::picture::{Picture, Surface};
-use tests::text::assert_contains;
-use tests::{open_gpu, root};
+use tests::shared_gpu;
 
-use super::folders::example;
+use super::folders::{documented, example};
+use crate::filter_files::FilterFiles;
 
-/// Returns the folder of the shaders that these tests bind.
-fn fixtures() -> PathBuf {
-    root().join("tests/fixtures/shaders")
+/// Makes the documented example with these passes, of the shaders in tests/fixtures/shaders.
+fn with_passes(passes: &str) -> FilterFiles {
+    let head = example("toml").split_once("[[pass]]").unwrap().0;
+    FilterFiles::fixture("shaders").with("filter.toml", format!("{head}{passes}"))
 }
 
-/// Returns what filter.toml of the documented example says before its passes.
-fn head() -> &'static str {
-    example("toml").split_once("[[pass]]").unwrap().0
-}
-
-/// Writes the documented example with these passes, and copies the files beside it.
-fn write_folder(folder: &Path, passes: &str, files: &[&str]) {
-    fs::write(folder.join("filter.toml"), format!("{}{passes}", head())).unwrap();
-    for file in files {
-        fs::copy(fixtures().join(file), folder.join(file)).unwrap();
-    }
-}
-
-/// Loads the documented example with these passes and files.
-fn load(passes: &str, files: &[&str]) -> Result<Filter, FilterError> {
-    let folder = tempfile::tempdir().unwrap();
-    write_folder(folder.path(), passes, files);
-    Filter::load(folder.path())
-}
-
-/// Writes a filter with these declarations and files, and loads it.
-fn make(declarations: &str, files: &[(&str, &str)]) -> Result<Filter, FilterError> {
-    let folder = tempfile::tempdir().unwrap();
+/// Makes a filter of these declarations and the shaders of a folder in tests/fixtures/filters.
+fn make(folder: &str, declarations: &str) -> FilterFiles {
     let head = "name = \"made\"\nsummary = \"Made for a test.\"\nalignment = \"centred\"\n";
-    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    write("filter.toml", &format!("{head}{declarations}"));
-    for (name, text) in files {
-        write(name, text);
-    }
-    Filter::load(folder.path())
-}
-
-/// Asserts that each change of the declarations is refused with these words. A change is (text, replacement, words).
-fn assert_refused(declarations: &str, files: &[(&str, &str)], changes: &[(&str, &str, &[&str])]) {
-    for (from, to, parts) in changes {
-        assert!(declarations.contains(from), "no \"{from}\" to be changed");
-        let Err(error) = make(&declarations.replacen(from, to, 1), files) else {
-            panic!("\"{from}\" -> \"{to}\" was accepted");
-        };
-        assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
-    }
+    let files = FilterFiles::fixture(&format!("filters/{folder}"));
+    files.with("filter.toml", format!("{head}{declarations}"))
 }
 
 /// Makes a picture in which two things move before a pattern, and one turns.
@@ -87,11 +50,21 @@ fn busy_picture() -> Picture {
     }
 }
 
-/// Blurs the picture.
+/// Makes a filter ready for the busy picture.
+fn ready(filter: &Filter) -> Blur<'static> {
+    let settings = filter.settings(None).unwrap();
+    Blur::new(shared_gpu(), filter, &settings, 61, 43).unwrap()
+}
+
+/// Blurs the busy picture with the first preset.
+fn blur_busy(files: &FilterFiles) -> Image {
+    let filter = files.load().unwrap();
+    blur(&filter, &filter.settings(None).unwrap(), &busy_picture())
+}
+
 fn blur(filter: &Filter, settings: &Settings, picture: &Picture) -> Image {
-    let gpu = open_gpu();
-    let size = (picture.color.width, picture.color.height);
-    let mut blur = Blur::new(&gpu, filter, settings, size.0, size.1).unwrap();
+    let (width, height) = (picture.color.width, picture.color.height);
+    let mut blur = Blur::new(shared_gpu(), filter, settings, width, height).unwrap();
     let colors = [&picture.color];
     let input = Input {
         frame_index: 3,
@@ -100,7 +73,21 @@ fn blur(filter: &Filter, settings: &Settings, picture: &Picture) -> Image {
     blur.run(&input).unwrap().remove(0)
 }
 
-/// Returns the largest difference of a channel.
+/// Fails unless a filter blurs the busy picture as the documented example does, with each preset.
+fn assert_as_documented(filter: &Filter, tolerance: f32) {
+    let (documented, picture) = (documented().load().unwrap(), busy_picture());
+    for preset in ["fast", "fine"] {
+        let [expected, found] = [&documented, filter].map(|filter| {
+            let settings = filter.settings(Some(preset)).unwrap();
+            blur(filter, &settings, &picture)
+        });
+        // The picture has something to blur.
+        assert_within(largest_difference(&expected, &picture.color), 0.5..);
+        let difference = largest_difference(&expected, &found);
+        assert!(difference < tolerance, "{preset}: {difference}");
+    }
+}
+
 fn largest_difference(a: &Image, b: &Image) -> f32 {
     let pixels = a.pixels.iter().zip(&b.pixels);
     let channels = pixels.flat_map(|(a, b)| [0, 1, 2].map(|i| (a[i] - b[i]).abs()));

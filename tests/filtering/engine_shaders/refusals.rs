@@ -1,20 +1,15 @@
 //! Wrong bindings, wrong shaders and missing compilers, each refused with its place and the way out.
 
-use std::fs;
-
-use filters::Filter;
 use tests::text::assert_contains;
 
-use super::{assert_refused, fixtures, load, write_folder};
+use super::{make, with_passes};
 
 const PASSES: &str = include_str!("../../fixtures/shaders/passes.toml");
-const FILES: [&str; 2] = ["fastest.comp", "gather.comp"];
 
 #[test]
 fn wrong_bindings_are_refused_with_place_and_reason() {
-    // (text of the passes, replacement, expected parts of the message)
     #[rustfmt::skip]
-    let wrong: &[(&str, &str, &[&str])] = &[
+    with_passes(PASSES).assert_refused("filter.toml", &[
         ("fastest.comp", "missing.comp", &["missing.comp", "cannot be read", "the shaders that its passes name"]),
         ("fastest.comp", "fastest.cpp", &["filter.toml:42:", "fastest.cpp", ".spv, .glsl"]),
         ("fastest.comp", "../fastest.comp", &["filter.toml:42:", "no path within the filter's folder"]),
@@ -40,21 +35,13 @@ fn wrong_bindings_are_refused_with_place_and_reason() {
         ("picture = [\"width\", \"height\"]", "picture = [1, 2, 3]", &["member \"picture\" holds 2 x i32", "has 3"]),
         ("picture = [\"width\", \"height\"]", "picture = [1, [2]]", &["a value is a number"]),
         ("shader = \"gather.comp\"\n", "shader = \"gather.comp\"\nstage = \"fragment\"\n", &["gather.comp"]),
-    ];
-    for (from, to, parts) in wrong {
-        assert!(PASSES.contains(from), "the passes hold \"{from}\"");
-        let Err(error) = load(&PASSES.replacen(from, to, 1), &FILES) else {
-            panic!("\"{from}\" -> \"{to}\" was accepted");
-        };
-        assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
-    }
+    ]);
 }
 
 #[test]
 fn wrong_shaders_are_refused_with_file_line_and_reason() {
-    // (text of gather.comp, replacement, expected parts of the message)
     #[rustfmt::skip]
-    let wrong: &[(&str, &str, &[&str])] = &[
+    with_passes(PASSES).assert_refused("gather.comp", &[
         ("settings.turned", "settings.turn", &["gather.comp:30: glslangValidator refuses it", "gather.comp:30: 'turn'"]),
         ("void main()", "void main(", &["gather.comp:", "glslangValidator refuses it", "syntax error"]),
         ("rgba32f, set = 0, binding = 2", "rgba8, set = 0, binding = 2", &["filter.toml:", "writes \"output\" as rgba8unorm", "rgba32float or rgba16float"]),
@@ -64,52 +51,26 @@ fn wrong_shaders_are_refused_with_file_line_and_reason() {
         ("uniform sampler2D color;", "uniform sampler3D color;", &["gather.comp"]),
         ("mat4 turned;", "mat4 turned;\n    mat2 spare;", &["gather.comp", "its SPIR-V cannot be read: unsupported matrix stride 16"]),
         ("bool noisy;", "double noisy;", &["gather.comp"]),
-    ];
-    let original = fs::read_to_string(fixtures().join("gather.comp")).unwrap();
-    for (from, to, parts) in wrong {
-        assert!(original.contains(from), "gather.comp holds \"{from}\"");
-        let folder = tempfile::tempdir().unwrap();
-        write_folder(folder.path(), PASSES, &FILES);
-        let text = original.replacen(from, to, 1);
-        fs::write(folder.path().join("gather.comp"), text).unwrap();
-        let Err(error) = Filter::load(folder.path()) else {
-            panic!("\"{from}\" -> \"{to}\" was accepted");
-        };
-        assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
-    }
+    ]);
 }
 
 #[test]
 fn push_constants_that_are_too_large_are_refused() {
-    let shader = |members: &str| {
-        format!(
-            "#version 450\nlayout(local_size_x = 8) in;\nlayout(rgba32f, binding = 0) uniform writeonly image2D picture;\n\
-             layout(push_constant) uniform Params {{ {members} }} params;\n\
-             void main() {{ imageStore(picture, ivec2(gl_GlobalInvocationID.xy), vec4(params.last)); }}\n"
-        )
-    };
+    let shader = "#version 450\nlayout(local_size_x = 8) in;\nlayout(rgba32f, binding = 0) uniform writeonly image2D picture;\n\
+                  layout(push_constant) uniform Params { MEMBERS } params;\n\
+                  void main() { imageStore(picture, ivec2(gl_GlobalInvocationID.xy), vec4(params.last)); }\n";
     let declarations = "[[pass]]\nshader = \"large.comp\"\n[[pass.binding]]\nbinding = 0\ntexture = \"output\"\n\
                         [[pass.binding]]\npush_constants = true\nvalues = { \"*\" = 0 }\n";
-    for (members, parts) in [
-        (
-            "vec4 many[256]; float last;",
-            ["filter.toml:", "push constants", "more than 1024 numbers"],
-        ),
-        (
-            "layout(offset = 65536) float last;",
-            ["filter.toml:", "push constants", "at most 65536"],
-        ),
-    ] {
-        let text = shader(members);
-        let change = ("push_constants", "push_constants", &parts[..]);
-        assert_refused(declarations, &[("large.comp", &text)], &[change]);
-    }
+    #[rustfmt::skip]
+    make("camera", declarations).with("large.comp", shader).assert_refused("large.comp", &[
+        ("MEMBERS", "vec4 many[256]; float last;", &["filter.toml:", "push constants", "more than 1024 numbers"]),
+        ("MEMBERS", "layout(offset = 65536) float last;", &["filter.toml:", "push constants", "at most 65536"]),
+    ]);
 }
 
 #[test]
 fn a_module_that_is_cut_short_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    write_folder(folder.path(), "[[pass]]\nshader = \"blur.spv\"\n", &[]);
+    let files = with_passes("[[pass]]\nshader = \"blur.spv\"\n");
     let module = include_bytes!("../../fuzz/corpus/spirv/gather");
     for (bytes, says) in [
         (&module[..0], "no SPIR-V module"),
@@ -117,8 +78,7 @@ fn a_module_that_is_cut_short_is_refused() {
         (&module[..600], "blur.spv"),
         (&b"#version 450 layout(set = 0)"[..], "begins with"),
     ] {
-        fs::write(folder.path().join("blur.spv"), bytes).unwrap();
-        let message = Filter::load(folder.path()).unwrap_err().to_string();
-        assert!(message.contains(says), "{message}");
+        let error = files.clone().with("blur.spv", bytes).load().unwrap_err();
+        assert_contains(&error.to_string(), &[says]);
     }
 }

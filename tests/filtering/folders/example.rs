@@ -1,50 +1,35 @@
 //! Folders that load: the documented example, and the built-in ones.
 
-use filters::{Blur, Filter, Settings, Value};
-use tests::filter_folder::{load_filter, shipped_filter};
-use tests::open_gpu;
-use tests::picture::{Picture, Surface, white};
+use filters::{Blur, Filter, Value};
+use tests::filter_folder::shipped_filter;
+use tests::near::assert_near;
+use tests::picture::{Picture, white};
+use tests::shared_gpu;
 
-use super::example;
-
-/// Blurs a bar that moves right, at the middle of a wide image. Returns the middle row.
-fn blur_row(filter: &Filter, settings: &Settings) -> Vec<f32> {
-    let gpu = open_gpu();
-    let bar = Picture {
-        exposure: 0.5,
-        ..Picture::new(90, 5, |x, _| Surface {
-            gray: if (40..50).contains(&x) { 1.0 } else { 0.0 },
-            ..white(20.0)
-        })
-    };
-    let mut blur = Blur::new(&gpu, filter, settings, 90, 5).unwrap();
-    let output = blur.run(&bar.input(&[&bar.color])).unwrap();
-    (0..90).map(|x| output[0].at(x, 2)[0]).collect()
-}
+use super::documented;
 
 #[test]
 fn the_documented_example_loads_from_a_folder_and_blurs() {
-    let filter = load_filter("centre_blur", example("toml"), example("wgsl")).unwrap();
+    let filter = documented().load().unwrap();
     assert_eq!(filter.alignment, frame::Alignment::Centred);
     let settings = filter.settings(None).unwrap();
     assert_eq!(settings.preset, "fast");
-    let row = blur_row(&filter, &settings);
-    // Ten pixels of motion on ten pixels of bar give a triangle from 35 to 55.
+    // A bar that moves right, at the middle of a wide image.
+    let bar = |x: u32| (40..50).contains(&x);
+    let mut picture = Picture::new(90, 5, |x, _| white(20.0).gray(bar(x).into()));
+    picture.exposure = 0.5;
+    let mut blur = Blur::new(shared_gpu(), &filter, &settings, 90, 5).unwrap();
+    let output = blur
+        .run(&picture.input(&[&picture.color]))
+        .unwrap()
+        .remove(0);
+    let row: Vec<f32> = (0..90).map(|x| output.at(x, 2)[0]).collect();
+    // Ten pixels of motion on ten pixels of bar give a triangle from 35 to 55. Taps of one weight move light, and add none.
     let energy: f32 = row.iter().sum();
-    assert!(
-        (energy - 10.0).abs() < 1e-4,
-        "taps of one weight move light, and add none: {energy}"
-    );
-    let centre: f32 = row
-        .iter()
-        .enumerate()
-        .map(|(x, v)| (x as f32 + 0.5) * v)
-        .sum::<f32>()
-        / energy;
-    assert!(
-        (centre - 45.0).abs() < 1e-3,
-        "a centred blur stays where it was: {centre}"
-    );
+    assert_near(energy, 10.0, 1e-4);
+    let moments = row.iter().enumerate().map(|(x, v)| (x as f32 + 0.5) * v);
+    // A centred blur stays where it was.
+    assert_near(moments.sum::<f32>() / energy, 45.0, 1e-3);
     let reach: Vec<usize> = (0..90).filter(|x| row[*x] > 0.0).collect();
     assert_eq!((reach[0], reach[reach.len() - 1]), (35, 54));
 }
@@ -52,11 +37,6 @@ fn the_documented_example_loads_from_a_folder_and_blurs() {
 #[test]
 fn the_smallest_reach_that_covers_a_trail_is_set() {
     let flood = Filter::builtin("jump_flood").unwrap();
-    let passes = |preset: &str, pixels: u32| {
-        let settings = flood.settings(Some(preset)).unwrap();
-        let reaching = settings.with_reach(&flood, pixels).unwrap();
-        reaching.values["passes"].clone()
-    };
     // Largest steps of 8, 16 and 128 pixels; then of 1, 16 and 128.
     for (preset, pixels, expected) in [
         ("paper", 1, 1),
@@ -67,21 +47,14 @@ fn the_smallest_reach_that_covers_a_trail_is_set() {
         ("corrected", 16, 5),
         ("corrected", 128, 8),
     ] {
-        assert_eq!(
-            passes(preset, pixels),
-            Value::Integer(expected),
-            "{preset}, {pixels}"
-        );
+        let settings = flood.settings(Some(preset)).unwrap();
+        let reaching = settings.with_reach(&flood, pixels).unwrap();
+        let expected = Value::Integer(expected);
+        assert_eq!(reaching.values["passes"], expected, "{preset}, {pixels}");
     }
-    let settings = flood.settings(None).unwrap();
-    let message = settings
-        .with_reach(&flood, 1 << 20)
-        .unwrap_err()
-        .to_string();
-    assert_eq!(
-        message,
-        "jump_flood.passes: found 18; allowed: a whole number from 1 to 12"
-    );
+    let error = flood.settings(None).unwrap().with_reach(&flood, 1 << 20);
+    let says = "jump_flood.passes: found 18; allowed: a whole number from 1 to 12";
+    assert_eq!(error.unwrap_err().to_string(), says);
     let gather = Filter::builtin("velocity_gather").unwrap();
     let settings = gather.settings(None).unwrap();
     assert_eq!(settings.with_reach(&gather, 256).unwrap(), settings);
@@ -99,23 +72,18 @@ fn built_in_filters_load_from_disk_unchanged() {
     assert!(names.len() > 1);
     assert_eq!(Filter::builtin_names(), names);
     for name in Filter::builtin_names() {
-        let (built_in, on_disk) = (
-            Filter::builtin(&name).unwrap(),
-            Filter::load(&shaders.join(&name)).unwrap(),
-        );
+        let built_in = Filter::builtin(&name).unwrap();
+        let on_disk = Filter::load(&shaders.join(&name)).unwrap();
         assert_eq!(built_in.name, name);
         assert_eq!(built_in.parameters, on_disk.parameters);
         assert_eq!(built_in.presets, on_disk.presets);
-        for said in [
-            &built_in.summary,
-            &built_in.source,
-            &built_in.reach,
-            &built_in.cannot,
-        ] {
-            assert!(
-                !said.is_empty(),
-                "{name} says what it is and what it cannot do"
-            );
-        }
+        let says = [
+            built_in.summary,
+            built_in.source,
+            built_in.reach,
+            built_in.cannot,
+        ];
+        let says_all = says.iter().all(|text| !text.is_empty());
+        assert!(says_all, "{name} says what it is and what it cannot do");
     }
 }

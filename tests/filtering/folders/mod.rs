@@ -5,8 +5,7 @@ mod inputs;
 mod refusals;
 mod textures;
 
-use filters::{Filter, FilterError};
-use tests::filter_folder::load_filter;
+use crate::filter_files::FilterFiles;
 
 const README: &str = include_str!("../../../shaders/README.md");
 
@@ -16,14 +15,9 @@ pub fn example(language: &str) -> &'static str {
     start.split_once("```").unwrap().0
 }
 
-/// Loads the example with one piece of its files replaced.
-fn load_changed(file: &str, from: &str, to: &str) -> Result<Filter, FilterError> {
-    let (mut manifest, mut kernels) = (example("toml").to_owned(), example("wgsl").to_owned());
-    let text = match file {
-        "filter.toml" => &mut manifest,
-        _ => &mut kernels,
-    };
-    assert!(text.contains(from), "the example holds \"{from}\"");
-    *text = text.replacen(from, to, 1);
-    load_filter("centre_blur", &manifest, &kernels)
+/// Returns the files of the documented example.
+pub fn documented() -> FilterFiles {
+    FilterFiles::default()
+        .with("filter.toml", example("toml"))
+        .with("centre_blur.wgsl", example("wgsl"))
 }

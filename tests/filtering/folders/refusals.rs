@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use filters::{Blur, Filter, FilterError};
-use tests::open_gpu;
+use tests::shared_gpu;
+use tests::text::assert_contains;
 
-use super::load_changed;
+use super::documented;
 
 #[test]
 fn a_wrong_folder_is_refused_with_place_and_reason() {
@@ -55,61 +56,46 @@ fn a_wrong_folder_is_refused_with_place_and_reason() {
         ("filter.toml", "[[preset]]", "[reach_by]\nparameter = \"spacing\"\ngrowth = \"linear\"\n[[preset]]", &["filter.toml:", "reach_by", "\"spacing\" is not an integer"]),
         ("filter.toml", "[[preset]]", "[reach_by]\nparameter = \"tile_size\"\ngrowth = \"linear\"\nunit = \"side\"\n[[preset]]", &["reach_by", "unit", "\"side\" is no parameter"]),
         ("filter.toml", "[[preset]]", "[reach_by]\nparameter = \"tile_size\"\ngrowth = \"slow\"\n[[preset]]", &["slow", "linear", "doubling"]),
-        ("kernels", "    samples: i32,\n", "", &["centre_blur.wgsl:", "samples"]),
-        ("kernels", "    samples: i32,\n    tile_size: i32,", "    tile_size: i32,\n    samples: i32,", &["member 1", "tile_size", "filter.toml:5"]),
+        ("centre_blur.wgsl", "    samples: i32,\n", "", &["centre_blur.wgsl:", "samples"]),
+        ("centre_blur.wgsl", "    samples: i32,\n    tile_size: i32,", "    tile_size: i32,\n    samples: i32,", &["member 1", "tile_size", "filter.toml:5"]),
         ("filter.toml", "kind = \"integer\"", "kind = \"real\"", &["centre_blur.wgsl:7:", "samples: i32 at byte 0", "filter.toml:5 declares samples: f32 at byte 0"]),
-        ("kernels", "    tile_size: i32,", "    @align(16) tile_size: i32,", &["at byte 16", "at byte 4"]),
-        ("kernels", "    spacing: u32,", "    spacing: u32,\n    more: f32,", &["\"more\"", "does not declare"]),
+        ("centre_blur.wgsl", "    tile_size: i32,", "    @align(16) tile_size: i32,", &["at byte 16", "at byte 4"]),
+        ("centre_blur.wgsl", "    spacing: u32,", "    spacing: u32,\n    more: f32,", &["\"more\"", "does not declare"]),
         ("filter.toml", "[[preset]]", "[[parameter]]\nname = \"bias\"\nkind = \"real\"\ndefault = 0\nrange = [0, 1]\ndoc = \"\"\n[[preset]]", &["filter.toml:27", "\"bias\" is not a member", "centre_blur.wgsl", "`bias: f32,`"]),
-        ("kernels", "var color:", "var colour:", &["centre_blur.wgsl:", "color"]),
-        ("kernels", "var velocity: texture_2d<f32>;", "var velocity: texture_2d<f32>;\n@group(0) @binding(9) var normals: texture_2d<f32>;", &["centre_blur.wgsl:10:", "\"normals\" is no known input or output", "tile_motion"]),
-        ("kernels", "@group(0) @binding(2)", "@group(1) @binding(2)", &["centre_blur.wgsl:8:", "only @group(0)"]),
-        ("kernels", "var color: texture_2d<f32>", "var color: texture_depth_2d", &["centre_blur.wgsl"]),
-        ("kernels", "let tile = vec2<i32>(id.xy);", "let tile = vec2<i32>(id.xy)", &["centre_blur.wgsl:", "expected `;`"]),
-        ("kernels", "let tile = vec2<i32>(id.xy);", "let tile = id.xy;", &["centre_blur.wgsl:"]),
-        ("kernels", "fn gather(", "fn bilinear() {}\n@compute @workgroup_size(8, 8)\nfn gather(", &["centre_blur.wgsl", "bilinear"]),
-        ("kernels", "rgba32float, write", "rgba8unorm, write", &["writes \"output\" as rgba8unorm", "rgba32float or rgba16float"]),
-        ("kernels", "rgba32float, write", "rgba8snorm, write", &["\"output\" cannot be bound", "rgba32float"]),
+        ("centre_blur.wgsl", "var color:", "var colour:", &["centre_blur.wgsl:", "color"]),
+        ("centre_blur.wgsl", "var velocity: texture_2d<f32>;", "var velocity: texture_2d<f32>;\n@group(0) @binding(9) var normals: texture_2d<f32>;", &["centre_blur.wgsl:10:", "\"normals\" is no known input or output", "tile_motion"]),
+        ("centre_blur.wgsl", "@group(0) @binding(2)", "@group(1) @binding(2)", &["centre_blur.wgsl:8:", "only @group(0)"]),
+        ("centre_blur.wgsl", "var color: texture_2d<f32>", "var color: texture_depth_2d", &["centre_blur.wgsl"]),
+        ("centre_blur.wgsl", "let tile = vec2<i32>(id.xy);", "let tile = vec2<i32>(id.xy)", &["centre_blur.wgsl:", "expected `;`"]),
+        ("centre_blur.wgsl", "let tile = vec2<i32>(id.xy);", "let tile = id.xy;", &["centre_blur.wgsl:"]),
+        ("centre_blur.wgsl", "fn gather(", "fn bilinear() {}\n@compute @workgroup_size(8, 8)\nfn gather(", &["centre_blur.wgsl", "bilinear"]),
+        ("centre_blur.wgsl", "rgba32float, write", "rgba8unorm, write", &["writes \"output\" as rgba8unorm", "rgba32float or rgba16float"]),
+        ("centre_blur.wgsl", "rgba32float, write", "rgba8snorm, write", &["\"output\" cannot be bound", "rgba32float"]),
     ];
-    for (file, from, to, fragments) in wrong {
-        let Err(error) = load_changed(file, from, to) else {
-            panic!("{file}: \"{from}\" -> \"{to}\" was accepted");
-        };
-        let message = error.to_string();
-        for fragment in *fragments {
-            assert!(
-                message.contains(fragment),
-                "\"{from}\" -> \"{to}\" must say \"{fragment}\"; it says:\n{message}"
-            );
-        }
+    for (file, from, to, parts) in wrong {
+        documented().assert_refused(file, &[(from, to, parts)]);
     }
 }
 
 #[test]
 fn a_missing_folder_names_the_file_it_looked_for() {
-    let message = Filter::load(Path::new("no/such/folder"))
-        .unwrap_err()
-        .to_string();
-    assert!(
-        message.starts_with("no/such/folder/filter.toml: cannot be read"),
-        "{message}"
-    );
+    let error = Filter::load(Path::new("no/such/folder")).unwrap_err();
+    let parts = ["no/such/folder/filter.toml: cannot be read"];
+    assert_contains(&error.to_string(), &parts);
 }
 
 #[test]
 fn an_error_of_the_gpu_names_file_and_pass() {
-    let gpu = open_gpu();
-    let filter = load_changed(
-        "kernels",
+    let large = documented().changed(
+        "centre_blur.wgsl",
         "@workgroup_size(8, 8)\nfn gather",
         "@workgroup_size(999, 999)\nfn gather",
     );
-    let filter = filter.expect("how large a workgroup may be, only the adapter knows");
-    let error = Blur::new(&gpu, &filter, &filter.settings(None).unwrap(), 8, 8).unwrap_err();
-    let message = error.to_string();
-    assert!(matches!(error, FilterError::Folder { .. }), "{message}");
-    assert!(
-        message.contains("centre_blur.wgsl:33: pass \"gather\": @workgroup_size(999, 999, 1)"),
-        "{message}"
-    );
+    // How large a workgroup may be, only the adapter knows.
+    let filter = large.load().unwrap();
+    let settings = filter.settings(None).unwrap();
+    let error = Blur::new(shared_gpu(), &filter, &settings, 8, 8).unwrap_err();
+    assert!(matches!(error, FilterError::Folder { .. }), "{error}");
+    let parts = ["centre_blur.wgsl:33: pass \"gather\": @workgroup_size(999, 999, 1)"];
+    assert_contains(&error.to_string(), &parts);
 }

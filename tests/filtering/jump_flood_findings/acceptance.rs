@@ -1,9 +1,10 @@
 //! The candidate that the dilation keeps. The published comparison looks as if distances along the path mattered.
 
-use filters::{Blur, Filter, Input};
 use frame::Raster;
-use tests::open_gpu;
+use tests::picture::make_blur;
 use tests::random::Random;
+
+use crate::fields::Field;
 
 /// Candidate of the paper's listing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,13 +46,9 @@ fn choose_as_published(candidates: &[Candidate]) -> Option<usize> {
 
 /// Returns the nearest valid candidate; of equal depths, the first.
 fn nearest_valid(candidates: &[Candidate]) -> Option<usize> {
-    let valid = candidates
-        .iter()
-        .enumerate()
-        .filter(|(_, candidate)| candidate.valid);
-    valid
-        .min_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth))
-        .map(|(index, _)| index)
+    let valid = (candidates.iter().enumerate()).filter(|(_, candidate)| candidate.valid);
+    let nearest = valid.min_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth));
+    nearest.map(|(index, _)| index)
 }
 
 #[test]
@@ -101,16 +98,9 @@ fn distances_along_the_path_only_separate_valid_from_invalid_candidates() {
 }
 
 /// Offsets of the eight neighbours of one step, in the listing's order.
-const NEIGHBOURS: [[i64; 2]; 8] = [
-    [1, 1],
-    [0, 1],
-    [-1, 1],
-    [1, 0],
-    [1, -1],
-    [-1, 0],
-    [-1, -1],
-    [0, -1],
-];
+#[rustfmt::skip]
+const NEIGHBOURS: [[i64; 2]; 8] =
+    [[1, 1], [0, 1], [-1, 1], [1, 0], [1, -1], [-1, 0], [-1, -1], [0, -1]];
 
 #[test]
 fn the_kernel_keeps_the_candidate_of_the_published_comparison() {
@@ -119,35 +109,19 @@ fn the_kernel_keeps_the_candidate_of_the_published_comparison() {
     let mut random = Random::new(3);
     let mut whole = |low: f32, high: f32| random.real(low, high).floor();
     // Whole pixels and metres make comparisons exact and depths often equal.
-    let velocity = Raster::from_fn(SIDE as u32, SIDE as u32, |_, _| {
-        [whole(-9.0, 10.0), whole(-9.0, 10.0)]
-    });
-    let depth = Raster::from_fn(SIDE as u32, SIDE as u32, |_, _| whole(1.0, 4.0));
-    let filter = Filter::builtin("jump_flood").unwrap();
-    let mut settings = filter.settings(Some("paper")).unwrap();
-    for (parameter, value) in [
-        ("passes", "1"),
-        ("step_multiplier", "3"),
-        ("metric", "pixel"),
-        ("fetch", "nearest"),
-        // No quotient of whole pixels below 10 equals it.
-        ("perpendicular_tolerance", "0.3017"),
-    ] {
-        settings.set(&filter, parameter, value).unwrap();
-    }
-    let gpu = open_gpu();
-    let mut blur = Blur::new(&gpu, &filter, &settings, SIDE as u32, SIDE as u32).unwrap();
-    let input = Input {
-        color: &[&Raster::filled(SIDE as u32, SIDE as u32, [0.5; 3])],
-        velocity: &velocity,
-        depth: &depth,
+    let (width, height) = (SIDE as u32, SIDE as u32);
+    let field = Field {
+        color: Raster::filled(width, height, [0.5; 3]),
+        velocity: Raster::from_fn(width, height, |_, _| [whole(-9.0, 10.0), whole(-9.0, 10.0)]),
+        depth: Raster::from_fn(width, height, |_, _| whole(1.0, 4.0)),
         reprojection: None,
-        camera: None,
         exposure: 1.0,
-        frames_per_second: None,
-        frame_index: 0,
     };
-    blur.run(&input).unwrap();
+    // No quotient of whole pixels below 10 equals the tolerance.
+    let changes =
+        "passes=1 step_multiplier=3 metric=pixel fetch=nearest perpendicular_tolerance=0.3017";
+    let mut blur = make_blur("jump_flood", Some("paper"), changes, (width, height));
+    field.blur(&mut blur, 0);
     let seeds = blur.read_texture("seeds").unwrap();
 
     let mut carried = 0;
@@ -156,13 +130,13 @@ fn the_kernel_keeps_the_candidate_of_the_published_comparison() {
             let candidates = NEIGHBOURS.map(|[right, down]| {
                 let offset = [right * STEP, down * STEP].map(|pixels| pixels as f64);
                 let at = [x + right * STEP, y + down * STEP].map(|place| place as u32);
-                let motion = velocity.at(at[0], at[1]).map(f64::from);
+                let motion = field.velocity.at(at[0], at[1]).map(f64::from);
                 let square = motion[0] * motion[0] + motion[1] * motion[1];
                 let along = (motion[0] * offset[0] + motion[1] * offset[1]) / square;
                 let beside = (motion[1] * offset[0] - motion[0] * offset[1]).abs() / square;
                 Candidate {
                     from_middle: (along - 0.5).abs(),
-                    depth: (*depth.at(at[0], at[1])).into(),
+                    depth: (*field.depth.at(at[0], at[1])).into(),
                     valid: square > 0.0 && (along - 0.5).abs() <= 0.5 && beside <= 0.3017,
                 }
             });

@@ -1,16 +1,16 @@
 //! Precision that the version of two days later loses by storing its map of sources in 16 bits.
 
-use tests::picture::{Picture, Surface, column, white};
+use tests::near::assert_within;
+use tests::picture::{Picture, column, white};
 
 /// Returns the brightness of the first pixel of a still wall beside a mover; the wall is white from the next pixel on.
 fn beside_a_mover(map: &str) -> f64 {
-    let wall = |gray: f32| Surface { gray, ..white(0.0) };
     let picture = Picture::new(200, 24, |x, _| match x {
         0..80 => white(40.0),
-        80 => wall(0.0),
-        _ => wall(1.0),
+        80 => white(0.0).gray(0.0),
+        _ => white(0.0),
     });
-    let overrides = [("jitter", "none"), ("map", map)];
+    let overrides = format!("jitter=none map={map}");
     column(&picture.blur("jump_flood", "july_2024", &overrides), 80)
 }
 
@@ -19,6 +19,5 @@ fn a_map_of_16_bits_moves_still_pixels_beside_a_mover() {
     // Its only source is itself, and it stands still.
     assert_eq!(beside_a_mover("float32"), 0.0);
     // Its position, 80.5 of 200 pixels, is stored as 80.47, where a linear fetch mixes in 3 % of the mover's 40 pixels.
-    let found = beside_a_mover("float16");
-    assert!(found > 0.05, "{found}");
+    assert_within(beside_a_mover("float16"), 0.05..);
 }

@@ -1,9 +1,11 @@
 //! The leading edge of a mover.
 
-use tests::picture::{Picture, Surface, column, white};
+use tests::near::{assert_near, assert_within};
+use tests::picture::{BLACK_WALL, Picture, column, white};
 
 /// Columns that the mover covers at the instant.
-const MOVER: std::ops::Range<u32> = 80..140;
+const MOVER_START: u32 = 80;
+const MOVER_END: u32 = 140;
 const SPEED: f64 = 21.0;
 /// Brightness ahead of the mover.
 const AHEAD: f64 = 0.25;
@@ -12,19 +14,16 @@ const BEHIND: f64 = 0.75;
 /// Makes a white bar that moves right in front of something still, which is darker ahead of the bar than behind.
 fn bar() -> Picture {
     Picture::new(240, 24, |x, _| match x {
-        x if MOVER.contains(&x) => white(SPEED as f32),
-        _ => Surface {
-            gray: if x < MOVER.start { BEHIND } else { AHEAD } as f32,
-            velocity: [0.0, 0.0],
-            depth: 20.0,
-        },
+        0..MOVER_START => BLACK_WALL.gray(BEHIND as f32),
+        MOVER_START..MOVER_END => white(SPEED as f32),
+        _ => BLACK_WALL.gray(AHEAD as f32),
     })
 }
 
 /// Returns the part of a column that shows the mover; the rest shows the background ahead.
 fn share(x: u32) -> f64 {
     // Taps 3 pixels apart lie on pixel centres.
-    let output = bar().blur("jump_flood", "paper", &[("jitter", "none")]);
+    let output = bar().blur("jump_flood", "paper", "jitter=none");
     (column(&output, x) - AHEAD) / (1.0 - AHEAD)
 }
 
@@ -33,22 +32,18 @@ fn the_leading_edge_fades_and_does_not_stay_hard() {
     for inside in [1, 4, 10, 16, 20] {
         // The mover reached the middle of the column this many pixels before it stopped.
         let truth = (f64::from(inside) - 0.5) / SPEED;
-        let found = share(MOVER.end - inside);
+        let found = share(MOVER_END - inside);
         // One tap of eight.
-        assert!(
-            (found - truth).abs() < 1.0 / 8.0,
-            "{inside}: {found}, {truth}"
-        );
+        assert_near(found, truth, 1.0 / 8.0);
     }
-    assert!(share(MOVER.end - 1) < 0.15, "{}", share(MOVER.end - 1));
-    assert_eq!(share(MOVER.end), 0.0, "nothing came here yet");
+    assert_within(share(MOVER_END - 1), ..0.15);
+    assert_eq!(share(MOVER_END), 0.0, "nothing came here yet");
 }
 
 #[test]
 fn the_leading_part_takes_its_background_from_ahead() {
-    let output = bar().blur("jump_flood", "paper", &[("jitter", "none")]);
+    let output = bar().blur("jump_flood", "paper", "jitter=none");
     // Seven of eight taps lie beyond the edge; 32-bit floats.
     let expected = (1.0 + 7.0 * AHEAD) / 8.0;
-    let found = column(&output, MOVER.end - 1);
-    assert!((found - expected).abs() < 1e-5, "{found}, {expected}");
+    assert_near(column(&output, MOVER_END - 1), expected, 1e-5);
 }

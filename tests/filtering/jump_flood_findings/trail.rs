@@ -1,19 +1,14 @@
 //! Lengths of trails.
 
-use tests::picture::{Picture, Surface, column, moving_edge};
-
-/// Makes a picture in which everything moves right, and a pixel's brightness is its column.
-fn slope(speed: f32) -> Picture {
-    Picture::new(200, 32, |x, _| Surface {
-        gray: x as f32,
-        velocity: [speed, 0.0],
-        depth: 2.0,
-    })
-}
+use frame::Raster;
+use tests::near::assert_near;
+use tests::picture::{Picture, column, moving_edge, white};
 
 /// Measures how far ahead the mean of each pixel's taps lies, in pixels, away from the border. Returns them sorted.
 fn displacements(preset: &str, jitter: &str, speed: f32) -> Vec<f32> {
-    let output = slope(speed).blur("jump_flood", preset, &[("jitter", jitter)]);
+    // A pixel's brightness is its column.
+    let slope = Picture::new(200, 32, |x, _| white(speed).gray(x as f32));
+    let output = slope.blur("jump_flood", preset, &format!("jitter={jitter}"));
     let inner = (0..120).flat_map(|x| (0..32).map(move |y| (x, y)));
     let mut found: Vec<f32> = inner.map(|(x, y)| output.at(x, y)[0] - x as f32).collect();
     found.sort_by(f32::total_cmp);
@@ -26,15 +21,14 @@ fn noise_scales_whole_trails_evenly_by_a_half_to_one_and_a_half() {
     // The mean of a trail of 20 pixels lies 10 ahead.
     for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
         let index = (part * (found.len() - 1) as f64) as usize;
-        let scale = f64::from(found[index]) / 10.0;
         // Noise of 3840 pixels, which is more even than random numbers: 0.024 would be 3 sigma of those.
-        assert!((scale - (0.5 + part)).abs() < 0.02, "{part}: {scale}");
+        assert_near(found[index] / 10.0, 0.5 + part, 0.02);
     }
 }
 
 /// Returns the brightness this many pixels behind an edge from black to white. Everything moves right by 24 pixels.
 fn behind_an_edge(preset: &str, distance: u32) -> f64 {
-    let output = moving_edge(240, 64, [24.0, 0.0]).blur("jump_flood", preset, &[]);
+    let output = moving_edge(240, 64, [24.0, 0.0]).blur("jump_flood", preset, "");
     column(&output, 120 - distance)
 }
 
@@ -43,9 +37,8 @@ fn the_mean_trail_ends_in_a_ramp_and_not_in_a_step() {
     // Eight taps lie at i / 7 of the trail. Those with i = 5, 6 and 7 exceed its whole length where the scale is above
     // 1.4, 7/6 and 1.
     let expected = (0.1 + 1.0 / 3.0 + 0.5) / 8.0;
-    let found = behind_an_edge("paper", 24);
     // Noise of 64 rows; half a pixel of the edge.
-    assert!((found - expected).abs() < 0.03, "{found}, {expected}");
+    assert_near(behind_an_edge("paper", 24), expected, 0.03);
     assert!(behind_an_edge("paper", 34) > 0.0);
     assert_eq!(behind_an_edge("paper", 37), 0.0);
     // A box ends abruptly.
@@ -57,27 +50,21 @@ fn a_start_offset_makes_a_box_only_if_the_pixel_itself_shifts_too() {
     // Half a pixel before the edge, a box of 24 pixels is white except for 0.5 / 24.
     let box_filter = 1.0 - 0.5 / 24.0;
     // Two pixels of bilinear fetches, and noise of 64 rows.
-    let corrected = behind_an_edge("corrected", 1);
-    assert!((corrected - box_filter).abs() < 0.02, "{corrected}");
+    assert_near(behind_an_edge("corrected", 1), box_filter, 0.02);
     // In the version of two days later the pixel's own colour is still one of eight taps, and black.
-    let later = behind_an_edge("july_2024", 1);
-    assert!((later - 7.0 / 8.0 * box_filter).abs() < 0.02, "{later}");
+    assert_near(behind_an_edge("july_2024", 1), 7.0 / 8.0 * box_filter, 0.02);
 }
 
 /// Returns the farthest pixel behind an edge in steady motion that still mixes in the other side, along columns or
 /// rows.
 fn reach(preset: &str, vertical: bool, speed: f32, exposure: f64) -> u32 {
-    let (width, height) = (256, 144);
-    let mut picture = Picture::new(width, height, |x, y| {
-        let ahead = if vertical { y >= 72 } else { x >= 128 };
-        Surface {
-            gray: if ahead { 1.0 } else { 0.0 },
-            velocity: if vertical { [0.0, speed] } else { [speed, 0.0] },
-            depth: 2.0,
-        }
-    });
+    let velocity = if vertical { [0.0, speed] } else { [speed, 0.0] };
+    let mut picture = moving_edge(256, 144, velocity);
+    if vertical {
+        picture.color = Raster::from_fn(256, 144, |_, y| [if y < 72 { 0.0 } else { 1.0 }; 3]);
+    }
     picture.exposure = exposure;
-    let output = picture.blur("jump_flood", preset, &[("jitter", "none")]);
+    let output = picture.blur("jump_flood", preset, "jitter=none");
     let lit = |distance: &u32| {
         let pixel = match vertical {
             true => output.at(20, 72 - distance),

@@ -1,6 +1,8 @@
 //! The dilation passes, with every result that rounding allows.
 
-use super::paper::{Answer, ROUNDING, Reference, Vec2, at_most, both, cross, dot, minus};
+use tests::vector::{Vec2, cross, dot, minus};
+
+use super::paper::{Answer, ROUNDING, Reference, at_most, both};
 
 /// A source pixel, and whether it is valid (otherwise it is the pixel itself).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,17 +11,16 @@ pub struct Chosen {
     pub valid: bool,
 }
 
-const KERNEL: [[i64; 2]; 9] = [
-    [0, 0],
-    [1, 1],
-    [0, 1],
-    [-1, 1],
-    [1, 0],
-    [1, -1],
-    [-1, 0],
-    [-1, -1],
-    [0, -1],
-];
+#[rustfmt::skip]
+const KERNEL: [[i64; 2]; 9] =
+    [[0, 0], [1, 1], [0, 1], [-1, 1], [1, 0], [1, -1], [-1, 0], [-1, -1], [0, -1]];
+
+fn own(pixel: [i64; 2]) -> Chosen {
+    Chosen {
+        pixel,
+        valid: false,
+    }
+}
 
 impl Reference<'_> {
     /// Returns tau, and whether the candidate is valid, for pixel p and source s.
@@ -51,14 +52,7 @@ impl Reference<'_> {
     pub fn dilate(&self) -> Vec<Vec<Chosen>> {
         let [width, height] = self.size;
         let pixels = || (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]));
-        let mut map: Vec<Vec<Chosen>> = pixels()
-            .map(|pixel| {
-                vec![Chosen {
-                    pixel,
-                    valid: false,
-                }]
-            })
-            .collect();
+        let mut map: Vec<Vec<Chosen>> = pixels().map(|pixel| vec![own(pixel)]).collect();
         let last = self.paper.passes - 1;
         for iteration in 0..=last {
             let step = (1 << (last - iteration)) * self.paper.step_multiplier;
@@ -136,10 +130,7 @@ impl Reference<'_> {
             }
         }
         if sure.is_empty() {
-            outcomes.push(Chosen {
-                pixel,
-                valid: false,
-            });
+            outcomes.push(own(pixel));
         }
         outcomes
     }

@@ -1,6 +1,9 @@
 //! The demo's blur with a given map of sources.
 
-use super::paper::{Jitter, POSITION, ROUNDING, Reference, Vec2, dot, minus};
+use tests::vector::{Vec2, dot, minus};
+
+use super::paper::{Jitter, POSITION, ROUNDING, Reference};
+use crate::reference::{noise, read_clamped};
 
 /// Error of the gradient noise in 32-bit floats: 53 times the rounding of a number up to 32, twice.
 const NOISE: f64 = 2e-4;
@@ -33,7 +36,7 @@ impl Reference<'_> {
         let start_offset = self.paper.jitter == Jitter::StartOffset;
         let (noise, noise_error) = match self.paper.jitter {
             Jitter::None => (0.5, 0.0),
-            _ => (self.noise(pixel)?, NOISE),
+            _ => (noise(pixel, 0.0, NOISE)?, NOISE),
         };
         let [trail_x, trail_y] = self.pixels(v);
         let misplaced = POSITION + noise_error * length * trail_x.hypot(trail_y);
@@ -79,7 +82,7 @@ impl Reference<'_> {
     fn color(&self, uv: Vec2) -> [f64; 3] {
         [0, 1, 2].map(|c| {
             self.sample(uv, false, |x, y| {
-                f64::from(self.read_clamped(&self.field.color, x, y)[c])
+                f64::from(read_clamped(&self.field.color, x, y)[c])
             })
         })
     }
@@ -119,16 +122,5 @@ impl Reference<'_> {
             return None;
         }
         Some(1.0 - fg * d.clamp(0.0, 1.0).powf(self.paper.mismatch_exponent))
-    }
-
-    /// Computes interleaved gradient noise on a cycle of 8 frames; none where it may wrap around.
-    fn noise(&self, pixel: [i64; 2]) -> Option<f64> {
-        let frame = f64::from(self.paper.frame_index % 8);
-        let x = pixel[0] as f64 + frame * 47.0 * 0.695;
-        let y = pixel[1] as f64 + frame * 17.0 * 0.695;
-        let inner = (0.067_110_56 * x + 0.005_837_15 * y).fract();
-        let noise = (52.982_918_9 * inner).fract();
-        let clear = |value: f64, margin: f64| value > margin && value < 1.0 - margin;
-        (clear(inner, NOISE / 50.0) && clear(noise, NOISE)).then_some(noise)
     }
 }

@@ -4,7 +4,10 @@
 //! Where a decision depends on less than 32-bit floats resolve, every result is kept: a pixel holds all sources that a
 //! correct run may choose.
 
+use tests::vector::{Vec2, dot};
+
 use crate::fields::Field;
+use crate::reference::{read_clamped, sample_linear};
 
 /// Parameters, with the paper's meaning.
 pub struct Paper {
@@ -36,7 +39,6 @@ pub struct Paper {
     pub with_centre: bool,
     /// True if velocity and depth are read without filtering.
     pub nearest: bool,
-    pub frame_index: u32,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -47,24 +49,10 @@ pub enum Jitter {
     None,
 }
 
-pub type Vec2 = [f64; 2];
-
 /// 64 rounding steps of a 32-bit float: no quantity below goes through more.
 pub const ROUNDING: f64 = 64.0 * 6e-8;
 /// Error of 32-bit floats in positions of up to 1000 pixels after a product and a sum, in pixels, with room.
 pub const POSITION: f64 = 2e-4;
-
-pub fn dot(a: Vec2, b: Vec2) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-pub fn cross(a: Vec2, b: Vec2) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-pub fn minus(a: Vec2, b: Vec2) -> Vec2 {
-    [a[0] - b[0], a[1] - b[1]]
-}
 
 #[derive(Clone, Copy, PartialEq)]
 pub enum Answer {
@@ -112,39 +100,20 @@ impl<'f> Reference<'f> {
         (0..2).all(|axis| (0..self.size[axis]).contains(&pixel[axis]))
     }
 
-    pub fn read_clamped<T: Copy>(&self, raster: &frame::Raster<T>, x: i64, y: i64) -> T {
-        let x = x.clamp(0, self.size[0] - 1);
-        let y = y.clamp(0, self.size[1] - 1);
-        *raster.at(x as u32, y as u32)
-    }
-
     /// Samples as a linear, clamp-to-edge sampler does, or reads the nearest texel.
     pub fn sample(&self, uv: Vec2, nearest: bool, texel: impl Fn(i64, i64) -> f64) -> f64 {
-        let [x, y] = self.pixels(uv);
-        if nearest {
-            return texel(x.floor() as i64, y.floor() as i64);
+        let place = self.pixels(uv);
+        match nearest {
+            true => texel(place[0].floor() as i64, place[1].floor() as i64),
+            false => sample_linear(place, texel),
         }
-        // Snaps to a texel's centre if only the last bits of a 64-bit float miss it.
-        let snap = |c: f64| {
-            if (c - c.round()).abs() < 1e-9 {
-                c.round()
-            } else {
-                c
-            }
-        };
-        let (x, y) = (snap(x - 0.5), snap(y - 0.5));
-        let (left, top) = (x.floor() as i64, y.floor() as i64);
-        let (right_part, bottom_part) = (x - x.floor(), y - y.floor());
-        let mix = |a: f64, b: f64, part: f64| a + part * (b - a);
-        let row = |y: i64| mix(texel(left, y), texel(left + 1, y), right_part);
-        mix(row(top), row(top + 1), bottom_part)
     }
 
     /// Returns V: the vector from here to where the surface was one frame before, in UV.
     pub fn velocity(&self, uv: Vec2) -> Vec2 {
         [0, 1].map(|axis| {
             let motion = self.sample(uv, self.paper.nearest, |x, y| {
-                f64::from(self.read_clamped(&self.field.velocity, x, y)[axis])
+                f64::from(read_clamped(&self.field.velocity, x, y)[axis])
             });
             -motion / self.size[axis] as f64
         })
@@ -153,7 +122,7 @@ impl<'f> Reference<'f> {
     /// Computes z = near plane / reverse depth, with the demo's near plane of 0.05 m.
     pub fn depth(&self, uv: Vec2) -> f64 {
         let reverse = self.sample(uv, self.paper.nearest, |x, y| {
-            0.05 / f64::from(self.read_clamped(&self.field.depth, x, y))
+            0.05 / f64::from(read_clamped(&self.field.depth, x, y))
         });
         0.05 / reverse
     }

@@ -1,7 +1,9 @@
 //! Rejection and back-tracking.
 
+use tests::vector::{Vec2, cross, dot, minus};
+
 use super::flood::Chosen;
-use super::paper::{Answer, POSITION, ROUNDING, Reference, Vec2, at_most, both, cross, dot, minus};
+use super::paper::{Answer, POSITION, ROUNDING, Reference, at_most, both};
 
 /// Position that a pixel's velocity comes from after the way back, in pixels, and the paper's flag.
 #[derive(Clone, Copy, Debug)]

@@ -3,52 +3,47 @@
 //! Depths are compared relative to each other as inverse depths, which are larger for nearer surfaces, as the paper's
 //! operands require.
 
-use super::mcguire::{cone, cylinder, on_image};
-use super::noise::{NOISE, noise};
-use super::tiles::{Vec2, direction, dot, length, scaled};
-use super::{Expected, FRAME_INDEX, Run};
+use tests::kernels::{cone, cylinder};
+use tests::vector::{Vec2, dot, length, scaled};
 
-/// Computes a pixel from the GPU's neighbourhoods; none where rounding decides which texel is read.
-pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
+use super::NOISE;
+use super::mcguire::on_image;
+use super::tiles::{texel, vector};
+use crate::reference::{Run, noise};
+
+/// Computes a pixel from the GPU's neighbourhoods.
+pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<([f64; 3], f64)> {
     let tile = asked_tile(run, pixel)?;
-    let noise = match run.real("jitter") {
-        0.0 => {
-            return color(run, pixel, tile, 0.5).map(|color| Expected {
-                color,
-                tolerance: 0.0,
-            });
-        }
-        _ => noise(pixel, FRAME_INDEX, 0.0)?,
-    };
     let color = |noise: f64| color(run, pixel, tile, noise);
+    if run.real("jitter") == 0.0 {
+        return Some((color(0.5)?, 0.0));
+    }
+    let noise = noise(pixel, 0.0, NOISE)?;
     let (expected, less, more) = (color(noise)?, color(noise - NOISE)?, color(noise + NOISE)?);
     let differences = (0..3).map(|channel| {
         let [less, more] = [less, more].map(|other| (other[channel] - expected[channel]).abs());
         less.max(more)
     });
-    Some(Expected {
-        color: expected,
-        tolerance: differences.fold(0.0, f64::max),
-    })
+    Some((expected, differences.fold(0.0, f64::max)))
 }
 
 fn color(run: &Run, pixel: [i64; 2], tile: [i64; 2], noise: f64) -> Option<[f64; 3]> {
-    let largest = super::vector(&run.neighborhoods, tile);
-    let variance = f64::from(run.neighborhoods.at(tile[0] as u32, tile[1] as u32)[2]);
+    let largest = vector(run.texture("neighborhoods"), tile);
+    let variance = texel(run.texture("neighborhoods"), tile)[2];
     if (length(largest) - 0.5001).abs() < 1e-5 {
         return None;
     }
     if length(largest) <= 0.5001 {
-        return Some(run.color(pixel));
+        return Some(super::color(run, pixel));
     }
-    let own = run.motion(pixel);
+    let own = super::motion(run, pixel);
     let radius = |vector: Vec2| length(vector).max(0.5);
     let center = center_direction(largest, own, run.real("own_direction_ramp"));
     let samples = run.integer("samples") as f64;
     let eta_phi = run.real("jitter");
     let jitter = (2.0 * noise - 1.0) * eta_phi / samples;
     let mut weight = samples / (run.real("center_weight_divisor") * radius(own));
-    let mut sum = run.color(pixel).map(|component| component * weight);
+    let mut sum = super::color(run, pixel).map(|component| component * weight);
     for i in 0..run.integer("samples") {
         let step = 2.0 / (samples + 1.0);
         let t = -1.0 + step * (i as f64 + jitter + 1.0);
@@ -60,16 +55,16 @@ fn color(run: &Run, pixel: [i64; 2], tile: [i64; 2], noise: f64) -> Option<[f64;
         let misplaced = 1e-4 + 2.0 * NOISE * eta_phi / samples * step * length(along);
         let tap = on_image(run, pixel, truncate_clearly(scaled(along, t), misplaced)?);
         let distance = t.abs() * length(largest);
-        let other = run.motion(tap);
-        let f = z_compare(1.0 / run.depth(pixel), 1.0 / run.depth(tap));
-        let b = z_compare(1.0 / run.depth(tap), 1.0 / run.depth(pixel));
+        let other = super::motion(run, tap);
+        let f = z_compare(1.0 / super::depth(run, pixel), 1.0 / super::depth(run, tap));
+        let b = z_compare(1.0 / super::depth(run, tap), 1.0 / super::depth(run, pixel));
         let a_weight = dot(center, direction(along)).abs();
         let b_weight = dot(scaled(other, 1.0 / radius(other)), direction(along)).abs();
         let a = f * cone(distance, radius(other)) * b_weight
             + b * cone(distance, radius(own)) * a_weight
             + 2.0 * cylinder(distance, radius(own).min(radius(other))) * a_weight.max(b_weight);
         weight += a;
-        let color = run.color(tap);
+        let color = super::color(run, tap);
         sum = [0, 1, 2].map(|channel| sum[channel] + a * color[channel]);
     }
     Some(sum.map(|component| component / weight))
@@ -77,7 +72,7 @@ fn color(run: &Run, pixel: [i64; 2], tile: [i64; 2], noise: f64) -> Option<[f64;
 
 /// Returns the pixel's tile or, by chance, the one across its nearest border.
 fn asked_tile(run: &Run, pixel: [i64; 2]) -> Option<[i64; 2]> {
-    let tiles = run.tiles();
+    let tiles = super::tiles(run);
     let tile = tiles.of(pixel);
     let side = tiles.side as f64;
     // Distance from the middle of the tile, in tiles.
@@ -93,7 +88,7 @@ fn asked_tile(run: &Run, pixel: [i64; 2]) -> Option<[i64; 2]> {
     }
     let axis = usize::from(distances[1] < distances[0]);
     let odds = 0.5 * (1.0 - distances[axis] / blend).clamp(0.0, 1.0);
-    let drawn = noise(pixel, FRAME_INDEX, 37.0)?;
+    let drawn = noise(pixel, 37.0, NOISE)?;
     if (drawn - odds).abs() < 2.0 * NOISE {
         return None;
     }
@@ -114,6 +109,10 @@ fn is_own(run: &Run, i: i64, variance: f64) -> Option<bool> {
         .iter()
         .all(|taps| taps.abs() < 1e-3 || (taps - taps.round()).abs() > 1e-5);
     clear.then(|| taps[1].floor() > taps[0].floor())
+}
+
+fn direction(a: Vec2) -> Vec2 {
+    tests::vector::direction(a, [0.0; 2])
 }
 
 fn center_direction(largest: Vec2, own: Vec2, gamma: f64) -> Vec2 {

@@ -1,39 +1,34 @@
 //! Reconstruction of McGuire et al. 2012 in the paper's notation: Z is negative into the screen.
 
-use super::noise::{NOISE, noise};
-use super::tiles::{Vec2, length, scaled};
-use super::{Expected, FRAME_INDEX, Run};
+use tests::kernels::{cone, cylinder};
+use tests::vector::{Vec2, length, scaled};
+
+use super::NOISE;
+use super::tiles::vector;
+use crate::reference::{Run, noise};
 
 /// The paper's epsilon, in pixels.
 const EPSILON: f64 = 1e-4;
 
-/// Computes a pixel from the GPU's neighbourhoods; none where rounding decides which texel a tap reads.
-pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<Expected> {
-    // Distances are between pixels, so noise cannot change a weight.
-    color(run, pixel).map(|color| Expected {
-        color,
-        tolerance: 0.0,
-    })
-}
-
-fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
-    let largest = super::vector(&run.neighborhoods, run.tiles().of(pixel));
+/// Computes a pixel from the GPU's neighbourhoods. Distances are between pixels, so noise cannot change a weight.
+pub fn reconstruct(run: &Run, pixel: [i64; 2]) -> Option<([f64; 3], f64)> {
+    let largest = vector(run.texture("neighborhoods"), super::tiles(run).of(pixel));
     let limit = EPSILON + 0.5;
     if (length(largest) - limit).abs() < 1e-5 {
         return None;
     }
     if length(largest) <= limit {
-        return Some(run.color(pixel));
+        return Some((super::color(run, pixel), 0.0));
     }
     let samples = run.integer("samples");
     let (jitter, uncertainty) = match run.choice("jitter").as_str() {
         "none" => (0.0, 0.0),
-        _ => (noise(pixel, FRAME_INDEX, 0.0)? - 0.5, NOISE),
+        _ => (noise(pixel, 0.0, NOISE)? - 0.5, NOISE),
     };
-    let radius = |pixel: [i64; 2]| length(run.motion(pixel)).max(0.5);
-    let z = |pixel: [i64; 2]| -run.depth(pixel);
+    let radius = |pixel: [i64; 2]| length(super::motion(run, pixel)).max(0.5);
+    let z = |pixel: [i64; 2]| -super::depth(run, pixel);
     let mut weight = 1.0 / radius(pixel);
-    let mut sum = run.color(pixel).map(|component| component * weight);
+    let mut sum = super::color(run, pixel).map(|component| component * weight);
     for i in 0..samples {
         if 2 * i == samples - 1 {
             continue;
@@ -50,10 +45,10 @@ fn color(run: &Run, pixel: [i64; 2]) -> Option<[f64; 3]> {
             + b * cone(distance, radius(pixel))
             + 2.0 * cylinder(distance, radius(tap)) * cylinder(distance, radius(pixel));
         weight += a;
-        let color = run.color(tap);
+        let color = super::color(run, tap);
         sum = [0, 1, 2].map(|channel| sum[channel] + a * color[channel]);
     }
-    Some(sum.map(|component| component / weight))
+    Some((sum.map(|component| component / weight), 0.0))
 }
 
 /// Rounds to the nearest whole pixel; none where `margin` decides.
@@ -71,13 +66,4 @@ pub fn on_image(run: &Run, pixel: [i64; 2], offset: [i64; 2]) -> [i64; 2] {
 
 fn soft_depth_compare(za: f64, zb: f64, extent: f64) -> f64 {
     (1.0 - (za - zb) / extent).clamp(0.0, 1.0)
-}
-
-pub fn cone(distance: f64, radius: f64) -> f64 {
-    (1.0 - distance / radius).clamp(0.0, 1.0)
-}
-
-pub fn cylinder(distance: f64, radius: f64) -> f64 {
-    let part = ((distance - 0.95 * radius) / (0.1 * radius)).clamp(0.0, 1.0);
-    1.0 - part * part * (3.0 - 2.0 * part)
 }

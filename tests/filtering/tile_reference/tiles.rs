@@ -1,33 +1,16 @@
 //! Half-velocities, tiles and neighbourhoods in 64-bit floats, as plain loops that share nothing with the kernels.
 
 use frame::Raster;
+use tests::vector::{Vec2, direction, dot, length, scaled};
 
-pub type Vec2 = [f64; 2];
-
-pub fn dot(a: Vec2, b: Vec2) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
+pub fn texel(raster: &Raster<[f32; 4]>, [x, y]: [i64; 2]) -> [f64; 4] {
+    raster.at(x as u32, y as u32).map(f64::from)
 }
 
-pub fn length(a: Vec2) -> f64 {
-    dot(a, a).sqrt()
-}
-
-pub fn scaled(a: Vec2, factor: f64) -> Vec2 {
-    a.map(|component| component * factor)
-}
-
-/// Scales a vector to length 1; (0, 0) where it has no direction.
-pub fn direction(a: Vec2) -> Vec2 {
-    match length(a) {
-        0.0 => [0.0, 0.0],
-        length => scaled(a, 1.0 / length),
-    }
-}
-
-/// Computes V of both papers for half the motion over the exposure, in pixels, with their epsilon of 1e-5.
-pub fn half_velocity(half: Vec2, longest: f64) -> Vec2 {
-    let speed = length(half);
-    scaled(half, speed.min(longest).max(0.5) / (speed + 1e-5))
+/// Returns the first two components of a texel.
+pub fn vector(raster: &Raster<[f32; 4]>, pixel: [i64; 2]) -> Vec2 {
+    let [horizontal, vertical, ..] = texel(raster, pixel);
+    [horizontal, vertical]
 }
 
 /// Tiles of `side` pixels over an image, and the half-velocity that each holds.
@@ -59,28 +42,23 @@ impl Tiles<'_> {
         pixel.map(|coordinate| coordinate / self.side)
     }
 
-    pub fn vector(&self, [x, y]: [i64; 2]) -> Vec2 {
-        let [horizontal, vertical, ..] = *self.vectors.at(x as u32, y as u32);
-        [horizontal.into(), vertical.into()]
-    }
-
     /// Returns a tile and the up to eight around it: their offsets and half-velocities.
     pub fn around(&self, tile: [i64; 2]) -> impl Iterator<Item = ([i64; 2], Vec2)> {
         let offsets = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y]));
         offsets.filter_map(move |offset| {
             let other = [tile[0] + offset[0], tile[1] + offset[1]];
             let exists = (0..2).all(|axis| (0..self.count()[axis]).contains(&other[axis]));
-            exists.then(|| (offset, self.vector(other)))
+            exists.then(|| (offset, vector(self.vectors, other)))
         })
     }
 
     /// Computes 1 - the mean |cosine| between a tile's half-velocity and those of the moving tiles around it.
     pub fn variance(&self, tile: [i64; 2]) -> f64 {
-        let own = direction(self.vector(tile));
+        let own = direction(vector(self.vectors, tile), [0.0; 2]);
         let cosines: Vec<f64> = self
             .around(tile)
             .filter(|(_, vector)| length(*vector) > 0.5001)
-            .map(|(_, vector)| dot(own, direction(vector)).abs())
+            .map(|(_, vector)| dot(own, direction(vector, [0.0; 2])).abs())
             .collect();
         match own {
             [0.0, 0.0] => 0.0,

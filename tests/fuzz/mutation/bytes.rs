@@ -9,12 +9,10 @@ use super::pieces::Format;
 pub static FORMAT: Format = Format {
     header: 0,
     cut: |input, random| {
-        let start = random.usize(..=input.len());
+        let (first, rest) = input.split_at(random.usize(..=input.len()));
         let length = magnitude(input.len().max(1), random);
-        let end = (start + length).min(input.len());
-        [&input[..start], &input[start..end], &input[end..]]
-            .map(<[u8]>::to_vec)
-            .into()
+        let (second, third) = rest.split_at(length.min(rest.len()));
+        [first, second, third].map(<[u8]>::to_vec).into()
     },
     write: |input, piece| input.extend(piece),
     edit: |pieces, _, random| {
@@ -24,6 +22,9 @@ pub static FORMAT: Format = Format {
     },
     moves: 4,
 };
+
+/// Ends of lines and texts, and bytes at limits.
+const LIMITS: [u8; 10] = [0, 1, 9, 10, 13, 27, 34, 127, 128, 255];
 
 /// Flips a bit, writes a byte or number at a limit, or inserts equal bytes.
 pub fn edit(bytes: &mut Vec<u8>, random: &mut Rng) {
@@ -37,11 +38,7 @@ pub fn edit(bytes: &mut Vec<u8>, random: &mut Rng) {
     let changed = &mut bytes[at..];
     match (kind, changed.first_mut()) {
         (0, Some(byte)) => *byte ^= 1 << random.u32(..8),
-        (1, Some(byte)) => {
-            *byte = random
-                .choice([0, 1, 9, 10, 13, 27, 34, 127, 128, 255])
-                .expect("a list")
-        }
+        (1, Some(byte)) => *byte = random.choice(LIMITS).expect("a list"),
         (2, Some(_)) => {
             let number = make_number(random);
             let number = match random.bool() {

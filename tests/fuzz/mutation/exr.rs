@@ -48,26 +48,26 @@ pub fn change(input: &mut Vec<u8>, place: &Place, random: &mut Rng) {
 
 /// Makes a text that the format can hold.
 fn make_plain_text(random: &mut Rng) -> String {
-    let text = make_text(random);
-    text.chars()
-        .filter(|c| c.is_ascii() && *c != '\0')
-        .collect()
+    make_text(random).replace(|c: char| !c.is_ascii() || c == '\0', "")
 }
 
 /// Changes some samples of a channel, or its kind.
 fn change_samples(samples: &mut Samples, random: &mut Rng) {
     let number = pick_number(random);
+    let mut count = |length| magnitude(length, random);
     match samples {
-        Samples::F32(values) if random.u8(..8) == 0 => {
+        Samples::F32(values) if count(8) == 8 => {
             *samples = Samples::U32(values.iter().map(|value| *value as u32).collect());
         }
         Samples::F32(values) => {
-            let count = magnitude(values.len(), random);
-            values[..count].fill(number.parse().expect("it is a list of numbers"));
+            let number = number.parse().expect("it is a list of numbers");
+            let count = count(values.len());
+            values[..count].fill(number);
         }
         Samples::U32(values) => {
-            let count = magnitude(values.len(), random);
-            values[..count].fill(number.parse().unwrap_or(u32::MAX));
+            let number = number.parse().unwrap_or(u32::MAX);
+            let count = count(values.len());
+            values[..count].fill(number);
         }
     }
 }
@@ -77,15 +77,13 @@ fn change_attribute(file: &mut ExrFile, random: &mut Rng) {
     let [Some(name), Some(other)] = [random.choice(&names), random.choice(&names)] else {
         return;
     };
+    let other = file.attributes[other].clone();
     let old = file.attributes.remove(name).expect("it is a name of one");
     match random.u8(..5) {
         0 => {}
         1 => file.set(name, make_plain_text(random)),
         2 => file.set(name, format!("{old} {old}")),
-        3 => file.set(
-            name,
-            file.attributes.get(other).cloned().unwrap_or_default(),
-        ),
+        3 => file.set(name, other),
         _ => file.set(name, pick_number(random)),
     }
 }

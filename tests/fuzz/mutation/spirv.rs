@@ -46,14 +46,15 @@ fn edit(instructions: &mut [Vec<u8>], random: &mut Rng) {
         }
         1 => instruction.extend(random.u32(..IDS).to_le_bytes()),
         kind if count > 1 => {
-            let word = &mut instruction[4 * random.usize(1..count)..][..4];
-            let old = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);
+            let words = instruction.as_chunks_mut().0;
+            let word = &mut words[random.usize(1..count)];
+            let old = u32::from_le_bytes(*word);
             let new = match kind {
                 2 => make_number(random),
                 3 => old ^ 1 << random.u32(..32),
                 _ => random.u32(..IDS),
             };
-            word.copy_from_slice(&new.to_le_bytes());
+            *word = new.to_le_bytes();
         }
         _ => {}
     }

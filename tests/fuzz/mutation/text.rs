@@ -42,15 +42,15 @@ pub static WORDS: Format = Format {
     moves: 1,
 };
 
-/// Brackets that can be nested, with `~` between.
-const BRACKETS: [&str; 7] = [
-    "[~]",
-    "{~}",
-    "(~)",
-    "{ a = ~ }",
-    "{\"a\":~}",
-    "[[~]]",
-    "{ ~ }",
+/// Pairs of brackets that can be nested: what opens them, and what closes them.
+const BRACKETS: [[&str; 2]; 7] = [
+    ["[", "]"],
+    ["{", "}"],
+    ["(", ")"],
+    ["{ a = ", " }"],
+    ["{\"a\":", "}"],
+    ["[[", "]]"],
+    ["{ ", " }"],
 ];
 
 fn is_part_of_word(byte: u8) -> bool {
@@ -61,14 +61,15 @@ fn cut_words(mut rest: &[u8], has_texts: bool) -> Vec<Vec<u8>> {
     let mut words = Vec::new();
     while let [first, more @ ..] = rest {
         let length = match *first {
-            b'"' if has_texts => {
-                (more.iter().position(|byte| *byte == b'"')).map_or(1, |at| at + 2)
-            }
-            byte if is_part_of_word(byte) => rest
+            b'"' if has_texts => more
+                .iter()
+                .position(|byte| *byte == b'"')
+                .map_or(1, |at| at + 2),
+            _ => rest
                 .iter()
                 .take_while(|byte| is_part_of_word(**byte))
-                .count(),
-            _ => 1,
+                .count()
+                .max(1),
         };
         let (word, after) = rest.split_at(length);
         words.push(word.to_vec());
@@ -128,14 +129,15 @@ pub fn make_text(random: &mut Rng) -> String {
 
 /// Nests brackets around a word; some stay open.
 fn nest(word: &[u8], random: &mut Rng) -> Vec<u8> {
-    let brackets = BRACKETS[random.usize(..BRACKETS.len())];
-    let (open, close) = brackets.split_once('~').expect("each has a pair");
+    let [open, close] = random.choice(BRACKETS).expect("a list");
     let depth = magnitude(20_000, random);
-    let close = match random.u8(..4) {
-        0 => String::new(),
-        _ => close.repeat(depth),
-    };
-    [open.repeat(depth).as_bytes(), word, close.as_bytes()].concat()
+    let closed = if random.u8(..4) == 0 { 0 } else { depth };
+    [
+        open.repeat(depth).as_bytes(),
+        word,
+        close.repeat(closed).as_bytes(),
+    ]
+    .concat()
 }
 
 fn pick_word(source: &Source, random: &mut Rng) -> &'static str {

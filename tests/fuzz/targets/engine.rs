@@ -1,7 +1,6 @@
 //! Captures of an engine: their description, and what `ingest` leaves for a run.
 
 use std::fs;
-use std::ops::ControlFlow;
 use std::path::{Component, Path};
 
 use engine::{Capture, ingest};
@@ -16,8 +15,12 @@ pub fn capture(place: &mut Place, input: &[u8]) -> Option<()> {
     place.write("capture/capture.toml", input);
     let capture = Capture::read(&folder, None).ok()?;
     let out = place.folder.join("scene");
-    let watch = &|_| ControlFlow::Continue(());
-    let ingested = ingest(&capture, (Display::default(), None), &out, watch);
+    let ingested = ingest(
+        &capture,
+        (Display::default(), None),
+        &out,
+        &tests::unwatched,
+    );
     if ingested.is_ok() {
         check_names(&EngineScene::read(&out).expect("what was ingested is read"));
     }

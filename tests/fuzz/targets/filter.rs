@@ -73,11 +73,8 @@ pub fn includes(place: &mut Place, input: &[u8]) -> Option<()> {
 
 /// Returns the kernels of all built-in filters, each with a line that names its filter.
 pub fn kernels(_: &Place) -> Vec<Vec<u8>> {
-    let names = Filter::builtin_names();
-    let sources = names
-        .iter()
-        .map(|name| format!("{MARK}{name}\n{}", only_file(name, ".wgsl")));
-    sources.map(String::into_bytes).collect()
+    let source = |name: &String| format!("{MARK}{name}\n{}", only_file(name, ".wgsl")).into_bytes();
+    Filter::builtin_names().iter().map(source).collect()
 }
 
 const MARK: &str = "// filter: ";

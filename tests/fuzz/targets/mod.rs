@@ -82,7 +82,7 @@ pub static ALL: [Target; 33] = [
     Target::new("baseline", 450, Text("json"), commands::read).seeds(commands::replaced),
     Target::new("bench_json", 150, Text("json"), commands::read).seeds(commands::replaced),
     Target::new("judgement", 250, Text("json"), commands::read).seeds(commands::replaced),
-    Target::new("bounds", 1_300, Text("bounds"), commands::read).seeds(|place| {
+    Target::new("bounds", 650, Text("bounds"), commands::read).seeds(|place| {
         let mut all = commands::replaced(place);
         all.extend(shipped("scenes", "bounds.toml").into_iter().take(8));
         all
@@ -101,9 +101,14 @@ pub static ALL: [Target; 33] = [
     Target::new("tune_json", 450, Text("json"), commands::read).seeds(commands::replaced),
     Target::new("pack_manifest", 450, Text("json"), pack::manifest),
     Target::new("pack_archive", 450, Bytes, pack::unpack),
-    Target::new("records", 50, Text("json"), program::records)
-        .seeds(|place| made(place, "out", &["case.json", "frame.json"])),
+    Target::new("records", 50, Text("json"), program::records).seeds(|place| {
+        made(
+            place,
+            "out",
+            &["paper/case.json", "departure/case.json", "frame.json"],
+        )
+    }),
     Target::new("command_line", 350, CommandLine, program::command_line),
-    Target::new("serve", 600, Text("serve"), program::serve),
+    Target::new("serve", 300, Text("serve"), program::serve),
     Target::new("planted", 0, Bytes, planted::fail),
 ];

@@ -8,13 +8,13 @@ use std::time::{Duration, Instant};
 
 use super::commands;
 use crate::fixture::{PROGRAM, RENDER};
-use crate::place::Place;
+use crate::place::{Place, last_lines};
 
 /// Exit codes that the README names.
 const CODES: [i32; 5] = [0, 1, 2, 3, 4];
 
 /// Time limit for a program with much work; it is then ended.
-const PATIENCE: Duration = Duration::from_secs(5);
+const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Runs a command line in a folder with scenes, a run and a tuning.
 pub fn command_line(place: &mut Place, input: &[u8]) -> Option<()> {
@@ -22,9 +22,9 @@ pub fn command_line(place: &mut Place, input: &[u8]) -> Option<()> {
         place.copy(name);
     }
     let words = input.strip_suffix(b"\n").unwrap_or(input);
-    let words = words.split(|byte| *byte == b'\n');
-    let words = words.filter(|word| !word.contains(&0) && *word != b"/");
-    let words: Vec<&OsStr> = words.map(OsStr::from_bytes).collect();
+    let words = words.split(|byte| *byte == b'\n').map(OsStr::from_bytes);
+    let is_safe = |word: &&OsStr| !word.as_bytes().contains(&0) && *word != "/";
+    let words: Vec<&OsStr> = words.filter(is_safe).collect();
     shuttertruth(place, &words, Stdio::null());
     Some(())
 }
@@ -47,8 +47,7 @@ pub fn serve(place: &mut Place, input: &[u8]) -> Option<()> {
     let last = "\n{\"id\": 123456789, \"params\": {}, \"scenes\": [\"none\"]}\n";
     let lines = place.write("lines", [input, last.as_bytes()].concat());
     let line = format!("tune serve {RENDER} --filter velocity_gather --objective flip --out out");
-    let words: Vec<&OsStr> = line.split(' ').map(OsStr::new).collect();
-    shuttertruth(place, &words, fs::File::open(lines).unwrap().into());
+    shuttertruth(place, &split(&line), fs::File::open(lines).unwrap().into());
     let answers = fs::read(place.folder.join("stdout")).unwrap_or_default();
     let is_answered = String::from_utf8_lossy(&answers).contains("\"id\":123456789");
     assert!(is_answered, "serve ended, or reads no more");
@@ -57,8 +56,11 @@ pub fn serve(place: &mut Place, input: &[u8]) -> Option<()> {
 
 /// Runs a line of the program, and returns its code.
 pub fn run_line(place: &Place, line: &str) -> i32 {
-    let words: Vec<&OsStr> = line.split(' ').map(OsStr::new).collect();
-    shuttertruth(place, &words, Stdio::null())
+    shuttertruth(place, &split(line), Stdio::null())
+}
+
+fn split(line: &str) -> Vec<&OsStr> {
+    line.split(' ').map(OsStr::new).collect()
 }
 
 /// Runs the program, whose output goes to the file `stdout`. Panics unless it ends with a documented code, and returns it.
@@ -86,21 +88,17 @@ fn shuttertruth(place: &Place, words: &[&OsStr], stdin: Stdio) -> i32 {
         }
         std::thread::sleep(Duration::from_millis(2));
     };
-    let text = fs::read(stderr).unwrap_or_default();
-    let text = String::from_utf8_lossy(&text);
-    let last: Vec<&str> = text.lines().rev().take(3).collect();
     let code = status.code().filter(|code| CODES.contains(code));
-    code.unwrap_or_else(|| panic!("{status}: {}", last.join(" / ")))
+    code.unwrap_or_else(|| panic!("{status}: {}", last_lines(&stderr)))
 }
 
 /// Returns whether a number is large enough for much work, or all scenes and filters are asked for.
 fn asks_for_much(words: &[&OsStr]) -> bool {
-    let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
-    let is_large = |word: &str| {
-        let digits = word.split(|c: char| !c.is_ascii_digit());
-        digits.map(str::len).max().unwrap_or(0) > 2
-    };
     let small = ["--size", "16x16", "--samples-per-pixel", "--filters"];
-    let is_given = |flag: &&str| words.iter().any(|word| word == flag);
-    words.iter().any(|word| is_large(word)) || !small.iter().all(is_given)
+    let is_large = |word: &&OsStr| {
+        let word = word.to_string_lossy();
+        word.split(|c: char| !c.is_ascii_digit())
+            .any(|digits| digits.len() > 2)
+    };
+    words.iter().any(is_large) || !small.iter().all(|flag| words.contains(&OsStr::new(flag)))
 }

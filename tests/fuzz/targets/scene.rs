@@ -1,10 +1,10 @@
 //! Scene folders: scene.toml, OBJ, MTL, textures and images of the background.
 
 use std::fs;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use frame::{Alignment, FrameOptions, Image, VelocityKind};
+use tests::unwatched;
 use tracer::{RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
 
 use crate::place::Place;
@@ -12,7 +12,7 @@ use crate::seeds::shipped;
 
 /// Returns the shipped scenes, changed to use the only mesh that is there.
 pub fn shipped_scenes(_: &Place) -> Vec<Vec<u8>> {
-    let at_home = |text: Vec<u8>| {
+    let change = |text: Vec<u8>| {
         let text = String::from_utf8(text).expect("a scene is UTF-8");
         let names = text.split('"').map(|name| match name.ends_with(".obj") {
             true => "mesh.obj",
@@ -24,7 +24,7 @@ pub fn shipped_scenes(_: &Place) -> Vec<Vec<u8>> {
         kept.into_bytes()
     };
     let scenes = shipped("scenes", "scene.toml").into_iter();
-    scenes.map(at_home).collect()
+    scenes.map(change).collect()
 }
 
 /// Writes one file of a scene folder whose other files are valid, and returns the folder.
@@ -59,7 +59,6 @@ pub fn load_sky(place: &mut Place, name: &str, input: &[u8]) -> Option<()> {
 
 /// Renders a frame and a truth of a few pixels, which must be finite.
 pub fn render_few_pixels(scene: Scene) {
-    let watch = &|_| ControlFlow::Continue(());
     let settings = RenderSettings {
         width: 8,
         height: 8,
@@ -75,10 +74,10 @@ pub fn render_few_pixels(scene: Scene) {
         let finite = image.pixels.as_flattened().iter().all(|it| it.is_finite());
         assert!(finite, "a {what} without a word that is not finite");
     };
-    if let Ok(frame) = trace_frame(&scene, &settings, watch) {
+    if let Ok(frame) = trace_frame(&scene, &settings, &unwatched) {
         check("frame", &frame.color);
     }
-    if let Ok(truth) = trace_truth(&scene, &settings, Alignment::Centred, watch) {
+    if let Ok(truth) = trace_truth(&scene, &settings, Alignment::Centred, &unwatched) {
         check("truth", &truth.mean().color);
     }
 }

@@ -1,18 +1,18 @@
-//! Limits of filters: borders, brightness, slow and bent motion, slopes, weights.
+//! Limits of filters that need more than a score: borders, brightness, slow motion, weights, skies and rolls.
 
 use std::fs;
 use std::path::Path;
 
 use filters::Filter;
-use frame::{Alignment, Image, Picture};
+use frame::{Alignment, FrameOptions, Image, Picture};
 use tests::filter_folder::copy_shipped_filter;
-use tests::presets::{every_preset, gain, preset_name};
 use tracer::RenderSettings;
 
 use super::assert_worse;
 use super::rendered_scene::{RenderedScene, find_preset, small_settings, value};
 
 #[test]
+#[ignore = "prove: all scenes of the catalogue"]
 fn filters_miss_motion_from_beyond_the_border() {
     let render = |guard_band| {
         let settings = RenderSettings {
@@ -31,6 +31,7 @@ fn filters_miss_motion_from_beyond_the_border() {
 }
 
 #[test]
+#[ignore = "prove: all scenes of the catalogue"]
 fn motion_below_a_pixel_is_left_sharp() {
     // The size that the scenes' speeds refer to.
     let settings = RenderSettings {
@@ -72,6 +73,7 @@ fn motion_below_a_pixel_is_left_sharp() {
 }
 
 #[test]
+#[ignore = "prove: all scenes of the catalogue"]
 fn averages_of_display_colours_lose_the_light_of_a_neon_sign() {
     let scenes = ["neon", "neon@dim"].map(RenderedScene::new);
     let (filter, preset) = find_preset("velocity_gather:fine");
@@ -102,52 +104,62 @@ fn averages_of_display_colours_lose_the_light_of_a_neon_sign() {
 }
 
 #[test]
-fn one_velocity_cannot_describe_a_bounce_or_a_brake() {
-    let scenes = ["reversal", "reversal@steady"].map(RenderedScene::new);
-    // Trailing: measured 4.1 and 1.8.
-    for (filter, times) in [("jump_flood:corrected", 2.0), ("velocity_gather:fine", 1.4)] {
-        let variation = scenes
-            .each_ref()
-            .map(|scene| scene.score(filter, "label_tv"));
-        assert_worse(&format!("label_tv of {filter}"), variation, times);
+#[ignore = "prove: all scenes of the catalogue"]
+fn a_sky_without_velocity_stays_sharp_above_a_fast_pan() {
+    let render = |sky_velocity| {
+        RenderedScene::with_settings(
+            "pan_sky",
+            RenderSettings {
+                options: FrameOptions {
+                    sky_velocity,
+                    ..FrameOptions::default()
+                },
+                ..small_settings()
+            },
+        )
+    };
+    let [without, with] = [render(false), render(true)];
+    let sky = with.truth(Alignment::Trailing).mean().coverage[0].clone();
+    // Pixels that show only sky.
+    let above = |x: u32, y: u32| f64::from(u8::from(*sky.at(x, y) > 0.999));
+    for filter in ["velocity_gather:fine", "jump_flood:corrected"] {
+        let error = [&without, &with].map(|scene| scene.squared_error(filter, above));
+        // Measured 114 and 39.
+        assert_worse(&format!("sky in {filter}"), error, 10.0);
     }
-    // Centred, where the two halves of the brake cancel: measured 2.3.
-    let ball = scenes
-        .each_ref()
-        .map(|scene| scene.object_label_tv("jimenez:hdrp", "ball"));
-    assert_worse("ball in jimenez:hdrp", ball, 1.5);
 }
 
 #[test]
-fn the_fastest_motion_nearby_is_wrong_for_pixels_on_a_slope() {
-    let scenes = ["ramp_floor", "ramp_floor@facing"].map(RenderedScene::new);
-    let flip = scenes
-        .each_ref()
-        .map(|scene| scene.score("jimenez:kajiya_scaled", "flip_moving"));
-    // Measured 2.3; 1.2 for a filter that moves every pixel by itself.
-    assert_worse("flip_moving of jimenez:kajiya_scaled", flip, 1.6);
-    // It is hardly better than no blur: it leaves 0.76 of the squared error, and 0.03 before the wall that faces the
-    // camera.
-    let left = scenes
-        .each_ref()
-        .map(|scene| scene.error_left_by("jimenez:kajiya_scaled", "mse_moving"));
-    assert!(left[0] > 0.65 && left[1] < 0.2, "{left:?}");
+#[ignore = "prove: all scenes of the catalogue"]
+fn a_roll_bends_trails_away_from_straight_smears_far_from_the_axis() {
+    let scenes = ["roll@40deg", "roll@5deg"].map(RenderedScene::new);
+    let radius = |x: u32, y: u32| (f64::from(x) - 79.5).hypot(f64::from(y) - 44.5);
+    // Only the ground, since the sky has little detail.
+    let between = |from: f64, to: f64| {
+        move |x: u32, y: u32| f64::from(u8::from((from..to).contains(&radius(x, y)) && y > 45))
+    };
+    // Measured 36 and 3.4 far from the axis, 1.6 and 1.1 near it.
+    for (filter, times) in [
+        ("jump_flood:corrected", 10.0),
+        ("velocity_gather:fine", 2.0),
+    ] {
+        let error = |from, to| {
+            scenes
+                .each_ref()
+                .map(|scene| scene.squared_error(filter, between(from, to)))
+        };
+        let far = error(60.0, 92.0);
+        assert_worse(&format!("far from the axis in {filter}"), far, times);
+        let [fast, slow] = error(0.0, 25.0);
+        let near = fast / slow;
+        assert!(2.0 * near < far[0] / far[1], "near it in {filter}: {near}");
+    }
 }
 
 #[test]
-fn uniform_light_stays_unchanged_and_amplifying_weights_show() {
+#[ignore = "prove: all scenes of the catalogue"]
+fn amplifying_weights_show_in_uniform_light() {
     let flat = RenderedScene::new("flat_field");
-    for (filter, settings) in every_preset() {
-        let output = flat
-            .run_filter(&filter, &settings.preset, &[&flat.frame.color])
-            .remove(0);
-        let differences = output.pixels.iter().zip(&flat.frame.color.pixels);
-        let worst = differences
-            .map(|(a, b)| (a[0] - gain(&filter, &settings) * b[0]).abs())
-            .fold(0.0, f32::max);
-        // Sums of up to about a hundred weights in 32 bits.
-        assert!(worst < 1e-5, "{}: {worst}", preset_name(&filter, &settings));
-    }
     let folder = tempfile::tempdir().unwrap();
     let planted = write_amplifying_filter(folder.path());
     let painted = RenderedScene::new("flat_field@painted");

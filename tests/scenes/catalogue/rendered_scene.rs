@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 
 use filters::{Blur, Filter, Gpu, Input};
 use frame::{Alignment, Frame, Image, Picture, Truth};
-use metrics::{Metric, Reference, Scores};
+use metrics::{Metric, Reference, Scores, scatter_oracle};
 use tests::{open_gpu, unwatched};
 use tracer::{RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 
@@ -115,34 +115,35 @@ impl RenderedScene {
         reference.measure(picture).unwrap().scores
     }
 
-    /// Scores a filter against the truth of its declared shutter.
-    pub fn score_filter(&self, filter: &str) -> Scores {
-        let alignment = find_preset(filter).0.alignment;
-        self.measure(&self.blur(filter), alignment)
-    }
-
-    /// Returns one score of a filter.
-    pub fn score(&self, filter: &str, metric: &str) -> f64 {
-        value(&self.score_filter(filter), metric)
-    }
-
-    /// Returns the error of a filter relative to the identity's.
-    pub fn error_left_by(&self, filter: &str, metric: &str) -> f64 {
-        let frame = self.frame.cropped();
-        let nothing = Picture {
-            color: frame.color,
-            coverage: frame.coverage,
+    /// Returns a score of a filter, or of the reference `scatter_oracle`, against the truth of its shutter: a metric,
+    /// `object.metric`, or `left:metric`, the metric relative to the identity's.
+    pub fn score(&self, filter: &str, score: &str) -> f64 {
+        let (picture, alignment) = match filter {
+            "scatter_oracle" => {
+                let truth = self.truth(Alignment::Centred);
+                let oracle = scatter_oracle(&self.frame, truth.shutter, &truth.shutter_profile);
+                (oracle, Alignment::Centred)
+            }
+            _ => (self.blur(filter), find_preset(filter).0.alignment),
         };
-        let nothing = self.measure(&nothing, find_preset(filter).0.alignment);
-        self.score(filter, metric) / value(&nothing, metric)
-    }
-
-    /// Returns the share of an object that a filter gives to others.
-    pub fn object_label_tv(&self, filter: &str, object: &str) -> f64 {
-        let scores = self.score_filter(filter);
+        let scores = self.measure(&picture, alignment);
+        if let Some(metric) = score.strip_prefix("left:") {
+            let nothing = self.measure(&self.frame.cropped().picture(), alignment);
+            return value(&scores, metric) / value(&nothing, metric);
+        }
+        let Some((object, metric)) = score.split_once('.') else {
+            return value(&scores, score);
+        };
         let found = scores.objects.iter().find(|scores| scores.object == object);
         let found = found.unwrap_or_else(|| panic!("there is no object {object}"));
-        found.label_total_variation.value().expect("it is seen")
+        let score = match metric {
+            "label_tv" => &found.label_total_variation,
+            "deficit" => &found.deficit,
+            "row_gain" => &found.row_gain,
+            other => panic!("{other} is asked of no object here"),
+        };
+        let number = score.value();
+        number.unwrap_or_else(|| panic!("{metric} of {object}: {score:?}"))
     }
 
     /// Returns the weighted mean of the squared error of a filter's radiance. It is unbiased, since the truth's halves

@@ -5,6 +5,7 @@ mod played;
 use engine::{Timeline, export_gltf};
 use glam::{DAffine3, DVec3};
 use played::Played;
+use tempfile::TempDir;
 use tests::random::Random;
 use tests::scenes;
 use tracer::{Interpolation, Key, Mesh, Motion, Scene, Turn, list_scenes, load_scene};
@@ -15,20 +16,25 @@ const TIMES: usize = 100;
 const TOLERANCE: f64 = 1e-5;
 
 #[test]
+fn scenes_play_as_the_tracer_poses_them() {
+    // Parents that turn, key shapes, and a camera that carries a dashboard.
+    for name in ["railing", "flag", "cockpit", "walker"] {
+        assert_plays(&load_scene(scenes().join(name), None).unwrap());
+    }
+}
+
+#[test]
+#[ignore = "prove: all scenes of the catalogue with all variants"]
 fn every_scene_and_variant_plays_as_the_tracer_poses_it() {
-    let mut compared = 0;
     for listing in list_scenes(scenes()).unwrap() {
         let variants = listing
             .variants
             .iter()
             .map(|variant| Some(variant.as_str()));
         for variant in std::iter::once(None).chain(variants) {
-            let scene = load_scene(&listing.folder, variant).unwrap();
-            assert_plays(&scene);
-            compared += 1;
+            assert_plays(&load_scene(&listing.folder, variant).unwrap());
         }
     }
-    assert!(compared >= 60, "only {compared} scenes and variants");
 }
 
 #[test]
@@ -80,10 +86,7 @@ fn turns_beyond_half_a_circle_and_cubic_paths_are_kept() {
 fn a_zoom_is_refused_since_gltf_cannot_say_it() {
     let mut scene = load_scene(scenes().join("flat_field"), None).unwrap();
     scene.camera.vertical_fov = vec![(-1.0, 0.6), (1.0, 0.7)];
-    let folder = tempfile::tempdir().unwrap();
-    let error = export_gltf(&scene, &tests::scenes().into(), "test", folder.path())
-        .unwrap_err()
-        .to_string();
+    let error = export(&scene).unwrap_err();
     assert!(error.contains("field of view changes"), "{error}");
 }
 
@@ -99,28 +102,22 @@ fn a_texture_of_holes_is_joined_with_that_of_the_color() {
         .unwrap()
         .to_rgb8();
     scene.textures[texture].texels[0][3] = 0.25;
-    let folder = tempfile::tempdir().unwrap();
-    export_gltf(&scene, &tests::scenes().into(), "test", folder.path()).unwrap();
-
+    let folder = export(&scene).unwrap();
     let joined = format!("textures/{texture}_with_opacity_{texture}.png");
     let joined = image::open(folder.path().join(joined)).unwrap().to_rgba8();
     assert_eq!(joined.dimensions(), original.dimensions());
     for (own, given) in joined.pixels().zip(original.pixels()) {
         assert_eq!(own.0[..3], given.0[..]);
     }
-    assert_eq!(
-        [joined.get_pixel(0, 0).0[3], joined.get_pixel(1, 0).0[3]],
-        [64, 255]
-    );
+    let opacity = |x| joined.get_pixel(x, 0).0[3];
+    assert_eq!([opacity(0), opacity(1)], [64, 255]);
     assert!(Played::read(folder.path()).has_holes(&name));
 }
 
 #[test]
 fn films_blend_glass_transmits_and_what_gltf_cannot_say_is_refused() {
     let mut scene = load_scene(scenes().join("glasshouse"), None).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let export = |scene: &Scene| export_gltf(scene, &tests::scenes().into(), "test", folder.path());
-    export(&scene).unwrap();
+    let folder = export(&scene).unwrap();
     let text = std::fs::read_to_string(folder.path().join("scene.gltf")).unwrap();
     let document: serde_json::Value = serde_json::from_str(&text).unwrap();
     let materials = document["materials"].as_array().unwrap();
@@ -138,17 +135,23 @@ fn films_blend_glass_transmits_and_what_gltf_cannot_say_is_refused() {
 
     let glass = scene.materials.iter_mut().find(|own| own.name == "glass");
     glass.unwrap().opacity = 0.5;
-    let error = export(&scene).unwrap_err().to_string();
-    assert!(
-        error.contains("material glass: opacity 0.5 beside glass"),
-        "{error}"
-    );
+    let error = export(&scene).unwrap_err();
+    let words = "material glass: opacity 0.5 beside glass";
+    assert!(error.contains(words), "{error}");
+}
+
+/// Exports a scene to a folder, or returns why not.
+fn export(scene: &Scene) -> Result<TempDir, String> {
+    let folder = tempfile::tempdir().unwrap();
+    match export_gltf(scene, &tests::scenes().into(), "test", folder.path()) {
+        Ok(_) => Ok(folder),
+        Err(error) => Err(error.to_string()),
+    }
 }
 
 /// Exports a scene, and compares camera, objects and vertices at random times within the animation.
 fn assert_plays(scene: &Scene) {
-    let folder = tempfile::tempdir().unwrap();
-    export_gltf(scene, &tests::scenes().into(), "test", folder.path()).unwrap();
+    let folder = export(scene).unwrap_or_else(|error| panic!("{error}"));
     let played = Played::read(folder.path());
     let timeline = Timeline::of(scene);
     let mut random = Random::new(7);
@@ -159,13 +162,8 @@ fn assert_plays(scene: &Scene) {
         assert_close(scene, "camera", time, camera, played.to_world(0, seconds));
         for (index, object) in scene.objects.iter().enumerate() {
             let own = scene.object_to_world(index, time);
-            assert_close(
-                scene,
-                &object.name,
-                time,
-                own,
-                played.to_world(index + 1, seconds),
-            );
+            let found = played.to_world(index + 1, seconds);
+            assert_close(scene, &object.name, time, own, found);
         }
     }
     for (index, object) in scene.objects.iter().enumerate() {
@@ -179,11 +177,8 @@ fn assert_close(scene: &Scene, what: &str, time: f64, own: DAffine3, played: DAf
     for point in [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z] {
         let [own, played] = [own, played].map(|pose| pose.transform_point3(point));
         let error = (own - played).length() / own.length().max(1.0);
-        assert!(
-            error < TOLERANCE,
-            "{}: {what} at frame {time}: {own} in the tracer, {played} in glTF",
-            scene.id
-        );
+        let place = format!("{}: {what} at frame {time}", scene.id);
+        assert!(error < TOLERANCE, "{place}: {own} traced, {played} in glTF");
     }
 }
 

@@ -12,19 +12,20 @@ fn a_group_is_a_mesh_of_its_own_and_faces_keep_their_materials() {
     assert_eq!((whole.triangles.len(), left.triangles.len()), (5, 3));
     assert_eq!(whole.slots, [0, 0, 1, 1, 0]);
     assert_eq!(left.slots, [0, 0, 1]);
-    let names = |object: usize| -> Vec<&str> {
-        let materials = scene.objects[object].materials.iter();
-        materials
-            .map(|index| scene.materials[*index].name.as_str())
-            .collect()
-    };
-    assert_eq!(names(0), ["paint", "glow"]);
-    assert_eq!(names(1), ["glow", "paint"]);
-    assert_eq!(
-        whole.normals,
-        vec![Vec3::Z; whole.positions.len()],
-        "normals have unit length"
-    );
+    for (object, names) in scene
+        .objects
+        .iter()
+        .zip([["paint", "glow"], ["glow", "paint"]])
+    {
+        let materials = object.materials.iter();
+        assert!(
+            materials
+                .map(|index| &scene.materials[*index].name)
+                .eq(&names)
+        );
+    }
+    // Normals have unit length.
+    assert_eq!(whole.normals, vec![Vec3::Z; whole.positions.len()]);
     assert_eq!(whole.texcoords[1], Vec2::new(1.0, 0.0));
     assert_eq!(whole.positions[whole.triangles[0][1] as usize], Vec3::X);
 }
@@ -55,11 +56,8 @@ fn other_spellings_of_a_mesh_load_the_same() {
         .replace("g left", "l 1 2 3\n\n# faces on the left\n o left")
         .replace('\n', "\r\n");
     folder.write("mesh.obj", written_otherwise);
-    folder.edit(
-        "scene.toml",
-        "material.paint",
-        "material.\"old  red paint\"",
-    );
+    let renamed = "material.\"old  red paint\"";
+    folder.edit("scene.toml", "material.paint", renamed);
     let other = folder.load().unwrap_or_else(|error| panic!("{error}"));
     for (plain, other) in plain.meshes.iter().zip(&other.meshes) {
         assert_eq!(plain.positions, other.positions);
@@ -81,10 +79,8 @@ fn faces_without_normals_are_flat_beside_smooth_ones() {
     assert_eq!(mesh.normals.len(), mesh.positions.len());
     let last = mesh.triangles.last().unwrap();
     // Clockwise seen from +Z.
-    assert_eq!(
-        last.map(|corner| mesh.normals[corner as usize]),
-        [Vec3::NEG_Z; 3]
-    );
+    let normals = last.map(|corner| mesh.normals[corner as usize]);
+    assert_eq!(normals, [Vec3::NEG_Z; 3]);
     assert_eq!(mesh.texcoords[last[1] as usize], Vec2::ONE);
 }
 
@@ -98,16 +94,18 @@ fn bent_obj() -> String {
 const SHAPES: &str =
     "shapes = [{ time = -1, mesh = \"mesh.obj\" }, { time = 1, mesh = \"bent.obj\" }]";
 
+/// Makes a scene in which the mesh before some key has a second shape.
+fn deforming(bent: String, key: &str) -> Folder {
+    let folder = Folder::new();
+    folder.write("bent.obj", bent);
+    let mesh = format!("mesh = \"mesh.obj\"\n{key}");
+    folder.edit("scene.toml", &mesh, &format!("{SHAPES}\n{key}"));
+    folder
+}
+
 #[test]
 fn key_shapes_are_one_mesh_that_deforms() {
-    let folder = Folder::new();
-    folder.write("bent.obj", bent_obj());
-    folder.edit(
-        "scene.toml",
-        "mesh = \"mesh.obj\"\nkeys",
-        &format!("{SHAPES}\nkeys"),
-    );
-    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let scene = deforming(bent_obj(), "keys").load().unwrap();
     let mesh = &scene.meshes[scene.objects[0].mesh];
     let times: Vec<f64> = mesh.shapes.iter().map(|shape| shape.time).collect();
     assert_eq!(times, [-1.0, 1.0]);
@@ -116,12 +114,9 @@ fn key_shapes_are_one_mesh_that_deforms() {
     for triangle in &mesh.triangles {
         for vertex in triangle.map(|vertex| vertex as usize) {
             let [from, to] = [0, 1].map(|shape| mesh.shapes[shape].positions[vertex]);
-            let expected = if from == Vec3::new(1.0, 1.0, 0.0) {
-                Vec3::new(3.0, 5.0, 0.0)
-            } else {
-                from
-            };
-            assert_eq!(to, expected);
+            let corner = Vec3::new(1.0, 1.0, 0.0);
+            let bent = Vec3::new(3.0, 5.0, 0.0);
+            assert_eq!(to, if from == corner { bent } else { from });
         }
     }
     for shape in &mesh.shapes {
@@ -134,19 +129,10 @@ fn key_shapes_are_one_mesh_that_deforms() {
 
 #[test]
 fn a_group_of_key_shapes_deforms_and_a_variant_may_choose_them() {
-    let folder = Folder::new();
-    folder.write("bent.obj", bent_obj());
-    folder.edit(
-        "scene.toml",
-        "mesh = \"mesh.obj\"\ngroup",
-        &format!("{SHAPES}\ngroup"),
-    );
-    folder.edit(
-        "scene.toml",
-        "[variant.fast.object.body]",
-        &format!("[variant.fast.object.body]\n{SHAPES}"),
-    );
-    let fast = load_scene(&folder.path, Some("fast")).unwrap_or_else(|error| panic!("{error}"));
+    let folder = deforming(bent_obj(), "group");
+    let table = "[variant.fast.object.body]";
+    folder.edit("scene.toml", table, &format!("{table}\n{SHAPES}"));
+    let fast = load_scene(&folder.path, Some("fast")).unwrap();
     let [body, part] = [0, 1].map(|object| &fast.meshes[fast.objects[object].mesh]);
     assert_eq!((body.shapes.len(), part.shapes.len()), (2, 2));
     assert_eq!(part.triangles.len(), 3);
@@ -154,28 +140,18 @@ fn a_group_of_key_shapes_deforms_and_a_variant_may_choose_them() {
 
 #[test]
 fn faces_of_key_shapes_without_normals_are_flat_beside_smooth_ones() {
-    let folder = Folder::new();
-    let flat = |text: String| {
-        text.replace(
-            "usemtl paint\nf 1/1/1 4/2/1 6/3/1",
-            "usemtl paint\nf 1/1 4/2 6/3",
-        )
+    let flat = |text: &str| {
+        let smooth = "usemtl paint\nf 1/1/1 4/2/1 6/3/1";
+        text.replace(smooth, "usemtl paint\nf 1/1 4/2 6/3")
     };
-    folder.write("bent.obj", flat(bent_obj()));
-    folder.write("mesh.obj", flat(OBJ.to_owned()));
-    folder.edit(
-        "scene.toml",
-        "mesh = \"mesh.obj\"\nkeys",
-        &format!("{SHAPES}\nkeys"),
-    );
-    let scene = folder.load().unwrap_or_else(|error| panic!("{error}"));
+    let folder = deforming(flat(&bent_obj()), "keys");
+    folder.write("mesh.obj", flat(OBJ));
+    let scene = folder.load().unwrap();
     let mesh = &scene.meshes[0];
     let last = mesh.triangles.last().unwrap();
     for shape in &mesh.shapes {
-        assert_eq!(
-            last.map(|vertex| shape.normals[vertex as usize]),
-            [Vec3::ZERO; 3]
-        );
+        let normals = last.map(|vertex| shape.normals[vertex as usize]);
+        assert_eq!(normals, [Vec3::ZERO; 3]);
         assert_eq!(shape.normals[0], Vec3::Z);
     }
 }

@@ -1,31 +1,69 @@
 //! Refusals of slips in a scene's files. Each names its place, what was found and what is allowed.
+//!
+//! Most stand in `slips/`, a file of them per kind of file.
 
-mod materials;
-mod meshes;
-mod motions;
-mod scene_tables;
-
+use image::{ImageBuffer, Rgb32FImage};
 use tracer::{SceneError, list_scenes, load_scene};
 
-use crate::scene_folder::{Folder, SCENE};
+use crate::appearance::{counting_image, folder_with_background};
+use crate::scene_folder::{Folder, OBJ, SCENE};
 
-/// Slip: its name, a piece of a file, its replacement and the expected message. Paths in the message lie below the
-/// scene's folder. `{gone}` stands for the operating system's text about a missing file.
-type Slip = (&'static str, &'static str, &'static str, &'static str);
+/// A mistake in a file of a scene.
+struct Slip<'a> {
+    name: &'a str,
+    from: String,
+    to: String,
+    message: &'a str,
+}
 
-/// Puts each slip into a fresh folder, and compares the messages.
-fn check_slips(file: &str, slips: &[Slip]) {
-    for (what, from, to, message) in slips {
+/// Reads slips: blocks of a `# name`, lines `- from`, lines `+ to` and a `= message`.
+fn read_slips(text: &str) -> Vec<Slip<'_>> {
+    let blocks = text.split("\n\n").filter(|block| block.starts_with("# "));
+    let read = |block| {
+        let lines = |mark: char| -> Vec<&str> {
+            let lines = str::lines(block).filter_map(|line| line.strip_prefix(mark));
+            lines
+                .map(|line| line.strip_prefix(' ').unwrap_or(line))
+                .collect()
+        };
+        let ([name], [message]) = (&*lines('#'), &*lines('=')) else {
+            panic!("a slip has one name and one message: {block}");
+        };
+        let (mut from, to) = (lines('-').join("\n"), lines('+').join("\n"));
+        if to.is_empty() {
+            from.push('\n');
+        }
+        let to = to.replace("<ESC>", "\u{1b}").replace("<CSI>", "\u{9b}");
+        Slip {
+            name,
+            from,
+            to: to.replace("<CR>", "\r"),
+            message,
+        }
+    };
+    blocks.map(read).collect()
+}
+
+/// Puts each slip into a fresh folder, in the first of the files that holds its text, and compares the messages.
+fn check_slips(slips: &str, count: usize, files: &[&str], prepare: impl Fn(&Folder)) {
+    let slips = read_slips(slips);
+    assert_eq!(slips.len(), count);
+    for slip in slips {
         let folder = Folder::new();
-        folder.edit(file, from, to);
-        let error = folder.load().err();
-        let error = error.unwrap_or_else(|| panic!("{what}: it loads, but must be refused"));
-        assert_eq!(
-            relative_message(&folder, &error),
-            message.replace("{gone}", &missing_file_text()),
-            "{what}"
-        );
+        prepare(&folder);
+        let holds = |file: &&&str| folder.read(file).contains(&slip.from);
+        let file = files.iter().find(holds);
+        folder.edit(file.expect(slip.name), &slip.from, &slip.to);
+        assert_refused(&folder, slip.name, slip.message);
     }
+}
+
+fn assert_refused(folder: &Folder, what: &str, message: &str) {
+    let error = folder.load().err();
+    let error = error.unwrap_or_else(|| panic!("{what}: it loads, but must be refused"));
+    let gone = std::fs::read("no such file").unwrap_err().to_string();
+    let expected = message.replace("{gone}", &gone);
+    assert_eq!(relative_message(folder, &error), expected, "{what}");
 }
 
 /// Formats a message with paths below the scene's folder.
@@ -34,21 +72,73 @@ fn relative_message(folder: &Folder, error: &SceneError) -> String {
     error.to_string().replace(&prefix, "")
 }
 
-/// Returns the operating system's text about a missing file.
-fn missing_file_text() -> String {
-    std::fs::read("no such file").unwrap_err().to_string()
+#[test]
+fn slips_in_a_scene_toml_are_refused() {
+    check_slips(
+        include_str!("slips/scene.txt"),
+        134,
+        &["scene.toml"],
+        |_| {},
+    );
 }
 
 #[test]
-fn a_folder_without_a_scene_is_refused() {
+fn slips_in_materials_are_refused() {
+    let slips = include_str!("slips/materials.txt");
+    check_slips(slips, 30, &["mesh.mtl"], |_| {});
+}
+
+#[test]
+fn slips_in_meshes_are_refused() {
+    check_slips(include_str!("slips/meshes.txt"), 34, &["mesh.obj"], |_| {});
+}
+
+#[test]
+fn slips_in_key_shapes_are_refused() {
+    let slips = include_str!("slips/shapes.txt");
+    check_slips(slips, 12, &["scene.toml", "bent.obj"], |folder| {
+        let shapes =
+            "shapes = [\n{ time = 0, mesh = \"mesh.obj\" },\n{ time = 1, mesh = \"bent.obj\" },\n]";
+        let mesh = "mesh = \"mesh.obj\"\nkeys";
+        folder.edit("scene.toml", mesh, &format!("{shapes}\nkeys"));
+        folder.write("bent.obj", OBJ);
+    });
+}
+
+#[test]
+fn whole_files_that_say_nothing_are_refused() {
+    for (file, text, message) in [
+        (
+            "scene.toml",
+            SCENE.split("[object.body]").next().unwrap().as_bytes(),
+            "scene.toml: no objects; a scene needs at least one [object.name] with a mesh",
+        ),
+        (
+            "mesh.obj",
+            // Lines and points are not surfaces.
+            b"v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\np 1\n",
+            "mesh.obj: holds no faces; a mesh needs at least one f statement with 3 corners",
+        ),
+        (
+            "mesh.obj",
+            b"v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 2 3 4\n",
+            "mesh.obj: all 2 triangles have no area; a mesh needs at least one with area",
+        ),
+        (
+            "mesh.obj",
+            b"# caf\xe9\n",
+            "scene.toml:19: mesh mesh.obj cannot be read: it is not UTF-8 text",
+        ),
+    ] {
+        let folder = Folder::new();
+        folder.edit("scene.toml", "group = \"left\"\n", "");
+        folder.write(file, text);
+        assert_refused(&folder, file, message);
+    }
     let folder = Folder::new();
     std::fs::remove_file(folder.path.join("scene.toml")).unwrap();
-    let error = folder.load().unwrap_err();
-    let expected = format!(
-        "scene.toml: cannot be read: {}; a scene is a folder with a scene.toml",
-        missing_file_text()
-    );
-    assert_eq!(relative_message(&folder, &error), expected);
+    let message = "scene.toml: cannot be read: {gone}; a scene is a folder with a scene.toml";
+    assert_refused(&folder, "no scene", message);
 }
 
 #[test]
@@ -63,16 +153,6 @@ fn a_folder_without_scenes_is_refused() {
 }
 
 #[test]
-fn a_scene_without_objects_is_refused() {
-    let folder = Folder::new();
-    let head = SCENE.split("[object.body]").next().unwrap();
-    folder.write("scene.toml", head);
-    let error = folder.load().unwrap_err();
-    let expected = "scene.toml: no objects; a scene needs at least one [object.name] with a mesh";
-    assert_eq!(relative_message(&folder, &error), expected);
-}
-
-#[test]
 fn an_unknown_variant_is_refused() {
     let folder = Folder::new();
     let error = load_scene(&folder.path, Some("slow")).unwrap_err();
@@ -81,33 +161,40 @@ fn an_unknown_variant_is_refused() {
 }
 
 #[test]
-fn an_empty_mesh_is_refused() {
+fn glass_that_no_light_passes_may_have_any_index_and_other_glass_not() {
     let folder = Folder::new();
-    // Lines and points are not surfaces.
-    folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\np 1\n");
-    folder.edit("scene.toml", "group = \"left\"\n", "");
-    let error = folder.load().unwrap_err();
-    let expected = "mesh.obj: holds no faces; a mesh needs at least one f statement with 3 corners";
-    assert_eq!(relative_message(&folder, &error), expected);
+    folder.edit("mesh.mtl", "newmtl glow", "Ni 9\nillum 4\nd 0\nnewmtl glow");
+    assert!(folder.load().is_ok(), "nothing is blended");
+    let parent = "parent = \"body\"";
+    let blended = format!("{parent}\nalpha = \"blended\"");
+    folder.edit("scene.toml", parent, &blended);
+    let message = "scene.toml:26: material \"paint\" of mesh.obj is thin glass with an index of refraction of 9; allowed: 1 to 4";
+    assert_refused(&folder, "glass", message);
 }
 
 #[test]
-fn a_mesh_without_area_is_refused() {
-    let folder = Folder::new();
-    folder.write(
-        "mesh.obj",
-        "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 2 3 4\n",
-    );
-    let error = folder.load().unwrap_err();
-    let expected = "mesh.obj: all 2 triangles have no area; a mesh needs at least one with area";
-    assert_eq!(relative_message(&folder, &error), expected);
-}
-
-#[test]
-fn bytes_that_are_not_text_are_refused() {
-    let folder = Folder::new();
-    folder.write("mesh.obj", b"# caf\xe9\n");
-    let error = folder.load().unwrap_err();
-    let expected = "scene.toml:19: mesh mesh.obj cannot be read: it is not UTF-8 text";
-    assert_eq!(relative_message(&folder, &error), expected);
+fn environments_of_other_shapes_and_numbers_are_refused() {
+    let mut holed: Rgb32FImage = ImageBuffer::from_pixel(4, 2, image::Rgb([1.0, 1.0, 0.0]));
+    holed.put_pixel(2, 1, image::Rgb([1.0, f32::NAN, 0.0]));
+    for (keys, image, message) in [
+        (
+            "",
+            ImageBuffer::new(3, 2),
+            "12: the background's image sky.exr is 3 x 2; allowed: a map in longitude and latitude, twice as wide as high",
+        ),
+        (
+            "",
+            holed,
+            "12: the background's image sky.exr holds [1.0, NaN, 0.0] at (2, 1); allowed: 0 to 1e12",
+        ),
+        (
+            "\nstrength = 0",
+            counting_image(),
+            "13: strength is 0; allowed: above 0",
+        ),
+    ] {
+        let folder = folder_with_background(&format!("image = \"sky.exr\"{keys}"));
+        image.save(folder.path.join("sky.exr")).unwrap();
+        assert_refused(&folder, "sky.exr", &format!("scene.toml:{message}"));
+    }
 }

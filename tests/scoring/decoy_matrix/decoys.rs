@@ -131,7 +131,7 @@ fn gather(frame: &Frame) -> Picture {
 }
 
 /// Blurs with a Gaussian of `sigma` pixels in all directions, normalised at the border.
-fn blur_isotropically(instant: &Picture, sigma: f64) -> Picture {
+pub fn blur_isotropically(instant: &Picture, sigma: f64) -> Picture {
     let smooth = |plane: &Plane| across(&across(plane, sigma, [1, 0]), sigma, [0, 1]);
     let channels = [0, 1, 2].map(|c| smooth(&instant.color.map(|color| color[c])));
     Picture {

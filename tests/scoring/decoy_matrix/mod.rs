@@ -1,7 +1,7 @@
 //! Wrong blurs against the bounds that hold for all filters. On every scene each wrong blur breaks a bound, and the
 //! right ones break none.
 
-mod decoys;
+pub mod decoys;
 mod scenes;
 
 use decoys::{APART, decoys};

@@ -3,7 +3,8 @@
 use metrics::{Ideal, ImageMetric, Measured, Metric, Score};
 use tests::synthetic::Blur;
 
-use super::{DISCS, NOTHING, RADIUS, ROW_MASS, ROWS, TRAVEL, assert_near, discs, find_value};
+use super::{DISCS, NOTHING, RADIUS, ROW_MASS, ROWS, TRAVEL, assert_large, discs};
+use crate::{assert_near, assert_scores};
 
 /// Returns the standard deviation along the motion, within rows, of a disc smeared over `travel` pixels.
 fn spread_of_disc(travel: f64) -> f64 {
@@ -29,28 +30,25 @@ fn the_truth_itself_scores_perfectly() {
 
 #[test]
 fn blurs_that_only_err_along_the_motion_keep_the_mass_of_every_row() {
+    let half = Blur {
+        from: -0.5,
+        ..Blur::TRUE
+    };
+    let blurs = [
+        Blur::IDENTITY,
+        half,
+        Blur::accumulation(2),
+        Blur::accumulation(4),
+        Blur::accumulation(16),
+    ];
     for (degrees, disc) in discs() {
-        let half = Blur {
-            from: -0.5,
-            ..Blur::TRUE
-        };
-        let blurs = [
-            Blur::IDENTITY,
-            half,
-            Blur::accumulation(2),
-            Blur::accumulation(4),
-            Blur::accumulation(16),
-        ];
         for (scores, blur) in disc.score_blurs(blurs).iter().zip(blurs) {
-            let what = |name: &str| format!("{name} of {blur:?} at {degrees} degrees");
-            for name in ROW_MASS {
-                assert_near(&what(name), find_value(scores, name), 0.0, ROWS);
-            }
-            for name in ["bleed_lateral", "bleed_leading", "bleed_trailing"] {
-                assert_near(&what(name), find_value(scores, name), 0.0, NOTHING);
-            }
+            let what = format!("{blur:?} at {degrees} degrees");
+            assert_scores(&what, scores, &ROW_MASS.map(|name| (name, 0.0, ROWS)));
+            let bleeds = ["bleed_lateral", "bleed_leading", "bleed_trailing"];
+            assert_scores(&what, scores, &bleeds.map(|name| (name, 0.0, NOTHING)));
             // Sampling of 512 per pixel, over thousands of pixels.
-            assert_near(&what("energy"), find_value(scores, "energy"), 1.0, 1e-3);
+            assert_scores(&what, scores, &[("energy", 1.0, 1e-3)]);
         }
     }
 }
@@ -78,52 +76,31 @@ fn a_blur_of_the_wrong_length_is_misplaced_by_half_the_difference() {
             from: -length,
             ..Blur::TRUE
         });
-        for (scores, length) in disc.score_blurs(blurs).iter().zip(lengths) {
-            let what = |name: &str| format!("{name} of length {length} at {degrees} degrees");
+        let found = disc.score_blurs(blurs);
+        for (scores, length) in found.iter().zip(lengths) {
             let ahead = TRAVEL * (1.0 - length) / 2.0;
-            // Mattes have 512 samples, and rows are one pixel wide at an angle: hundredths of a pixel.
-            assert_near(
-                &what("centroid"),
-                find_value(scores, "centroid"),
-                ahead,
-                0.05,
-            );
-            assert_near(
-                &what("misplacement"),
-                find_value(scores, "misplacement"),
-                ahead.abs(),
-                0.05,
-            );
             let extent = spread_of_disc(TRAVEL * length) / spread_of_disc(TRAVEL);
-            assert_near(&what("extent"), find_value(scores, "extent"), extent, 0.01);
+            // Mattes have 512 samples, and rows are one pixel wide at an angle: hundredths of a pixel.
+            let expected = [
+                ("centroid", ahead, 0.05),
+                ("misplacement", ahead.abs(), 0.05),
+                ("extent", extent, 0.01),
+            ];
+            let what = format!("length {length} at {degrees} degrees");
+            assert_scores(&what, scores, &expected);
         }
+        let what = format!("length 1.5 at {degrees} degrees");
+        let behind_only = [
+            ("bleed_leading", 0.0, NOTHING),
+            ("lateral_growth", 0.0, ROWS),
+        ];
+        assert_large(&what, &found[2], &["bleed_trailing"]);
+        assert_scores(&what, &found[2], &behind_only);
     }
 }
 
 #[test]
-fn too_long_a_blur_bleeds_behind_only() {
-    for (degrees, disc) in discs() {
-        let long = Blur {
-            from: -1.5,
-            ..Blur::TRUE
-        };
-        let [scores] = disc.score_blurs([long]);
-        assert!(
-            find_value(&scores, "bleed_trailing") > 1.0,
-            "{degrees} degrees"
-        );
-        assert_near(
-            "leading",
-            find_value(&scores, "bleed_leading"),
-            0.0,
-            NOTHING,
-        );
-        assert_near("growth", find_value(&scores, "lateral_growth"), 0.0, ROWS);
-    }
-}
-
-#[test]
-fn a_centred_shutter_against_a_trailing_truth_bleeds_ahead_and_lies_half_the_way_ahead() {
+fn a_blur_on_the_wrong_side_of_the_instant_bleeds_ahead() {
     for (degrees, disc) in discs() {
         let centred = Blur {
             from: -0.5,
@@ -131,44 +108,33 @@ fn a_centred_shutter_against_a_trailing_truth_bleeds_ahead_and_lies_half_the_way
             ..Blur::TRUE
         };
         let [scores] = disc.score_blurs([centred]);
-        assert!(
-            find_value(&scores, "bleed_leading") > 1.0,
-            "{degrees} degrees"
-        );
-        assert_near(
-            "trailing",
-            find_value(&scores, "bleed_trailing"),
-            0.0,
-            NOTHING,
-        );
-        assert_near(
-            "centroid",
-            find_value(&scores, "centroid"),
-            TRAVEL / 2.0,
-            0.05,
-        );
-        assert_near("extent", find_value(&scores, "extent"), 1.0, 0.01);
-        assert_near("growth", find_value(&scores, "lateral_growth"), 0.0, ROWS);
+        let what = format!("the wrong side at {degrees} degrees");
+        assert_large(&what, &scores, &["bleed_leading"]);
+        let expected = [
+            ("bleed_trailing", 0.0, NOTHING),
+            ("centroid", TRAVEL / 2.0, 0.05),
+            ("extent", 1.0, 0.01),
+            ("lateral_growth", 0.0, ROWS),
+        ];
+        assert_scores(&what, &scores, &expected);
     }
 }
 
 #[test]
 fn a_shift_along_the_motion_shows_in_the_signed_centroid() {
-    for (_, disc) in discs() {
+    for (degrees, disc) in discs() {
         let shifts = [3.0, -3.0];
         let blurs = shifts.map(|shift| Blur {
             shift: [shift, 0.0],
             ..Blur::TRUE
         });
         for (scores, shift) in disc.score_blurs(blurs).iter().zip(shifts) {
-            assert_near("centroid", find_value(scores, "centroid"), shift, 0.05);
-            assert_near(
-                "misplacement",
-                find_value(scores, "misplacement"),
-                3.0,
-                0.05,
-            );
-            assert_near("growth", find_value(scores, "lateral_growth"), 0.0, ROWS);
+            let expected = [
+                ("centroid", shift, 0.05),
+                ("misplacement", 3.0, 0.05),
+                ("lateral_growth", 0.0, ROWS),
+            ];
+            assert_scores(&format!("a shift at {degrees} degrees"), scores, &expected);
         }
     }
 }

@@ -5,7 +5,6 @@ mod pooling;
 mod refusals;
 mod silence;
 
-use metrics::{Measured, Scores};
 use tests::synthetic::{Object, Scene, Shape};
 
 /// Makes a disc of 8 px that slides 12 px to the right, and a bar that stands still, in front of it or not.
@@ -29,10 +28,3 @@ const BESIDE: [f64; 2] = [10.0, 30.0];
 
 /// Place of a bar in the disc's way.
 const BEFORE: [f64; 2] = [40.0, 30.0];
-
-fn find_reason(scores: &Scores, metric: &str) -> String {
-    match scores.get(metric.parse().expect("a metric's name")) {
-        Measured::NotApplicable { reason } => reason,
-        Measured::Score(score) => panic!("{metric} scores {} where it means nothing", score.value),
-    }
-}

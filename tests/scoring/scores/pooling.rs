@@ -5,7 +5,7 @@ use metrics::{Measured, Metric, ObjectMetric, Viewing, measure, regions};
 use tests::synthetic::{Blur, Object, Shape, VIEWING};
 
 use super::{BESIDE, small_scene};
-use crate::{clean_truth, find_value, measure_blur};
+use crate::{assert_near, clean_truth, find_value, measure_blur};
 
 #[test]
 fn the_moving_region_extends_a_fifteenth_of_the_height_beyond_movers() {
@@ -27,15 +27,10 @@ fn an_error_in_a_still_pixel_counts_as_static_and_not_as_moving() {
     let mut output = truth.mean();
     let corner = 79;
     output.color.pixels[corner] = output.color.pixels[corner].map(|value| value + 0.25);
-    let scores = measure(&output, &frame, &truth, None, &VIEWING)
-        .expect("they agree")
-        .scores;
-    let still = regions(&truth)
-        .still
-        .pixels
-        .iter()
-        .filter(|still| **still)
-        .count() as f64;
+    let scores = measure(&output, &frame, &truth, None, &VIEWING);
+    let scores = scores.expect("they agree").scores;
+    let still = regions(&truth).still.pixels;
+    let still = still.iter().filter(|still| **still).count() as f64;
     assert_eq!(find_value(&scores, "mse_moving"), 0.0);
     // 32-bit rounding of the sum with 0.25.
     assert!((find_value(&scores, "mse_static") - 0.0625 / still).abs() < 1e-8 / still);
@@ -52,21 +47,14 @@ fn errors_of_colour_use_the_viewing_exposure() {
         stops: 2.0,
         ..VIEWING
     };
-    let scores = measure(&output, &frame, &truth, None, &bright)
-        .expect("they agree")
-        .scores;
+    let scores = measure(&output, &frame, &truth, None, &bright);
+    let scores = scores.expect("they agree").scores;
     // An offset of 1/8, two stops up: 1/2, squared 1/4, which is 6.02 dB below 1. Rounding of 32-bit sums.
     assert!((find_value(&scores, "mse_full") - 0.25).abs() < 1e-5);
     assert!((find_value(&scores, "psnr_full") - 6.0206).abs() < 1e-3);
-    let mean = truth.mean();
-    let expected: f64 = mean
-        .color
-        .pixels
-        .iter()
-        .flatten()
-        .map(|value| 0.25 / ((4.0 * f64::from(*value)).powi(2) + 0.01))
-        .sum::<f64>()
-        / (3.0 * 4800.0);
+    let values = truth.mean().color.pixels;
+    let terms = (values.iter().flatten()).map(|it| 0.25 / ((4.0 * f64::from(*it)).powi(2) + 0.01));
+    let expected = terms.sum::<f64>() / (3.0 * 4800.0);
     assert!((find_value(&scores, "relmse_full") / expected - 1.0).abs() < 1e-4);
 }
 
@@ -74,17 +62,8 @@ fn errors_of_colour_use_the_viewing_exposure() {
 fn scores_are_pooled_from_their_metrics_maps() {
     let measurement = measure_blur(&small_scene(BESIDE), Blur::accumulation(2));
     let pools = regions(&clean_truth(&small_scene(BESIDE)));
-    for name in [
-        "mse_moving",
-        "relmse_moving",
-        "mae_moving",
-        "smape_moving",
-        "flip_moving",
-        "flip_full",
-        "flip_hdr_moving",
-        "label_tv",
-        "mse_frozen",
-    ] {
+    let names = "mse_moving relmse_moving mae_moving smape_moving flip_moving flip_full flip_hdr_moving label_tv mse_frozen";
+    for name in names.split_whitespace() {
         let metric: Metric = name.parse().unwrap();
         let map = measurement.map(metric.row().map).expect("no probe's map");
         let values = pools.select(metric.region(), map);
@@ -104,21 +83,13 @@ fn the_bleed_map_holds_coverage_outside_the_support() {
     };
     let scene = small_scene([10.0, 10.0]);
     let measurement = measure_blur(&scene, long);
-    let total: f64 = measurement
-        .maps
-        .bleed
-        .pixels
-        .iter()
-        .map(|value| f64::from(*value))
-        .sum();
+    let bleed = measurement.maps.bleed.pixels.iter();
+    let total: f64 = bleed.map(|value| f64::from(*value)).sum();
     let scores = &measurement.scores;
     let [beside, behind] = ["bleed_lateral", "bleed_trailing"].map(|name| find_value(scores, name));
     // The disc's silhouette is 16 px wide across the motion and twice 16 px along it, to the 2 % of its gradients.
     let expected = 32.0 * beside + 16.0 * behind;
-    assert!(
-        (total / expected - 1.0).abs() < 0.02,
-        "{total} px, expected {expected}"
-    );
+    assert_near("pixels", total, expected, 0.02 * expected);
     assert!(total > 16.0);
 }
 
@@ -135,36 +106,25 @@ fn the_worst_object_s_score_is_the_scene_s() {
     scores.objects[1].extent = Measured::score(0.5, 0.0);
     assert_eq!(find_value(&scores, "extent"), 0.5);
     let extent = Metric::Object(ObjectMetric::Extent);
-    assert_eq!(
-        scores.worst_object(extent).map(|(name, _)| name),
-        Some("object2")
-    );
+    let worst = scores.worst_object(extent).map(|(name, _)| name);
+    assert_eq!(worst, Some("object2"));
 }
 
 #[test]
 fn the_largest_bleed_is_found_on_every_side() {
     let mut scores = measure_blur(&small_scene(BESIDE), Blur::IDENTITY).scores;
-    let mut largest = |values: [f64; 3]| {
-        let [lateral, leading, trailing] = values.map(|value| Measured::score(value, 0.0));
+    for (sides, largest, pixels) in [
+        ([0.0, 4.8, 4.7], ObjectMetric::BleedLeading, 4.8),
+        ([0.0, 4.7, 4.8], ObjectMetric::BleedTrailing, 4.8),
+        ([0.1, 0.1, 0.1], ObjectMetric::BleedLateral, 0.1),
+    ] {
+        let [lateral, leading, trailing] = sides.map(|value| Measured::score(value, 0.0));
         scores.objects[1].bleed_lateral = lateral;
         scores.objects[1].bleed_leading = leading;
         scores.objects[1].bleed_trailing = trailing;
-        scores
-            .largest_bleed()
-            .map(|(side, score)| (side, score.value))
-    };
-    assert_eq!(
-        largest([0.0, 4.8, 4.7]),
-        Some((ObjectMetric::BleedLeading, 4.8))
-    );
-    assert_eq!(
-        largest([0.0, 4.7, 4.8]),
-        Some((ObjectMetric::BleedTrailing, 4.8))
-    );
-    assert_eq!(
-        largest([0.1, 0.1, 0.1]),
-        Some((ObjectMetric::BleedLateral, 0.1))
-    );
+        let (side, score) = scores.largest_bleed().expect("it has mattes");
+        assert_eq!((side, score.value), (largest, pixels));
+    }
     scores.take_out_mattes("no mattes");
     assert_eq!(scores.largest_bleed(), None);
 }

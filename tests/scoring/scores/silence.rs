@@ -2,10 +2,10 @@
 
 use frame::Raster;
 use metrics::{Measured, ObjectMetric, measure};
-use tests::synthetic::{Blur, Object, Shape, VIEWING};
+use tests::synthetic::{Blur, Object, Scene, Shape, VIEWING};
 
-use super::{BEFORE, BESIDE, find_reason, small_scene};
-use crate::{clean_truth, find_value, measure_blur};
+use super::{BEFORE, BESIDE, small_scene};
+use crate::{clean_truth, find_reason, find_value, measure_blur};
 
 /// Scores that need rows along a translation.
 const ROW_SCORES: [&str; 6] = [
@@ -28,20 +28,25 @@ fn an_object_cut_off_by_the_border_has_no_row_scores_but_bleeds() {
     assert_eq!(find_value(&scores, "bleed_trailing"), 0.0);
 }
 
-#[test]
-fn a_rotation_has_no_row_scores_but_bleeds() {
+/// Makes an arm that turns by so many radians while it travels, in place of the disc.
+fn turning_arm(turn: f64, travel: f64) -> Scene {
     let mut scene = small_scene(BESIDE);
     let arm = Shape::Bar {
         half: [20.0, 3.0],
         tilt: 0.3,
     };
+    scene.objects[1] = Object {
+        turn,
+        ..Object::sliding(arm, [46.0, 30.0], [travel, 0.0])
+    };
+    scene
+}
+
+#[test]
+fn a_rotation_has_no_row_scores_but_bleeds() {
     // In place, and while it travels: the mean velocity is zero, and not zero.
     for travel in [0.0, 4.0] {
-        scene.objects[1] = Object {
-            turn: 0.8,
-            ..Object::sliding(arm, [46.0, 30.0], [travel, 0.0])
-        };
-        let scores = measure_blur(&scene, Blur::IDENTITY).scores;
+        let scores = measure_blur(&turning_arm(0.8, travel), Blur::IDENTITY).scores;
         for metric in ROW_SCORES {
             let reason = find_reason(&scores, metric);
             assert!(reason.contains("does not translate"), "{metric}: {reason}");
@@ -53,28 +58,16 @@ fn a_rotation_has_no_row_scores_but_bleeds() {
 
 #[test]
 fn turning_too_far_bleeds_ahead_of_the_local_motion() {
-    let mut scene = small_scene(BESIDE);
-    let arm = Shape::Bar {
-        half: [20.0, 3.0],
-        tilt: 0.3,
-    };
-    scene.objects[1] = Object {
-        turn: 0.6,
-        ..Object::sliding(arm, [46.0, 30.0], [0.0, 0.0])
-    };
     let ahead = Blur {
         to: 0.6,
         ..Blur::TRUE
     };
-    let scores = measure_blur(&scene, ahead).scores;
+    let scores = measure_blur(&turning_arm(0.6, 0.0), ahead).scores;
     let leading = find_value(&scores, "bleed_leading");
     assert!(leading > 0.2, "{leading}");
     // The two ends of the arm swing towards opposite sides. Judged by one direction, half of this would be trailing.
     let trailing = find_value(&scores, "bleed_trailing");
-    assert!(
-        trailing < 0.1 * leading,
-        "{trailing} trailing, {leading} leading"
-    );
+    assert!(trailing < 0.1 * leading, "{trailing}, {leading} leading");
 }
 
 #[test]
@@ -111,10 +104,8 @@ fn an_object_with_an_id_but_no_coverage_has_no_outline_to_measure_by() {
         .expect("they agree")
         .scores;
     for metric in ["lateral_growth", "bleed_lateral"] {
-        assert!(
-            find_reason(&scores, metric).contains("no silhouette"),
-            "{metric}"
-        );
+        let reason = find_reason(&scores, metric);
+        assert!(reason.contains("no silhouette"), "{metric}: {reason}");
     }
 }
 
@@ -123,25 +114,16 @@ fn a_scene_without_motion_has_nothing_to_score_but_stillness() {
     let mut scene = small_scene(BESIDE);
     scene.objects.truncate(1);
     let scores = measure_blur(&scene, Blur::IDENTITY).scores;
-    assert_eq!(
-        find_reason(&scores, "flip_moving"),
-        "nothing moves on screen"
-    );
-    assert_eq!(find_reason(&scores, "label_tv"), "nothing moves on screen");
-    assert_eq!(
-        find_reason(&scores, "lateral_growth"),
-        "no object moves on screen"
-    );
+    for (metric, reason) in [
+        ("flip_moving", "nothing moves on screen"),
+        ("label_tv", "nothing moves on screen"),
+        ("lateral_growth", "no object moves on screen"),
+        // Nor is there a ladder to count by.
+        ("n_eq", "no ladder of accumulations was given"),
+    ] {
+        assert_eq!(find_reason(&scores, metric), reason);
+    }
     assert_eq!(find_value(&scores, "flip_static"), 0.0);
-}
-
-#[test]
-fn a_count_of_sub_frames_needs_a_ladder() {
-    let scores = measure_blur(&small_scene(BESIDE), Blur::IDENTITY).scores;
-    assert_eq!(
-        find_reason(&scores, "n_eq"),
-        "no ladder of accumulations was given"
-    );
 }
 
 #[test]

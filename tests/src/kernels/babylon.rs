@@ -1,6 +1,7 @@
 //! Both modes of Babylon.js's motion blur.
 
-use super::{Steady, Tap, direction, length, nearest, own, scaled};
+use super::{Steady, Tap, nearest, own};
+use crate::vector::{direction, length, scaled};
 
 /// Most taps.
 const SAMPLES: f64 = 32.0;
@@ -35,7 +36,10 @@ fn steps(steady: &Steady) -> ([f64; 2], f64) {
     let stored = [x / width, y / height].map(packed);
     let motion = scaled(stored, steady.exposure);
     let pixels = length([motion[0] * width, motion[1] * height]);
-    (direction(motion), pixels.clamp(1.0, SAMPLES).floor())
+    (
+        direction(motion, [1.0, 0.0]),
+        pixels.clamp(1.0, SAMPLES).floor(),
+    )
 }
 
 /// Returns what 8 bits leave of a part of width or height: its cube root is stored.

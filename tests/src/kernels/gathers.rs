@@ -1,6 +1,7 @@
 //! Filters that average along a pixel's own motion, or along motion from a nearby pixel.
 
-use super::{Steady, Tap, bilinear, length, nearest, on_trail, own, scaled};
+use super::{Steady, Tap, bilinear, nearest, on_trail, own};
+use crate::vector::{length, scaled};
 
 /// Places the taps at i/N of the trail: Ctrl-Alt-Test 2011, and the blur by the camera's motion.
 pub fn plain(preset: &str, steady: &Steady) -> Vec<Tap> {

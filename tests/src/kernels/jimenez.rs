@@ -2,7 +2,8 @@
 //!
 //! Where everything moves alike at one depth, weights are 1, except those of kajiya, which compare in pixels.
 
-use super::{Steady, Tap, bilinear, length, on_trail, own, scaled};
+use super::{Steady, Tap, bilinear, on_trail, own};
+use crate::vector::{length, scaled};
 
 /// Returns the taps of a preset.
 pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {

@@ -1,6 +1,7 @@
 //! KinoMotion, 2016.
 
-use super::{Steady, Tap, bilinear, length, own, scaled};
+use super::{Steady, Tap, bilinear, own};
+use crate::vector::{length, scaled};
 
 /// Returns the taps of its preset.
 pub fn place_taps(steady: &Steady, noise: f64) -> Vec<Tap> {

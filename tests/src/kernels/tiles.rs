@@ -2,7 +2,8 @@
 //!
 //! Where everything moves alike at one depth, every tap is both in front and behind: two cones and two cylinders.
 
-use super::{Steady, Tap, bilinear, length, nearest, own, scaled};
+use super::{Steady, Tap, bilinear, nearest, own};
+use crate::vector::{length, scaled};
 
 /// Places the taps of McGuire et al. 2012, and of two implementations.
 pub fn mcguire(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
@@ -80,18 +81,18 @@ pub fn guertin(steady: &Steady, noise: f64) -> Vec<Tap> {
 }
 
 /// Clamps half-velocities between half a pixel and `longest`, with the papers' epsilon.
-fn half_velocity(half: [f64; 2], longest: f64) -> [f64; 2] {
-    scaled(
-        half,
-        length(half).clamp(0.5, longest) / (length(half) + 1e-5),
-    )
+pub fn half_velocity(half: [f64; 2], longest: f64) -> [f64; 2] {
+    let speed = length(half);
+    scaled(half, speed.clamp(0.5, longest) / (speed + 1e-5))
 }
 
-fn cone(distance: f64, radius: f64) -> f64 {
+/// Weight that falls evenly to zero at the radius.
+pub fn cone(distance: f64, radius: f64) -> f64 {
     (1.0 - distance / radius).clamp(0.0, 1.0)
 }
 
-fn cylinder(distance: f64, radius: f64) -> f64 {
+/// Weight of 1 within the radius, and 0 beyond.
+pub fn cylinder(distance: f64, radius: f64) -> f64 {
     let part = ((distance - 0.95 * radius) / (0.1 * radius)).clamp(0.0, 1.0);
     1.0 - part * part * (3.0 - 2.0 * part)
 }

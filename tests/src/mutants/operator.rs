@@ -22,41 +22,21 @@ pub enum Operator {
     Statement,
 }
 
-/// Signs and what they become.
-const SIGNS: [(&str, &str); 8] = [
-    ("+", "-"),
-    ("-", "+"),
-    ("*", "/"),
-    ("/", "*"),
-    ("+=", "-="),
-    ("-=", "+="),
-    ("*=", "/="),
-    ("/=", "*="),
+/// Signs, comparisons and functions, and what they become.
+#[rustfmt::skip]
+const SIGNS: [(&str, &[&str]); 8] = [
+    ("+", &["-"]), ("-", &["+"]), ("*", &["/"]), ("/", &["*"]),
+    ("+=", &["-="]), ("-=", &["+="]), ("*=", &["/="]), ("/=", &["*="]),
 ];
-
-/// Comparisons and what they become.
+#[rustfmt::skip]
 const COMPARISONS: [(&str, &[&str]); 9] = [
-    ("<", &["<=", ">="]),
-    ("<=", &["<", ">"]),
-    (">", &[">=", "<="]),
-    (">=", &[">", "<"]),
-    ("==", &["!="]),
-    ("!=", &["=="]),
-    ("&&", &["||"]),
-    ("||", &["&&"]),
-    ("!", &[""]),
+    ("<", &["<=", ">="]), ("<=", &["<", ">"]), (">", &[">=", "<="]), (">=", &[">", "<"]),
+    ("==", &["!="]), ("!=", &["=="]), ("&&", &["||"]), ("||", &["&&"]), ("!", &[""]),
 ];
-
-/// Functions and what they become.
-const FUNCTIONS: [(&str, &str); 8] = [
-    ("min", "max"),
-    ("max", "min"),
-    ("floor", "ceil"),
-    ("ceil", "floor"),
-    ("sin", "cos"),
-    ("cos", "sin"),
-    ("abs", ""),
-    ("saturate", ""),
+#[rustfmt::skip]
+const FUNCTIONS: [(&str, &[&str]); 8] = [
+    ("min", &["max"]), ("max", &["min"]), ("floor", &["ceil"]), ("ceil", &["floor"]),
+    ("sin", &["cos"]), ("cos", &["sin"]), ("abs", &[""]), ("saturate", &[""]),
 ];
 
 /// Words that begin a declaration.
@@ -113,18 +93,16 @@ impl Operator {
     fn replacements(self, before: &[Token], token: &Token) -> Vec<String> {
         let text = token.text;
         let is_component = before.last().is_some_and(|last| last.text == ".");
-        let found = |table: &[(&str, &str)]| -> Vec<String> {
+        let found = |table: &[(&str, &[&str])]| -> Vec<String> {
             let rows = table.iter().filter(|(from, _)| *from == text);
-            rows.map(|(_, to)| (*to).to_owned()).collect()
+            let replacements = rows.flat_map(|(_, to)| to.iter());
+            replacements.map(|to| (*to).to_owned()).collect()
         };
         match (self, token.kind) {
             (Self::Constant, Kind::Number) => change_number(text),
             (Self::Sign, Kind::Sign) if text == "-" && is_prefix(before) => vec![String::new()],
             (Self::Sign, Kind::Sign) => found(&SIGNS),
-            (Self::Comparison, Kind::Sign) => (COMPARISONS.iter())
-                .filter(|(from, _)| *from == text)
-                .flat_map(|(_, to)| to.iter().map(|to| (*to).to_owned()))
-                .collect(),
+            (Self::Comparison, Kind::Sign) => found(&COMPARISONS),
             (Self::Component, Kind::Word) if is_component => swap_components(text),
             (Self::Function, Kind::Word) if !is_component => found(&FUNCTIONS),
             _ => Vec::new(),

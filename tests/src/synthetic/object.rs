@@ -1,5 +1,7 @@
 //! Flat shapes, their motions and their smears.
 
+use crate::vector::{direction, dot, length};
+
 /// A flat shape around its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
@@ -80,50 +82,85 @@ impl Object {
     pub(crate) fn moves(&self) -> bool {
         self.displacement != [0.0, 0.0] || self.turn != 0.0
     }
+}
+
+/// An object with what all samples of a blur have in common.
+pub(crate) struct Posed {
+    object: Object,
+    blur: Blur,
+    along: [f64; 2],
+    across: [f64; 2],
+    /// Sine and cosine of a bar's tilt, reversed.
+    tilt: [f64; 2],
+    /// A step across the motion, in a bar's own axes.
+    step: [f64; 2],
+    /// Distance from the centre that no part of the smear exceeds, in pixels.
+    reach: f64,
+}
+
+impl Posed {
+    pub(crate) fn new(object: &Object, blur: &Blur) -> Self {
+        let (size, tilt) = match object.shape {
+            Shape::Disc(radius) => (radius, 0.0),
+            Shape::Bar { half, tilt } => (length(half), tilt),
+        };
+        let travel = length(object.displacement) * blur.from.abs().max(blur.to.abs());
+        let shift = length(blur.shift) + blur.dilation;
+        let along = unit(object.displacement);
+        let across = [-along[1], along[0]];
+        let tilt = (-tilt).sin_cos().into();
+        Self {
+            object: *object,
+            blur: *blur,
+            along,
+            across,
+            tilt,
+            step: rotate(across, tilt),
+            reach: size + travel + shift + 1.0,
+        }
+    }
+
+    /// Returns whether any part of a pixel can see the object at any time of the blur. It may return true wrongly.
+    pub(crate) fn reaches(&self, pixel: [u32; 2]) -> bool {
+        let distance = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 - self.object.center[axis]);
+        dot(distance, distance) <= self.reach * self.reach
+    }
 
     /// Converts a point to the object's own coordinates, its centre at (0, 0), at `time` displacements from the
     /// instant.
-    pub(crate) fn local(&self, point: [f64; 2], time: f64, blur: &Blur) -> [f64; 2] {
-        let along = unit(self.displacement);
-        let across = [-along[1], along[0]];
-        let moved: [f64; 2] = std::array::from_fn(|axis| {
-            point[axis]
-                - self.center[axis]
-                - self.displacement[axis] * time
-                - along[axis] * blur.shift[0]
-                - across[axis] * blur.shift[1]
-        });
-        rotate(moved, -self.turn * time)
+    pub(crate) fn local(&self, point: [f64; 2], time: f64) -> [f64; 2] {
+        // Plain statements: a picture has millions of samples, and this crate is not much optimised.
+        let (object, shift) = (&self.object, self.blur.shift);
+        let mut moved = point;
+        for axis in [0, 1] {
+            moved[axis] = moved[axis]
+                - object.center[axis]
+                - object.displacement[axis] * time
+                - self.along[axis] * shift[0]
+                - self.across[axis] * shift[1];
+        }
+        match object.turn {
+            0.0 => moved,
+            turn => {
+                let (sin, cos) = (-turn * time).sin_cos();
+                rotate(moved, [sin, cos])
+            }
+        }
     }
 
-    /// Returns whether any part of a pixel can see the object at any time of a blur. It may return true wrongly.
-    pub(crate) fn reaches(&self, pixel: [u32; 2], blur: &Blur) -> bool {
-        let size = match self.shape {
-            Shape::Disc(radius) => radius,
-            Shape::Bar { half, .. } => half[0].hypot(half[1]),
-        };
-        let travel =
-            self.displacement[0].hypot(self.displacement[1]) * blur.from.abs().max(blur.to.abs());
-        let shift = blur.shift[0].hypot(blur.shift[1]) + blur.dilation;
-        let distance = [0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 - self.center[axis]);
-        distance[0].hypot(distance[1]) <= size + travel + shift + 1.0
-    }
-
-    /// Returns whether a point in the object's own coordinates is inside it, after a dilation across its motion by
-    /// `dilation` to both sides.
-    pub(crate) fn holds(&self, local: [f64; 2], dilation: f64) -> bool {
-        let along = unit(self.displacement);
-        let across = [-along[1], along[0]];
-        match self.shape {
+    /// Returns whether a point in the object's own coordinates is inside it, after a dilation across its motion to both sides.
+    pub(crate) fn holds(&self, local: [f64; 2]) -> bool {
+        let dilation = self.blur.dilation;
+        match self.object.shape {
             Shape::Disc(radius) => {
-                let aside = dot(local, across);
+                let aside = dot(local, self.across);
                 let nearer = aside - aside.clamp(-dilation, dilation);
-                let ahead = dot(local, along);
+                let ahead = dot(local, self.along);
                 ahead * ahead + nearer * nearer <= radius * radius
             }
-            Shape::Bar { half, tilt } => {
+            Shape::Bar { half, .. } => {
                 // Steps across the motion that stay within both pairs of sides, and within the dilation.
-                let (at, step) = (rotate(local, -tilt), rotate(across, -tilt));
+                let (at, step) = (rotate(local, self.tilt), self.step);
                 let mut steps = [-dilation, dilation];
                 for axis in [0, 1] {
                     if step[axis].abs() < 1e-12 {
@@ -131,8 +168,10 @@ impl Object {
                             return false;
                         }
                     } else {
-                        let ends =
-                            [-half[axis], half[axis]].map(|end| (end - at[axis]) / step[axis]);
+                        let ends = [
+                            (-half[axis] - at[axis]) / step[axis],
+                            (half[axis] - at[axis]) / step[axis],
+                        ];
                         steps[0] = steps[0].max(ends[0].min(ends[1]));
                         steps[1] = steps[1].min(ends[0].max(ends[1]));
                     }
@@ -143,20 +182,10 @@ impl Object {
     }
 }
 
-fn rotate([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
-    let (sin, cos) = angle.sin_cos();
+fn rotate([x, y]: [f64; 2], [sin, cos]: [f64; 2]) -> [f64; 2] {
     [cos * x - sin * y, sin * x + cos * y]
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
 fn unit(vector: [f64; 2]) -> [f64; 2] {
-    let length = dot(vector, vector).sqrt();
-    if length == 0.0 {
-        [1.0, 0.0]
-    } else {
-        vector.map(|component| component / length)
-    }
+    direction(vector, [1.0, 0.0])
 }

@@ -197,3 +197,37 @@ fn are_tied(a: &[&RankedScore], b: &[&RankedScore]) -> bool {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn on_one_scene_the_larger_floor_of_two_filters_ties_them() {
+        let score = |name: &str, value, floor| RankedScore {
+            scene: SceneId::new("fan", None),
+            filter: name.to_owned(),
+            name: name.to_owned(),
+            alignment: Alignment::Trailing,
+            value,
+            floor,
+        };
+        let scores = [
+            score("worst", 0.130, 0.010),
+            score("best", 0.100, 0.020),
+            score("second", 0.115, 0.010),
+        ];
+        // 0.015 is within the floor of the best, and beyond those of the other two.
+        let [ranking] = &rank_by_score(&scores, false)[..] else {
+            panic!("one shutter");
+        };
+        let ranks: Vec<_> = ranking
+            .iter()
+            .map(|own| (own.name.as_str(), own.ranks))
+            .collect();
+        assert_eq!(
+            ranks,
+            [("best", [1, 2]), ("second", [1, 2]), ("worst", [3, 3])]
+        );
+    }
+}

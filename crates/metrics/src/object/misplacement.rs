@@ -95,6 +95,23 @@ mod tests {
     }
 
     #[test]
+    fn a_row_of_a_hundredth_of_a_pixel_counts_and_one_of_rounding_does_not() {
+        let rows = Rows::new([1.0, 0.0], 20, 3);
+        let mass = [2.0, 0.01, 0.0005];
+        let mattes = [4, 8].map(|start| {
+            Raster::from_fn(20, 3, |x, y| match y {
+                0 if (4..8).contains(&x) => mass[0] / 4.0,
+                1 | 2 if (start..start + 4).contains(&x) => mass[y as usize] / 4.0,
+                _ => 0.0,
+            })
+        });
+        let [truth, output] = mattes.map(|matte| rows.spread(&matte));
+        let found = measure_misplacement(&output, &truth).expect("both have mass");
+        // The second row lies 4 px ahead, and so does the third, which is left out. Mattes have 32 bits.
+        assert!((found.distance - 0.04 / 2.01).abs() < 1e-6, "{found:?}");
+    }
+
+    #[test]
     fn negative_mass_far_away_leaves_no_length() {
         let rows = Rows::new([1.0, 0.0], 20, 1);
         let truth = Raster::from_fn(20, 1, |x, _| if (8..12).contains(&x) { 0.5 } else { 0.0 });

@@ -7,55 +7,8 @@ use std::process::Output;
 
 use filters::Filter;
 
-use crate::sandbox::Sandbox;
-
-const MANIFEST: &str = r#"name = "mine"
-summary = "Averages a few samples."
-alignment = "trailing"
-
-[[parameter]]
-name = "samples"
-kind = "integer"
-default = 4
-range = [1, 64]
-doc = "Taps."
-
-[[parameter]]
-name = "gain"
-kind = "real"
-default = 1.0
-range = [0.5, 2.0]
-doc = "Times as bright."
-
-[[preset]]
-name = "plain"
-doc = "As it is."
-
-[[pass]]
-entry = "work"
-"#;
-
-const KERNELS: &str = "struct Parameters {
-    samples: i32,
-    gain: f32,
-}
-@group(0) @binding(1) var<uniform> parameters: Parameters;
-@group(0) @binding(2) var color: texture_2d<f32>;
-@group(0) @binding(3) var output: texture_storage_2d<rgba32float, write>;
-// declarations
-@compute @workgroup_size(8, 8)
-fn work(@builtin(global_invocation_id) id: vec3<u32>) {
-    let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) { return; }
-    let here = textureLoad(color, pixel, 0);
-    var value = vec4<f32>(0.0);
-    for (var i = 0; i < parameters.samples; i++) {
-        value += here;
-    }
-    // statements
-    textureStore(output, pixel, parameters.gain * value / f32(parameters.samples));
-}
-";
+use crate::rows::{divide, rows};
+use crate::sandbox::{Sandbox, assert_refused, stderr};
 
 /// Makes a sandbox with the filter `mine`, after these replacements in its files.
 fn write_mine(changes: &[(&str, &str)]) -> Sandbox {
@@ -65,13 +18,41 @@ fn write_mine(changes: &[(&str, &str)]) -> Sandbox {
 }
 
 fn change(sandbox: &Sandbox, changes: &[(&str, &str)]) {
-    let (mut manifest, mut kernels) = (MANIFEST.to_owned(), KERNELS.to_owned());
+    let mut manifest = include_str!("mine/filter.toml").to_owned();
+    let mut kernels = include_str!("mine/mine.wgsl").to_owned();
     for (from, to) in changes {
         assert!(manifest.contains(from) || kernels.contains(from), "{from}");
         manifest = manifest.replacen(from, to, 1);
         kernels = kernels.replacen(from, to, 1);
     }
     sandbox.write_filter("mine", &manifest, &kernels);
+}
+
+/// Lists the filter after the changes of each row of a table, which must be refused. The message must be printable, and no
+/// line of it a command to a log. Returns the sandboxes.
+fn refuse_rows(table: &str) -> Vec<(Sandbox, Vec<&'static str>)> {
+    let refused = rows(include_str!("refusals.toml"), table)
+        .into_iter()
+        .map(|row| {
+            let (changes, parts) = divide(&row);
+            println!("{changes:?}");
+            let sandbox = write_mine(&changes);
+            let output = list(&sandbox);
+            assert_refused(&output, 2, &parts);
+            let message = stderr(&output);
+            assert!(
+                !message.contains(|sign: char| sign.is_control() && sign != '\n'),
+                "{message:?}"
+            );
+            assert!(
+                !message
+                    .lines()
+                    .any(|line| line.trim_start().starts_with("::")),
+                "{message}"
+            );
+            (sandbox, parts)
+        });
+    refused.collect()
 }
 
 fn list(sandbox: &Sandbox) -> Output {

@@ -1,35 +1,33 @@
 //! One folder that several processes use.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, OpenOptions};
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, files_below, split};
+use crate::sandbox::{Sandbox, assert_done, files_below, split};
 
 const RUN: &str = "run --quiet --size 64x32 --samples-per-pixel 16 --filters identity --out out";
 const RENDER: &str = "truths render --quiet --samples-per-pixel 16 --out out";
 
-/// Opens the lock file that another process would hold.
-fn lock_file(sandbox: &Sandbox) -> File {
-    fs::create_dir_all(sandbox.path("out")).unwrap();
-    let path = sandbox.path("out/.shuttertruth.lock");
-    let mut options = OpenOptions::new();
-    (options.write(true).create(true).truncate(false))
-        .open(path)
-        .unwrap()
-}
-
 #[test]
 fn two_runs_cannot_share_a_folder_at_the_same_time() {
     let sandbox = Sandbox::new();
+    sandbox.write_bound(1.0);
     let parts = [
         "another shuttertruth is writing to out",
         "another output folder",
     ];
-    sandbox.write_bound(1.0);
-    let other = lock_file(&sandbox);
+    // The lock file that another process holds.
+    fs::create_dir(sandbox.path("out")).unwrap();
+    let lock = sandbox.path("out/.shuttertruth.lock");
+    let other = OpenOptions::new()
+        .write(true)
+        .create(true)
+        .truncate(false)
+        .open(lock)
+        .unwrap();
     other.try_lock().unwrap();
-    for words in [
+    for line in [
         RUN,
         RENDER,
         "check --quiet --filters identity --out out",
@@ -37,15 +35,14 @@ fn two_runs_cannot_share_a_folder_at_the_same_time() {
         "tune search --quiet --filter jump_flood --objective flip --out out",
         "tune serve --quiet --filter jump_flood --out out",
     ] {
-        let words = split(words);
-        assert_refused(&sandbox.shuttertruth(&words), 2, &parts);
-        assert_eq!(files_below(&sandbox.path("out")).len(), 1, "{words:?}");
+        sandbox.refuse(line, &parts);
+        assert_eq!(files_below(&sandbox.path("out")).len(), 1, "{line}");
     }
     // Renders share a folder with each other and with no other command.
     other.unlock().unwrap();
     other.try_lock_shared().unwrap();
     sandbox.execute(&split(RENDER));
-    assert_refused(&sandbox.shuttertruth(&split(RUN)), 2, &parts);
+    sandbox.refuse(RUN, &parts);
     // A process that ends releases its lock.
     drop(other);
     sandbox.execute(&split(RUN));
@@ -68,25 +65,23 @@ fn the_next_run_removes_files_of_a_killed_process() {
         fs::write(path, "half").unwrap();
     }
     sandbox.execute(&split(RUN));
-    for name in gone {
-        assert!(!sandbox.path(name).exists(), "{name}");
-    }
-    for name in kept {
-        assert!(sandbox.path(name).exists(), "{name}");
-    }
-    let left = files_below(&sandbox.path("out/plate"));
-    assert!(
-        left.iter()
-            .all(|path| path.extension().is_none_or(|it| it != "tmp"))
-    );
+    let mut left = files_below(&sandbox.path("out"));
+    left.retain(|path| path.extension().is_some_and(|it| it == "tmp"));
+    let mut kept = kept.map(|name| sandbox.path(name));
+    kept.sort();
+    assert_eq!(left, kept);
 }
 
 #[test]
 fn the_umask_decides_who_may_read_the_files() {
-    for (umask, expected) in [("022", 0o644), ("027", 0o640), ("077", 0o600)] {
+    for (umask, expected, words) in [
+        ("022", 0o644, RENDER),
+        ("027", 0o640, RUN),
+        ("077", 0o600, RENDER),
+    ] {
         let sandbox = Sandbox::new();
         let program = env!("CARGO_BIN_EXE_shuttertruth");
-        let line = format!("umask {umask}; exec {program} {RENDER}");
+        let line = format!("umask {umask}; exec {program} {words}");
         let mut shell = Command::new("sh");
         shell.current_dir(sandbox.path("")).args(["-c", &line]);
         assert_done(&shell.output().unwrap());

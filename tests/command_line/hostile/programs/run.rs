@@ -2,13 +2,14 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
 use frame::{ExrFile, Raster, write_exr};
 use tests::filter_folder::write_program;
+use tests::text::assert_contains;
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, press_ctrl_c, split, stdout};
+use crate::sandbox::{Sandbox, assert_done, assert_refused, press_ctrl_c, split};
 
 /// Writes the filter `mine`, a shell script that gets the files as $1 and $2.
 fn write_mine(sandbox: &Sandbox, lines: &str, more: &str) {
@@ -31,18 +32,24 @@ fn set_up() -> Sandbox {
 const BLUR: &str = "engine blur --allow-commands --filter ./mine --frame frame.exr --out b.exr";
 
 /// Makes the command `blur`; a timeout of a minute fails it.
-fn blur(sandbox: &Sandbox) -> Command {
+fn command(sandbox: &Sandbox) -> Command {
     let mut command = Command::new("timeout");
     command.arg("60").arg(env!("CARGO_BIN_EXE_shuttertruth"));
     command.current_dir(sandbox.path("")).args(split(BLUR));
     command
 }
 
+/// Blurs with the script as the filter.
+fn blur(sandbox: &Sandbox, lines: &str, more: &str) -> Output {
+    write_mine(sandbox, lines, more);
+    command(sandbox).output().unwrap()
+}
+
 #[test]
 fn no_command_runs_a_program_without_permission() {
     let sandbox = set_up();
     write_mine(&sandbox, "touch ran; cp $1 $2", "");
-    for words in [
+    for line in [
         "run --out out --filter mine",
         "check --out out --filter mine",
         "limits calibrate --out out --filter mine",
@@ -51,17 +58,15 @@ fn no_command_runs_a_program_without_permission() {
         "tune evaluate --out out --filter ./mine --params p.json",
         "tune serve --out out --filter ./mine",
     ] {
-        let parts = [
-            "./mine/filter.toml:4: ",
-            "`./blur.sh {frame} {out}`",
-            "--allow-commands",
-        ];
-        assert_refused(&sandbox.shuttertruth(&split(words)), 2, &parts);
-        assert!(!sandbox.path("out").exists(), "{words}");
+        let script = "`./blur.sh {frame} {out}`";
+        sandbox.refuse(
+            line,
+            &["./mine/filter.toml:4: ", script, "--allow-commands"],
+        );
+        assert!(!sandbox.path("out").exists(), "{line}");
     }
-    let output = sandbox.shuttertruth(&split("list --filter mine"));
-    assert_done(&output);
-    assert!(stdout(&output).contains("runs: ./blur.sh {frame} {out}"));
+    let listed = sandbox.execute(&split("list --filter mine"));
+    assert_contains(&listed, &["runs: ./blur.sh {frame} {out}"]);
     assert!(!sandbox.path("mine/ran").exists(), "it ran");
     sandbox.execute(&split(BLUR));
     assert!(sandbox.path("mine/ran").exists());
@@ -72,48 +77,37 @@ fn a_program_gets_no_secret_from_the_environment() {
     let sandbox = set_up();
     let named = "environment = [\"CUDA_VISIBLE_DEVICES\", \"NOT_SET\"]";
     write_mine(&sandbox, "env > seen; cp $1 $2", named);
-    let mut command = blur(&sandbox);
-    for name in ["GITHUB_TOKEN", "ACTIONS_RUNTIME_TOKEN", "MY_SECRET"] {
-        command.env(name, "hidden");
-    }
-    command
-        .env("CUDA_VISIBLE_DEVICES", "1")
-        .env("LC_ALL", "C")
-        .env("HOME", "/somewhere");
+    let mut command = command(&sandbox);
+    let secrets = ["GITHUB_TOKEN", "ACTIONS_RUNTIME_TOKEN", "MY_SECRET"];
+    command.envs(secrets.map(|name| (name, "hidden")));
+    command.envs([
+        ("CUDA_VISIBLE_DEVICES", "1"),
+        ("LC_ALL", "C"),
+        ("HOME", "/somewhere"),
+    ]);
     assert_done(&command.output().unwrap());
     let seen = fs::read_to_string(sandbox.path("mine/seen")).unwrap();
-    assert!(
-        !seen.contains("hidden") && !seen.contains("TOKEN"),
-        "{seen}"
-    );
-    for line in [
+    for hidden in ["hidden", "TOKEN", "NOT_SET"] {
+        assert!(!seen.contains(hidden), "{seen}");
+    }
+    let lines = [
         "CUDA_VISIBLE_DEVICES=1",
         "LC_ALL=C",
         "HOME=/somewhere",
         "PATH=",
-    ] {
-        assert!(seen.contains(line), "{line} is missing from: {seen}");
-    }
-    assert!(!seen.contains("NOT_SET"), "{seen}");
-    let output = sandbox.shuttertruth(&split("list --filter mine"));
-    assert!(stdout(&output).contains("environment: CUDA_VISIBLE_DEVICES NOT_SET"));
-    for (more, part) in [
-        ("environment = [\"A=B\"]", "\"A=B\" names no variable"),
-        ("environment = [\"\"]", "\"\" names no variable"),
-        ("environment = [\"1A\"]", "\"1A\" names no variable"),
-    ] {
-        write_mine(&sandbox, "", more);
-        let refused = sandbox.shuttertruth(&split(BLUR));
-        assert_refused(&refused, 2, &["mine/filter.toml:5: environment: ", part]);
+    ];
+    assert_contains(&seen, &lines);
+    let listed = sandbox.execute(&split("list --filter mine"));
+    assert_contains(&listed, &["environment: CUDA_VISIBLE_DEVICES NOT_SET"]);
+    for name in ["A=B", "", "1A"] {
+        write_mine(&sandbox, "", &format!("environment = [\"{name}\"]"));
+        let part = format!("mine/filter.toml:5: environment: \"{name}\" names no variable");
+        sandbox.refuse(BLUR, &[&part]);
     }
     let kernels = "name = \"mine\"\nsummary = \"\"\nalignment = \"trailing\"\n\
                    environment = [\"A\"]\n[[pass]]\nentry = \"blur\"\n";
     fs::write(sandbox.path("mine/filter.toml"), kernels).unwrap();
-    assert_refused(
-        &sandbox.shuttertruth(&split(BLUR)),
-        2,
-        &["mine/filter.toml:4: environment: is for a program"],
-    );
+    sandbox.refuse(BLUR, &["mine/filter.toml:4: environment: is for a program"]);
 }
 
 /// Shell line that leaves a process behind in a session of its own; `pid` names it.
@@ -135,14 +129,12 @@ fn a_child_session_ends_with_its_program() {
     for (rest, more, code, part) in [
         ("cp $1 $2", "", 0, ""),
         ("exit 7", "", 2, "ended with exit status: 7"),
-        ("sleep 300", "time_limit = 2", 2, "took longer than 2 s"),
+        ("sleep 300", "time_limit = 1", 2, "took longer than 1 s"),
     ] {
         let sandbox = set_up();
-        write_mine(&sandbox, &format!("{LEAVES_ONE}\n{rest}"), more);
-        let output = blur(&sandbox).output().unwrap();
+        let output = blur(&sandbox, &format!("{LEAVES_ONE}\n{rest}"), more);
         assert_eq!(output.status.code(), Some(code), "{rest}");
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(said.contains(part), "{said}");
+        assert_contains(&String::from_utf8_lossy(&output.stderr), &[part]);
         assert!(has_ended(&sandbox), "it lives on after: {rest}");
     }
 }
@@ -167,19 +159,17 @@ fn a_child_session_ends_at_ctrl_c() {
 #[test]
 fn an_output_that_is_not_a_regular_file_is_refused() {
     let sandbox = set_up();
-    for (lines, part) in [
-        ("mkfifo $2", "left a pipe or a device in the place of {out}"),
-        ("ln -s /dev/zero $2", "left a link in the place of {out}"),
-        ("ln -s $1 $2", "left a link in the place of {out}"),
-        ("mkdir $2", "left a folder in the place of {out}"),
+    for (lines, found) in [
+        ("mkfifo $2", "a pipe or a device"),
+        ("ln -s /dev/zero $2", "a link"),
+        ("ln -s $1 $2", "a link"),
+        ("mkdir $2", "a folder"),
     ] {
-        write_mine(&sandbox, lines, "");
-        let output = blur(&sandbox).output().unwrap();
-        assert_refused(&output, 2, &[part, "a regular file"]);
+        let part = format!("left {found} in the place of {{out}}");
+        assert_refused(&blur(&sandbox, lines, ""), 2, &[&part, "a regular file"]);
     }
     // No other user may read the folder of the files.
-    write_mine(&sandbox, "ls -ld $(dirname $2) > mode; cp $1 $2", "");
-    assert_done(&blur(&sandbox).output().unwrap());
+    assert_done(&blur(&sandbox, "ls -ld $(dirname $2) > mode; cp $1 $2", ""));
     let mode = fs::read_to_string(sandbox.path("mine/mode")).unwrap();
     assert!(mode.starts_with("drwx------"), "{mode}");
 }
@@ -193,8 +183,7 @@ fn the_output_of_a_program_is_limited() {
         "head -c 20000000 /dev/zero > $2; sleep 300",
         "truncate -s 1T $2",
     ] {
-        write_mine(&sandbox, lines, "");
-        assert_refused(&blur(&sandbox).output().unwrap(), 2, &parts);
+        assert_refused(&blur(&sandbox, lines, ""), 2, &parts);
     }
     // 300 MB on standard output, although no file may exceed 50 MB: the program keeps only the end, in memory.
     write_mine(
@@ -207,18 +196,13 @@ fn the_output_of_a_program_is_limited() {
     let mut shell = Command::new("sh");
     shell.current_dir(sandbox.path("")).args(["-c", &limited]);
     let output = shell.output().unwrap();
-    assert_refused(
-        &output,
-        2,
-        &["ended with exit status: 7", "\n  | y\n  | y\n  | the end"],
-    );
+    let parts = ["ended with exit status: 7", "\n  | y\n  | y\n  | the end"];
+    assert_refused(&output, 2, &parts);
     assert!(output.stderr.len() < 1000, "ten lines are shown");
 }
 
 #[test]
 fn a_program_that_closes_its_pipes_and_goes_on_is_stopped() {
-    let sandbox = set_up();
-    write_mine(&sandbox, "exec >&- 2>&-; sleep 300", "time_limit = 1");
-    let output = blur(&sandbox).output().unwrap();
+    let output = blur(&set_up(), "exec >&- 2>&-; sleep 300", "time_limit = 1");
     assert_refused(&output, 2, &["took longer than 1 s", "printed nothing"]);
 }

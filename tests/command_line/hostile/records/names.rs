@@ -4,73 +4,51 @@ use std::fs;
 
 use frame::Frame;
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused};
+use crate::sandbox::{SCENE, Sandbox, split};
 
-const RENDER: [&str; 7] = [
-    "truths",
-    "render",
-    "--quiet",
-    "--out",
-    "r",
-    "--samples-per-pixel",
-    "16",
-];
+const RENDER: &str = "truths render --quiet --out r --samples-per-pixel 16";
 
-/// Renames the plate's folder.
-fn rename_scene(sandbox: &Sandbox, folder: &str) {
+/// Makes a sandbox whose plate is in another folder.
+fn with_plate_in(folder: &str) -> Sandbox {
+    let sandbox = Sandbox::new();
     let target = sandbox.path(folder);
     fs::create_dir_all(target.parent().unwrap()).unwrap();
     fs::rename(sandbox.path("scenes/plate"), target).unwrap();
+    sandbox
 }
 
 #[test]
 fn names_in_every_script_are_written_as_utf_8() {
     for name in ["\u{e9}ventail", "\u{6247}\u{98a8}\u{6a5f}_\u{1f300}"] {
-        let sandbox = Sandbox::new();
-        rename_scene(&sandbox, &format!("scenes/{name}"));
-        sandbox.execute(&RENDER);
+        let sandbox = with_plate_in(&format!("scenes/{name}"));
+        sandbox.execute(&split(RENDER));
         let path = sandbox.path("r").join(name).join("frame.exr");
         assert_eq!(Frame::read(&path).unwrap().provenance.scene, name);
         let bytes = fs::read(&path).unwrap();
-        let utf_8 = |window: &[u8]| window == name.as_bytes();
-        assert!(bytes.windows(name.len()).any(utf_8), "{name}");
+        let mut windows = bytes.windows(name.len());
+        assert!(windows.any(|window| window == name.as_bytes()), "{name}");
     }
 }
 
 #[test]
 fn a_folder_above_a_scene_may_contain_an_at_and_the_scene_may_not() {
-    let sandbox = Sandbox::new();
-    rename_scene(&sandbox, "me@home/plate");
-    let scene = |path: &str| sandbox.shuttertruth(&[&RENDER[..], &["--scenes", path]].concat());
-    assert_done(&scene("./me@home/plate"));
-    assert_refused(
-        &scene("./me@home/plate@all"),
-        2,
+    let sandbox = with_plate_in("me@home/plate");
+    sandbox.execute(&split(&format!("{RENDER} --scenes ./me@home/plate")));
+    sandbox.refuse(
+        &format!("{RENDER} --scenes ./me@home/plate@all"),
         &["./me@home/plate has no variants for @all"],
     );
-    fs::rename(
-        sandbox.path("me@home/plate"),
-        sandbox.path("me@home/plate@fast"),
-    )
-    .unwrap();
-    let words = [&RENDER[..], &["--scenes-dir", "me@home"]].concat();
-    assert_refused(
-        &sandbox.shuttertruth(&words),
-        2,
-        &["plate@fast cannot name a scene", "names without @"],
-    );
+    let sandbox = with_plate_in("me@home/plate@fast");
+    let parts = ["plate@fast cannot name a scene", "names without @"];
+    sandbox.refuse(&format!("{RENDER} --scenes-dir me@home"), &parts);
 }
 
 #[test]
 fn a_path_with_at_all_selects_every_variant() {
     let sandbox = Sandbox::new();
-    let text = fs::read_to_string(sandbox.path("scenes/plate/scene.toml")).unwrap();
-    sandbox.write(
-        "scene.toml",
-        &format!("{text}\n[variant.short]\nexposure = 0.25\n[variant.long]\nexposure = 1.0\n"),
-    );
-    let words = [&RENDER[..], &["--scenes", "./scenes/plate@all"]].concat();
-    sandbox.execute(&words);
+    let variants = "[variant.short]\nexposure = 0.25\n[variant.long]\nexposure = 1.0\n";
+    sandbox.write("scene.toml", &format!("{SCENE}\n{variants}"));
+    sandbox.execute(&split(&format!("{RENDER} --scenes ./scenes/plate@all")));
     for variant in ["plate@short", "plate@long"] {
         assert!(sandbox.path("r").join(variant).join("frame.exr").is_file());
     }

@@ -1,29 +1,18 @@
 //! Scene folders: manifests, models, textures.
 
+mod contents;
 mod files;
-mod headers;
-mod models;
 mod sizes;
 
-use crate::sandbox::{SCENE, Sandbox, assert_refused};
+use crate::sandbox::{SCENE, Sandbox};
 
-/// Loads the plate's scene in a process of its own, which renders as little as possible.
-#[track_caller]
-fn assert_render_refused(sandbox: &Sandbox, parts: &[&str]) {
-    assert_refused(&render(sandbox), 2, parts);
-}
-
-fn render(sandbox: &Sandbox) -> std::process::Output {
-    let words =
-        "truths render --quiet --scenes plate --size 16x16 --samples-per-pixel 16 --out out";
-    sandbox.shuttertruth(&crate::sandbox::split(words))
-}
+/// Renders the plate as little as possible, in a process of its own.
+const RENDER: &str =
+    "truths render --quiet --scenes plate --size 16x16 --samples-per-pixel 16 --out out";
 
 fn with_texture(sandbox: &Sandbox, name: &str) {
-    sandbox.write(
-        "plate.mtl",
-        &format!("newmtl paint\nKd 1 1 1\nmap_Kd {name}\n"),
-    );
+    let mtl = format!("newmtl paint\nKd 1 1 1\nmap_Kd {name}\n");
+    sandbox.write("plate.mtl", &mtl);
     sandbox.write("plate.obj", TEXTURED);
 }
 

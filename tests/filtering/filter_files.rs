@@ -1,0 +1,66 @@
+//! Filter folders that tests change.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use filters::{Filter, FilterError};
+use tests::root;
+use tests::text::assert_contains;
+
+/// Files of a filter folder, by name.
+#[derive(Clone, Default)]
+pub struct FilterFiles(BTreeMap<String, Vec<u8>>);
+
+impl FilterFiles {
+    /// Reads the files of a folder in tests/fixtures.
+    pub fn fixture(folder: &str) -> Self {
+        Self::read(&root().join("tests/fixtures").join(folder))
+    }
+
+    pub fn read(folder: &Path) -> Self {
+        let paths = fs::read_dir(folder).unwrap().map(|it| it.unwrap().path());
+        let files = paths.filter(|path| path.is_file()).map(|path| {
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            (name, fs::read(&path).unwrap())
+        });
+        Self(files.collect())
+    }
+
+    pub fn with(mut self, name: &str, content: impl AsRef<[u8]>) -> Self {
+        self.0.insert(name.to_owned(), content.as_ref().to_owned());
+        self
+    }
+
+    pub fn text(&self, name: &str) -> String {
+        String::from_utf8(self.0[name].clone()).unwrap()
+    }
+
+    /// Replaces one piece of a file.
+    #[track_caller]
+    pub fn changed(&self, name: &str, from: &str, to: &str) -> Self {
+        let text = self.text(name);
+        assert!(text.contains(from), "{name} holds no \"{from}\"");
+        self.clone().with(name, text.replacen(from, to, 1))
+    }
+
+    /// Writes the folder, and loads it.
+    pub fn load(&self) -> Result<Filter, FilterError> {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, content) in &self.0 {
+            fs::write(folder.path().join(name), content).unwrap();
+        }
+        Filter::load(folder.path())
+    }
+
+    /// Fails unless each change of a file is refused with these words. A change is (text, replacement, words).
+    #[track_caller]
+    pub fn assert_refused(&self, name: &str, changes: &[(&str, &str, &[&str])]) {
+        for (from, to, parts) in changes {
+            let Err(error) = self.changed(name, from, to).load() else {
+                panic!("\"{from}\" -> \"{to}\" was accepted");
+            };
+            assert_contains(&format!("\"{from}\" -> \"{to}\": {error}"), parts);
+        }
+    }
+}

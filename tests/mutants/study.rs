@@ -1,0 +1,30 @@
+//! What a measurement of one filter's mutants works on.
+
+use std::collections::BTreeMap;
+
+use judge::SceneBounds;
+use tracer::SceneId;
+
+use crate::bench::Bench;
+use crate::journal::Journal;
+use crate::subject::Subject;
+
+/// A filter on the bench.
+pub struct Study<'a, 's> {
+    pub bench: &'a mut Bench,
+    pub subject: &'s Subject,
+    pub journal: &'a mut Journal,
+    /// Limits that its mutants are held to.
+    pub limits: BTreeMap<SceneId, Limits>,
+    /// Function that says whether work may still be begun.
+    pub due: &'a dyn Fn() -> bool,
+}
+
+/// Limits on one scene.
+pub struct Limits {
+    pub deciding: SceneBounds,
+    /// True if they are those of bounds.toml.
+    pub are_shipped: bool,
+    /// Limits on every metric that can have one, which tell what would notice a survivor; none until they are calibrated.
+    pub widest: Option<SceneBounds>,
+}

@@ -1,0 +1,182 @@
+//! Audits of captures: what is wrong is named, and right ones pass.
+//!
+//! Most look at `fixtures/audit`, a scene of few triangles.
+
+mod motion;
+mod numbers;
+mod picture;
+
+use std::path::PathBuf;
+
+use engine::{Buffer, Capture, CaptureAudit, CaptureDescription, Cause, Defect, audit_capture};
+use filters::Convention;
+use frame::{FAR_DEPTH, Vectors, VelocityKind};
+use tests::{scenes, unwatched};
+use tracer::{PointMotion, RenderSettings, Scene, load_scene, trace_frame, trace_motion};
+
+const WIDTH: u32 = 96;
+const HEIGHT: u32 = 54;
+
+/// Loads a variant of the small scene.
+fn load_small(variant: Option<&str>) -> Scene {
+    load_scene(tests::root().join("tests/fixtures/audit"), variant)
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Loads the small scene in which everything moves.
+fn load_moving() -> Scene {
+    load_small(Some("moving"))
+}
+
+fn load_shipped(name: &str) -> Scene {
+    load_scene(scenes().join(name), None).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Settings of what an engine hands over: the motion since the frame before, unless it is another.
+fn settings(velocity: VelocityKind) -> RenderSettings {
+    let mut settings = RenderSettings {
+        width: WIDTH,
+        height: HEIGHT,
+        samples_per_pixel: 4,
+        replicates: 1,
+        ..RenderSettings::default()
+    };
+    settings.options.velocity = velocity;
+    settings
+}
+
+fn trace_velocity(scene: &Scene, motion: &PointMotion) -> Vectors {
+    let settings = settings(VelocityKind::PreviousFrame);
+    trace_motion(scene, &settings, motion).unwrap().velocity
+}
+
+/// Captures the scene as an engine draws it some frames after the instant.
+fn draw(scene: &Scene, time: f64) -> Capture {
+    let settings = settings(VelocityKind::PreviousFrame);
+    let scene = scene.clone().later_by(time);
+    let frame = trace_frame(&scene, &settings, &unwatched).unwrap();
+    Capture {
+        folder: PathBuf::from("capture"),
+        description: CaptureDescription {
+            engine: "test".to_owned(),
+            scene: None,
+            exposure: None,
+            alignment: None,
+            instant: 0.0,
+            subframes: None,
+            stops: None,
+        },
+        convention: Convention::default(),
+        color: frame.color,
+        velocity: frame.velocity,
+        depth: frame.depth,
+        object_id: Some(frame.object_id),
+        blurred: None,
+        subframes: Vec::new(),
+        notes: Vec::new(),
+    }
+}
+
+fn audit(scene: &Scene, capture: &Capture) -> CaptureAudit {
+    audit_capture(capture, scene).unwrap().0
+}
+
+/// Audits a right capture with another velocity.
+fn audit_velocity(scene: &Scene, velocity: Vectors) -> CaptureAudit {
+    let drawn = draw(scene, 0.0);
+    audit(scene, &Capture { velocity, ..drawn })
+}
+
+/// Audits a right capture whose depth is changed, but for that of the background.
+fn audit_depth(scene: &Scene, change: impl Fn(usize, f32) -> f32) -> (Capture, CaptureAudit) {
+    let mut capture = draw(scene, 0.0);
+    for (at, depth) in capture.depth.pixels.iter_mut().enumerate() {
+        if *depth < 0.1 * FAR_DEPTH {
+            *depth = change(at, *depth);
+        }
+    }
+    let found = audit(scene, &capture);
+    (capture, found)
+}
+
+fn without_ids(capture: &Capture) -> Capture {
+    Capture {
+        object_id: None,
+        ..capture.clone()
+    }
+}
+
+/// Number of an object.
+fn id_of(scene: &Scene, name: &str) -> u32 {
+    let names = scene.object_names();
+    names.iter().position(|own| own == name).unwrap() as u32
+}
+
+fn names(defect: &Defect, is_cause: impl Fn(&Cause) -> bool) -> bool {
+    let mut causes = std::iter::once(&defect.found.cause).chain(&defect.found.looks_like);
+    causes.any(is_cause)
+}
+
+/// Expects one finding, in a buffer and of all objects or one, whose cause is such a one or looks like it.
+#[track_caller]
+fn expect<'a>(
+    audit: &'a CaptureAudit,
+    buffer: Buffer,
+    object: Option<&str>,
+    is_cause: impl Fn(&Cause) -> bool,
+) -> &'a Defect {
+    let [finding] = audit.findings.as_slice() else {
+        panic!("{}: {:#?}", audit.scene, audit.findings);
+    };
+    assert_eq!(finding.buffer, buffer, "{finding:#?}");
+    assert_eq!(finding.object.as_deref(), object, "{finding:#?}");
+    assert!(names(finding, is_cause), "{}: {finding:#?}", audit.scene);
+    finding
+}
+
+#[track_caller]
+fn assert_passes(scene: &Scene, capture: &Capture) {
+    let found = audit(scene, capture);
+    let passes = found.findings.is_empty() && found.shows_scene;
+    assert!(passes, "{}: {:#?}", scene.id, found.findings);
+    assert!(found.velocity.iter().all(|object| object.is_right));
+    assert!(found.alike > 0.999, "{}: {}", scene.id, found.alike);
+}
+
+#[test]
+fn honest_frames_pass_with_ids_and_without() {
+    for variant in [None, Some("moving"), Some("unlit")] {
+        let scene = load_small(variant);
+        let drawn = draw(&scene, 0.0);
+        assert_passes(&scene, &without_ids(&drawn));
+        assert_passes(&scene, &drawn);
+    }
+}
+
+#[test]
+fn right_vectors_pass_as_half_floats() {
+    let scene = load_moving();
+    let mut drawn = draw(&scene, 0.0);
+    let round = |part: f32| half::f16::from_f32(part).to_f32();
+    drawn.velocity = drawn.velocity.map(|it| it.map(round));
+    assert_passes(&scene, &drawn);
+}
+
+#[test]
+#[ignore = "prove: all scenes of the catalogue"]
+fn honest_frames_of_every_scene_pass_with_ids_and_without() {
+    let listings = tracer::list_scenes(scenes()).unwrap();
+    let mut all: Vec<Scene> = (listings.iter())
+        .map(|listing| load_scene(&listing.folder, None).unwrap())
+        .collect();
+    let unlit = |name| load_scene(scenes().join(name), Some("unlit")).unwrap();
+    all.extend(["fan", "railing", "walker"].map(unlit));
+    for scene in &all {
+        let drawn = draw(scene, 0.0);
+        assert_passes(scene, &drawn);
+        let tells_without_ids = ["fan", "railing", "roll", "flag", "crossing", "cockpit"];
+        if tells_without_ids.contains(&scene.id.name.as_str()) {
+            assert_passes(scene, &without_ids(&drawn));
+        }
+    }
+}
