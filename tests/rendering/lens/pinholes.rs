@@ -4,7 +4,7 @@ use frame::{Alignment, AtInstant, Frame, Picture, Truth};
 use glam::{DQuat, DVec2, DVec3, EulerRot};
 use tests::shapes::*;
 use tests::unwatched;
-use tracer::{PixelGrid, RenderSettings, Scene, trace_frame_part};
+use tracer::{PixelGrid, Scene, trace_frame_part};
 
 use super::with_lens;
 use crate::renders::{expect_near, render_frame, render_truth, settings_of_two};
@@ -46,8 +46,8 @@ fn spheres() -> Scene {
 #[test]
 fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
     let lens = with_lens(spheres(), APERTURE, FOCUS);
-    let own = render_frame(&lens, &settings_of_two(SIZE, 1024));
-    let pinholes = lens_points(256).zip(1..).map(|(point, seed)| {
+    let own = render_frame(&lens, &settings_of_two(SIZE, 8192));
+    let pinholes = lens_points(160).zip(1..).map(|(point, seed)| {
         let mut scene = spheres();
         let key = &mut scene.camera.motion.keys[0];
         key.translation += key.orientation * point.extend(0.0);
@@ -58,10 +58,8 @@ fn a_frame_is_the_mean_of_shifted_pinhole_frames() {
             offset: offset.into(),
         };
         // With one seed their noise would be the same, and stay in the mean.
-        let settings = RenderSettings {
-            seed,
-            ..settings_of_two(SIZE, 64)
-        };
+        let mut settings = settings_of_two(SIZE, 64);
+        settings.seed = seed;
         trace_frame_part(&scene, &settings, &grid, None, &unwatched).unwrap()
     });
     let pictures: Vec<Picture> = pinholes.map(|frame: Frame| frame.picture()).collect();
