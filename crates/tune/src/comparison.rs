@@ -123,38 +123,3 @@ impl PairedComparison {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lower_error_on_every_scene_is_better_and_on_half_of_them_undecided() {
-        let compare = |first: &[f64], second: &[f64]| {
-            let score = |flip: f64| SceneScore {
-                flip,
-                bleed: Some(10.0 * flip),
-            };
-            let pairs = first.iter().zip(second).enumerate();
-            PairedComparison::new(
-                pairs
-                    .map(|(scene, (one, other))| (scene.to_string(), [score(*one), score(*other)]))
-                    .collect(),
-            )
-        };
-        let high = [0.2, 0.3, 0.1, 0.2, 0.1];
-        let low = [0.1, 0.2, 0.08, 0.15, 0.07];
-        let better = compare(&high, &low);
-        assert_eq!(better.flip.verdict, Preference::Second);
-        let bleed = better.bleed.unwrap();
-        assert_eq!(bleed.verdict, Preference::Second);
-        // Mean of -1, -1, -0.2, -0.5 and -0.3 pixels.
-        assert!((bleed.mean + 0.6).abs() < 1e-9);
-        let verdict = |first: &[f64], second: &[f64]| compare(first, second).flip.verdict;
-        assert_eq!(verdict(&low, &high), Preference::First);
-        let even = verdict(&[0.1, 0.2, 0.1, 0.2, 0.1], &[0.2, 0.1, 0.2, 0.1, 0.1]);
-        assert_eq!(even, Preference::Undecided);
-        let few = verdict(&high[..4], &low[..4]);
-        assert_eq!(few, Preference::Undecided, "four scenes decide nothing");
-    }
-}

@@ -33,17 +33,3 @@ fn bleed_that_nobody_sees_wins_no_place_on_the_front() {
     assert_eq!(pareto_front(&rows(|bleed| bleed)), [0, 1, 2]);
     assert_eq!(pareto_front(&rows(round_bleed)), [0, 2]);
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_front_holds_unbeaten_candidates() {
-        let rows = [[1, 5], [2, 4], [3, 4], [4, 1], [2, 4], [5, 5]];
-        let rows = rows.map(|row| row.map(f64::from).to_vec());
-        // The second beats the third, the fifth equals it, and all beat the last.
-        assert_eq!(pareto_front(&rows), [0, 1, 3]);
-        assert!(pareto_front(&[]).is_empty());
-    }
-}

@@ -1,0 +1,194 @@
+//! Choice among candidates: which are dropped, which is chosen, and why.
+
+use std::collections::BTreeMap;
+
+use filters::{Filter, Value};
+use tune::{
+    Choice, ChoiceLimits, PairedComparison, Preference, SceneScore, Space, Trial, TrialOutcome,
+    choose_trial, cross_validate, pareto_front, signed_rank_p_value,
+};
+
+#[test]
+fn the_signed_rank_test_has_wilcoxons_probabilities() {
+    // In Wilcoxon's table for n = 8, the smaller sum 5 is the last one below 5 % on one side, and 3 below 2.5 %. Of 2^8
+    // arrangements, 5, 10 and 14 have a sum of at most 3, 5 and 6.
+    let eight = |below: i32| {
+        let signed = |rank: i32| f64::from(if rank == below { -rank } else { rank });
+        (1..=8).map(signed).collect::<Vec<f64>>()
+    };
+    let rows: [(&[f64], f64); 8] = [
+        (&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], 1.0 / 64.0),
+        (&[-1.0, -2.0, -3.0, -4.0, -5.0, -6.0], 1.0),
+        // Equal sizes share their ranks, here 1.5 each: the sums 3, 1.5, 1.5 and 0 are equally likely.
+        (&[1.0, 1.0], 0.25),
+        (&[1.0, -1.0], 0.75),
+        // Zeros do not count.
+        (&[0.0, 1.0, 0.0, -1.0], 0.75),
+        // The ranks are 2, 2, 2 and 4, and the sum is 6: 8 of 16 arrangements reach it. If the three had rank 1, 9 would.
+        (&[1.0, 1.0, 1.0, -2.0], 0.5),
+        (&[], 1.0),
+        (&[0.0], 1.0),
+    ];
+    for (differences, probability) in rows {
+        assert_eq!(
+            signed_rank_p_value(differences),
+            probability,
+            "{differences:?}"
+        );
+    }
+    for (below, count) in [(3, 5.0), (5, 10.0), (6, 14.0)] {
+        assert_eq!(signed_rank_p_value(&eight(below)), count / 256.0);
+    }
+    // Darwin's heights of crossed less self-fertilised plants, in eighths of an inch: scipy.stats.wilcoxon gives W+ = 96
+    // and, with alternative "greater", p = 0.0206.
+    let plants = [49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48];
+    let probability = signed_rank_p_value(&plants.map(f64::from));
+    assert!((probability - 0.0206).abs() < 1e-4, "{probability}");
+}
+
+#[test]
+fn the_front_holds_unbeaten_candidates() {
+    let rows = [[1, 5], [2, 4], [3, 4], [4, 1], [2, 4], [5, 5]];
+    let rows = rows.map(|row| row.map(f64::from).to_vec());
+    // The second beats the third, the fifth equals it, and all beat the last.
+    assert_eq!(pareto_front(&rows), [0, 1, 3]);
+    assert!(pareto_front(&[]).is_empty());
+}
+
+/// Makes a start with samples = 8, and trials with other numbers of samples and the given FLIP on scenes a, b, c, d.
+fn make_trials(rows: &[(i32, [f64; 4])]) -> Vec<Trial> {
+    let score = |flip: &f64| SceneScore {
+        flip: *flip,
+        bleed: None,
+    };
+    let make = |(trial, (samples, flips)): (usize, &(i32, [f64; 4]))| Trial {
+        trial,
+        values: BTreeMap::from([("samples".to_owned(), Value::Integer(*samples))]),
+        outcome: TrialOutcome::Done,
+        loss: 0.0,
+        error: None,
+        bleed: Some(f64::from(*samples) / 8.0),
+        cost: Some(f64::from(*samples) / 8.0),
+        scenes: ["a", "b", "c", "d"]
+            .map(str::to_owned)
+            .into_iter()
+            .zip(flips.iter().map(score))
+            .collect(),
+    };
+    rows.iter().enumerate().map(make).collect()
+}
+
+fn space() -> Space {
+    let filter = Filter::builtin("jump_flood").unwrap();
+    let start = filter.settings(Some("paper")).unwrap();
+    Space::new(&filter, start, &["samples".to_owned()]).unwrap()
+}
+
+fn choose(trials: &[Trial], limits: ChoiceLimits) -> Choice {
+    choose_trial(trials, &space(), limits, |_| true).unwrap()
+}
+
+#[test]
+fn the_choice_among_equal_candidates_is_the_nearest_to_the_start() {
+    let trials = make_trials(&[
+        (8, [0.1, 0.1, 0.1, 0.1]),
+        // About half the error everywhere: the best.
+        (60, [0.05, 0.04, 0.06, 0.05]),
+        // Hardly worse, and much nearer to the start.
+        (12, [0.05, 0.042, 0.06, 0.05]),
+        // Nearer still, and clearly worse.
+        (10, [0.08, 0.08, 0.08, 0.08]),
+    ]);
+    let choice = choose(&trials, ChoiceLimits::default());
+    assert_eq!((choice.best, choice.trial), (1, 2));
+    // Logs of 0.5, 0.4, 0.6 and 0.5: the standard deviation is 0.1659, and that of the mean 0.0830.
+    let error = choice.standard_error;
+    assert!((error - 0.0830).abs() < 1e-4, "{error}");
+    // A start that is not beaten everywhere stays.
+    let trials = make_trials(&[(8, [0.1; 4]), (9, [0.05, 0.16, 0.09, 0.11])]);
+    let choice = choose(&trials, ChoiceLimits::default());
+    assert_eq!((choice.best, choice.trial), (1, 0));
+}
+
+#[test]
+fn limits_and_failures_keep_trials_out_of_the_choice() {
+    let rows = [
+        (8, [0.1; 4]),
+        (16, [0.02; 4]),
+        (12, [0.05; 4]),
+        (4, [0.06; 4]),
+    ];
+    let mut trials = make_trials(&rows);
+    let chosen = |trials: &[Trial], cost, bleed| choose(trials, ChoiceLimits { cost, bleed }).trial;
+    assert_eq!(chosen(&trials, None, None), 1);
+    assert_eq!(chosen(&trials, Some(1.5), None), 2);
+    assert_eq!(chosen(&trials, None, Some(1.0)), 3);
+    trials[1].outcome = TrialOutcome::Dropped;
+    assert_eq!(chosen(&trials, None, None), 2);
+    let reason = "it serves a test".to_owned();
+    trials[2].outcome = TrialOutcome::Failed { reason };
+    assert_eq!(chosen(&trials, None, None), 3);
+}
+
+#[test]
+fn a_choice_that_suits_only_one_family_shows_its_gap() {
+    // One trial suits the camera, the other suits thin things; each doubles the other's error.
+    let trials = make_trials(&[
+        (8, [0.1; 4]),
+        (9, [0.05, 0.05, 0.2, 0.2]),
+        (10, [0.2, 0.2, 0.05, 0.05]),
+    ]);
+    let validate = |families: &[(&'static str, &str)]| {
+        let names = |scenes: &str| scenes.split(' ').map(str::to_owned).collect();
+        let families = families.iter().map(|(name, scenes)| (*name, names(scenes)));
+        cross_validate(
+            &trials,
+            &space(),
+            ChoiceLimits::default(),
+            &families.collect(),
+        )
+    };
+    let folds = validate(&[("camera", "a b"), ("thin", "c d")]);
+    let two = 2f64.ln();
+    assert_eq!(folds.len(), 2);
+    for (fold, (family, trial)) in folds.iter().zip([("camera", 2), ("thin", 1)]) {
+        assert_eq!(
+            (fold.family.as_str(), fold.trial, fold.scenes),
+            (family, trial, 2)
+        );
+        // Exact except for the logarithm's rounding.
+        assert!((fold.others + two).abs() < 1e-12 && (fold.held_out - two).abs() < 1e-12);
+        assert!((fold.gap - 2.0 * two).abs() < 1e-12, "{}", fold.gap);
+    }
+    assert!(validate(&[("camera", "a b c d")]).is_empty());
+}
+
+#[test]
+fn lower_error_on_every_scene_is_better_and_on_half_of_them_undecided() {
+    let compare = |first: &[f64], second: &[f64]| {
+        let score = |flip: f64| SceneScore {
+            flip,
+            bleed: Some(10.0 * flip),
+        };
+        let pairs = first.iter().zip(second).enumerate();
+        PairedComparison::new(
+            pairs
+                .map(|(scene, (one, other))| (scene.to_string(), [score(*one), score(*other)]))
+                .collect(),
+        )
+    };
+    let high = [0.2, 0.3, 0.1, 0.2, 0.1];
+    let low = [0.1, 0.2, 0.08, 0.15, 0.07];
+    let better = compare(&high, &low);
+    assert_eq!(better.flip.verdict, Preference::Second);
+    let bleed = better.bleed.unwrap();
+    assert_eq!(bleed.verdict, Preference::Second);
+    // Mean of -1, -1, -0.2, -0.5 and -0.3 pixels.
+    assert!((bleed.mean + 0.6).abs() < 1e-9);
+    let verdict = |first: &[f64], second: &[f64]| compare(first, second).flip.verdict;
+    assert_eq!(verdict(&low, &high), Preference::First);
+    let even = verdict(&[0.1, 0.2, 0.1, 0.2, 0.1], &[0.2, 0.1, 0.2, 0.1, 0.1]);
+    assert_eq!(even, Preference::Undecided);
+    let few = verdict(&high[..4], &low[..4]);
+    assert_eq!(few, Preference::Undecided, "four scenes decide nothing");
+}

@@ -1,0 +1,5 @@
+//! Tuning: known answers for every decision.
+
+mod deciding;
+mod searching;
+mod sensitivity;
