@@ -8,6 +8,9 @@ use super::{
     audit, draw, expect, id_of, load_moving, load_shipped, load_small, names, without_ids,
 };
 
+/// What is wrong with a capture.
+type Change = fn(&mut Capture);
+
 fn is(cause: Cause) -> impl Fn(&Cause) -> bool {
     move |it| *it == cause
 }
@@ -81,7 +84,7 @@ fn rows_upside_down_are_named() {
         changes.iter().for_each(|change| change(&mut capture));
         capture
     };
-    let rows: [(fn(&mut Capture), Buffer, bool); 4] = [
+    let rows: [(Change, Buffer, bool); 4] = [
         (|it| flip(&mut it.color), Buffer::Color, true),
         (|it| flip(&mut it.depth), Buffer::Depth, true),
         (|it| flip(&mut it.velocity), Buffer::Velocity, true),

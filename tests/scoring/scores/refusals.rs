@@ -7,6 +7,9 @@ use tests::synthetic::VIEWING;
 use super::{BESIDE, small_scene};
 use crate::clean_truth;
 
+/// What is wrong with what is given.
+type Change = fn(&mut Given);
+
 /// Everything that is measured.
 #[derive(Clone)]
 struct Given {
@@ -26,7 +29,7 @@ fn invalid_and_mismatched_pictures_are_refused_by_name() {
         truth,
         viewing: VIEWING,
     };
-    let rows: [(fn(&mut Given), &str); 7] = [
+    let rows: [(Change, &str); 7] = [
         (
             |it| it.output.color.pixels[3 * 80 + 7][1] = f32::NAN,
             "the colour of the output holds NaN at pixel (7, 3)",
