@@ -1,7 +1,7 @@
 //! The blur without a velocity buffer, against the gather that gets only the camera's velocity.
 
 use filters::Input;
-use frame::{Frame, FrameOptions, VelocityKind};
+use frame::{Frame, FrameOptions, Image, VelocityKind};
 use glam::{DQuat, DVec3, Vec3};
 use tests::near::assert_within;
 use tests::picture::{frame_input, make_blur};
@@ -41,7 +41,7 @@ fn flight() -> Scene {
     scene
 }
 
-/// Renders a frame of the flight, with the velocity that the camera alone gives.
+/// Renders a frame of the flight, with the velocity that the camera alone gives: several pixels per frame.
 pub fn render_frame(guard_band: u32) -> Frame {
     let settings = RenderSettings {
         width: 96,
@@ -55,23 +55,27 @@ pub fn render_frame(guard_band: u32) -> Frame {
         samples_per_pixel: 16,
         ..RenderSettings::default()
     };
-    trace_frame(&flight(), &settings, &unwatched).expect("settings are allowed")
+    let frame = trace_frame(&flight(), &settings, &unwatched).expect("settings are allowed");
+    let speeds = frame.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
+    assert_within(speeds.fold(0.0, f32::max), 5.0..);
+    frame
+}
+
+/// Blurs a frame by a built-in filter, with changes to a preset such as `samples=9`.
+pub fn blur_frame(frame: &Frame, filter: &str, preset: Option<&str>, changes: &str) -> Image {
+    let mut blur = make_blur(filter, preset, changes, frame.size());
+    let outputs = blur.run(&frame_input(frame, &[&frame.color]));
+    outputs.unwrap().remove(0)
 }
 
 #[test]
 fn depth_and_the_previous_camera_give_the_camera_s_velocity() {
     for guard_band in [0, 7] {
         let frame = render_frame(guard_band);
-        let speeds = frame.velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
-        // The camera moves, in pixels per frame.
-        assert_within(speeds.fold(0.0, f32::max), 5.0..);
         // Both take the same eight taps.
         let filters = [("camera_gather", "default"), ("velocity_gather", "coarse")];
-        let [rebuilt, given] = filters.map(|(filter, preset)| {
-            let mut blur = make_blur(filter, Some(preset), "", frame.size());
-            let mut outputs = blur.run(&frame_input(&frame, &[&frame.color])).unwrap();
-            outputs.remove(0)
-        });
+        let [rebuilt, given] =
+            filters.map(|(filter, preset)| blur_frame(&frame, filter, Some(preset), ""));
         let differences = rebuilt.zip(&given, |a, b| (a[0] - b[0]).abs());
         let worst = differences.pixels.into_iter().fold(0.0, f32::max);
         // Positions in 32 bits err by 1e-5 pixels, and neighbouring pixels differ by up to 2.

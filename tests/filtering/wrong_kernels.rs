@@ -100,18 +100,6 @@ fn a_pixel_that_no_pass_writes_is_named() {
 }
 
 #[test]
-fn a_pixel_that_is_not_finite_is_named() {
-    let body = "
-    let zero = f32(parameters.steps);
-    var grey = textureLoad(color, pixel, 0);
-    if pixel.y == 3 && pixel.x == 5 { grey = grey / zero; }
-    textureStore(output, pixel, grey);
-    ";
-    blur(shared_gpu(), body, 1, 60.0).unwrap();
-    assert_refused(body, 0, &["to pixel (5, 3)", "finite"]);
-}
-
-#[test]
 fn a_pass_past_its_time_limit_is_stopped_and_named() {
     // Far more work than the time allows, in loops of allowed length. The adapter stays at work.
     let error = blur(&open_gpu(), COUNT, 8000, 1e-4).unwrap_err();

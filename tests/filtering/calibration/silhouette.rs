@@ -7,7 +7,7 @@ use frame::Plane;
 use tests::kernels::{along_motion, place_taps};
 
 use super::outcome::Outcome;
-use super::panel::{HALF_PANEL, HEIGHT, Shot, WIDTH};
+use super::panel::{HALF_PANEL, Shot};
 
 /// Amounts of light along the motion, in pixels' worth of the panel.
 #[derive(Clone, Copy, Debug)]
@@ -66,13 +66,6 @@ fn average_reach(outcome: &Outcome) -> [f64; 2] {
     reach
 }
 
-/// Returns whether a smear of this many pixels behind the panel lies within the picture.
-fn on_picture(shot: &Shot, smear: f64) -> bool {
-    let [right, down] = shot.direction().to_array().map(f64::abs);
-    (HALF_PANEL + smear) * right < 0.5 * f64::from(WIDTH)
-        && (HALF_PANEL + smear) * down < 0.5 * f64::from(HEIGHT)
-}
-
 /// Returns the expected light behind, lost at the back, lost at the front, and ahead; none where only the filter's own
 /// references know it.
 fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
@@ -103,7 +96,8 @@ fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
 
 /// Compares the light with where the preset's taps put it. Returns what is wrong.
 pub fn check_light(outcome: &Outcome, found: Light) -> Option<String> {
-    if !on_picture(outcome.shot, outcome.ramp.length) {
+    // The smear behind the panel leaves the picture.
+    if HALF_PANEL + outcome.ramp.length >= outcome.shot.to_border() {
         return None;
     }
     let shares = (found.all()).map(|light| format!("{:.2}", light / outcome.shot.speed));

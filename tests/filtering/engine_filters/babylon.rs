@@ -2,9 +2,9 @@
 
 use frame::{FAR_DEPTH, Frame, Image};
 use tests::near::{assert_near, assert_within};
-use tests::picture::{Picture, frame_input, make_blur, moving_edge, ramp_length, white};
+use tests::picture::{Picture, moving_edge, ramp_length, white};
 
-use super::super::camera_gather::render_frame;
+use crate::camera_gather::{blur_frame, render_frame};
 use crate::reference::{read_clamped, sample_linear};
 
 #[test]
@@ -48,10 +48,7 @@ fn eight_bits_of_velocity_change_the_length_by_their_step() {
 }
 
 #[test]
-fn neither_mode_blurs_the_sky() {
-    let sky = white(12.0).at(FAR_DEPTH);
-    let picture = Picture::new(40, 20, |x, _| sky.gray((x % 2) as f32));
-    assert!(picture.blur("babylon", "default", "") == picture.color);
+fn the_screen_based_mode_leaves_the_sky_sharp() {
     let frame = render_frame(0);
     let output = by_camera(&frame);
     let sky = (0..frame.depth.pixels.len()).filter(|i| frame.depth.pixels[*i] == FAR_DEPTH);
@@ -63,11 +60,7 @@ fn neither_mode_blurs_the_sky() {
 
 fn by_camera(frame: &Frame) -> Image {
     // Between pixels, so that rounding decides nothing.
-    let changes = "fetch=filtered";
-    let mut blur = make_blur("babylon_screen", None, changes, frame.size());
-    blur.run(&frame_input(frame, &[&frame.color]))
-        .unwrap()
-        .remove(0)
+    blur_frame(frame, "babylon_screen", None, "fetch=filtered")
 }
 
 #[test]

@@ -7,19 +7,6 @@ use tests::picture::{
 
 const BACKGROUND: Surface = BLACK_WALL.moving(24.0, 0.0);
 
-/// Makes a picture of stripes, one pixel wide, that moves right.
-fn stripes(speed: f32) -> Picture {
-    Picture::new(160, 64, |x, _| white(speed).gray((x % 2) as f32))
-}
-
-/// Fails unless every pixel is a mean of this many zeros and ones.
-fn assert_mean_of(picture: &Picture, taps: f32) {
-    for pixel in &picture.blur("jimenez", "hdrp", "").pixels {
-        let ones = taps * pixel[0];
-        assert_near(ones, ones.round(), 1e-5);
-    }
-}
-
 #[test]
 fn an_intensity_of_one_is_a_shutter_of_180_degrees() {
     let picture = moving_edge(160, 64, [24.0, 0.0]);
@@ -44,16 +31,17 @@ fn the_noise_of_hdrp_shifts_all_taps_of_a_pixel_to_one_side() {
 }
 
 #[test]
-fn hdrp_reads_the_nearest_pixels() {
-    // All taps have equal weight.
-    assert_mean_of(&stripes(25.0), 8.0);
-}
-
-#[test]
-fn short_trails_of_hdrp_have_fewer_taps() {
-    // A trail of a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes it a tenth
-    // longer.
-    assert_mean_of(&stripes(2.4), 6.0);
+fn hdrp_reads_the_nearest_pixels_and_fewer_on_short_trails() {
+    // The second trail has a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes it
+    // a tenth longer.
+    for (speed, taps) in [(25.0, 8.0), (2.4, 6.0)] {
+        let stripes = Picture::new(160, 64, |x, _| white(speed).gray((x % 2) as f32));
+        for pixel in &stripes.blur("jimenez", "hdrp", "").pixels {
+            // All taps have equal weight: each pixel is a mean of zeros and ones.
+            let ones = taps * pixel[0];
+            assert_near(ones, ones.round(), 1e-5);
+        }
+    }
 }
 
 #[test]
@@ -95,10 +83,8 @@ fn a_pixel_that_moves_like_the_fastest_shows_only_its_taps() {
         _ => BACKGROUND,
     });
     let seen = |rest: &str| {
-        column(
-            &picture.blur("jimenez", "hdrp", &format!("rest={rest}")),
-            80,
-        )
+        let output = picture.blur("jimenez", "hdrp", &format!("rest={rest}"));
+        column(&output, 80)
     };
     // The white thing keeps half of itself beside the wall's black.
     assert_within(seen("own"), 0.5..);

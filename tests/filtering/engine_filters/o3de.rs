@@ -1,22 +1,7 @@
 //! The preset of the Open 3D Engine.
 
 use tests::near::{assert_near, assert_within};
-use tests::picture::{BLACK_WALL, Picture, column, moving_edge, ramp_length, white};
-
-#[test]
-fn o3de_smears_ten_times_as_far_as_the_exposure() {
-    let picture = moving_edge(400, 64, [24.0, 0.0]);
-    let found = ramp_length(&picture.blur("jimenez", "o3de", ""));
-    // 24 pairs, a quarter of a step to and fro, at whole pixels of the 120 to each side.
-    let steps = (0..24).flat_map(|i| [f64::from(i) - 0.25, f64::from(i) + 0.25]);
-    let square = steps
-        .map(|steps| (steps * 5.0).trunc().powi(2))
-        .sum::<f64>()
-        / 48.0;
-    // The edge lies between texels; offsets are whole.
-    assert_near(found, (12.0 * square).sqrt(), 0.5);
-    assert_within(found / 24.0, 9.0..);
-}
+use tests::picture::{BLACK_WALL, Picture, column, moving_edge, white};
 
 #[test]
 fn o3de_cuts_offsets_to_whole_pixels() {

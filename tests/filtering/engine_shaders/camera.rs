@@ -2,7 +2,7 @@
 
 use filters::{Blur, Filter, Input};
 use frame::{Camera, CameraPose, Frame, Image};
-use tests::near::{assert_near, assert_within};
+use tests::near::assert_near;
 use tests::picture::frame_input;
 use tests::shared_gpu;
 use tests::text::assert_contains;
@@ -42,9 +42,6 @@ fn run(filter: &Filter, frame: &Frame, camera: Option<Camera>) -> Result<Image, 
 #[test]
 fn depth_and_the_camera_s_matrices_give_its_velocity_in_every_language() {
     let frames = [0, 7].map(render_frame);
-    let speeds = frames[0].velocity.pixels.iter().map(|v| v[0].hypot(v[1]));
-    // The camera moves, in pixels per frame.
-    assert_within(speeds.fold(0.0, f32::max), 5.0..);
     // Engines that keep rows hand over rows.
     for (file, layout, bindings) in [
         ("move.comp", "", [0, 1, 2]),

@@ -1,11 +1,9 @@
 //! Smears beside a mover.
 
 use filters::{Filter, Settings};
-use frame::{Alignment, FAR_DEPTH, Image, Raster, Reprojection};
-use tests::near::{assert_near, assert_within};
-use tests::picture::column;
+use frame::{Alignment, FAR_DEPTH, Raster, Reprojection};
+use tests::near::assert_within;
 use tests::presets::{every_preset, preset_name};
-use tests::ramp::Ramp;
 
 use super::blur;
 use crate::fields::Field;
@@ -29,16 +27,6 @@ fn wall(left: bool, speed: f32) -> Field {
         reprojection: Some(Reprojection { rows }),
         exposure: 1.0,
     }
-}
-
-/// Measures the edge along the motion.
-fn ramp(output: &Image) -> Ramp {
-    // Leaves out the border of the image, where filters treat taps in their own ways. The mean over all rows turns noise
-    // into its distribution.
-    let profile: Vec<(f64, f64)> = (11..output.width - 12)
-        .map(|x| (f64::from(x) + 0.5 - f64::from(EDGE), column(output, x)))
-        .collect();
-    Ramp::of(&profile)
 }
 
 /// Measures the light that a white wall, with its edge at the left or right and moving right over black, leaves on the
@@ -69,22 +57,4 @@ fn filters_smear_beyond_a_mover_where_they_carry_motion_and_only_there() {
             _ => assert_eq!(behind, 0.0),
         }
     }
-}
-
-#[test]
-fn the_corrected_jump_flood_keeps_trails_that_the_paper_cuts() {
-    let filter = Filter::builtin("jump_flood").unwrap();
-    let trail_behind = |preset: &str, speed: f32| {
-        let settings = filter.settings(Some(preset)).unwrap();
-        let field = wall(false, speed);
-        ramp(&blur(&field, &filter, &settings)).length
-    };
-    for speed in [3.0f32, 8.0, 24.0, 48.0, 90.0] {
-        // The texel adds one pixel of its own: sqrt(speed^2 + 1). Half a pixel more for the noise.
-        assert_near(trail_behind("corrected", speed), speed.hypot(1.0), 0.5);
-    }
-    // Its smallest step is 8 pixels, which is farther than a slow mover goes.
-    assert_eq!(trail_behind("paper", 7.0), 0.0);
-    // Its largest step is 32 pixels, and noise may add half as much.
-    assert_within(trail_behind("paper", 90.0), ..48.0);
 }
