@@ -8,11 +8,13 @@ use tests::synthetic::{Blur, Object, Scene, Shape};
 use tests::unwatched;
 use tracer::{RenderSettings, TruthTracer, load_scene, trace_frame, trace_ladder, trace_truth};
 
-use crate::{noisy, sliding_disc};
+use crate::decoy_matrix::decoys::map_planes;
+use crate::{noisy, scene, sliding_disc};
 
 /// Number of noisy truths. Each has as many replicates.
 const SEEDS: u64 = 200;
 const REPLICATES: u64 = 8;
+
 fn measure_scores(picture: &Picture, frame: &Frame, truth: &Truth) -> Scores {
     let reference = Reference::new(frame, truth, None, &frame.display.into()).unwrap();
     reference.measure(picture).unwrap().scores
@@ -108,15 +110,11 @@ fn trace_intervals(
 
 /// Moves a picture one pixel right and three down.
 fn shift(picture: &Picture) -> Picture {
-    fn shift_raster<T: Clone>(raster: &Raster<T>) -> Raster<T> {
-        Raster::from_fn(raster.width, raster.height, |x, y| {
-            raster.at(x.saturating_sub(1), y.saturating_sub(3)).clone()
+    map_planes(picture, |plane| {
+        Raster::from_fn(plane.width, plane.height, |x, y| {
+            *plane.at(x.saturating_sub(1), y.saturating_sub(3))
         })
-    }
-    Picture {
-        color: shift_raster(&picture.color),
-        coverage: picture.coverage.iter().map(shift_raster).collect(),
-    }
+    })
 }
 
 /// Counts the intervals of a metric that contain its converged score.
@@ -164,12 +162,7 @@ const WRONG: Blur = Blur {
 #[test]
 fn about_95_of_100_intervals_contain_the_converged_score() {
     let disc = Object::sliding(Shape::Disc(6.0), [25.3, 15.2], [14.0, 4.0]);
-    let scene = Scene {
-        width: 40,
-        height: 28,
-        objects: vec![disc],
-    };
-    assert_about_95_percent(&scene, &WRONG);
+    assert_about_95_percent(&scene([40, 28], vec![disc]), &WRONG);
 }
 
 #[test]
@@ -229,11 +222,7 @@ fn intervals_of_many_traced_truths_contain_the_converged_score() {
 
 #[test]
 fn a_truth_of_two_replicates_has_no_intervals() {
-    let scene = Scene {
-        width: 24,
-        height: 24,
-        objects: vec![Object::sliding(Shape::Disc(4.0), [14.0, 12.0], [6.0, 0.0])],
-    };
-    let replicates = scene.replicates([noisy(16, 1), noisy(16, 2)]);
+    let disc = Object::sliding(Shape::Disc(4.0), [14.0, 12.0], [6.0, 0.0]);
+    let replicates = scene([24, 24], vec![disc]).replicates([noisy(16, 1), noisy(16, 2)]);
     assert!(truths_without_pairs(&replicates).is_err());
 }

@@ -6,7 +6,7 @@ use frame::{AtInstant, Frame, Image, Picture, Raster, Support, Truth};
 use metrics::{Measured, Measurement, Metric, ObjectMetric, Scores, Viewing, measure};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
-use crate::{assert_near, clean_truth, measure_blur};
+use crate::{assert_near, bar, clean_truth, measure_blur, measure_scores, scene};
 
 /// Blur that every score sees as wrong.
 const WRONG: Blur = Blur {
@@ -19,23 +19,10 @@ const WRONG: Blur = Blur {
 /// Makes a scene whose three objects all differ.
 fn varied_scene() -> Scene {
     // The still bar stands in the moving region, where nothing meets it.
-    let post = Shape::Bar {
-        half: [2.0, 20.0],
-        tilt: 0.0,
-    };
-    let bar = Shape::Bar {
-        half: [6.0, 4.0],
-        tilt: 0.5,
-    };
-    Scene {
-        width: 80,
-        height: 60,
-        objects: vec![
-            Object::sliding(post, [20.9, 30.0], [0.0, 0.0]),
-            Object::sliding(Shape::Disc(8.0), [46.2, 30.3], [12.0, 0.0]),
-            Object::sliding(bar, [50.3, 49.4], [12.0, 0.0]),
-        ],
-    }
+    let post = Object::sliding(bar([2.0, 20.0], 0.0), [20.9, 30.0], [0.0, 0.0]);
+    let disc = Object::sliding(Shape::Disc(8.0), [46.2, 30.3], [12.0, 0.0]);
+    let bar = Object::sliding(bar([6.0, 4.0], 0.5), [50.3, 49.4], [12.0, 0.0]);
+    scene([80, 60], vec![post, disc, bar])
 }
 
 /// Frame, truth and wrong blur of that scene.
@@ -67,10 +54,7 @@ fn remap(
             .map(|matte| take(matte, width, height, &source))
             .collect(),
     };
-    let instant = picture(&Picture {
-        color: frame.color.clone(),
-        coverage: frame.coverage.clone(),
-    });
+    let instant = picture(&frame.picture());
     let frame = Frame {
         color: instant.color,
         coverage: instant.coverage,
@@ -100,9 +84,7 @@ fn remap(
         }),
         ..truth
     };
-    let output = picture(&output);
-    let measured = measure(&output, &frame, &truth, None, &VIEWING);
-    measured.expect("they agree").scores
+    measure_scores(&picture(&output), &frame, &truth)
 }
 
 fn take<T: Clone>(

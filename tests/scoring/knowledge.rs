@@ -1,11 +1,14 @@
 //! Scores of what one frame knows, probes of a filter's taps, and skill over no blur.
 
 use frame::{Frame, Image, Picture, Raster, Truth};
-use metrics::{Probes, Reference, Scores, regions};
+use metrics::{Probes, Reference, regions};
 use tests::random::Random;
-use tests::synthetic::{Blur, Sampling, VIEWING};
+use tests::synthetic::{Sampling, VIEWING};
 
-use crate::{assert_near, assert_scores, clean_truth, find_reason, find_value, sliding_disc};
+use crate::{
+    assert_near, assert_scores, clean_truth, find_reason, find_value, measure_scores, mix,
+    sliding_disc, smear,
+};
 
 fn frame_and_truth() -> (Frame, Truth) {
     (sliding_disc().frame(), clean_truth(&sliding_disc()))
@@ -13,11 +16,6 @@ fn frame_and_truth() -> (Frame, Truth) {
 
 fn make_reference<'a>(frame: &Frame, truth: &'a Truth) -> Reference<'a> {
     Reference::new(frame, truth, None, &VIEWING).expect("they agree")
-}
-
-fn measure_scores(frame: &Frame, truth: &Truth, output: &Picture) -> Scores {
-    let measured = make_reference(frame, truth).measure(output);
-    measured.expect("a finite picture").scores
 }
 
 fn brighten(image: &Image, by: f32, where_: impl Fn(u32, u32) -> bool) -> Image {
@@ -49,14 +47,11 @@ fn errors_are_split_into_knowable_and_unknowable() {
         ("mse_unknowable", 0.01, 1e-6),
         ("mse_moving", 0.01 * part, 1e-6),
     ];
-    assert_scores(
-        "a guess",
-        &measure_scores(&frame, &truth, &guessed),
-        &expected,
-    );
+    let scores = measure_scores(&guessed, &frame, &truth);
+    assert_scores("a guess", &scores, &expected);
 
     let (frame, truth) = frame_and_truth();
-    let scores = measure_scores(&frame, &truth, &truth.mean());
+    let scores = measure_scores(&truth.mean(), &frame, &truth);
     let reason = find_reason(&scores, "flip_unknowable");
     assert!(
         reason.contains("shows all that the shutter sees"),
@@ -75,8 +70,8 @@ fn moving_shading_is_separated_from_visibility() {
         color: color.clone(),
         ..truth.mean()
     };
-    let frozen = measure_scores(&frame, &truth, &output(&truth.at_instant_mean().frozen));
-    let right = measure_scores(&frame, &truth, &truth.mean());
+    let frozen = measure_scores(&output(&truth.at_instant_mean().frozen), &frame, &truth);
+    let right = measure_scores(&truth.mean(), &frame, &truth);
     for (scores, against_truth, against_frozen) in [(&frozen, 0.01, 0.0), (&right, 0.0, 0.01)] {
         let expected = [
             ("mse_moving", against_truth, 1e-6),
@@ -100,28 +95,12 @@ fn a_change_at_still_pixels_is_contamination() {
     };
     for (picture, expected) in [(changed(0.05, false), 0.05), (changed(0.5, true), 0.0)] {
         let expected = [("static_contamination", expected, 1e-6)];
-        assert_scores(
-            "a change",
-            &measure_scores(&frame, &truth, &picture),
-            &expected,
-        );
+        let scores = measure_scores(&picture, &frame, &truth);
+        assert_scores("a change", &scores, &expected);
     }
 }
 
 const SKILLS: [&str; 3] = ["skill_mse", "skill_flip", "skill_label_tv"];
-
-/// Mixes two pictures, `part` of the way to the second.
-fn mix(first: &Picture, second: &Picture, part: f32) -> Picture {
-    let mixed = |a: f32, b: f32| (1.0 - part) * a + part * b;
-    Picture {
-        color: first.color.zip(&second.color, |a, b| {
-            std::array::from_fn(|c| mixed(a[c], b[c]))
-        }),
-        coverage: (first.coverage.iter().zip(&second.coverage))
-            .map(|(a, b)| a.zip(b, |a, b| mixed(*a, *b)))
-            .collect(),
-    }
-}
 
 #[test]
 fn skill_is_the_share_of_the_way_from_a_sharp_picture_to_the_one_frame_oracle() {
@@ -159,7 +138,7 @@ fn skill_is_the_share_of_the_way_from_a_sharp_picture_to_the_one_frame_oracle() 
 fn skill_needs_an_oracle_that_beats_no_blur() {
     let (frame, truth) = frame_and_truth();
     let nothing = frame.picture();
-    let unknown = measure_scores(&frame, &truth, &truth.mean());
+    let unknown = measure_scores(&truth.mean(), &frame, &truth);
     let reference = make_reference(&frame, &truth);
     let reference = reference.with_ends(&nothing, &nothing).unwrap();
     let equal = reference.measure(&truth.mean()).unwrap().scores;
@@ -237,17 +216,13 @@ fn grain_raises_total_variation_and_a_smooth_ramp_does_not() {
         let inside = *a > 0.0 && *a < 1.0;
         (a + if inside { random.real(-0.2, 0.2) } else { 0.0 }).clamp(0.0, 1.0)
     });
-    let scores = |picture: &Picture| measure_scores(&frame, &truth, picture);
+    let scores = |picture: &Picture| measure_scores(picture, &frame, &truth);
     let [smooth, rough] = [&mean, &grainy].map(scores);
     assert_near("excess", find_value(&smooth, "tv_excess"), 0.0, 1e-9);
     assert!(find_value(&rough, "tv_excess") > 1.0, "{rough:?}");
     assert_near("error", find_value(&smooth, "gradient_error"), 0.0, 1e-12);
     assert!(find_value(&rough, "gradient_error") > 1e-4, "{rough:?}");
     // An even blur twice as long rises and falls only once, and less high.
-    let long = Blur {
-        from: -2.0,
-        ..Blur::TRUE
-    };
-    let long = scores(&sliding_disc().render(&long, Sampling::CLEAN));
+    let long = scores(&sliding_disc().render(&smear(-2.0, 0.0), Sampling::CLEAN));
     assert!(find_value(&long, "tv_excess") < 0.0, "{long:?}");
 }

@@ -6,12 +6,12 @@ use std::sync::LazyLock;
 
 use frame::{Frame, Image, Ladder, Picture, Truth};
 use metrics::{
-    Equivalent, LadderRange, Measured, Metric, Reference, Region, Scores, measure, regions,
+    Equivalent, LadderRange, Measured, Metric, Reference, Region, Score, Scores, regions,
 };
 use tests::random::Random;
 use tests::synthetic::{Blur, VIEWING};
 
-use crate::{assert_near, noisy, sliding_disc};
+use crate::{assert_near, find_score, measure_scores, noisy, sliding_disc, smear};
 
 static FRAME: LazyLock<Frame> = LazyLock::new(|| sliding_disc().frame());
 
@@ -20,8 +20,7 @@ static TRUTH: LazyLock<Truth> =
     LazyLock::new(|| sliding_disc().truth([noisy(4096, 1), noisy(4096, 2)]));
 
 fn score(output: &Picture, truth: &Truth) -> Scores {
-    let measured = measure(output, &FRAME, truth, None, &VIEWING);
-    measured.expect("they agree").scores
+    measure_scores(output, &FRAME, truth)
 }
 
 fn make_reference(ladder: Option<&Ladder>) -> Reference<'static> {
@@ -32,13 +31,6 @@ fn make_reference(ladder: Option<&Ladder>) -> Reference<'static> {
 fn score_blur(reference: &Reference, blur: &Blur, samples: u32) -> Scores {
     let output = sliding_disc().render(blur, noisy(samples, 9));
     reference.measure(&output).expect("a finite picture").scores
-}
-
-fn get(scores: &Scores, name: &str) -> metrics::Score {
-    match scores.get(name.parse().expect("a metric's name")) {
-        Measured::Score(score) => score,
-        Measured::NotApplicable { reason } => panic!("{name}: {reason}"),
-    }
 }
 
 /// Returns the mean and standard error of independent values.
@@ -67,7 +59,7 @@ fn the_squared_error_is_unbiased_and_the_plain_one_is_not() {
     let mut plain = Vec::new();
     for seed in 0..200 {
         let truth = sliding_disc().truth([noisy(16, 1000 + seed), noisy(16, 2000 + seed)]);
-        unbiased.push(get(&score(&nearly_right, &truth), "mse_moving").value);
+        unbiased.push(find_score(&score(&nearly_right, &truth), "mse_moving").value);
         plain.push(plain_mse(&nearly_right, &truth.mean()));
     }
     let (mean, error) = mean_and_error(&unbiased);
@@ -85,15 +77,18 @@ fn a_perfect_picture_s_unbiased_error_scatters_by_its_floor() {
         .map(|truth| score(&converged, &truth))
         .collect();
     for name in "mse_moving mse_support mse_full relmse_moving mse_frozen".split(' ') {
-        let found: Vec<metrics::Score> = truths.iter().map(|scores| get(scores, name)).collect();
-        let root_mean_square = |values: &dyn Fn(&metrics::Score) -> f64| {
+        let found: Vec<Score> = truths
+            .iter()
+            .map(|scores| find_score(scores, name))
+            .collect();
+        let root_mean_square = |values: &dyn Fn(&Score) -> f64| {
             let squares = found.iter().map(|score| values(score).powi(2));
             (squares.sum::<f64>() / found.len() as f64).sqrt()
         };
         let scatter = root_mean_square(&|score| score.value);
         let floor = root_mean_square(&|score| score.floor);
         let within = |floors: f64| {
-            let inside = |score: &&metrics::Score| score.value.abs() <= floors * score.floor;
+            let inside = |score: &&Score| score.value.abs() <= floors * score.floor;
             found.iter().filter(inside).count()
         };
         // A standard deviation from 100 values errs by a fourteenth; noise that is not normal moves the floor by a
@@ -115,14 +110,14 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
     let names =
         "flip_moving flip_p95_moving flip_hdr_moving label_tv label_tv_p95 deficit object_label_tv";
     for name in names.split(' ') {
-        let score = get(&scores, name);
+        let score = find_score(&scores, name);
         let ratio = score.value / score.floor;
         // Half A and the mean differ by exactly the mean's noise, drawn once more: equal except for chance and, for
         // FLIP, for noise in both pictures.
         assert!((0.7..1.4).contains(&ratio), "{name}: {score:?}");
     }
     for name in ["lateral_growth", "row_gain", "row_loss"] {
-        let metrics::Score { value, floor } = get(&scores, name);
+        let Score { value, floor } = find_score(&scores, name);
         assert!(
             floor > 0.0 && value < 2.0 * floor,
             "{name}: {value} {floor}"
@@ -132,9 +127,9 @@ fn a_converged_picture_scores_about_the_floor_of_a_noisy_truth() {
     let scores = (0..)
         .map(|seed| sliding_disc().truth([noisy(128, 500 + seed), noisy(128, 600 + seed)]))
         .map(|truth| score(&converged, &truth))
-        .find(|scores| get(scores, "mse_moving").value < 0.0)
+        .find(|scores| find_score(scores, "mse_moving").value < 0.0)
         .expect("every other truth scores a perfect picture below 0");
-    let psnr = get(&scores, "psnr_moving");
+    let psnr = find_score(&scores, "psnr_moving");
     assert_eq!(psnr.value, psnr.floor);
 }
 
@@ -177,7 +172,7 @@ fn an_accumulation_of_n_sub_frames_scores_as_n() {
         // As many samples as a rung's two halves.
         let scores = score_blur(&reference, &Blur::accumulation(subframes), 2048);
         for name in ["n_eq", "n_eq_flip", "n_eq_label_tv"] {
-            let ratio = get(&scores, name).value / f64::from(subframes);
+            let ratio = find_score(&scores, name).value / f64::from(subframes);
             assert_near(name, ratio, 1.0, 0.05);
         }
     }
@@ -189,7 +184,7 @@ fn noise_in_the_ladder_does_not_lower_the_bar() {
     let reference = make_reference(Some(&ladder));
     for subframes in [4, 8] {
         let scores = score_blur(&reference, &Blur::accumulation(subframes), 4096);
-        let ratio = get(&scores, "n_eq").value / f64::from(subframes);
+        let ratio = find_score(&scores, "n_eq").value / f64::from(subframes);
         // Two halves of 8 samples: unbiased, their noise scatters the counts by 3 %; counted as error, it adds at least
         // 14 %.
         assert_near("n_eq", ratio, 1.0, 0.1);
@@ -209,12 +204,7 @@ fn counts_beyond_the_ladder_are_marked() {
     };
     assert_eq!(range(Blur::TRUE), LadderRange::Above);
     assert_eq!(range(Blur::accumulation(3)), LadderRange::Within);
-    let late = Blur {
-        from: 0.0,
-        to: 1.0,
-        ..Blur::TRUE
-    };
-    assert_eq!(range(late), LadderRange::Below);
+    assert_eq!(range(smear(0.0, 1.0)), LadderRange::Below);
 }
 
 #[test]
@@ -251,6 +241,6 @@ fn a_filter_without_noise_has_no_variance() {
     let outputs = vec![FRAME.color.clone(); 3];
     let jitter = reference.jitter(&outputs).expect("something moves");
     assert_eq!((jitter.variance, jitter.noise_share()), (0.0, 0.0));
-    let whole = get(&score(&FRAME.picture(), &TRUTH), "mse_moving").value;
+    let whole = find_score(&score(&FRAME.picture(), &TRUTH), "mse_moving").value;
     assert_near("bias", jitter.bias, whole, 1e-9);
 }

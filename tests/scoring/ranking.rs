@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 
 use cli::{run_table, terminal_text};
 use frame::Alignment;
-use metrics::{ImageMetric, Measured, Metric, Reference, Region, Scores};
+use metrics::{Measured, Metric, Scores};
 use suite::{Case, CaseId, FORMAT, InputFormat, Overall, Run, overall};
-use tests::synthetic::{Object, Sampling, Scene, Shape, VIEWING};
+use tests::synthetic::{Blur, Object, Shape};
 use tests::text::assert_contains;
 use tracer::{Family, RenderSettings, SceneId};
+
+use crate::{measure_blur, scene};
 
 /// Difficulty of a run's scenes relative to one another.
 const SCENES: [f64; 5] = [0.6, 0.8, 1.0, 1.2, 1.4];
@@ -30,14 +32,8 @@ const ENTRIES: [Entry; 8] = [
 
 /// Makes scores whose values do not matter.
 fn any_scores() -> Scores {
-    let scene = Scene {
-        width: 48,
-        height: 32,
-        objects: vec![Object::sliding(Shape::Disc(6.0), [24.0, 16.0], [12.0, 0.0])],
-    };
-    let (frame, truth) = (scene.frame(), scene.truth([Sampling::CLEAN; 2]));
-    let reference = Reference::new(&frame, &truth, None, &VIEWING).unwrap();
-    reference.measure(&truth.mean()).unwrap().scores
+    let disc = Object::sliding(Shape::Disc(6.0), [24.0, 16.0], [12.0, 0.0]);
+    measure_blur(&scene([48, 32], vec![disc]), Blur::TRUE).scores
 }
 
 fn make_case(scene: usize, scores: &Scores, (name, bar, alignment, flip, common): Entry) -> Case {
@@ -268,9 +264,7 @@ fn scenes_without_skill_are_counted() {
 fn flip_against_the_common_shutter_has_a_mean_of_its_own() {
     let run = make_run();
     assert!((mean(&run, "jump_flood:paper", "flip_common").mean - 0.140).abs() < 1e-12);
-    let own = run.cases[0]
-        .scores
-        .get(metrics::Metric::Image(ImageMetric::Flip, Region::Moving));
+    let own = run.cases[0].scores.get(Metric::FLIP);
     assert_ne!(run.cases[0].common.flip, own);
 }
 

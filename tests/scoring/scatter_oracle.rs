@@ -5,11 +5,7 @@ use metrics::scatter_oracle;
 use tests::synthetic::{Object, Scene, Shape};
 
 fn scene(objects: Vec<Object>) -> Scene {
-    Scene {
-        width: 48,
-        height: 24,
-        objects,
-    }
+    crate::scene([48, 24], objects)
 }
 
 /// Makes a frame of one bright block of columns at depth 2 before black, moving right by whole pixels per frame.

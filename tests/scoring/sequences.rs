@@ -6,11 +6,11 @@ use frame::{Image, Raster};
 use metrics::SequenceMetric::{
     Error, ErrorAfterTaa, FixedPattern, Flicker, FlickerAfterTaa, FlickerAlong, Jod, Popping,
 };
-use metrics::{Instant, Measured, SequenceMeasurement, SequenceMetric, SequenceReference, measure};
+use metrics::{Instant, Measured, SequenceMeasurement, SequenceMetric, SequenceReference};
 use tests::random::hash;
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
-use crate::noisy;
+use crate::{measure_scores, noisy, scene};
 
 /// Compares a score.
 #[track_caller]
@@ -30,15 +30,8 @@ const VARIANCE: f64 = (NOISE * NOISE) as f64 / 3.0;
 /// A disc that slides over a picture of 96x64 pixels; the shutter is open for half a frame.
 fn disc_at(frame: u32, speed: [f64; 2]) -> Scene {
     let center = [0, 1].map(|axis| [30.0, 26.0][axis] + f64::from(frame) * speed[axis]);
-    Scene {
-        width: 96,
-        height: 64,
-        objects: vec![Object::sliding(
-            Shape::Disc(14.0),
-            center,
-            speed.map(|speed| 0.5 * speed),
-        )],
-    }
+    let disc = Object::sliding(Shape::Disc(14.0), center, speed.map(|speed| 0.5 * speed));
+    scene([96, 64], vec![disc])
 }
 
 fn instant_of(scene: &Scene, samplings: [Sampling; 2]) -> Instant {
@@ -239,9 +232,9 @@ fn a_sequence_of_one_frame_has_the_error_of_the_frame() {
     let truth = scene.truth([noisy(16, 1), noisy(16, 2)]);
     let instant = instant_of(&scene, [noisy(16, 1), noisy(16, 2)]);
     let output = scene.render(&Blur::IDENTITY, Sampling::CLEAN);
-    let single = measure(&output, &scene.frame(), &truth, None, &VIEWING).expect("they agree");
+    let single = measure_scores(&output, &scene.frame(), &truth);
     let measured = measure_all(&[instant], &[output.color]);
-    let error = single.scores.moving.mse.value();
+    let error = single.moving.mse.value();
     assert_eq!(Some(value(&measured, Error)), error);
     for metric in SequenceMetric::ALL.into_iter().skip(1) {
         assert_eq!(measured.scores.get(metric).value(), None, "{metric:?}");

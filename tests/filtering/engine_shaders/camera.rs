@@ -1,15 +1,14 @@
 //! Values that engines set every frame: matrices of the camera, the picture's size, jitter and times.
 
-use filters::{Blur, Filter, Input};
+use filters::{Filter, Input};
 use frame::{Camera, CameraPose, Frame, Image};
 use tests::near::assert_near;
 use tests::picture::frame_input;
-use tests::shared_gpu;
 use tests::text::assert_contains;
 
-use super::super::camera_gather::render_frame;
-use super::{blur_busy, busy_picture, make, ready};
-use crate::filter_files::FilterFiles;
+use super::{blur_busy, busy_picture, make};
+use crate::camera_gather::render_frame;
+use crate::filter_files::{FilterFiles, ready};
 
 const REVERSED: &str = "depth = \"reversed\"\nnear = 0.1";
 
@@ -26,9 +25,7 @@ fn declare(file: &str, [depth, picture, block]: [u32; 3], convention: &str) -> F
 }
 
 fn run(filter: &Filter, frame: &Frame, camera: Option<Camera>) -> Result<Image, String> {
-    let (width, height) = frame.size();
-    let settings = filter.settings(None).unwrap();
-    let mut blur = Blur::new(shared_gpu(), filter, &settings, width, height).unwrap();
+    let mut blur = ready(filter, frame.size()).unwrap();
     let colors = [&frame.color];
     let input = Input {
         reprojection: None,
@@ -120,7 +117,8 @@ fn every_value_of_a_frame_has_the_number_that_its_name_says() {
         camera: Some(Camera { now: pose, before }),
         ..picture.input(&colors)
     };
-    let output = ready(&files.load().unwrap()).run(&input).unwrap().remove(0);
+    let mut blur = ready(&files.load().unwrap(), (61, 43)).unwrap();
+    let output = blur.run(&input).unwrap().remove(0);
     for (index, (name, expected)) in expected.into_iter().enumerate() {
         println!("{name}");
         // Colours are divided by their scale.

@@ -1,13 +1,11 @@
 //! Fragment shaders over the whole picture.
 
-use filters::Blur;
 use tests::near::assert_within;
 use tests::picture::{Picture, white};
-use tests::shared_gpu;
 use tests::text::assert_contains;
 
 use super::{assert_as_documented, blur_busy, largest_difference, with_passes};
-use crate::filter_files::FilterFiles;
+use crate::filter_files::{FilterFiles, ready};
 
 /// Makes the documented example of a fragment shader in WGSL and one in GLSL, with more keys.
 fn declare(keys: &str) -> FilterFiles {
@@ -64,8 +62,7 @@ fn broken_pixels_and_endless_loops_are_reported_with_their_pass() {
     ];
     for (from, to, says) in wrong {
         let filter = declare("").changed("gather.frag", from, to).load().unwrap();
-        let settings = filter.settings(None).unwrap();
-        let mut blur = Blur::new(shared_gpu(), &filter, &settings, 8, 8).unwrap();
+        let mut blur = ready(&filter, (8, 8)).unwrap();
         let error = blur.run(&picture.input(&colors)).unwrap_err();
         assert_contains(&error.to_string(), &["pass gather: ", says]);
     }

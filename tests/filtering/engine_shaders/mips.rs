@@ -1,14 +1,13 @@
 //! Textures with mip levels: a pyramid of the fastest motions, level by level.
 
-use filters::{Blur, Filter};
+use filters::Filter;
 use frame::{Image, Raster};
 use tests::near::assert_within;
 use tests::picture::{Picture, white};
-use tests::shared_gpu;
 use tests::text::assert_contains;
 
 use super::{blur, busy_picture, largest_difference};
-use crate::filter_files::FilterFiles;
+use crate::filter_files::{FilterFiles, ready};
 
 const DRAWN: (&str, &str) = (
     "shader = \"halve.comp\"\nover = \"pyramid\"\nrepeat = 4\n",
@@ -122,8 +121,7 @@ fn wrong_levels_are_refused() {
     ];
     for (from, to, says) in wrong {
         let filter = pyramid().changed("filter.toml", from, to).load().unwrap();
-        let settings = filter.settings(None).unwrap();
-        let refused = Blur::new(shared_gpu(), &filter, &settings, 61, 43).unwrap_err();
+        let refused = ready(&filter, (61, 43)).unwrap_err();
         assert_contains(&refused.to_string(), &["pass ", says]);
     }
 }

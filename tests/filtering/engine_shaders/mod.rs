@@ -50,12 +50,6 @@ fn busy_picture() -> Picture {
     }
 }
 
-/// Makes a filter ready for the busy picture.
-fn ready(filter: &Filter) -> Blur<'static> {
-    let settings = filter.settings(None).unwrap();
-    Blur::new(shared_gpu(), filter, &settings, 61, 43).unwrap()
-}
-
 /// Blurs the busy picture with the first preset.
 fn blur_busy(files: &FilterFiles) -> Image {
     let filter = files.load().unwrap();

@@ -4,7 +4,8 @@
 use tests::near::assert_near;
 use tests::text::assert_contains;
 
-use super::{blur_busy, busy_picture, largest_difference, make, ready};
+use super::{blur_busy, busy_picture, largest_difference, make};
+use crate::filter_files::ready;
 
 /// Stores colours in the texture `kept`, in this format, and shows it.
 fn pack(format: &str) -> String {
@@ -106,7 +107,7 @@ fn the_pass_that_writes_the_first_broken_value_is_named() {
         "return sqrt(f32(i32(position.x) - 7 + 8 * abs(i32(position.y) - 5))) * 0.3",
     );
     let picture = busy_picture();
-    let mut blur = ready(&files.load().unwrap());
+    let mut blur = ready(&files.load().unwrap(), (61, 43)).unwrap();
     let error = blur.run(&picture.input(&[&picture.color])).unwrap_err();
     let parts = [
         "pass show: writes [NaN, NaN, NaN] to pixel (0, 5)",

@@ -1,11 +1,10 @@
 //! Sizes of the textures between passes, and inputs of few bits.
 
-use filters::Blur;
 use tests::near::assert_within;
-use tests::shared_gpu;
 use tests::text::assert_contains;
 
 use super::{blur_busy, busy_picture, make};
+use crate::filter_files::ready;
 
 #[test]
 fn inputs_of_11_bits_and_sides_that_are_rounded_down() {
@@ -65,8 +64,7 @@ fn textures_are_divided_by_what_an_engine_computes_of_the_picture() {
         ("\"unit * 10 ^ 10\"", "is 80000000000;"),
     ] {
         let filter = declare(divided_by).load().unwrap();
-        let settings = filter.settings(None).unwrap();
-        let refused = Blur::new(shared_gpu(), &filter, &settings, 61, 43).unwrap_err();
+        let refused = ready(&filter, (61, 43)).unwrap_err();
         let parts = [
             "61x43",
             "divided_by of texture \"coarse\"",

@@ -6,6 +6,8 @@ use tests::picture::{Picture, make_blur, white};
 use tests::shared_gpu;
 use tests::text::assert_contains;
 
+use crate::filter_files::ready;
+
 #[test]
 fn unknown_names_are_refused_with_the_known_ones() {
     let filter = Filter::builtin("velocity_gather").unwrap();
@@ -49,9 +51,8 @@ fn settings_of_another_filter_are_refused() {
 #[test]
 fn sizes_beyond_the_adapter_are_refused_before_allocation() {
     let filter = Filter::builtin("identity").unwrap();
-    let settings = filter.settings(None).unwrap();
     for (width, height) in [(1 << 20, 1), (1, 1 << 20), (0, 4), (4, 0)] {
-        let error = Blur::new(shared_gpu(), &filter, &settings, width, height).unwrap_err();
+        let error = ready(&filter, (width, height)).unwrap_err();
         assert!(matches!(error, FilterError::Size { .. }), "{error}");
         assert_contains(&error.to_string(), &[&format!("{width}x{height}"), "allow"]);
     }

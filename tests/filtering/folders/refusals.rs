@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use filters::{Blur, Filter, FilterError};
-use tests::shared_gpu;
+use filters::{Filter, FilterError};
 use tests::text::assert_contains;
 
 use super::documented;
+use crate::filter_files::ready;
 
 #[test]
 fn a_wrong_folder_is_refused_with_place_and_reason() {
@@ -92,9 +92,7 @@ fn an_error_of_the_gpu_names_file_and_pass() {
         "@workgroup_size(999, 999)\nfn gather",
     );
     // How large a workgroup may be, only the adapter knows.
-    let filter = large.load().unwrap();
-    let settings = filter.settings(None).unwrap();
-    let error = Blur::new(shared_gpu(), &filter, &settings, 8, 8).unwrap_err();
+    let error = ready(&large.load().unwrap(), (8, 8)).unwrap_err();
     assert!(matches!(error, FilterError::Folder { .. }), "{error}");
     let parts = ["centre_blur.wgsl:33: pass \"gather\": @workgroup_size(999, 999, 1)"];
     assert_contains(&error.to_string(), &parts);

@@ -5,7 +5,7 @@ use frame::Raster;
 use tests::picture::{BLACK_WALL, Picture};
 use tests::shared_gpu;
 
-use crate::filter_files::FilterFiles;
+use crate::filter_files::{FilterFiles, ready};
 
 #[test]
 fn a_texture_that_a_pass_reads_and_writes_is_swapped_for_every_colour() {
@@ -29,8 +29,7 @@ fn a_texture_that_a_pass_reads_and_writes_is_swapped_for_every_colour() {
 #[test]
 fn whole_numbers_keep_every_bit_in_a_texture_of_a_fixed_fraction() {
     let filter = FilterFiles::fixture("filters/numbers").load().unwrap();
-    let settings = filter.settings(None).unwrap();
-    let mut blur = Blur::new(shared_gpu(), &filter, &settings, 10, 5).unwrap();
+    let mut blur = ready(&filter, (10, 5)).unwrap();
     let still = Picture::uniform(10, 5, BLACK_WALL);
     let outputs = blur.run(&still.input(&[&still.color])).unwrap();
     let number = |x: u32, y: u32| 1 + x / 4 + 16 * (y / 4);

@@ -3,6 +3,8 @@
 use frame::{Frame, Picture, Plane, Raster};
 use tests::synthetic::{Blur, EXPOSURE, Sampling, Scene, constant};
 
+use crate::{dilated, mix, shifted, smear};
+
 /// Samples of a render whose noise differs from the truth's.
 pub const APART: Sampling = Sampling {
     samples: 512,
@@ -12,38 +14,21 @@ pub const APART: Sampling = Sampling {
 /// Makes wrong pictures of a scene, with their names.
 pub fn decoys(scene: &Scene, frame: &Frame) -> Vec<(&'static str, Picture)> {
     let blurred = |blur: Blur| scene.render(&blur, APART);
-    let instant = Picture {
-        color: frame.color.clone(),
-        coverage: frame.coverage.clone(),
-    };
-    let long = |from: f64| Blur { from, ..Blur::TRUE };
-    let shifted = |shift: [f64; 2]| Blur {
-        shift,
-        ..Blur::TRUE
-    };
-    let wide = |dilation: f64| Blur {
-        dilation,
-        ..Blur::TRUE
-    };
-    let centred = Blur {
-        from: -0.5,
-        to: 0.5,
-        ..Blur::TRUE
-    };
+    let instant = frame.picture();
     vec![
         ("identity", instant.clone()),
         ("constant", constant(&blurred(Blur::TRUE))),
-        ("half length", blurred(long(-0.5))),
-        ("1.5 length", blurred(long(-1.5))),
-        ("wrong side", blurred(centred)),
+        ("half length", blurred(smear(-0.5, 0.0))),
+        ("1.5 length", blurred(smear(-1.5, 0.0))),
+        ("wrong side", blurred(smear(-0.5, 0.5))),
         ("shift along", blurred(shifted([3.0, 0.0]))),
         ("shift across", blurred(shifted([0.0, 3.0]))),
-        ("dilation 2 px", blurred(wide(2.0))),
-        ("dilation 6 px", blurred(wide(6.0))),
+        ("dilation 2 px", blurred(dilated(2.0))),
+        ("dilation 6 px", blurred(dilated(6.0))),
         ("isotropic", blur_isotropically(&instant, 7.0)),
         (
             "fat, rescaled",
-            rescale(&blurred(Blur::TRUE), &blurred(wide(6.0)), &instant),
+            rescale(&blurred(Blur::TRUE), &blurred(dilated(6.0)), &instant),
         ),
         ("own velocity", gather(frame)),
         ("sharp core", sharpen(&blurred(Blur::TRUE), &instant, scene)),
@@ -61,22 +46,14 @@ fn rescale(right: &Picture, wide: &Picture, instant: &Picture) -> Picture {
             .sum()
     };
     let part = (mass(right) / mass(wide)) as f32;
-    let mix = |a: f32, b: f32| part * a + (1.0 - part) * b;
-    let background = |index: usize, a: &Plane| {
-        let rest = if index == 0 { 1.0 } else { 0.0 };
-        a.map(|a| mix(*a, rest))
-    };
-    Picture {
-        color: wide.color.zip(&instant.color, |a, b| {
-            std::array::from_fn(|c| mix(a[c], b[c]))
-        }),
-        coverage: wide
-            .coverage
-            .iter()
-            .enumerate()
-            .map(|(k, a)| background(k, a))
+    let mattes = wide.coverage.iter().enumerate();
+    let gaps = Picture {
+        color: instant.color.clone(),
+        coverage: mattes
+            .map(|(index, matte)| matte.map(|_| f32::from(index == 0)))
             .collect(),
-    }
+    };
+    mix(&gaps, wide, part)
 }
 
 /// Draws the instant's movers over their own true smears.
@@ -101,6 +78,17 @@ fn sharpen(right: &Picture, instant: &Picture, scene: &Scene) -> Picture {
     }
 }
 
+/// Changes the planes of a picture's colour and its mattes alike.
+pub fn map_planes(picture: &Picture, change: impl Fn(&Plane) -> Plane) -> Picture {
+    let channels = [0, 1, 2].map(|c| change(&picture.color.map(|color| color[c])));
+    Picture {
+        color: Raster::from_fn(picture.color.width, picture.color.height, |x, y| {
+            [0, 1, 2].map(|c| *channels[c].at(x, y))
+        }),
+        coverage: picture.coverage.iter().map(change).collect(),
+    }
+}
+
 /// Averages for each pixel what lies ahead along its own velocity, in 64 steps. Nothing is carried beyond an outline.
 fn gather(frame: &Frame) -> Picture {
     let (width, height) = frame.size();
@@ -116,30 +104,18 @@ fn gather(frame: &Frame) -> Picture {
             (place(x, 0, width) as u32, place(y, 1, height) as u32)
         })
     };
-    let plane = |plane: &Plane| {
+    map_planes(&frame.picture(), |plane| {
         Raster::from_fn(width, height, |x, y| {
             taps(x, y).map(|(u, v)| *plane.at(u, v)).sum::<f32>() / 64.0
         })
-    };
-    let channels = [0, 1, 2].map(|c| plane(&frame.color.map(|color| color[c])));
-    Picture {
-        color: Raster::from_fn(width, height, |x, y| {
-            [0, 1, 2].map(|c| *channels[c].at(x, y))
-        }),
-        coverage: frame.coverage.iter().map(plane).collect(),
-    }
+    })
 }
 
 /// Blurs with a Gaussian of `sigma` pixels in all directions, normalised at the border.
 pub fn blur_isotropically(instant: &Picture, sigma: f64) -> Picture {
-    let smooth = |plane: &Plane| across(&across(plane, sigma, [1, 0]), sigma, [0, 1]);
-    let channels = [0, 1, 2].map(|c| smooth(&instant.color.map(|color| color[c])));
-    Picture {
-        color: Raster::from_fn(instant.color.width, instant.color.height, |x, y| {
-            [0, 1, 2].map(|c| *channels[c].at(x, y))
-        }),
-        coverage: instant.coverage.iter().map(smooth).collect(),
-    }
+    map_planes(instant, |plane| {
+        across(&across(plane, sigma, [1, 0]), sigma, [0, 1])
+    })
 }
 
 fn across(plane: &Plane, sigma: f64, step: [i64; 2]) -> Plane {

@@ -4,17 +4,14 @@ use std::f64::consts::FRAC_PI_2;
 
 use tests::synthetic::{Object, Scene, Shape};
 
+use crate::bar;
+
 fn scene(objects: Vec<Object>) -> Scene {
-    Scene {
-        width: 112,
-        height: 84,
-        objects,
-    }
+    crate::scene([112, 84], objects)
 }
 
 /// Makes scenes by name: a translation, a rotation, two crossing ways, thin things, and a mover between still things.
 pub fn scenes() -> Vec<(&'static str, Scene)> {
-    let bar = |half: [f64; 2], tilt: f64| Shape::Bar { half, tilt };
     let still = [0.0, 0.0];
     let turning = Object {
         turn: 1.2,
@@ -22,15 +19,9 @@ pub fn scenes() -> Vec<(&'static str, Scene)> {
     };
     let wires = [34.3, 50.3, 66.3]
         .map(|x| Object::sliding(bar([24.0, 1.2], FRAC_PI_2), [x + 9.0, 42.2], [18.0, 0.0]));
+    let disc = Object::sliding(Shape::Disc(12.0), [68.3, 44.2], [28.0, 5.0]);
     vec![
-        (
-            "disc",
-            scene(vec![Object::sliding(
-                Shape::Disc(12.0),
-                [68.3, 44.2],
-                [28.0, 5.0],
-            )]),
-        ),
+        ("disc", scene(vec![disc])),
         ("turning bar", scene(vec![turning])),
         (
             "crossing",

@@ -4,7 +4,7 @@ use metrics::{Ideal, ImageMetric, Measured, Metric, Score};
 use tests::synthetic::Blur;
 
 use super::{DISCS, NOTHING, RADIUS, ROW_MASS, ROWS, TRAVEL, assert_large, discs};
-use crate::{assert_near, assert_scores};
+use crate::{assert_near, assert_scores, find_score, shifted, smear};
 
 /// Returns the standard deviation along the motion, within rows, of a disc smeared over `travel` pixels.
 fn spread_of_disc(travel: f64) -> f64 {
@@ -30,13 +30,9 @@ fn the_truth_itself_scores_perfectly() {
 
 #[test]
 fn blurs_that_only_err_along_the_motion_keep_the_mass_of_every_row() {
-    let half = Blur {
-        from: -0.5,
-        ..Blur::TRUE
-    };
     let blurs = [
         Blur::IDENTITY,
-        half,
+        smear(-0.5, 0.0),
         Blur::accumulation(2),
         Blur::accumulation(4),
         Blur::accumulation(16),
@@ -58,12 +54,9 @@ fn the_floor_of_growth_is_the_difference_between_the_instant_s_rows() {
     for (degrees, disc) in discs() {
         let [scores] = disc.score_blurs([Blur::IDENTITY]);
         for name in ROW_MASS {
-            let score = scores.get(name.parse().expect("a metric's name"));
-            let Measured::Score(Score { value, floor }) = score else {
-                panic!("{name} of a translation at {degrees} degrees: {score:?}");
-            };
+            let Score { value, floor } = find_score(&scores, name);
             // The truth has no noise here, and the identity's rows are the instant's.
-            assert_near(name, floor, value, 1e-12);
+            assert_near(&format!("{name} at {degrees} degrees"), floor, value, 1e-12);
         }
     }
 }
@@ -72,11 +65,7 @@ fn the_floor_of_growth_is_the_difference_between_the_instant_s_rows() {
 fn a_blur_of_the_wrong_length_is_misplaced_by_half_the_difference() {
     for (degrees, disc) in discs() {
         let lengths = [0.0, 0.5, 1.5];
-        let blurs = lengths.map(|length| Blur {
-            from: -length,
-            ..Blur::TRUE
-        });
-        let found = disc.score_blurs(blurs);
+        let found = disc.score_blurs(lengths.map(|length| smear(-length, 0.0)));
         for (scores, length) in found.iter().zip(lengths) {
             let ahead = TRAVEL * (1.0 - length) / 2.0;
             let extent = spread_of_disc(TRAVEL * length) / spread_of_disc(TRAVEL);
@@ -102,12 +91,7 @@ fn a_blur_of_the_wrong_length_is_misplaced_by_half_the_difference() {
 #[test]
 fn a_blur_on_the_wrong_side_of_the_instant_bleeds_ahead() {
     for (degrees, disc) in discs() {
-        let centred = Blur {
-            from: -0.5,
-            to: 0.5,
-            ..Blur::TRUE
-        };
-        let [scores] = disc.score_blurs([centred]);
+        let [scores] = disc.score_blurs([smear(-0.5, 0.5)]);
         let what = format!("the wrong side at {degrees} degrees");
         assert_large(&what, &scores, &["bleed_leading"]);
         let expected = [
@@ -124,10 +108,7 @@ fn a_blur_on_the_wrong_side_of_the_instant_bleeds_ahead() {
 fn a_shift_along_the_motion_shows_in_the_signed_centroid() {
     for (degrees, disc) in discs() {
         let shifts = [3.0, -3.0];
-        let blurs = shifts.map(|shift| Blur {
-            shift: [shift, 0.0],
-            ..Blur::TRUE
-        });
+        let blurs = shifts.map(|shift| shifted([shift, 0.0]));
         for (scores, shift) in disc.score_blurs(blurs).iter().zip(shifts) {
             let expected = [
                 ("centroid", shift, 0.05),

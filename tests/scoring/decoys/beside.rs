@@ -1,25 +1,19 @@
 //! Errors across the motion: dilation, cores, shifts, isotropic blurs.
 
-use tests::synthetic::{Blur, Sampling, Shape};
+use tests::synthetic::{Blur, Sampling};
 
 use super::{ANGLES, Case, RADIUS, ROW_MASS, ROWS, assert_large, discs, slide};
 use crate::decoy_matrix::decoys::blur_isotropically;
-use crate::{assert_near, assert_scores, find_value};
+use crate::{assert_near, assert_scores, bar, dilated, find_value, shifted};
 
 #[test]
 fn lateral_growth_equals_the_dilation_in_pixels() {
     for (degrees, disc) in discs() {
-        let bar = Shape::Bar {
-            half: [18.0, 6.0],
-            tilt: degrees.to_radians(),
-        };
+        let bar = bar([18.0, 6.0], degrees.to_radians());
         for (case, name) in [(disc, "disc"), (&Case::new(slide(bar, degrees)), "bar")] {
             let dilations = [0.5, 1.0, 2.0, 6.0];
-            let blurs = dilations.map(|dilation| Blur {
-                dilation,
-                ..Blur::TRUE
-            });
-            for (scores, dilation) in case.score_blurs(blurs).iter().zip(dilations) {
+            let found = case.score_blurs(dilations.map(dilated));
+            for (scores, dilation) in found.iter().zip(dilations) {
                 // The silhouette's length is known to 2 % for a disc at any angle, and to 4 % for a bar: its gradients
                 // span two pixels. A hundredth of a pixel is gained inside.
                 let tolerance = match name {
@@ -40,18 +34,10 @@ fn lateral_growth_equals_the_dilation_in_pixels() {
 #[test]
 fn a_dilated_slanted_outline_grows_beside_its_rows_and_gains_inside() {
     for degrees in ANGLES {
-        let bar = Shape::Bar {
-            half: [18.0, 6.0],
-            tilt: degrees.to_radians() + 0.4,
-        };
+        let case = Case::new(slide(bar([18.0, 6.0], degrees.to_radians() + 0.4), degrees));
         let dilations = [2.0, 6.0];
-        let blurs = dilations.map(|dilation| Blur {
-            dilation,
-            ..Blur::TRUE
-        });
-        for (scores, dilation) in
-            (Case::new(slide(bar, degrees)).score_blurs(blurs).iter()).zip(dilations)
-        {
+        let found = case.score_blurs(dilations.map(dilated));
+        for (scores, dilation) in found.iter().zip(dilations) {
             let [growth, gain, loss] = ROW_MASS.map(|name| find_value(scores, name));
             let what = format!("dilation of a slanted bar at {degrees} degrees");
             assert_near(&what, growth + gain, dilation, 0.1);
@@ -88,11 +74,7 @@ fn a_sharp_mover_over_its_own_smear_makes_rows_heavier_and_does_not_grow() {
 #[test]
 fn hard_bleed_sees_a_wide_dilation_only_beside_the_support() {
     for (degrees, disc) in discs() {
-        let wide = Blur {
-            dilation: 6.0,
-            ..Blur::TRUE
-        };
-        let [scores] = disc.score_blurs([wide]);
+        let [scores] = disc.score_blurs([dilated(6.0)]);
         // The border allows one pixel, and the faint ends of the smear hide more of six.
         let lateral = find_value(&scores, "bleed_lateral");
         assert_near(&format!("at {degrees} degrees"), lateral, 2.5, 1.5);
@@ -105,11 +87,7 @@ fn hard_bleed_sees_a_wide_dilation_only_beside_the_support() {
 #[test]
 fn a_shift_across_the_motion_grows_on_one_side_and_loses_on_the_other() {
     for ((_, disc), shift) in discs().zip([3.0, 3.0, -3.0, -3.0]) {
-        let aside = Blur {
-            shift: [0.0, shift],
-            ..Blur::TRUE
-        };
-        let [scores] = disc.score_blurs([aside]);
+        let [scores] = disc.score_blurs([shifted([0.0, shift])]);
         let expected = [
             ("lateral_growth", 1.5, 0.05),
             ("row_loss", 1.5, 0.05),

@@ -3,7 +3,7 @@
 use tests::synthetic::{Blur, Object, Shape, constant};
 
 use super::{Case, DISCS, NOTHING, RADIUS, assert_large, slide};
-use crate::{assert_scores, find_value};
+use crate::{assert_scores, bar, find_value};
 
 #[test]
 fn a_constant_picture_keeps_the_energy_and_fails_everything_else() {
@@ -30,14 +30,9 @@ fn a_constant_picture_keeps_the_energy_and_fails_everything_else() {
     }
 }
 
-/// A bar that slides along itself.
-fn bar(half: [f64; 2]) -> Shape {
-    Shape::Bar { half, tilt: 0.0 }
-}
-
 #[test]
 fn a_half_erased_bar_has_half_its_energy_and_half_a_hole() {
-    let case = Case::new(slide(bar([25.0, 8.0]), 0.0));
+    let case = Case::new(slide(bar([25.0, 8.0], 0.0), 0.0));
     let mut faint = case.truth.mean();
     faint.coverage[1] = faint.coverage[1].map(|matte| 0.5 * matte);
     let [scores] = &case.score_pictures([faint]);
@@ -49,7 +44,7 @@ fn a_half_erased_bar_has_half_its_energy_and_half_a_hole() {
 #[test]
 fn label_total_variation_measures_the_time_of_wrong_objects() {
     // A bar as long as its way, moving along itself: the visible time at each of its three places is known.
-    let case = Case::new(slide(bar([15.0, 8.0]), 0.0));
+    let case = Case::new(slide(bar([15.0, 8.0], 0.0), 0.0));
     let [scores] = case.score_blurs([Blur::IDENTITY]);
     // Ahead and behind, the truth ramps over 30 px, and the instant covers one of the ramps. |a - a*| sums to 15 px
     // ahead and to 15 px behind, over 16 rows. Half of it counts twice, for bar and background.
@@ -63,7 +58,7 @@ fn label_total_variation_measures_the_time_of_wrong_objects() {
 
 #[test]
 fn a_filter_that_smears_a_still_bar_contaminates_the_occluder() {
-    let post = Object::sliding(bar([3.0, 60.0]), [56.0, 58.0], [0.0, 0.0]);
+    let post = Object::sliding(bar([3.0, 60.0], 0.0), [56.0, 58.0], [0.0, 0.0]);
     let mut scene = slide(Shape::Disc(RADIUS), 0.0);
     scene.objects.insert(0, post);
     let case = Case::new(scene);

@@ -10,7 +10,7 @@ use frame::{Frame, Picture, Truth};
 use metrics::{Reference, Scores};
 use tests::synthetic::{Blur, Object, Sampling, Scene, Shape, VIEWING};
 
-use crate::{clean_truth, find_value};
+use crate::{clean_truth, find_value, scene};
 
 const RADIUS: f64 = 14.0;
 
@@ -28,26 +28,13 @@ const NOTHING: f64 = 1e-6;
 /// Scores of the mass that rows along the motion gain or lose.
 const ROW_MASS: [&str; 3] = ["lateral_growth", "row_gain", "row_loss"];
 
-fn direction(degrees: f64) -> [f64; 2] {
-    let (sin, cos) = degrees.to_radians().sin_cos();
-    [cos, sin]
-}
-
 /// Makes a shape whose smear has its middle a little off the picture's, and stays inside if it is too long or too late.
 fn slide(shape: Shape, degrees: f64) -> Scene {
-    let along = direction(degrees);
-    Scene {
-        width: 128,
-        height: 116,
-        objects: vec![Object::sliding(
-            shape,
-            [
-                64.3 + along[0] * TRAVEL / 2.0,
-                58.2 + along[1] * TRAVEL / 2.0,
-            ],
-            along.map(|component| component * TRAVEL),
-        )],
-    }
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let [right, down] = [cos, sin].map(|component| component * TRAVEL);
+    let center = [64.3 + right / 2.0, 58.2 + down / 2.0];
+    let object = Object::sliding(shape, center, [right, down]);
+    scene([128, 116], vec![object])
 }
 
 /// A scene with its frame and truth.
@@ -67,14 +54,8 @@ impl Case {
     }
 
     fn score_pictures<const N: usize>(&self, pictures: [Picture; N]) -> [Scores; N] {
-        let reference = Reference::new(&self.frame, &self.truth, None, &VIEWING)
-            .expect("frame and truth belong together");
-        pictures.map(|picture| {
-            reference
-                .measure(&picture)
-                .expect("a finite picture")
-                .scores
-        })
+        let reference = Reference::new(&self.frame, &self.truth, None, &VIEWING).unwrap();
+        pictures.map(|picture| reference.measure(&picture).unwrap().scores)
     }
 
     fn score_blurs<const N: usize>(&self, blurs: [Blur; N]) -> [Scores; N] {

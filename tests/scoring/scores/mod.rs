@@ -7,20 +7,13 @@ mod silence;
 
 use tests::synthetic::{Object, Scene, Shape};
 
+use crate::{bar, scene};
+
 /// Makes a disc of 8 px that slides 12 px to the right, and a bar that stands still, in front of it or not.
 fn small_scene(bar_at: [f64; 2]) -> Scene {
-    let bar = Shape::Bar {
-        half: [2.0, 20.0],
-        tilt: 0.0,
-    };
-    Scene {
-        width: 80,
-        height: 60,
-        objects: vec![
-            Object::sliding(bar, bar_at, [0.0, 0.0]),
-            Object::sliding(Shape::Disc(8.0), [46.2, 30.3], [12.0, 0.0]),
-        ],
-    }
+    let bar = Object::sliding(bar([2.0, 20.0], 0.0), bar_at, [0.0, 0.0]);
+    let disc = Object::sliding(Shape::Disc(8.0), [46.2, 30.3], [12.0, 0.0]);
+    scene([80, 60], vec![bar, disc])
 }
 
 /// Place of a bar beside the disc's way.

@@ -5,7 +5,7 @@ use metrics::{Measured, Metric, ObjectMetric, Viewing, measure, regions};
 use tests::synthetic::{Blur, Object, Shape, VIEWING};
 
 use super::{BESIDE, small_scene};
-use crate::{assert_near, clean_truth, find_value, measure_blur};
+use crate::{assert_near, clean_truth, find_value, measure_blur, measure_scores, smear};
 
 #[test]
 fn the_moving_region_extends_a_fifteenth_of_the_height_beyond_movers() {
@@ -27,8 +27,7 @@ fn an_error_in_a_still_pixel_counts_as_static_and_not_as_moving() {
     let mut output = truth.mean();
     let corner = 79;
     output.color.pixels[corner] = output.color.pixels[corner].map(|value| value + 0.25);
-    let scores = measure(&output, &frame, &truth, None, &VIEWING);
-    let scores = scores.expect("they agree").scores;
+    let scores = measure_scores(&output, &frame, &truth);
     let still = regions(&truth).still.pixels;
     let still = still.iter().filter(|still| **still).count() as f64;
     assert_eq!(find_value(&scores, "mse_moving"), 0.0);
@@ -77,12 +76,7 @@ fn scores_are_pooled_from_their_metrics_maps() {
 
 #[test]
 fn the_bleed_map_holds_coverage_outside_the_support() {
-    let long = Blur {
-        from: -2.0,
-        ..Blur::TRUE
-    };
-    let scene = small_scene([10.0, 10.0]);
-    let measurement = measure_blur(&scene, long);
+    let measurement = measure_blur(&small_scene([10.0, 10.0]), smear(-2.0, 0.0));
     let bleed = measurement.maps.bleed.pixels.iter();
     let total: f64 = bleed.map(|value| f64::from(*value)).sum();
     let scores = &measurement.scores;

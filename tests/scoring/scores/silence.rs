@@ -1,11 +1,11 @@
 //! Scenes in which a score means nothing, and the reason that it gives.
 
 use frame::Raster;
-use metrics::{Measured, ObjectMetric, measure};
-use tests::synthetic::{Blur, Object, Scene, Shape, VIEWING};
+use metrics::{Measured, ObjectMetric};
+use tests::synthetic::{Blur, Object, Scene, Shape};
 
 use super::{BEFORE, BESIDE, small_scene};
-use crate::{clean_truth, find_reason, find_value, measure_blur};
+use crate::{bar, clean_truth, find_reason, find_value, measure_blur, measure_scores, smear};
 
 /// Scores that need rows along a translation.
 const ROW_SCORES: [&str; 6] = [
@@ -31,13 +31,9 @@ fn an_object_cut_off_by_the_border_has_no_row_scores_but_bleeds() {
 /// Makes an arm that turns by so many radians while it travels, in place of the disc.
 fn turning_arm(turn: f64, travel: f64) -> Scene {
     let mut scene = small_scene(BESIDE);
-    let arm = Shape::Bar {
-        half: [20.0, 3.0],
-        tilt: 0.3,
-    };
     scene.objects[1] = Object {
         turn,
-        ..Object::sliding(arm, [46.0, 30.0], [travel, 0.0])
+        ..Object::sliding(bar([20.0, 3.0], 0.3), [46.0, 30.0], [travel, 0.0])
     };
     scene
 }
@@ -58,11 +54,7 @@ fn a_rotation_has_no_row_scores_but_bleeds() {
 
 #[test]
 fn turning_too_far_bleeds_ahead_of_the_local_motion() {
-    let ahead = Blur {
-        to: 0.6,
-        ..Blur::TRUE
-    };
-    let scores = measure_blur(&turning_arm(0.6, 0.0), ahead).scores;
+    let scores = measure_blur(&turning_arm(0.6, 0.0), smear(-1.0, 0.6)).scores;
     let leading = find_value(&scores, "bleed_leading");
     assert!(leading > 0.2, "{leading}");
     // The two ends of the arm swing towards opposite sides. Judged by one direction, half of this would be trailing.
@@ -99,10 +91,7 @@ fn an_object_with_an_id_but_no_coverage_has_no_outline_to_measure_by() {
     let scene = small_scene(BESIDE);
     let (mut frame, truth) = (scene.frame(), clean_truth(&scene));
     frame.coverage[2] = Raster::filled(80, 60, 0.0);
-    let output = truth.mean();
-    let scores = measure(&output, &frame, &truth, None, &VIEWING)
-        .expect("they agree")
-        .scores;
+    let scores = measure_scores(&truth.mean(), &frame, &truth);
     for metric in ["lateral_growth", "bleed_lateral"] {
         let reason = find_reason(&scores, metric);
         assert!(reason.contains("no silhouette"), "{metric}: {reason}");
