@@ -2,11 +2,9 @@
 
 use glam::{DVec2, DVec3};
 use tests::scenes;
-use tracer::{Scene, list_scenes, load_scene};
+use tracer::{Scene, list_scenes};
 
-fn load(name: &str, variant: Option<&str>) -> Scene {
-    load_scene(scenes().join(name), variant).unwrap_or_else(|error| panic!("{error}"))
-}
+use crate::{load_shipped, shipped_with_variants};
 
 /// Projects a world point into the still camera's picture, in pixels.
 fn project(scene: &Scene, point: DVec3) -> DVec2 {
@@ -56,13 +54,13 @@ fn every_scene_loads_with_every_variant() {
     }
     assert!(names.is_sorted());
     for listing in &listings {
-        let scene = load(&listing.name, None);
+        let scene = load_shipped(&listing.name);
         assert_eq!(scene.exposes, listing.exposes);
         assert_eq!(scene.family, listing.family);
         for variant in &listing.variants {
-            let changed = load(&listing.name, Some(variant));
-            let expected = format!("{}@{variant}", listing.name);
-            assert_eq!(changed.id.to_string(), expected);
+            let name = format!("{}@{variant}", listing.name);
+            let changed = load_shipped(&name);
+            assert_eq!(changed.id.to_string(), name);
             assert_ne!(changed.hash, scene.hash);
         }
     }
@@ -81,14 +79,16 @@ fn the_generator_reproduces_the_shipped_files() {
 
 #[test]
 fn the_panel_moves_at_the_speed_of_its_variant() {
-    let listings = list_scenes(scenes()).unwrap();
-    let listing = listings.iter().find(|l| l.name == "sliding_panel").unwrap();
-    assert_eq!(listing.variants.len(), 20, "five speeds in four directions");
-    for variant in &listing.variants {
+    let all = shipped_with_variants();
+    let variants: Vec<&str> = (all.iter())
+        .filter_map(|name| name.strip_prefix("sliding_panel@"))
+        .collect();
+    assert_eq!(variants.len(), 20, "five speeds in four directions");
+    for variant in variants {
         let (speed, angle) = variant.split_once("px_").unwrap();
         let angle: f64 = angle.strip_suffix("deg").unwrap().parse().unwrap();
         let speed: f64 = speed.parse().unwrap();
-        let scene = load("sliding_panel", Some(variant));
+        let scene = load_shipped(&format!("sliding_panel@{variant}"));
         let panel = object_index(&scene, "panel");
         let centre = |time| project(&scene, scene.object_to_world(panel, time).translation);
         let [before, after] = [-0.5, 0.5].map(centre);
@@ -103,32 +103,24 @@ fn the_panel_moves_at_the_speed_of_its_variant() {
 
 #[test]
 fn the_panel_keeps_clear_of_the_border() {
-    for listing in list_scenes(scenes()).unwrap() {
-        if !listing.name.contains("panel") {
-            continue;
-        }
-        let variants = listing
-            .variants
-            .iter()
-            .map(|variant| Some(variant.as_str()));
-        for variant in variants.chain([None]) {
-            let scene = load(&listing.name, variant);
-            let [width, height] = [scene.width, scene.height].map(f64::from);
-            // Trailing and leading shutters reach as far as the exposure on either side.
-            for time in [-scene.exposure, 0.0, scene.exposure] {
-                let [least, largest] = pixel_range(&scene, "panel", time);
-                let clear = least.min(DVec2::new(width, height) - largest).min_element();
-                assert!(clear >= 30.0, "{} at {time}: {clear} pixels", scene.id);
-                // A square of 80 pixels; its sides show as less than a tenth of one.
-                assert!((largest - least).distance(DVec2::splat(80.0)) < 0.1);
-            }
+    let all = shipped_with_variants();
+    for name in all.iter().filter(|name| name.contains("panel")) {
+        let scene = load_shipped(name);
+        let [width, height] = [scene.width, scene.height].map(f64::from);
+        // Trailing and leading shutters reach as far as the exposure on either side.
+        for time in [-scene.exposure, 0.0, scene.exposure] {
+            let [least, largest] = pixel_range(&scene, "panel", time);
+            let clear = least.min(DVec2::new(width, height) - largest).min_element();
+            assert!(clear >= 30.0, "{name} at {time}: {clear} pixels");
+            // A square of 80 pixels; its sides show as less than a tenth of one.
+            assert!((largest - least).distance(DVec2::splat(80.0)) < 0.1);
         }
     }
 }
 
 #[test]
 fn the_white_sphere_hides_red_light_that_the_trailing_shutter_sees() {
-    let scene = load("two_spheres", None);
+    let scene = load_shipped("two_spheres");
     let [red, red_end] = pixel_range(&scene, "red", 0.0);
     let [_, hidden] = pixel_range(&scene, "white", 0.0);
     let [_, hidden_before] = pixel_range(&scene, "white", -scene.exposure);
@@ -143,7 +135,7 @@ fn the_white_sphere_hides_red_light_that_the_trailing_shutter_sees() {
 
 #[test]
 fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
-    let scene = load("railing", None);
+    let scene = load_shipped("railing");
     for name in ["car", "wheel_rear_near", "wheel_front_near", "aeroplane"] {
         for time in [-scene.exposure, 0.0, scene.exposure] {
             let [least, largest] = pixel_range(&scene, name, time);
@@ -171,13 +163,14 @@ fn the_car_is_seen_whole_behind_the_railing_and_its_wheels_roll() {
 
 #[test]
 fn the_fan_turns_at_the_speed_of_its_variant() {
-    let variants = ["5deg", "20deg", "45deg", "60deg"].map(Some);
-    for (variant, degrees) in [None]
-        .into_iter()
-        .chain(variants)
-        .zip([45.0, 5.0, 20.0, 45.0, 60.0])
-    {
-        let scene = load("fan", variant);
+    for (name, degrees) in [
+        ("fan", 45.0),
+        ("fan@5deg", 5.0),
+        ("fan@20deg", 20.0),
+        ("fan@45deg", 45.0),
+        ("fan@60deg", 60.0),
+    ] {
+        let scene = load_shipped(name);
         let fan = object_index(&scene, "fan");
         let blade = |time| scene.object_to_world(fan, time).transform_vector3(DVec3::X);
         let turned = blade(0.0).angle_between(blade(1.0)).to_degrees();

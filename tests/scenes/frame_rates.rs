@@ -1,10 +1,11 @@
 //! Scenes at other frame rates than that of their files.
 
 use frame::{Alignment, Frame, Truth, VelocityKind};
-use tests::{scenes, unwatched};
-use tracer::{FrameRate, RenderSettings, Scene, list_scenes, load_scene, trace_frame, trace_truth};
+use tests::unwatched;
+use tracer::{FrameRate, RenderSettings, Scene, load_scene, trace_frame, trace_truth};
 
 use crate::scene_folder::Folder;
+use crate::{load_shipped, shipped};
 
 const WIDTH: u32 = 64;
 const HEIGHT: u32 = 18;
@@ -87,12 +88,11 @@ fn a_bar_smears_by_its_speed_and_the_shutter_of_each_rate() {
 }
 
 /// Compares a scene at the rate of its file with the scene without a rate.
-fn assert_same_at_60(name: &str, variant: Option<&str>) {
-    let at_60 = variant.map_or("60fps".to_owned(), |variant| format!("{variant}@60fps"));
-    let load = |variant| load_scene(scenes().join(name), variant).unwrap();
-    let [plain, same] = [variant, Some(at_60.as_str())].map(load);
+fn assert_same_at_60(name: &str) {
+    let at_60 = format!("{name}@60fps");
+    let [plain, same] = [name, &at_60].map(load_shipped);
     assert_ne!(plain.hash, same.hash);
-    assert_eq!(same.id.to_string(), format!("{name}@{at_60}"));
+    assert_eq!(same.id.to_string(), at_60);
     let frame = |scene| render_frame(scene, VelocityKind::Instantaneous);
     assert_same_frame(&frame(&plain), &frame(&same), name);
     let truth = |scene| render_truth(scene, Alignment::Trailing);
@@ -101,16 +101,14 @@ fn assert_same_at_60(name: &str, variant: Option<&str>) {
 
 #[test]
 fn at_60_frames_per_second_a_scene_is_as_its_file_says() {
-    assert_same_at_60("fan", None);
-    assert_same_at_60("sliding_panel", Some("seal7"));
+    assert_same_at_60("fan");
+    assert_same_at_60("sliding_panel@seal7");
 }
 
 #[test]
 #[ignore = "prove: all scenes of the catalogue"]
 fn at_60_frames_per_second_every_scene_is_as_its_file_says() {
-    for listing in list_scenes(scenes()).unwrap() {
-        assert_same_at_60(&listing.name, None);
-    }
+    shipped().iter().for_each(|name| assert_same_at_60(name));
 }
 
 fn assert_same_frame(one: &Frame, other: &Frame, what: &str) {
@@ -219,7 +217,7 @@ fn every_rate_has_a_name_and_a_hash_of_its_own() {
 #[test]
 fn times_beyond_the_keys_are_refused() {
     let check = |variant: &str, alignment| {
-        let scene = load_scene(scenes().join("flag"), Some(variant)).unwrap();
+        let scene = load_shipped(&format!("flag@{variant}"));
         let settings = RenderSettings::default();
         let truth = settings.check_truth(&scene, alignment).map(drop);
         truth.err().map(|error| error.to_string())
@@ -239,7 +237,7 @@ fn times_beyond_the_keys_are_refused() {
     let text = check("24fps", Alignment::Leading).unwrap();
     assert!(text.contains("end at frame 0.4"), "{text}");
     // So are those that the velocity since the frame before needs.
-    let scene = load_scene(scenes().join("flag"), Some("24fps")).unwrap();
+    let scene = load_shipped("flag@24fps");
     let mut settings = RenderSettings::default();
     assert!(settings.check_frame(&scene).is_ok());
     settings.options.velocity = VelocityKind::PreviousFrame;

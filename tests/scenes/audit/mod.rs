@@ -11,8 +11,10 @@ use std::path::PathBuf;
 use engine::{Buffer, Capture, CaptureAudit, CaptureDescription, Cause, Defect, audit_capture};
 use filters::Convention;
 use frame::{FAR_DEPTH, Vectors, VelocityKind};
-use tests::{scenes, unwatched};
+use tests::unwatched;
 use tracer::{PointMotion, RenderSettings, Scene, load_scene, trace_frame, trace_motion};
+
+use crate::{load_shipped, shipped};
 
 const WIDTH: u32 = 96;
 const HEIGHT: u32 = 54;
@@ -26,10 +28,6 @@ fn load_small(variant: Option<&str>) -> Scene {
 /// Loads the small scene in which everything moves.
 fn load_moving() -> Scene {
     load_small(Some("moving"))
-}
-
-fn load_shipped(name: &str) -> Scene {
-    load_scene(scenes().join(name), None).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Settings of what an engine hands over: the motion since the frame before, unless it is another.
@@ -165,13 +163,10 @@ fn right_vectors_pass_as_half_floats() {
 #[test]
 #[ignore = "prove: all scenes of the catalogue"]
 fn honest_frames_of_every_scene_pass_with_ids_and_without() {
-    let listings = tracer::list_scenes(scenes()).unwrap();
-    let mut all: Vec<Scene> = (listings.iter())
-        .map(|listing| load_scene(&listing.folder, None).unwrap())
-        .collect();
-    let unlit = |name| load_scene(scenes().join(name), Some("unlit")).unwrap();
-    all.extend(["fan", "railing", "walker"].map(unlit));
-    for scene in &all {
+    let mut all = shipped();
+    all.extend(["fan@unlit", "railing@unlit", "walker@unlit"].map(str::to_owned));
+    for name in all {
+        let scene = &load_shipped(&name);
         let drawn = draw(scene, 0.0);
         assert_passes(scene, &drawn);
         let tells_without_ids = ["fan", "railing", "roll", "flag", "crossing", "cockpit"];

@@ -2,11 +2,14 @@
 
 use std::cell::OnceCell;
 
-use filters::{Blur, Filter, Gpu, Input};
+use filters::{Blur, Filter};
 use frame::{Alignment, Frame, Image, Picture, Truth};
 use metrics::{Metric, Reference, Scores, scatter_oracle};
-use tests::{open_gpu, unwatched};
-use tracer::{RenderSettings, Scene, load_scene, trace_frame, trace_truth};
+use tests::picture::frame_input;
+use tests::{shared_gpu, unwatched};
+use tracer::{RenderSettings, Scene, trace_frame, trace_truth};
+
+use crate::load_shipped;
 
 /// Settings of a small frame and its truths. The two replicates of a truth share as many samples as the frame has.
 pub fn small_settings() -> RenderSettings {
@@ -24,7 +27,6 @@ pub struct RenderedScene {
     pub frame: Frame,
     scene: Scene,
     settings: RenderSettings,
-    gpu: Gpu,
     truths: [OnceCell<Truth>; 2],
 }
 
@@ -35,17 +37,11 @@ impl RenderedScene {
     }
 
     pub fn with_settings(name: &str, settings: RenderSettings) -> Self {
-        let (name, variant) = match name.split_once('@') {
-            Some((name, variant)) => (name, Some(variant)),
-            None => (name, None),
-        };
-        let folder = tests::scenes().join(name);
-        let scene = load_scene(&folder, variant).unwrap_or_else(|error| panic!("{error}"));
+        let scene = load_shipped(name);
         Self {
             frame: trace_frame(&scene, &settings, &unwatched).unwrap(),
             scene,
             settings,
-            gpu: open_gpu(),
             truths: Default::default(),
         }
     }
@@ -80,38 +76,17 @@ impl RenderedScene {
     pub fn run_filter(&self, filter: &Filter, preset: &str, colors: &[&Image]) -> Vec<Image> {
         let settings = filter.settings(Some(preset)).unwrap();
         let (width, height) = self.frame.size();
-        let mut blur = Blur::new(&self.gpu, filter, &settings, width, height).unwrap();
-        let input = Input {
-            color: colors,
-            velocity: &self.frame.velocity,
-            depth: &self.frame.depth,
-            reprojection: Some(
-                self.frame
-                    .reprojection
-                    .moved(f64::from(self.settings.guard_band)),
-            ),
-            camera: self.frame.camera,
-            exposure: self.frame.exposure,
-            frames_per_second: self.frame.frames_per_second,
-            frame_index: 0,
-        };
-        let outputs = blur.run(&input).unwrap();
-        outputs
-            .iter()
-            .map(|output| output.cropped(self.settings.guard_band))
-            .collect()
+        let mut blur = Blur::new(shared_gpu(), filter, &settings, width, height).unwrap();
+        let outputs = blur.run(&frame_input(&self.frame, colors)).unwrap();
+        let cropped = |output: &Image| output.cropped(self.frame.guard_band);
+        outputs.iter().map(cropped).collect()
     }
 
     /// Scores a picture against the truth of an alignment.
     pub fn measure(&self, picture: &Picture, alignment: Alignment) -> Scores {
         let frame = self.frame.cropped();
-        let reference = Reference::new(
-            &frame,
-            self.truth(alignment),
-            None,
-            &self.scene.display.into(),
-        )
-        .unwrap();
+        let (truth, viewing) = (self.truth(alignment), self.scene.display.into());
+        let reference = Reference::new(&frame, truth, None, &viewing).unwrap();
         reference.measure(picture).unwrap().scores
     }
 
@@ -146,23 +121,20 @@ impl RenderedScene {
         number.unwrap_or_else(|| panic!("{metric} of {object}: {score:?}"))
     }
 
-    /// Returns the weighted mean of the squared error of a filter's radiance. It is unbiased, since the truth's halves
-    /// are independent.
-    pub fn squared_error(&self, filter: &str, weight_at: impl Fn(u32, u32) -> f64) -> f64 {
+    /// Returns the mean squared error of a filter's radiance over the pixels that count. It is unbiased, since the
+    /// truth's halves are independent.
+    pub fn squared_error(&self, filter: &str, counts: impl Fn(u32, u32) -> bool) -> f64 {
         let output = self.blur(filter).color;
         let [a, b] = &self.truth(find_preset(filter).0.alignment).halves;
-        let (mut sum, mut total) = (0.0, 0.0);
-        for y in 0..output.height {
-            for x in 0..output.width {
-                let [output, a, b] = [&output, &a.color, &b.color].map(|image| image.at(x, y));
-                let product = |c: usize| f64::from((output[c] - a[c]) * (output[c] - b[c]));
-                let weight = weight_at(x, y);
-                sum += weight * (product(0) + product(1) + product(2)) / 3.0;
-                total += weight;
-            }
-        }
-        assert!(total > 0.0, "some pixels count");
-        sum / total
+        let all = (0..output.height).flat_map(|y| (0..output.width).map(move |x| (x, y)));
+        let pixels: Vec<(u32, u32)> = all.filter(|(x, y)| counts(*x, *y)).collect();
+        assert!(!pixels.is_empty(), "some pixels count");
+        let error = |(x, y): &(u32, u32)| {
+            let [output, a, b] = [&output, &a.color, &b.color].map(|image| image.at(*x, *y));
+            let product = |c: usize| f64::from((output[c] - a[c]) * (output[c] - b[c]));
+            (product(0) + product(1) + product(2)) / 3.0
+        };
+        pixels.iter().map(error).sum::<f64>() / pixels.len() as f64
     }
 }
 

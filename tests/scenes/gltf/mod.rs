@@ -5,10 +5,12 @@ mod played;
 use engine::{Timeline, export_gltf};
 use glam::{DAffine3, DVec3};
 use played::Played;
+use serde_json::Value;
 use tempfile::TempDir;
 use tests::random::Random;
-use tests::scenes;
-use tracer::{Interpolation, Key, Mesh, Motion, Scene, Turn, list_scenes, load_scene};
+use tracer::{Interpolation, Key, Mesh, Motion, Scene, Turn};
+
+use crate::{load_shipped, shipped_with_variants};
 
 /// Random times at which poses are compared.
 const TIMES: usize = 100;
@@ -19,21 +21,15 @@ const TOLERANCE: f64 = 1e-5;
 fn scenes_play_as_the_tracer_poses_them() {
     // Parents that turn, key shapes, and a camera that carries a dashboard.
     for name in ["railing", "flag", "cockpit", "walker"] {
-        assert_plays(&load_scene(scenes().join(name), None).unwrap());
+        assert_plays(&load_shipped(name));
     }
 }
 
 #[test]
 #[ignore = "prove: all scenes of the catalogue with all variants"]
 fn every_scene_and_variant_plays_as_the_tracer_poses_it() {
-    for listing in list_scenes(scenes()).unwrap() {
-        let variants = listing
-            .variants
-            .iter()
-            .map(|variant| Some(variant.as_str()));
-        for variant in std::iter::once(None).chain(variants) {
-            assert_plays(&load_scene(&listing.folder, variant).unwrap());
-        }
+    for name in shipped_with_variants() {
+        assert_plays(&load_shipped(&name));
     }
 }
 
@@ -67,24 +63,19 @@ fn turns_beyond_half_a_circle_and_cubic_paths_are_kept() {
             keys: keys.clone(),
             interpolation,
         };
-        let mut scene = load_scene(scenes().join("flat_field"), None).unwrap();
+        let mut scene = load_shipped("flat_field");
         scene.objects[0].motion = motion.clone();
-        scene.camera.motion = Motion {
-            keys: (motion.keys.iter())
-                .map(|key| Key {
-                    scale: DVec3::ONE,
-                    ..*key
-                })
-                .collect(),
-            interpolation,
-        };
+        scene.camera.motion = motion;
+        for key in &mut scene.camera.motion.keys {
+            key.scale = DVec3::ONE;
+        }
         assert_plays(&scene);
     }
 }
 
 #[test]
 fn a_zoom_is_refused_since_gltf_cannot_say_it() {
-    let mut scene = load_scene(scenes().join("flat_field"), None).unwrap();
+    let mut scene = load_shipped("flat_field");
     scene.camera.vertical_fov = vec![(-1.0, 0.6), (1.0, 0.7)];
     let error = export(&scene).unwrap_err();
     assert!(error.contains("field of view changes"), "{error}");
@@ -92,7 +83,7 @@ fn a_zoom_is_refused_since_gltf_cannot_say_it() {
 
 #[test]
 fn a_texture_of_holes_is_joined_with_that_of_the_color() {
-    let mut scene = load_scene(scenes().join("railing"), None).unwrap();
+    let mut scene = load_shipped("railing");
     let material = (scene.materials.iter_mut()).find(|own| own.diffuse_texture.is_some());
     let material = material.expect("a textured material");
     let texture = material.diffuse_texture.unwrap();
@@ -116,10 +107,8 @@ fn a_texture_of_holes_is_joined_with_that_of_the_color() {
 
 #[test]
 fn films_blend_glass_transmits_and_what_gltf_cannot_say_is_refused() {
-    let mut scene = load_scene(scenes().join("glasshouse"), None).unwrap();
-    let folder = export(&scene).unwrap();
-    let text = std::fs::read_to_string(folder.path().join("scene.gltf")).unwrap();
-    let document: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let mut scene = load_shipped("glasshouse");
+    let document = read_document(&export(&scene).unwrap());
     let materials = document["materials"].as_array().unwrap();
     let named = |name: &str| materials.iter().find(|own| own["name"] == name).unwrap();
     let (frost, glass) = (named("frost"), named("glass"));
@@ -138,6 +127,27 @@ fn films_blend_glass_transmits_and_what_gltf_cannot_say_is_refused() {
     let error = export(&scene).unwrap_err();
     let words = "material glass: opacity 0.5 beside glass";
     assert!(error.contains(words), "{error}");
+}
+
+#[test]
+fn an_unlit_scene_is_exported_with_colours_alone() {
+    let document = read_document(&export(&load_shipped("railing@unlit")).unwrap());
+    assert!(!document.to_string().contains("KHR_lights_punctual"));
+    for material in document["materials"].as_array().unwrap() {
+        let base = &material["pbrMetallicRoughness"]["baseColorFactor"];
+        for channel in 0..3 {
+            assert_eq!(base[channel].as_f64(), Some(0.0), "{material}");
+        }
+        let emitted = material["emissiveFactor"].as_array().unwrap();
+        let shines = emitted.iter().any(|part| part.as_f64() > Some(0.0));
+        assert!(shines, "{material}");
+    }
+}
+
+/// Reads the description of an exported scene.
+fn read_document(folder: &TempDir) -> Value {
+    let text = std::fs::read(folder.path().join("scene.gltf")).unwrap();
+    serde_json::from_slice(&text).unwrap()
 }
 
 /// Exports a scene to a folder, or returns why not.
