@@ -83,11 +83,7 @@ fn judge_bars(scene: &Scene, bounds: &SceneBounds, out: &Path) -> [Vec<JudgedSco
     let reference = Reference::new(&frame, &truth, None, &scene.display.into()).unwrap();
     // Bounds for all filters, required or not.
     let bounds = bounds.of("identity", "default");
-    let identity = Picture {
-        color: frame.color.clone(),
-        coverage: frame.coverage.clone(),
-    };
-    [identity, Picture::mean(&rung.rungs[0].halves)]
+    [frame.picture(), Picture::mean(&rung.rungs[0].halves)]
         .map(|picture| judge_scores(&reference.measure(&picture).unwrap().scores, None, &bounds))
 }
 

@@ -10,7 +10,7 @@ use tracer::{Key, Mesh, Motion, Scene, Shape};
 
 use crate::intersection::expect_no_leak;
 use crate::moving_shapes::{DISTANCE, HEIGHT, WIDTH, expect_coverage, pixel_corner};
-use crate::renders::{render_frame, settings};
+use crate::renders::{render_frame, settings_with};
 use crate::scenery::{key, through};
 
 /// Makes a mesh with key shapes: `place` moves each vertex.
@@ -31,8 +31,7 @@ pub fn deforming_mesh(mesh: Mesh, times: &[f64], place: impl Fn(Vec3, f64) -> Ve
 }
 
 fn render_velocities(scene: &Scene, velocity: VelocityKind) -> Vec<[f32; 2]> {
-    let mut settings = settings([WIDTH, HEIGHT], 1);
-    settings.options.velocity = velocity;
+    let settings = settings_with([WIDTH, HEIGHT], 1, velocity);
     render_frame(scene, &settings).velocity.pixels
 }
 

@@ -6,17 +6,10 @@ use tests::shapes::*;
 use tests::unwatched;
 use tracer::{Background, Key, RenderSettings, Scene, TraceError, Turn, trace_frame};
 
-use crate::renders::{render_frame, settings};
+use crate::renders::{render_frame, settings, settings_with};
 use crate::scenery::{key, through};
 
 const SIZE: [u32; 2] = [36, 24];
-
-/// Takes a kind of motion for the velocity buffer.
-fn with_velocity(velocity: VelocityKind) -> RenderSettings {
-    let mut settings = settings(SIZE, 4);
-    settings.options.velocity = velocity;
-    settings
-}
 
 /// Makes two glowing spheres under a grey sky; the far one drifts.
 fn spheres_scene() -> Scene {
@@ -52,7 +45,7 @@ fn the_camera_explains_all_motion_in_a_still_world() {
     let mut scene = move_camera(spheres_scene());
     scene.objects[1].motion.keys.truncate(1);
     let [whole, rebuilt] = [VelocityKind::PreviousFrame, VelocityKind::CameraOnly]
-        .map(|kind| render_frame(&scene, &with_velocity(kind)).velocity);
+        .map(|kind| render_frame(&scene, &settings_with(SIZE, 4, kind)).velocity);
     let moved = whole.pixels.iter().map(speed).fold(0.0, f32::max);
     assert!(moved > 1.0, "the camera moves the picture");
     for (whole, rebuilt) in whole.pixels.iter().zip(&rebuilt.pixels) {
@@ -67,7 +60,7 @@ fn moving_objects_stand_still_in_the_camera_s_velocity() {
     let scene = spheres_scene();
     let known = render_frame(&scene, &settings(SIZE, 4));
     assert!(known.velocity.pixels.iter().any(|v| v[0] > 0.5));
-    let rebuilt = render_frame(&scene, &with_velocity(VelocityKind::CameraOnly));
+    let rebuilt = render_frame(&scene, &settings_with(SIZE, 4, VelocityKind::CameraOnly));
     // Rounding of depth, unprojected and projected again.
     assert!(rebuilt.velocity.pixels.iter().all(|v| speed(v) < 1e-6));
 }
@@ -109,7 +102,7 @@ fn a_sky_without_velocity_is_still_and_the_rest_is_unchanged() {
 fn a_frame_inside_its_guard_band_equals_the_bare_frame() {
     let scene = move_camera(spheres_scene());
     for velocity in VelocityKind::ALL {
-        let settings = with_velocity(velocity);
+        let settings = settings_with(SIZE, 4, velocity);
         let bare = render_frame(&scene, &settings);
         let padded = RenderSettings {
             guard_band: 5,

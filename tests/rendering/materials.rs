@@ -2,10 +2,10 @@
 
 use glam::{DVec3, Vec3};
 use tests::shapes::*;
-use tracer::{Background, Finish, Material, Scene};
+use tracer::{Background, Finish, Material};
 
-use crate::renders::{expect_near, mean_color, render_small_truth};
-use crate::scenery::{floor_scene, heights};
+use crate::renders::{expect_near, mean_radiance};
+use crate::scenery::{floor_scene, fresnel, heights};
 
 const fn metal(roughness: f32) -> Finish {
     Finish::Conductor { roughness }
@@ -35,11 +35,7 @@ fn glossy(finish: Finish, color: f32) -> Material {
 fn lit_floor(finish: Finish, color: f32, sky: Background, samples_per_pixel: u32) -> f64 {
     let mut scene = floor_scene(glossy(finish, color));
     scene.background = sky;
-    mean(&scene, samples_per_pixel)
-}
-
-fn mean(scene: &Scene, samples_per_pixel: u32) -> f64 {
-    f64::from(mean_color(&render_small_truth(scene, samples_per_pixel)).x)
+    mean_radiance(&scene, samples_per_pixel)
 }
 
 fn white() -> Background {
@@ -55,7 +51,7 @@ fn white_gloss_under_a_white_sky_cannot_be_seen() {
         let turning = spin(DVec3::new(0.0, 0.0, -1.3), DVec3::Y, 2.0);
         add(&mut scene, icosphere(1.0, 1), glossy(finish, 1.0), turning);
         scene.camera.vertical_fov = vec![(0.0, 0.5)];
-        let found = mean(&scene, 256);
+        let found = mean_radiance(&scene, 256);
         // The error of the albedo's table, times the few bounces between facets.
         expect_near(&format!("{finish:?}"), found, 1.0, 3e-3);
     }
@@ -70,14 +66,9 @@ fn a_mirror_shows_the_sky_that_it_faces() {
 
 #[test]
 fn a_black_surface_below_a_smooth_coat_follows_fresnel_s_equations() {
-    let cosine = 0.2_f64.sqrt();
-    let inside = (1.0 - 0.8 / 2.25_f64).sqrt();
-    let across = (cosine - 1.5 * inside) / (cosine + 1.5 * inside);
-    let along = (1.5 * cosine - inside) / (1.5 * cosine + inside);
-    let expected = 0.5 * (across * across + along * along);
     let found = lit_floor(coat(0.0, 1.5), 0.0, white(), 256);
     // The spot is 1e-4 radians high, where the reflectance changes by 0.4 per radian.
-    expect_near("coat", found, expected, 1e-4);
+    expect_near("coat", found, fresnel(0.2_f64.sqrt(), 1.5), 1e-4);
 }
 
 #[test]
@@ -92,7 +83,7 @@ fn a_metal_seen_straight_on_has_its_own_colour() {
         wall,
     );
     scene.camera.vertical_fov = vec![(0.0, 0.01)];
-    let found = mean(&scene, 16);
+    let found = mean_radiance(&scene, 16);
     expect_near("metal", found, 0.3, 1e-6);
 }
 

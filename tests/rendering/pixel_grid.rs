@@ -9,15 +9,14 @@ use tracer::{
     trace_frame_part, trace_motion_on,
 };
 
-use crate::renders::{self, render_frame};
+use crate::renders::{render_frame, settings_with};
 use crate::scenery::{key, through};
 
 const WIDTH: u32 = 36;
 const HEIGHT: u32 = 24;
 
 fn settings(size: [u32; 2]) -> RenderSettings {
-    let mut settings = renders::settings(size, 4);
-    settings.options.velocity = VelocityKind::PreviousFrame;
+    let mut settings = settings_with(size, 4, VelocityKind::PreviousFrame);
     settings.options.color = ColorSampling::Point;
     settings
 }

@@ -1,7 +1,6 @@
 //! Renders of scenes, means of their colours, and their comparison with known numbers.
 
-use frame::{Alignment, Frame, Ladder, Truth};
-use glam::Vec3;
+use frame::{Alignment, Frame, Image, Ladder, Truth, VelocityKind};
 use tests::{scenes, unwatched};
 use tracer::{RenderSettings, Scene, load_scene, trace_frame, trace_ladder, trace_truth};
 
@@ -13,6 +12,17 @@ pub fn settings([width, height]: [u32; 2], samples_per_pixel: u32) -> RenderSett
         samples_per_pixel,
         ..RenderSettings::default()
     }
+}
+
+/// Takes a size, samples per pixel, and a kind of motion for the velocity buffer.
+pub fn settings_with(
+    size: [u32; 2],
+    samples_per_pixel: u32,
+    velocity: VelocityKind,
+) -> RenderSettings {
+    let mut settings = settings(size, samples_per_pixel);
+    settings.options.velocity = velocity;
+    settings
 }
 
 /// Takes a size and samples per pixel in 2 replicates.
@@ -49,16 +59,26 @@ pub fn render_small_truth(scene: &Scene, samples_per_pixel: u32) -> Truth {
     )
 }
 
+/// Returns the mean of the first component over such a truth.
+pub fn mean_radiance(scene: &Scene, samples_per_pixel: u32) -> f64 {
+    mean_of(&render_small_truth(scene, samples_per_pixel).mean().color)
+}
+
 /// Loads a shipped scene.
 pub fn load_shipped(name: &str) -> Scene {
     load_scene(scenes().join(name), None).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Returns the mean colour over the picture.
-pub fn mean_color(truth: &Truth) -> Vec3 {
-    let color = truth.mean().color;
-    let sum: Vec3 = color.pixels.iter().map(|pixel| Vec3::from(*pixel)).sum();
-    sum / color.pixels.len() as f32
+/// Returns the mean of the first component over a picture.
+pub fn mean_of(color: &Image) -> f64 {
+    let values = color.pixels.iter().map(|pixel| f64::from(pixel[0]));
+    values.sum::<f64>() / color.pixels.len() as f64
+}
+
+/// Returns the root of the mean squared difference of two pictures, in the first component.
+pub fn rms_difference(a: &Image, b: &Image) -> f64 {
+    let squares = (a.pixels.iter().zip(&b.pixels)).map(|(a, b)| f64::from(a[0] - b[0]).powi(2));
+    (squares.sum::<f64>() / a.pixels.len() as f64).sqrt()
 }
 
 /// Fails unless two numbers are as near as the tolerance.

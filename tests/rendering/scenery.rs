@@ -55,6 +55,15 @@ pub fn sun(direction: DVec3, irradiance: f32, angular_radius: f64) -> Option<Sun
     })
 }
 
+/// Returns the part of unpolarised light that one smooth side of an index reflects, by Fresnel's equations.
+pub fn fresnel(cosine: f64, index: f64) -> f64 {
+    // Snell's law.
+    let inside = (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
+    let across = (cosine - index * inside) / (cosine + index * inside);
+    let along = (index * cosine - inside) / (index * cosine + inside);
+    0.5 * (across * across + along * along)
+}
+
 /// Makes a floor at y = 0, of which the camera sees one small spot at a slope of 1 to 2. There the light of a lamp 1 m above varies
 /// by less than 2e-6 of itself.
 pub fn floor_scene(material: Material) -> Scene {

@@ -66,12 +66,8 @@ fn a_tile_of_a_replicate_holds_what_the_replicate_holds_there() {
                 assert_eq!(*found, part(whole, tile), "{tile:?}");
             }
         }
-        // So does an alignment alone, and replicates join to a truth.
-        let [trailing, centred] = [0, 1].map(|index| tracer(&both[index..=index]));
-        assert_eq!(trailing.trace(1, &unwatched).unwrap(), whole[..1]);
-        assert_eq!(centred.trace(1, &unwatched).unwrap(), whole[1..]);
-        assert_ne!(whole[0].picture, whole[1].picture);
-        let first = trailing.trace(0, &unwatched).unwrap().remove(0);
+        // The replicates of an alignment join to its truth, which is rendered alone.
+        let first = tracer(&both).trace(0, &unwatched).unwrap().remove(0);
         let truth = render_truth(&scene, &settings(), Alignment::Trailing);
         let joined = Truth::of(&[first, whole[0].clone()]).unwrap();
         assert_eq!(joined.mean(), truth.mean());

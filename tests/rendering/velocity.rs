@@ -5,7 +5,7 @@ use glam::{DQuat, DVec2, DVec3, Vec3};
 use tests::shapes::*;
 use tracer::{Interpolation, Key, Motion, Parent, Scene, Turn};
 
-use crate::renders::{self, expect_near, settings};
+use crate::renders::{self, expect_near, settings_with};
 use crate::scenery::{key, through, turned};
 
 const WIDTH: u32 = 33;
@@ -16,9 +16,7 @@ const FOCAL: f64 = 0.5 * HEIGHT as f64;
 const TOLERANCE: f64 = 1e-3;
 
 fn render_frame(scene: &Scene, velocity: VelocityKind) -> Frame {
-    let mut settings = settings([WIDTH, HEIGHT], 1);
-    settings.options.velocity = velocity;
-    renders::render_frame(scene, &settings)
+    renders::render_frame(scene, &settings_with([WIDTH, HEIGHT], 1, velocity))
 }
 
 /// Returns the centre of a pixel, in pixels from the picture's centre, +x right, +y **up**.

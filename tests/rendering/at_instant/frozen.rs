@@ -7,8 +7,8 @@ use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 use tracer::{Background, Finish, Key, Material};
 
-use super::{DISTANCE, EXPOSURE, HEIGHT, SPEED, WIDTH, mean_of, panel_over_wall, render};
-use crate::renders::{expect_near, render_frame, settings};
+use super::{DISTANCE, EXPOSURE, HEIGHT, SPEED, WIDTH, panel_over_wall, render};
+use crate::renders::{expect_near, mean_of, render_frame, settings};
 use crate::scenery::{facing_up, heights, sun, through};
 
 #[test]
@@ -109,8 +109,8 @@ fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
         .sum();
     assert!((live - frozen).abs() > 0.05, "they can be told apart");
     // 384 pixels of 256 stratified samples, a quarter of which is shaded again.
-    expect_near("live", mean_of(&truth.mean().color.pixels), live, 1e-4);
-    let found = mean_of(&truth.at_instant_mean().frozen.pixels);
+    expect_near("live", mean_of(&truth.mean().color), live, 1e-4);
+    let found = mean_of(&truth.at_instant_mean().frozen);
     expect_near("frozen", found, frozen, 1e-3);
 }
 
@@ -158,7 +158,7 @@ fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     let truth = render(&scene, Alignment::Trailing, 256);
     // The mean over the picture equals the centre except for second-order terms. A point seen there at time t stands at the instant
     // where a turn by -rate t has brought it.
-    let found = mean_of(&truth.at_instant_mean().frozen.pixels);
+    let found = mean_of(&truth.at_instant_mean().frozen);
     let steps = 10_000;
     let shaded = (0..steps).map(|step| {
         let turned = rate * EXPOSURE * (f64::from(step) + 0.5) / f64::from(steps);
@@ -168,6 +168,6 @@ fn a_turning_sphere_keeps_the_shading_of_the_instant() {
     let expected = 0.6 * shaded.sum::<f64>() / f64::from(steps);
     // The square of 0.02, and interpolated normals.
     expect_near("frozen", found, expected, 0.002);
-    let live = mean_of(&truth.mean().color.pixels);
+    let live = mean_of(&truth.mean().color);
     expect_near("live", live, 0.6 * light.z, 0.002);
 }

@@ -61,8 +61,3 @@ fn mean_over(left: f64, alignment: Alignment, value: impl Fn(f64, f64) -> f64) -
         (0..STEPS).flat_map(|x| (0..STEPS).map(move |t| (left + middle(x), shutter.at(middle(t)))));
     places.map(|(x, t)| value(x, t)).sum::<f64>() / f64::from(STEPS * STEPS)
 }
-
-/// Means of the first component over a raster of colours.
-fn mean_of(pixels: &[[f32; 3]]) -> f64 {
-    pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / pixels.len() as f64
-}

@@ -1,20 +1,18 @@
 //! The pass of depth of field on pictures of a pinhole, against the defocused instant that is traced.
 
-use frame::Raster;
+use frame::Image;
 use glam::DVec3;
 use tests::shapes::*;
 use tests::unwatched;
 use tracer::{Defocus, RenderSettings, Scene, TraceError, trace_defocus};
 
 use super::with_lens;
-use crate::renders::{render_frame, settings};
+use crate::renders::{expect_near, mean_of, render_frame, rms_difference, settings};
 
 const WIDTH: u32 = 48;
 const HEIGHT: u32 = 27;
 /// Distance at which a metre is a pixel, at a vertical field of view of 90 degrees.
 const DISTANCE: f64 = 0.5 * HEIGHT as f64;
-
-type Color = Raster<[f32; 3]>;
 
 fn own_settings() -> RenderSettings {
     settings([WIDTH, HEIGHT], 256)
@@ -25,16 +23,10 @@ fn trace_pass(scene: &Scene) -> Defocus {
 }
 
 /// Renders the frame of a scene, and what the pass makes of the frame of its pinhole; with the frame of the pinhole.
-fn render(scene: &Scene) -> [Color; 3] {
+fn render(scene: &Scene) -> [Image; 3] {
     let pinhole = render_frame(&scene.clone().pinhole(), &own_settings()).color;
     let pass = trace_pass(scene).apply_to_color(&pinhole);
     [render_frame(scene, &own_settings()).color, pass, pinhole]
-}
-
-/// Returns the root of the mean squared difference of two pictures.
-fn difference(a: &Color, b: &Color) -> f64 {
-    let squares = (a.pixels.iter().zip(&b.pixels)).map(|(a, b)| f64::from(a[0] - b[0]).powi(2));
-    (squares.sum::<f64>() / a.pixels.len() as f64).sqrt()
 }
 
 /// Makes an unlit wall with discs on it, at one distance.
@@ -53,15 +45,11 @@ fn spotted_wall() -> Scene {
 fn where_the_pinhole_shows_everything_the_pass_is_the_lens() {
     let scene = with_lens(spotted_wall(), 5.0, 0.5 * DISTANCE);
     let [lens, pass, pinhole] = render(&scene);
-    let [own, without] = [&pass, &pinhole].map(|picture| difference(picture, &lens));
+    let [own, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
     // 256 rays of a circle of 20 pixels, and the pixels' own width once more: measured 0.008, against 0.16.
     assert!(own < 0.02 && without > 5.0 * own, "{own} {without}");
     // What the pass keeps of light, but for what leaves the picture on one side and comes back on the other.
-    let mean = |picture: &Color| {
-        let sum: f64 = picture.pixels.iter().map(|pixel| f64::from(pixel[0])).sum();
-        sum / picture.pixels.len() as f64
-    };
-    assert!((mean(&pass) / mean(&lens) - 1.0).abs() < 0.02);
+    expect_near("light", mean_of(&pass) / mean_of(&lens), 1.0, 0.02);
     let cancelled = trace_defocus(&scene, &own_settings(), &|_| {
         std::ops::ControlFlow::Break(())
     });
@@ -73,9 +61,9 @@ fn where_the_pinhole_shows_everything_the_pass_is_the_lens() {
 #[test]
 fn what_is_in_focus_and_what_has_no_lens_stays_as_it_is() {
     let [lens, pass, pinhole] = render(&with_lens(spotted_wall(), 5.0, DISTANCE));
-    assert!(difference(&lens, &pinhole) < 1e-3);
+    assert!(rms_difference(&lens, &pinhole) < 1e-3);
     // The discs lie a millimetre in front of the focus: a ray in some thousands reads the next pixel.
-    assert!(difference(&pass, &pinhole) < 1e-3);
+    assert!(rms_difference(&pass, &pinhole) < 1e-3);
     let [_, pass, pinhole] = render(&spotted_wall());
     assert_eq!(pass, pinhole);
 }
@@ -91,7 +79,7 @@ fn ball_before_wall() -> Scene {
 #[test]
 fn what_the_pinhole_hides_behind_an_edge_is_traced() {
     let [lens, pass, pinhole] = render(&ball_before_wall());
-    let [own, without] = [&pass, &pinhole].map(|picture| difference(picture, &lens));
+    let [own, without] = [&pass, &pinhole].map(|picture| rms_difference(picture, &lens));
     // A pass that leaves out what the ball hides of the wall makes the ball's rim too dense: 0.7 of the pinhole's difference.
     assert!(own < 0.3 * without, "{own} {without}");
 }

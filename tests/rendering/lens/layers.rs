@@ -8,7 +8,9 @@ use tracer::{Background, Finish, LadderTracer, Material, RenderSettings, Scene};
 
 use super::with_lens;
 use crate::regions::expect_support;
-use crate::renders::{load_shipped, render_frame, render_ladder, render_truth, settings_of_two};
+use crate::renders::{
+    load_shipped, render_frame, render_ladder, render_truth, rms_difference, settings_of_two,
+};
 
 fn settings(samples_per_pixel: u32) -> RenderSettings {
     settings_of_two([32, 18], samples_per_pixel)
@@ -81,16 +83,10 @@ fn sub_frames_have_the_lens() {
     let settings = settings_of_two([48, 27], 256);
     let truth = render_truth(&scene, &settings, Alignment::Trailing);
     let ladder = render_ladder(&scene, &settings, &truth, &[64]);
-    let mean = truth.mean();
-    let apart = |halves: &[Picture; 2]| {
-        let found = Picture::mean(halves);
-        let pairs = found.color.pixels.iter().zip(&mean.color.pixels);
-        let squares = pairs.map(|(a, b)| f64::from(a[0] - b[0]).powi(2));
-        (squares.sum::<f64>() / found.color.pixels.len() as f64).sqrt()
-    };
-    let with = apart(&ladder.rungs[0].halves);
     let sharp = render_ladder(&scene.clone().pinhole(), &settings, &truth, &[64]);
-    let without = apart(&sharp.rungs[0].halves);
+    let mean = truth.mean().color;
+    let [with, without] = [&ladder, &sharp]
+        .map(|ladder| rms_difference(&Picture::mean(&ladder.rungs[0].halves).color, &mean));
     assert!(with < 0.02 && without > 2.0 * with, "{with} {without}");
     let own = LadderTracer::new(&scene, &settings, &truth, &[64]).unwrap();
     assert_eq!(own.trace(64, &unwatched).unwrap(), ladder);

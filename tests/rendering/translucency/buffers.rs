@@ -9,8 +9,7 @@ use super::{film, glass};
 use crate::renders;
 
 fn render_frame(scene: &Scene) -> Frame {
-    let mut settings = renders::settings([32, 18], 32);
-    settings.options.velocity = VelocityKind::PreviousFrame;
+    let settings = renders::settings_with([32, 18], 32, VelocityKind::PreviousFrame);
     renders::render_frame(scene, &settings)
 }
 

@@ -6,8 +6,8 @@ use glam::{DQuat, DVec3, Vec3};
 use tests::shapes::*;
 
 use super::{assert_near, glass, hang};
-use crate::renders::{mean_color, render_small_truth};
-use crate::scenery::{heights, turned};
+use crate::renders::{expect_near, mean_radiance, render_small_truth};
+use crate::scenery::{fresnel, heights, turned};
 
 #[test]
 fn glass_seen_straight_on_passes_and_reflects_by_fresnel_s_equations() {
@@ -46,14 +46,8 @@ fn a_slanted_pane_mirrors_what_lies_beside_it() {
         tilted,
     );
     scene.camera.vertical_fov = vec![(0.0, 0.002)];
-    // Snell: sin 45 / 1.5.
-    let cosine = 0.5_f64.sqrt();
-    let inside = (1.0 - 0.5 / 2.25_f64).sqrt();
-    let across = (cosine - 1.5 * inside) / (cosine + 1.5 * inside);
-    let along = (1.5 * cosine - inside) / (1.5 * cosine + inside);
-    let r = 0.5 * (across * across + along * along);
+    let r = fresnel(0.5_f64.sqrt(), 1.5);
     let expected = 2.0 * r / (1.0 + r);
     // The view is 0.002 radians high, and the horizon behind the pane shows with 0.001.
-    let found = f64::from(mean_color(&render_small_truth(&scene, 16)).x);
-    assert!((found - expected).abs() < 2e-3, "{found} {expected}");
+    expect_near("slanted", mean_radiance(&scene, 16), expected, 2e-3);
 }

@@ -5,7 +5,7 @@ use tests::shapes::*;
 use tracer::{Background, Material, Scene};
 
 use super::{assert_near, film, glass};
-use crate::renders::{mean_color, render_small_truth};
+use crate::renders::render_small_truth;
 use crate::scenery::{self, facing_up, heights, sun};
 
 /// Makes a floor of albedo 0.6, of which the camera sees a spot around the origin from below any pane.
@@ -19,7 +19,11 @@ fn floor_scene(panes: &[Material]) -> Scene {
 }
 
 fn mean(scene: &Scene, samples_per_pixel: u32) -> Vec3 {
-    mean_color(&render_small_truth(scene, samples_per_pixel))
+    let pixels = render_small_truth(scene, samples_per_pixel)
+        .mean()
+        .color
+        .pixels;
+    pixels.iter().map(|pixel| Vec3::from(*pixel)).sum::<Vec3>() / pixels.len() as f32
 }
 
 #[test]
