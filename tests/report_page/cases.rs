@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::browser::Browser;
 use crate::sandbox::split;
-use crate::{make_page, measure, open_case, press, settle};
+use crate::{Check, make_page, measure, open_case, open_page, press, run_checks, settle};
 
 /// Returns the picture in a pane, as a data address.
 fn canvas(browser: &mut Browser, place: &str) -> String {
@@ -24,9 +24,7 @@ fn pick(browser: &mut Browser, side: &str, picture: &str) {
 #[test]
 fn the_viewer_shows_what_keys_pointer_and_links_ask_for() {
     let sandbox = measure("identity,velocity_gather:fine,jump_flood:paper,bevy:high");
-    let page = make_page(&sandbox);
-    let mut browser = Browser::new(1280, 900);
-    for check in [
+    let checks: [Check; 9] = [
         any_filter_can_be_compared_with_any_other,
         a_link_opens_the_same_view,
         blink_goes_on_until_it_is_stopped,
@@ -36,11 +34,9 @@ fn the_viewer_shows_what_keys_pointer_and_links_ask_for() {
         rows_of_one_shutter_stay_together_when_headings_sort,
         score_and_picture_are_on_the_first_screen,
         printed_pages_show_both_pictures_whole,
-    ] {
-        browser.open(&page, "");
-        check(&mut browser, &page);
-    }
-    assert_eq!(browser.complaints(), [""; 0]);
+    ];
+    let page = make_page(&sandbox);
+    run_checks(&mut open_page(&page), &page, &checks);
 }
 
 fn any_filter_can_be_compared_with_any_other(browser: &mut Browser, page: &Path) {

@@ -31,6 +31,25 @@ fn make_page_within(sandbox: &Sandbox, largest: usize) -> PathBuf {
     html
 }
 
+/// Opens a page in a window of a usual size.
+fn open_page(page: &Path) -> Browser {
+    let mut browser = Browser::new(1280, 900);
+    browser.open(page, "");
+    browser
+}
+
+/// A look at a page that was just opened, in a window of a usual size or of the last check's.
+type Check = fn(&mut Browser, &Path);
+
+/// Opens a page for each check, and expects that it does not complain.
+fn run_checks(browser: &mut Browser, page: &Path, checks: &[Check]) {
+    for check in checks {
+        browser.open(page, "");
+        check(browser, page);
+    }
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
 /// Opens a case by its address, `plate/bevy:high`, and waits for its pictures.
 fn open_case(browser: &mut Browser, page: &Path, case: &str) {
     browser.open(page, &format!("#{case}"));
@@ -59,8 +78,7 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
     let sandbox = Sandbox::two_scenes();
     sandbox.measure("--filters identity,velocity_gather:fine");
     let page = make_page(&sandbox);
-    let mut browser = Browser::new(1280, 900);
-    browser.open(&page, "");
+    let mut browser = open_page(&page);
     for case in sandbox.read_run().cases {
         let reference = if case.is_reference { "@trailing" } else { "" };
         let address = format!("{}/{}{reference}", case.scene, case.name());
@@ -76,15 +94,12 @@ fn a_page_opens_without_complaint_and_asks_for_nothing_else() {
     }
     assert_eq!(browser.complaints(), [""; 0]);
     assert_eq!(browser.requests(), [address_of(&page)]);
-    for check in [
+    let checks: [Check; 2] = [
         every_key_that_the_page_lists_works,
         an_address_that_names_another_section_is_left_alone,
-    ] {
-        browser.open(&page, "");
-        check(&mut browser, &page);
-    }
+    ];
+    run_checks(&mut browser, &page, &checks);
     // The test would hear an error: it causes one itself.
-    assert_eq!(browser.complaints(), [""; 0]);
     browser.value("console.error('heard')");
     assert_eq!(browser.complaints().len(), 1);
     browser
@@ -135,9 +150,7 @@ fn a_broken_bound_is_seen_with_its_place_and_its_pictures() {
     sandbox.write_bound(0.2);
     let output = sandbox.check(&["--filters", "identity"]);
     assert_eq!(output.status.code(), Some(1));
-    let page = make_page(&sandbox);
-    let mut browser = Browser::new(1280, 900);
-    browser.open(&page, "");
+    let mut browser = open_page(&make_page(&sandbox));
     let outcome = browser.text("document.querySelector('.outcome').innerText");
     let due = "FAIL 1 required bound: 1 broken";
     assert!(outcome.starts_with(due), "{outcome}");

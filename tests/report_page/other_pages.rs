@@ -3,6 +3,7 @@
 use std::fs;
 
 use crate::browser::{Browser, address_of};
+use crate::open_page;
 use crate::sandbox::Sandbox;
 
 const GATHER: &str = "--filters velocity_gather:fine";
@@ -15,8 +16,7 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
     sandbox.measure(&format!("{GATHER} --set velocity_gather.samples=2"));
     sandbox.done("compare before out --html page.html");
     let page = sandbox.path("page.html");
-    let mut browser = Browser::new(1280, 900);
-    browser.open(&page, "");
+    let mut browser = open_page(&page);
     let heading = browser.read("main h2");
     assert_eq!(heading, "What changed most");
     let [_, top, _, height] = browser.place(".pair");

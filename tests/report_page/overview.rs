@@ -5,7 +5,7 @@ use std::path::Path;
 use tests::text::assert_contains;
 
 use crate::browser::Browser;
-use crate::{make_page, measure};
+use crate::{Check, make_page, measure, open_page, run_checks};
 
 /// Returns the names in the visible rows.
 fn rows(browser: &mut Browser) -> String {
@@ -24,10 +24,7 @@ fn the_search_filters_rows_and_references_show_on_request() {
     sandbox.write_bound(errors.sum::<f64>() / 2.0);
     let output = sandbox.check(&FILTERS);
     assert_eq!(output.status.code(), Some(1), "one is beyond the mean");
-    let page = make_page(&sandbox);
-    let mut browser = Browser::new(1280, 900);
-    let browser = &mut browser;
-    browser.open(&page, "");
+    let browser = &mut open_page(&make_page(&sandbox));
     assert_eq!(rows(browser), "velocity_gather:fine,identity:default");
     let mut show = |change: &str| {
         browser.value(&format!(
@@ -60,19 +57,15 @@ fn the_search_filters_rows_and_references_show_on_request() {
 #[test]
 fn the_overview_leads_to_tables_filters_and_cases() {
     let sandbox = measure("identity,velocity_gather:fine");
-    let page = make_page(&sandbox);
-    let mut browser = Browser::new(1280, 900);
-    for check in [
+    let checks: [Check; 5] = [
         a_link_opens_the_same_table,
         a_cell_shows_its_worst_place_and_a_name_leads_to_the_filter,
         only_the_table_that_is_seen_is_parsed_until_somebody_prints,
         tables_have_captions_and_pictures_have_words,
         everything_fits_a_narrow_screen,
-    ] {
-        browser.open(&page, "");
-        check(&mut browser, &page);
-    }
-    assert_eq!(browser.complaints(), [""; 0]);
+    ];
+    let page = make_page(&sandbox);
+    run_checks(&mut open_page(&page), &page, &checks);
 }
 
 fn a_link_opens_the_same_table(browser: &mut Browser, page: &Path) {

@@ -3,9 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use tests::text::assert_contains;
-
-use super::{assert_as_documented, blur_busy, with_passes};
+use super::{assert_as_documented, with_passes};
 
 const PASSES: &str = include_str!("../../fixtures/shaders/passes.toml");
 
@@ -44,27 +42,4 @@ fn spir_v_of_slang_blurs_as_wgsl_does() {
         passes = passes.replacen("centre_blur.slang", &format!("slang_{name}.spv"), 1);
     }
     assert_as_documented(&with_passes(&passes).load().unwrap(), ROUNDING);
-}
-
-#[test]
-fn specialisation_constants_have_the_values_of_filter_toml() {
-    let declare = |constants: &str| {
-        let pass = format!("shader = \"gather.comp\"\nconstants = {{ {constants} }}");
-        let constant = "layout(constant_id = 4) const int TAPS = 3;\nvoid main() {";
-        with_passes(&PASSES.replace("shader = \"gather.comp\"", &pass))
-            .changed("gather.comp", "void main() {", constant)
-            .changed(
-                "gather.comp",
-                "int(settings.shutter_side_samples.z)",
-                "TAPS",
-            )
-    };
-    let pictures =
-        ["", "TAPS = 3", "TAPS = 8", "4 = 8"].map(|constants| blur_busy(&declare(constants)));
-    assert!(pictures[0] == pictures[1], "the shader's own value is 3");
-    assert!(pictures[1] != pictures[2], "filter.toml sets another");
-    assert!(pictures[2] == pictures[3], "4 is the number of TAPS");
-    let refusal = declare("SAMPLES = 8").load().unwrap_err().to_string();
-    let parts = ["no specialisation constant \"SAMPLES\"", "it has: TAPS"];
-    assert_contains(&refusal, &parts);
 }

@@ -47,6 +47,7 @@ fn a_wrong_folder_is_refused_with_place_and_reason() {
         ("filter.toml", "over = \"tile_motion\"", "repeat = 0", &["fastest", "1 or more"]),
         ("filter.toml", "over = \"tile_motion\"", "repeat = 1.5", &["repeat is a count"]),
         ("filter.toml", "entry = \"gather\"", "entry = \"blur\"", &["blur", "no such @compute entry point", "fastest, gather"]),
+        ("centre_blur.wgsl", "@compute @workgroup_size(8, 8)\nfn gather(@builtin(global_invocation_id) id: vec3<u32>)", "@fragment\nfn gather(@builtin(position) id: vec4<f32>)", &["gather", "has no such @compute entry point; it has: fastest"]),
         ("filter.toml", "[[pass]]\nentry = \"fastest\"\nover = \"tile_motion\"\n", "", &["gather", "reads \"tile_motion\" before"]),
         ("filter.toml", "[[pass]]\nentry = \"gather\"\n", "", &["no pass writes \"output\""]),
         ("filter.toml", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [2, 64]", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [0, 64]", &["tile_motion", "begins at 1"]),

@@ -61,19 +61,3 @@ fn a_texture_is_read_in_its_own_format() {
         files.assert_refused("numbers.wgsl", &[(from, to, parts)]);
     }
 }
-
-#[test]
-fn only_compute_kernels_are_passes() {
-    let files = FilterFiles::fixture("filters/shift");
-    let kernels = files
-        .text("shift.wgsl")
-        .replace("id.xy", "vec2<i32>(id.xy)");
-    files.with("shift.wgsl", kernels).assert_refused(
-        "shift.wgsl",
-        &[(
-            "@compute @workgroup_size(4, 4)\nfn show(@builtin(global_invocation_id) id: vec3<u32>)",
-            "@fragment\nfn show(@builtin(position) id: vec4<f32>)",
-            &["has no such @compute entry point; it has: hold, shift"],
-        )],
-    );
-}
