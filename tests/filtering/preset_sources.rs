@@ -90,7 +90,7 @@ fn only_parameters_in_pixels_can_be_scaled() {
 }
 
 #[test]
-fn lengths_scale_with_the_width_and_are_rounded_within_their_range() {
+fn lengths_scale_with_the_width_within_their_range_unless_asked_for_as_written() {
     let filter = load_unchanged();
     let engine = filter.settings(Some("engine")).unwrap();
     assert_eq!(scale(&filter, &engine, 1920), values(20, 1.5, 9));
@@ -103,6 +103,9 @@ fn lengths_scale_with_the_width_and_are_rounded_within_their_range() {
     assert_eq!(scale(&filter, &engine, 38_400), values(256, 4.0, 9));
     let anywhere = filter.settings(Some("anywhere")).unwrap();
     assert_eq!(scale(&filter, &anywhere, 160), values(20, 1.5, 8));
+    let written = engine.as_written();
+    assert_eq!(written.reference_width, None);
+    assert_eq!(scale(&filter, &written, 160), values(20, 1.5, 9));
 }
 
 #[test]
@@ -116,14 +119,6 @@ fn a_user_s_value_is_not_scaled_and_no_value_is_scaled_twice() {
     let value = Value::Real(1.5);
     settings.set_value(&filter, "threshold", value).unwrap();
     assert_eq!(scale(&filter, &settings, 960), values(20, 1.5, 9));
-}
-
-#[test]
-fn nothing_is_scaled_as_written() {
-    let filter = load_unchanged();
-    let settings = filter.settings(Some("engine")).unwrap().as_written();
-    assert_eq!(settings.reference_width, None);
-    assert_eq!(scale(&filter, &settings, 160), values(20, 1.5, 9));
 }
 
 #[test]

@@ -208,43 +208,6 @@ fn pits_are_lit_to_their_bottom_from_1_mm_to_10_km() {
 }
 
 #[test]
-fn the_nearest_of_three_overlapping_objects_wins_in_every_order() {
-    let boxes = [(1.0, 3.0), (2.0, 4.0), (3.0, 5.0)];
-    for order in [
-        [0, 1, 2],
-        [0, 2, 1],
-        [1, 0, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [2, 1, 0],
-    ] {
-        let mut scene = empty_scene("overlap");
-        for (depth, size) in order.map(|index: usize| boxes[index]) {
-            // Boxes that contain one another's fronts.
-            let at = placed(DVec3::new(0.0, 0.0, -depth - 0.5 * size));
-            add(
-                &mut scene,
-                cuboid(Vec3::splat(size as f32)),
-                glowing(1.0),
-                at,
-            );
-        }
-        let stage = Stage::new(&scene, 0.0, 0.0);
-        let mut numbers = Numbers(4 << 32);
-        for _ in 0..100 {
-            let ray = Ray {
-                origin: DVec3::ZERO,
-                direction: DVec3::new(0.3 * numbers.next(), 0.3 * numbers.next(), -1.0),
-            };
-            let hit = stage.closest(&mut stage.poses(), &ray);
-            let hit = hit.expect("the boxes fill the view");
-            assert_eq!(order[hit.object], 0);
-            assert!((hit.t - 1.0).abs() < 1e-12);
-        }
-    }
-}
-
-#[test]
 fn the_first_of_equally_near_surfaces_is_seen() {
     let coincident = |mirror: [f64; 2]| {
         let mut scene = empty_scene("ties");

@@ -63,20 +63,6 @@ fn wicked_counts_motion_fully_above_a_tenth_of_the_fastest_and_not_below() {
 }
 
 #[test]
-fn wicked_scaled_smears_as_far_as_the_exposure_at_any_width() {
-    for width in [160, 320] {
-        let picture = moving_edge(width, 64, [24.0, 0.0]);
-        let output = picture.blur("jimenez", "wicked_scaled", "");
-        let middle = width / 2;
-        // 12 pixels to each side, which the largest noise of 64 rows almost reaches.
-        assert_eq!(column(&output, middle - 13), 0.0);
-        assert!(column(&output, middle - 11) > 0.0);
-        assert!(column(&output, middle + 10) < 1.0);
-        assert_eq!(column(&output, middle + 12), 1.0);
-    }
-}
-
-#[test]
 fn wicked_pushes_trails_inwards_where_they_begin() {
     // Everything moves far enough for taps 2 pixels apart, which spread a white column at the border.
     let seen = |speed: f32, border: &str| {

@@ -1,28 +1,25 @@
 //! Folders that load: the documented example, and the built-in ones.
 
-use filters::{Blur, Filter, Value};
+use filters::{Filter, Value};
 use tests::filter_folder::shipped_filter;
 use tests::near::assert_near;
 use tests::picture::{Picture, white};
-use tests::shared_gpu;
 
 use super::documented;
+use crate::filter_files::ready;
 
 #[test]
 fn the_documented_example_loads_from_a_folder_and_blurs() {
     let filter = documented().load().unwrap();
     assert_eq!(filter.alignment, frame::Alignment::Centred);
-    let settings = filter.settings(None).unwrap();
-    assert_eq!(settings.preset, "fast");
+    assert_eq!(filter.settings(None).unwrap().preset, "fast");
     // A bar that moves right, at the middle of a wide image.
     let bar = |x: u32| (40..50).contains(&x);
     let mut picture = Picture::new(90, 5, |x, _| white(20.0).gray(bar(x).into()));
     picture.exposure = 0.5;
-    let mut blur = Blur::new(shared_gpu(), &filter, &settings, 90, 5).unwrap();
-    let output = blur
-        .run(&picture.input(&[&picture.color]))
-        .unwrap()
-        .remove(0);
+    let mut blur = ready(&filter, (90, 5)).unwrap();
+    let outputs = blur.run(&picture.input(&[&picture.color])).unwrap();
+    let output = &outputs[0];
     let row: Vec<f32> = (0..90).map(|x| output.at(x, 2)[0]).collect();
     // Ten pixels of motion on ten pixels of bar give a triangle from 35 to 55. Taps of one weight move light, and add none.
     let energy: f32 = row.iter().sum();
