@@ -67,16 +67,12 @@ mod tests {
 
     #[test]
     fn a_quarter_too_much_costs_a_quarter_of_the_weight() {
-        // Halves and quarters have no rounding.
         assert_eq!(penalty(Some(5.0), Some(4.0)), 0.25 * PENALTY);
         assert_eq!(bounds_penalty(0.25), 0.25 * PENALTY);
         // Never more than the whole weight; nothing at the limit.
         assert_eq!(penalty(Some(9.0), Some(4.0)), PENALTY);
         assert_eq!(penalty(Some(4.0), Some(4.0)), 0.0);
-        // A limit of 0 counts as the smallest one.
-        assert_eq!(
-            penalty(Some(0.5 * SMALLEST_LIMIT), Some(0.0)),
-            0.5 * PENALTY
-        );
+        // A limit of 0 counts as one of 0.05.
+        assert_eq!(penalty(Some(0.025), Some(0.0)), 0.5 * PENALTY);
     }
 }

@@ -92,17 +92,11 @@ fn each_pixel_belongs_to_one_block_of_any_size() {
         _ => BLACK_WALL,
     });
     for side in [1, 2, 4, 8, 16, 32, 64] {
-        let blocks = picture.texture(
-            "kino",
-            &format!("storage=exact block_size={side}"),
-            "block_max",
-        );
-        let moving = (0..64 / side).flat_map(|y| (0..128 / side).map(move |x| (x, y)));
-        let moving = moving.filter(|(x, y)| blocks.at(*x, *y)[0] > 0.0);
-        assert!(
-            moving.eq([(42 / side, 21 / side)]),
-            "blocks of {side} pixels"
-        );
+        let changes = format!("storage=exact block_size={side}");
+        let blocks = picture.texture("kino", &changes, "block_max");
+        let places = (0..64 / side).flat_map(|y| (0..128 / side).map(move |x| (x, y)));
+        let moving = places.filter(|(x, y)| blocks.at(*x, *y)[0] > 0.0);
+        assert!(moving.eq([(42 / side, 21 / side)]), "side {side}");
     }
 }
 
