@@ -51,7 +51,7 @@ impl Planes {
         let references = self.choose_references();
         let texts: Vec<String> = (self.planes.par_iter().zip(references))
             .map(|(bits, reference)| {
-                let whole = compress(bits, std::iter::once(&0).chain(bits));
+                let whole = compress(bits, &[&[0], &bits[..]].concat());
                 let other = reference.map(|number| (number, compress(bits, &self.planes[number])));
                 match other {
                     Some((number, other)) if other.len() < whole.len() => {
@@ -88,11 +88,11 @@ impl Planes {
 }
 
 /// Compresses the difference of every number to another one: first all lower bytes, then all higher ones.
-fn compress<'a>(bits: &[u16], others: impl IntoIterator<Item = &'a u16>) -> Vec<u8> {
+fn compress(bits: &[u16], others: &[u16]) -> Vec<u8> {
     let mut bytes = vec![0; 2 * bits.len()];
     let (low, high) = bytes.split_at_mut(bits.len());
-    for (index, other) in others.into_iter().take(bits.len()).enumerate() {
-        [low[index], high[index]] = bits[index].wrapping_sub(*other).to_le_bytes();
+    for index in 0..bits.len() {
+        [low[index], high[index]] = bits[index].wrapping_sub(others[index]).to_le_bytes();
     }
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
     encoder.write_all(&bytes).expect("memory takes every byte");
