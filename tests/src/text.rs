@@ -8,6 +8,11 @@ pub fn assert_contains(text: &str, parts: &[&str]) {
     }
 }
 
+/// Joins the words of a text by single spaces: lines break at the width of the terminal.
+pub fn squeeze(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// Reads the rows of a table, `what => part | part`, as pairs.
 pub fn read_rows(table: &str) -> Vec<(&str, Vec<&str>)> {
     let rows = table.lines().filter(|line| !line.trim().is_empty());

@@ -162,13 +162,6 @@ fn check_refuses_bad_input_before_it_renders() {
 }
 
 #[test]
-fn a_missing_adapter_gives_exit_code_3() {
-    let sandbox = make_bounded(0.9, "required");
-    let output = sandbox.without_adapter(&split("check --out other --filters identity"));
-    assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
-}
-
-#[test]
 fn an_error_map_that_no_file_holds_is_measured_again() {
     let sandbox = make_bounded(0.9, "required");
     sandbox.write("bounds.toml", &bound("mae_moving", 0.001, "required"));
