@@ -15,7 +15,7 @@ pub fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     })
 }
 
-pub fn flip(case: &Case) -> f64 {
+fn flip(case: &Case) -> f64 {
     case.scores.moving.flip.value().unwrap()
 }
 

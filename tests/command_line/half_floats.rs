@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use metrics::Measured;
 use suite::Case;
-use tests::text::{assert_contains, squeeze};
+use tests::text::{assert_contains, code_block, squeeze};
 
 use crate::sandbox::Sandbox;
 
@@ -45,10 +45,7 @@ fn copy_filter(sandbox: &Sandbox, name: &str) {
 
 /// Writes the guide's example of Godot's kind, which stores its output in 16 bits.
 fn write_godot_s(folder: &Path) {
-    let block = |start: &str| {
-        let after = GUIDE.split_once(start).unwrap().1;
-        after.split_once("```").unwrap().0
-    };
+    let block = |start: &str| code_block(GUIDE, start);
     fs::create_dir_all(folder).unwrap();
     let manifest = block("`godot_blur/filter.toml` says what its bindings are:\n\n```toml\n");
     fs::write(folder.join("filter.toml"), manifest).unwrap();
@@ -145,7 +142,7 @@ fn shaders_of_other_constants_keep_their_scores_in_16_bits() {
 
 #[test]
 fn weights_that_depend_on_colour_give_no_scores_of_weights_and_say_why() {
-    let note = "n/a: grow, loss, bleed, TV of bright:default on plate: \
+    let note = "n/a: grow, loss, bleed, TV of bright:default, bright_full:default on plate: \
         the filter's weights depend on colour";
     assert_contains(&squeeze(&measured().0), &[note]);
     assert_eq!(find_case("identity").nonlinearity, Some(0.0));

@@ -3,7 +3,7 @@
 use frame::read_exr;
 use suite::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderScale, Sequence};
 
-use crate::comparison::{find_case, flip};
+use crate::comparison::find_case;
 use crate::sandbox::{SCENE, Sandbox};
 
 /// Measures how far to the right the middle of the plate lies in the output of one frame of a sequence, in pixels.
@@ -40,6 +40,10 @@ fn the_jitter_of_a_sequence_goes_on_from_frame_to_frame() {
     }
 }
 
+fn flip(cases: &[Case], name: &str) -> f64 {
+    find_case(cases, name).scores.moving.flip.value().unwrap()
+}
+
 #[test]
 fn buffers_samples_jitter_and_scale_change_what_filters_get() {
     let sandbox = Sandbox::new();
@@ -53,11 +57,9 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
     assert_eq!(cases.len(), 2 * 16);
     assert_buffers_count(&cases, &printed);
     assert_sizes_fit(&sandbox, &cases);
-    let own = |change: &str| flip(find_case(&cases, &format!("identity:default {change}")));
-    let gathered =
-        |change: &str| flip(find_case(&cases, &format!("velocity_gather:fine {change}")));
-    let [identity, whole] =
-        ["identity:default", "velocity_gather:fine"].map(|it| flip(find_case(&cases, it)));
+    let own = |change: &str| flip(&cases, &format!("identity:default {change}"));
+    let gathered = |change: &str| flip(&cases, &format!("velocity_gather:fine {change}"));
+    let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(&cases, it));
 
     // Colour is the same whichever sample velocity is of; four samples are coarser than the whole pixel.
     assert_eq!(own("msaa=first"), own("msaa=nearest"));
@@ -90,25 +92,20 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
 
 /// Smaller buffers change the filters that read them alone.
 fn assert_buffers_count(cases: &[Case], printed: &str) {
-    let [identity, whole] =
-        ["identity:default", "velocity_gather:fine"].map(|it| flip(find_case(cases, it)));
+    let [identity, whole] = ["identity:default", "velocity_gather:fine"].map(|it| flip(cases, it));
     for size in BufferSize::ALL.iter().skip(1) {
         let change = format!("buffers={}", size.name());
-        let same = flip(find_case(cases, &format!("identity:default {change}")));
+        let same = flip(cases, &format!("identity:default {change}"));
         assert_eq!(same, identity);
-        let changed = flip(find_case(cases, &format!("velocity_gather:fine {change}")));
+        let changed = flip(cases, &format!("velocity_gather:fine {change}"));
         assert!((changed - whole).abs() > 1e-4, "{change} {changed} {whole}");
         assert!(printed.contains(&change));
     }
     let case = find_case(cases, "velocity_gather:fine buffers=quarter");
     assert_eq!(case.input.buffers, BufferSize::Quarter);
     // The plate's background stands still: blocks without the plate's own motion blur less than those that spread it.
-    let [quarter, dilated] = ["quarter", "quarter_dilated"].map(|size| {
-        flip(find_case(
-            cases,
-            &format!("velocity_gather:fine buffers={size}"),
-        ))
-    });
+    let [quarter, dilated] = ["quarter", "quarter_dilated"]
+        .map(|size| flip(cases, &format!("velocity_gather:fine buffers={size}")));
     assert_ne!(quarter, dilated);
 }
 
@@ -152,6 +149,6 @@ fn depth_of_field_runs_before_a_filter_or_after_it() {
     let apart = (before.iter().zip(&after)).map(|(a, b)| (a - b).abs());
     assert!(apart.fold(0.0, f32::max) < 0.25);
     let [a, b] = ["", " depth_of_field=after"]
-        .map(|form| flip(find_case(&cases, &format!("velocity_gather:fine{form}"))));
+        .map(|form| flip(&cases, &format!("velocity_gather:fine{form}")));
     assert!((a - b).abs() > 1e-4, "{a} {b}");
 }

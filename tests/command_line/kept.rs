@@ -79,19 +79,14 @@ fn parts_of_several_processes_equal_the_bytes_of_one() {
 #[test]
 fn a_killed_render_resumes_to_the_same_bytes() {
     let sandbox = Sandbox::new();
-    let words = |out| {
-        [
-            &split("truths render --quiet --samples-per-pixel 1024 --threads 1 --out")[..],
-            &[out],
-        ]
-        .concat()
-    };
-    sandbox.execute(&words("whole"));
+    let render = "truths render --quiet --samples-per-pixel 1024 --threads 1 --out";
+    sandbox.done(&format!("{render} whole"));
+    let killed = format!("{render} killed");
     let truth = sandbox.path("killed/plate/truth_trailing");
     let replicate = |index: u32| truth.join(format!("replicate_{index:03}.exr"));
     // Each process is killed as soon as it has kept one more replicate.
     for index in [0, 2] {
-        let mut child = spawn(&sandbox, &words("killed"));
+        let mut child = spawn(&sandbox, &split(&killed));
         wait_until(&mut child, || replicate(index).exists());
         child.kill().unwrap();
         child.wait().unwrap();
@@ -99,7 +94,7 @@ fn a_killed_render_resumes_to_the_same_bytes() {
     }
     let written = || fs::metadata(replicate(1)).unwrap().modified().unwrap();
     let kept = written();
-    sandbox.execute(&words("killed"));
+    sandbox.done(&killed);
     assert_eq!(written(), kept, "a whole replicate was rendered again");
     let [whole, mut killed] = ["whole", "killed"].map(|out| read_below(&sandbox.path(out)));
     // What a killed process was writing.

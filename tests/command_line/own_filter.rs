@@ -1,5 +1,7 @@
 //! The filter that the guide writes, and the error messages that the guide quotes.
 
+use tests::text::code_block;
+
 use crate::sandbox::{Sandbox, stderr};
 
 const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
@@ -12,8 +14,7 @@ fn section() -> &'static str {
 
 /// Returns the section's first code block in this language.
 fn block(language: &str) -> &'static str {
-    let start = section().split_once(&format!("```{language}\n")).unwrap().1;
-    start.split_once("```").unwrap().0
+    code_block(section(), &format!("```{language}\n"))
 }
 
 /// Writes the guide's filter, with one of its mistakes if asked.

@@ -10,6 +10,7 @@ use serde::de::DeserializeOwned;
 use tests::filter_folder;
 pub use tests::plate::{MTL, OBJ};
 use tests::text::{assert_contains, read_rows};
+use walkdir::WalkDir;
 
 /// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so that 0.4 m is about 2.7 px of 32 px
 /// rows.
@@ -311,14 +312,9 @@ pub fn assert_same_files(one: &Files, other: &Files) {
 }
 
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    let below = |path: PathBuf| match path.is_dir() {
-        true => files_below(&path),
-        false => vec![path],
-    };
-    let mut files: Vec<PathBuf> = entries.flat_map(below).collect();
+    let entries = WalkDir::new(folder).into_iter();
+    let paths = entries.map(|entry| entry.unwrap().into_path());
+    let mut files: Vec<PathBuf> = paths.filter(|path| !path.is_dir()).collect();
     files.sort();
     files
 }

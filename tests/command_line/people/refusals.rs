@@ -45,7 +45,7 @@ pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
         /answers [] => 0 answers; allowed: 1 to 8
         /answers/0/milliseconds -1.0 => answer 1 of 8 took -1 milliseconds
         /study/shutters/0/filters ["identity:default"] => its page has this many filters
-        /study/shutters/0/blurred_scenes [7] => differs from the sharp frame"#,
+        /study/shutters/0/telling_scenes [7] => differs from the sharp frame"#,
     ) {
         let mut file = serde_json::to_value(session(3)).unwrap();
         let (pointer, value) = change.split_once(' ').unwrap();
