@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use frame::{read_exr, write_exr};
 use tests::text::assert_contains;
 
+use crate::kept_cases::damage;
 use crate::sandbox::{
     Files, Sandbox, assert_refused, assert_same_files, files_below, read_below, split, stderr,
     wait_until,
@@ -102,19 +103,6 @@ fn a_killed_render_resumes_to_the_same_bytes() {
     assert_same_files(&whole, &killed);
 }
 
-/// Flips one bit of a file's pixels, far behind its header.
-fn flip_a_bit(path: &Path) {
-    let mut bytes = fs::read(path).unwrap();
-    let middle = bytes.len() * 3 / 4;
-    bytes[middle] ^= 1;
-    fs::write(path, bytes).unwrap();
-}
-
-fn cut_in_half(path: &Path) {
-    let bytes = fs::read(path).unwrap();
-    fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
-}
-
 fn replace_by_another(path: &Path) {
     fs::copy(path.with_file_name("replicate_000.exr"), path).unwrap();
 }
@@ -136,8 +124,8 @@ fn damaged_replicates_are_rendered_again_and_never_merged() {
         "make it anew with `shuttertruth truths render`",
     ];
     let rows: [(Damage, &[&str]); 4] = [
-        (flip_a_bit, &[]),
-        (cut_in_half, &[]),
+        (|path| damage(path, "altered"), &[]),
+        (|path| damage(path, "cut"), &[]),
         (replace_by_another, &[]),
         (remove_support, &old),
     ];

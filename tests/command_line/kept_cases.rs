@@ -223,7 +223,7 @@ fn another_common_shutter_measures_the_compared_cases_again() {
 }
 
 /// Removes a file, cuts it in half, or changes one bit of a pixel.
-fn damage(path: &Path, kind: &str) {
+pub fn damage(path: &Path, kind: &str) {
     let mut bytes = fs::read(path).unwrap();
     let middle = bytes.len() / 2;
     match kind {

@@ -1,5 +1,6 @@
 //! `serve` and `evaluate`: searches that other programs drive.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -139,16 +140,12 @@ fn read_journal(sandbox: &Sandbox) -> Vec<Value> {
     lines.collect()
 }
 
-/// Lists the workers that began a trial, each once.
-fn list_workers(journal: &[Value]) -> Vec<&str> {
+/// Finds the workers that began a trial.
+fn find_workers(journal: &[Value]) -> BTreeSet<&str> {
     // Optuna's number of the operation.
     let began = journal.iter().filter(|entry| entry["op_code"] == 4);
-    let mut workers: Vec<&str> = began
-        .map(|entry| entry["worker_id"].as_str().unwrap())
-        .collect();
-    workers.sort_unstable();
-    workers.dedup();
-    workers
+    let workers = began.map(|entry| entry["worker_id"].as_str().unwrap());
+    workers.collect()
 }
 
 /// Counts the trials that ended.
@@ -171,7 +168,7 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
     let [mut killed, other] = [(); 2].map(|()| start());
     wait_until(&mut killed, || {
         let journal = read_journal(&sandbox);
-        list_workers(&journal).len() == 2 && count_ended(&journal) >= 2
+        find_workers(&journal).len() == 2 && count_ended(&journal) >= 2
     });
     killed.kill().unwrap();
     killed.wait().unwrap();
@@ -183,7 +180,7 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
     let best: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert!(!best.as_array().unwrap().is_empty());
     let journal = read_journal(&sandbox);
-    assert_eq!(list_workers(&journal).len(), 2);
+    assert_eq!(find_workers(&journal).len(), 2);
     // Both may have been at their last trial.
     let ended = count_ended(&journal);
     assert!((12..=13).contains(&ended), "{ended}");

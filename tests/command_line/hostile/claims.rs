@@ -114,13 +114,13 @@ impl Claim {
 }
 
 /// Makes a PNG with this header and so many zeros in its rows, which are a few kilobytes in any number.
-pub fn png(width: u32, height: u32, depth: BitDepth, color: ColorType, zeros: usize) -> Vec<u8> {
+pub fn png(width: u32, height: u32, [depth, kind]: [u8; 2], zeros: usize) -> Vec<u8> {
     let mut rows = ZlibEncoder::new(Vec::new(), Compression::best());
     rows.write_all(&vec![0; zeros]).unwrap();
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width, height);
-    encoder.set_depth(depth);
-    encoder.set_color(color);
+    encoder.set_depth(BitDepth::from_u8(depth).unwrap());
+    encoder.set_color(ColorType::from_u8(kind).unwrap());
     let mut writer = encoder.write_header().unwrap();
     writer
         .write_chunk(chunk::IDAT, &rows.finish().unwrap())

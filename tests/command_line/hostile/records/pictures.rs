@@ -2,12 +2,10 @@
 
 use std::fs;
 
-use frame::{ExrFile, Samples, read_exr, write_exr};
-use png::{BitDepth, ColorType};
-
 use crate::hostile::claims::{Claim, claims, png};
 use crate::rows::rows;
 use crate::sandbox::{Sandbox, split};
+use frame::{ExrFile, Samples, read_exr, write_exr};
 
 const TRUTH: &str = "out/plate/truth_trailing.exr";
 const FRAME: &str = "out/plate/frame.exr";
@@ -34,10 +32,7 @@ fn headers_with_huge_claims_are_refused_before_allocation() {
         write("claim.exr", claim.file());
         refuse_score(&sandbox, "claim.exr", &["claim.exr", &claim.found]);
     }
-    write(
-        "bomb.png",
-        png(20_000, 20_000, BitDepth::Sixteen, ColorType::Rgb, 1 << 20),
-    );
+    write("bomb.png", png(20_000, 20_000, [16, 2], 1 << 20));
     let found = "bomb.png: claims 20000x20000 pixels; allowed: up to 33554432";
     refuse_score(&sandbox, "bomb.png", &[found]);
     refuse_score(&sandbox, "out", &["out: cannot be scored"]);
