@@ -82,7 +82,18 @@ fn a_sequence_begins_with_the_frame_without_one_and_goes_on_where_it_ended() {
 
 /// Three frames have a page, and an animation for each case.
 fn assert_page(sandbox: &Sandbox, printed: &str) {
-    assert_contains(printed, &["out/sequences.html"]);
+    let parts = [
+        "3 frames",
+        "plate, trailing shutter",
+        "flick",
+        "along",
+        "dirt",
+        "identity:default",
+        "out/sequences.html",
+    ];
+    assert_contains(printed, &parts);
+    let mut lines = printed.lines();
+    assert!(lines.all(|line| line.chars().count() <= 80), "{printed}");
     let page = fs::read_to_string(sandbox.path("out/sequences.html")).unwrap();
     for path in [
         "plate/0001/frame.png",
