@@ -17,7 +17,7 @@ export XDG_RUNTIME_DIR ?= /tmp
 SCENES ?= sliding_panel,panel_over_texture,two_spheres,railing,fan
 
 run: vulkan
-	cargo run --release --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --out out
+	cargo run --locked --bin shuttertruth -- run $(if $(SCENES),--scenes $(SCENES)) --out out
 
 test: vulkan python chromium node glslang
 	cargo test --workspace --locked

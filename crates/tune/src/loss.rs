@@ -60,3 +60,19 @@ pub fn penalty(value: Option<f64>, limit: Option<f64>) -> f64 {
 pub fn bounds_penalty(excess: f64) -> f64 {
     PENALTY * excess.min(1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quarter_too_much_costs_a_quarter_of_the_weight() {
+        assert_eq!(penalty(Some(5.0), Some(4.0)), 0.25 * PENALTY);
+        assert_eq!(bounds_penalty(0.25), 0.25 * PENALTY);
+        // Never more than the whole weight; nothing at the limit.
+        assert_eq!(penalty(Some(9.0), Some(4.0)), PENALTY);
+        assert_eq!(penalty(Some(4.0), Some(4.0)), 0.0);
+        // A limit of 0 counts as one of 0.05.
+        assert_eq!(penalty(Some(0.025), Some(0.0)), 0.5 * PENALTY);
+    }
+}

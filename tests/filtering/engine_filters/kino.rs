@@ -83,3 +83,30 @@ fn half_motion_under_two_pixels_stays_sharp() {
         assert_eq!(output != picture.color, blurs, "{speed} pixels per frame");
     }
 }
+
+#[test]
+fn each_pixel_belongs_to_one_block_of_any_size() {
+    // Column 42 and row 21 have another place in every halving of the picture.
+    let picture = Picture::new(128, 64, |x, y| match (x, y) {
+        (42, 21) => white(4.0),
+        _ => BLACK_WALL,
+    });
+    for side in [1, 2, 4, 8, 16, 32, 64] {
+        let changes = format!("storage=exact block_size={side}");
+        let blocks = picture.texture("kino", &changes, "block_max");
+        let places = (0..64 / side).flat_map(|y| (0..128 / side).map(move |x| (x, y)));
+        let moving = places.filter(|(x, y)| blocks.at(*x, *y)[0] > 0.0);
+        assert!(moving.eq([(42 / side, 21 / side)]), "side {side}");
+    }
+}
+
+#[test]
+fn a_tap_is_foreground_from_a_twentieth_of_the_depth_on() {
+    let output = |depth| {
+        let bar = Picture::halves(120, 40, BLACK_WALL, white(24.0).at(depth));
+        bar.blur("kino", "default", "storage=exact radius_percent=40")
+    };
+    // The wall is 20 metres away.
+    assert!(output(18.99) == output(2.0));
+    assert!(output(19.01) != output(2.0));
+}

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// Most differences that a browser adds up for one plane.
 const LONGEST_CHAIN: usize = 4;
 /// Step between the numbers by which planes are compared: enough to choose by, and a small part of the work.
-const STRIDE: usize = 13;
+const STRIDE: usize = 61;
 
 /// Planes as bits of halves, by the order in which they were added. Equal planes are one.
 ///
@@ -51,7 +51,7 @@ impl Planes {
         let references = self.choose_references();
         let texts: Vec<String> = (self.planes.par_iter().zip(references))
             .map(|(bits, reference)| {
-                let whole = compress(bits, std::iter::once(&0).chain(bits));
+                let whole = compress(bits, &[&[0], &bits[..]].concat());
                 let other = reference.map(|number| (number, compress(bits, &self.planes[number])));
                 match other {
                     Some((number, other)) if other.len() < whole.len() => {
@@ -88,13 +88,12 @@ impl Planes {
 }
 
 /// Compresses the difference of every number to another one: first all lower bytes, then all higher ones.
-fn compress<'a>(bits: &[u16], others: impl IntoIterator<Item = &'a u16>) -> Vec<u8> {
-    let steps: Vec<u16> = (bits.iter().zip(others))
-        .map(|(bits, other)| bits.wrapping_sub(*other))
-        .collect();
-    let low = steps.iter().map(|step| *step as u8);
-    let high = steps.iter().map(|step| (*step >> 8) as u8);
-    let bytes: Vec<u8> = low.chain(high).collect();
+fn compress(bits: &[u16], others: &[u16]) -> Vec<u8> {
+    let mut bytes = vec![0; 2 * bits.len()];
+    let (low, high) = bytes.split_at_mut(bits.len());
+    for index in 0..bits.len() {
+        [low[index], high[index]] = bits[index].wrapping_sub(others[index]).to_le_bytes();
+    }
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
     encoder.write_all(&bytes).expect("memory takes every byte");
     encoder.finish().expect("memory takes every byte")

@@ -85,3 +85,16 @@ pub fn deciding_floor(truth: &Truth) -> (Region, f64) {
         .or(floors.last())
         .expect("a picture has pixels")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_the_noise_takes_four_times_the_replicates() {
+        assert_eq!(predict_replicates(8, 2.0), 32);
+        // 8 x 1.1^2 = 9.68, to the next even number.
+        assert_eq!(predict_replicates(8, 1.1), 10);
+        assert_eq!(predict_replicates(8, f64::INFINITY), MAX_REPLICATES);
+    }
+}

@@ -140,7 +140,6 @@ fn probe_once(
     let sampler = Sampler::new(seed, index);
     let [x, y, part, _] = sampler.camera();
     let mut probed_at = None;
-    // Objects, and whether the instant hides the point that was seen of each.
     let mut found: Vec<(usize, bool)> = Vec::new();
     for (times, probe) in probed {
         let time = times.at(part, row, film.canvas.height);
@@ -155,15 +154,53 @@ fn probe_once(
             });
             probed_at = Some(time);
         }
-        let known = probe.seen.iter().filter(|seen| **seen).count();
-        for (object, is_hidden) in &found {
-            probe.seen[*object] = true;
-            probe.unknowable |= is_hidden;
+        probe.mark(&found);
+    }
+}
+
+impl PixelProbe {
+    /// Marks the objects that one ray met, each with true if the instant hides the point that was seen of it.
+    fn mark(&mut self, found: &[(usize, bool)]) {
+        let known = self.seen.iter().filter(|seen| **seen).count();
+        for (object, is_hidden) in found {
+            self.seen[*object] = true;
+            self.unknowable |= is_hidden;
         }
-        let objects = probe.seen.iter().enumerate();
+        let objects = self.seen.iter().enumerate();
         let mut seen = objects.filter(|(_, seen)| **seen).map(|(object, _)| object);
         let is_found = |object: usize| found.iter().any(|(own, _)| *own == object);
-        probe.is_mixed |= known > 0 && !seen.all(is_found);
-        probe.is_mixed |= known > 0 && probe.seen.iter().filter(|seen| **seen).count() > known;
+        self.is_mixed |= known > 0 && !seen.all(is_found);
+        self.is_mixed |= known > 0 && self.seen.iter().filter(|seen| **seen).count() > known;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_is_mixed_if_two_rays_met_other_objects() {
+        for (first, second, is_mixed) in [
+            (&[1][..], &[1][..], false),
+            (&[1], &[2], true),
+            // Through a translucent surface.
+            (&[1], &[1, 2], true),
+            (&[1, 2], &[1], true),
+            (&[1, 2], &[2, 1], false),
+        ] {
+            let mut probe = PixelProbe {
+                seen: vec![false; 3],
+                unknowable: false,
+                is_mixed: false,
+            };
+            for met in [first, second] {
+                probe.mark(
+                    &met.iter()
+                        .map(|object| (*object, false))
+                        .collect::<Vec<_>>(),
+                );
+            }
+            assert_eq!(probe.is_mixed, is_mixed, "{first:?}, then {second:?}");
+        }
     }
 }
