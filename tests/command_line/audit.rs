@@ -3,7 +3,7 @@
 use std::fs;
 
 use serde_json::Value;
-use tests::text::assert_contains;
+use tests::text::{assert_contains, squeeze};
 
 use crate::ingest::capture::{CONVENTION, Capture, DESCRIPTION};
 use crate::sandbox::{Sandbox, split, stderr, stdout};
@@ -15,9 +15,8 @@ fn audit(sandbox: &Sandbox, code: i32) -> (String, Value) {
     let told = stdout(&output);
     let said = stderr(&output);
     assert_eq!(output.status.code(), Some(code), "{told}{said}");
-    let words: Vec<&str> = told.split_whitespace().collect();
     let audit = sandbox.read_json("out/audit/capture/audit.json");
-    (words.join(" "), audit)
+    (squeeze(&told), audit)
 }
 
 #[test]

@@ -6,17 +6,15 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use frame::{ExrFile, Frame, Raster, Reprojection, read_exr, write_exr};
-use tests::filter_folder::{write_manifest, write_program, write_script};
+use tests::filter_folder::{write_manifest, write_script};
 use tests::text::{assert_contains, read_rows};
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, send, split, stderr, stdout};
+use crate::sandbox::{
+    Sandbox, assert_done, assert_refused, send, split, stderr, stdout, wait_until,
+};
 
 fn write_lines(sandbox: &Sandbox, name: &str, more: &str) {
     write_manifest(&sandbox.path(name), name, more);
-}
-
-fn write_blur(sandbox: &Sandbox, name: &str, lines: &str, more: &str) {
-    write_program(&sandbox.path(name), name, lines, more);
 }
 
 fn render(sandbox: &Sandbox) {
@@ -56,7 +54,7 @@ fn a_program_that_blurs_like_a_kernel_gets_its_scores() {
 #[test]
 fn a_program_needs_no_adapter_and_runs_again_when_it_is_edited() {
     let sandbox = Sandbox::new();
-    write_blur(&sandbox, "copy", "cp $1 $2", "");
+    sandbox.write_program("copy", "cp $1 $2", "");
     let words =
         "run --quiet --out out --filter copy --allow-commands --size 64x32 --samples-per-pixel 16";
     let printed = sandbox.without_adapter(&split(words));
@@ -151,7 +149,7 @@ fn failing_programs_name_their_error_and_leave_no_picture() {
     broken.channels.retain(|channel| channel.name != "G");
     write_exr(&sandbox.path("no_green.exr"), &broken).unwrap();
     let refuse = |lines: &str, parts: &[&str]| {
-        write_blur(&sandbox, "mine", lines, "");
+        sandbox.write_program("mine", lines, "");
         let output = sandbox.shuttertruth(&blur("./mine"));
         assert_refused(&output, 2, &[&["error: filter mine: "], parts].concat());
         assert!(!sandbox.path("b.exr").exists(), "{lines}");
@@ -193,15 +191,9 @@ const SLEEPERS: &str = "sleep 300 & echo $! > pid.new; mv pid.new pid; sleep 300
 
 #[track_caller]
 fn assert_ended(sandbox: &Sandbox) {
-    let pid = fs::read_to_string(sandbox.path("slow/pid")).unwrap();
-    let state = || {
-        let mut ps = Command::new("ps");
-        let output = ps.args(["-o", "stat=", "-p", pid.trim_end()]).output();
-        stdout(&output.unwrap())
-    };
-    // The kill was sent, and the system may need a moment. A zombie counts as ended: nobody has collected it yet.
+    // The kill was sent, and the system may need a moment.
     for _ in 0..500 {
-        if state().is_empty() || state().starts_with('Z') {
+        if sandbox.has_ended("slow/pid") {
             return;
         }
         std::thread::sleep(Duration::from_millis(10));
@@ -214,7 +206,7 @@ fn a_program_past_its_time_limit_is_stopped_with_its_children() {
     let sandbox = Sandbox::new();
     render(&sandbox);
     // Enough time for a shell to write a line on a busy machine.
-    write_blur(&sandbox, "slow", SLEEPERS, "time_limit = 2");
+    sandbox.write_program("slow", SLEEPERS, "time_limit = 2");
     let parts = [
         "took longer than 2 s and was stopped",
         "time_limit",
@@ -228,12 +220,12 @@ fn a_program_past_its_time_limit_is_stopped_with_its_children() {
 fn a_signal_that_ends_the_program_ends_the_filter_too() {
     let sandbox = Sandbox::new();
     render(&sandbox);
-    write_blur(&sandbox, "slow", SLEEPERS, "");
+    sandbox.write_program("slow", SLEEPERS, "");
     for (signal, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
         let _ = fs::remove_file(sandbox.path("slow/pid"));
         // The tests themselves may run under nohup.
         let mut child = start_through(&sandbox, "env", &["--default-signal=HUP"]);
-        wait_for_pid(&sandbox, &mut child);
+        wait_until(&mut child, || sandbox.path("slow/pid").exists());
         send(&child, signal);
         assert_eq!(child.wait().unwrap().code(), Some(code), "{signal}");
         assert_ended(&sandbox);
@@ -246,9 +238,9 @@ fn a_signal_that_ends_the_program_ends_the_filter_too() {
 fn a_closed_terminal_does_not_end_what_nohup_started() {
     let sandbox = Sandbox::new();
     render(&sandbox);
-    write_blur(&sandbox, "slow", SLEEPERS, "");
+    sandbox.write_program("slow", SLEEPERS, "");
     let mut child = start_through(&sandbox, "nohup", &[]);
-    wait_for_pid(&sandbox, &mut child);
+    wait_until(&mut child, || sandbox.path("slow/pid").exists());
     let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
     let mut lines = status.lines();
     let ignored = lines.find_map(|line| line.strip_prefix("SigIgn:\t"));
@@ -269,14 +261,6 @@ fn start_through(sandbox: &Sandbox, program: &str, words: &[&str]) -> Child {
     let given = command.get_envs();
     through.envs(given.filter_map(|(key, value)| Some((key, value?))));
     through.stdout(Stdio::null()).spawn().unwrap()
-}
-
-/// Waits until the filter `slow` runs.
-fn wait_for_pid(sandbox: &Sandbox, child: &mut Child) {
-    while !sandbox.path("slow/pid").exists() {
-        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
-        std::thread::sleep(Duration::from_millis(10));
-    }
 }
 
 #[test]

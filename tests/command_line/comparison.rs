@@ -7,7 +7,7 @@ use tests::text::assert_contains;
 
 use crate::sandbox::{SCENE, Sandbox, assert_done, quick_command, split};
 
-fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
+pub fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
     let found = cases.iter().find(|case| case.name() == name);
     found.unwrap_or_else(|| {
         let names: Vec<String> = cases.iter().map(|case| case.name()).collect();
@@ -182,11 +182,6 @@ fn forms_of_the_input_cost_what_they_take_away() {
     assert_eq!(case.input.depth, DepthFormat::Float32);
     let folder = "velocity_gather_fine_velocity_linear8";
     assert!(case.folder.ends_with(folder));
-
-    let run = "run --filters identity --input";
-    sandbox.refuse(&format!("{run} border=mirror"), &["mirror", "leave, clamp"]);
-    let refused = format!("{run} defect=lag --velocity camera_only");
-    sandbox.refuse(&refused, &["defect=lag", "the camera alone"]);
 }
 
 /// Checks the mean of the identity's FLIP on two scenes; returns its interval.

@@ -53,21 +53,6 @@ fn other_commands_work_in_an_empty_folder() {
 }
 
 #[test]
-fn a_folder_of_scenes_goes_before_the_program_s_own() {
-    let sandbox = Sandbox::new();
-    let names = |line: &str| -> Vec<String> {
-        let json: Value = serde_json::from_str(&sandbox.execute(&split(line))).unwrap();
-        let scenes = json["scenes"].as_array().unwrap().iter();
-        scenes
-            .map(|scene| scene["name"].as_str().unwrap().to_owned())
-            .collect()
-    };
-    assert_eq!(names("list scenes --json"), ["plate"]);
-    let own = names("list scenes --json --scenes-dir built-in");
-    assert!(own.len() > 20 && own.contains(&"fan".to_owned()), "{own:?}");
-}
-
-#[test]
 fn the_program_s_own_scenes_are_those_of_the_repository() {
     let own = Location::of_bundle(&catalogue::SCENES);
     let mut names = (catalogue::SCENES.list)();

@@ -27,14 +27,4 @@ fn an_unlit_export_is_the_scene_that_run_takes_as_unlit() {
     assert_eq!(read("flagged"), read("named"));
     sandbox.done("truths render --scenes plate@unlit --size 32x18 --samples-per-pixel 16 --out r");
     assert!(sandbox.path("r/plate@unlit/truth_trailing.exr").is_file());
-    let says = "--unlit: plate@fast is a variant";
-    sandbox.refuse("engine export plate@fast --unlit", &[says]);
-}
-
-#[test]
-fn scenes_that_are_not_there_and_folders_that_are_files_are_refused() {
-    let sandbox = Sandbox::new();
-    sandbox.refuse("engine export plait --gltf gltf", &["plait", "plate"]);
-    fs::write(sandbox.path("taken"), "").unwrap();
-    sandbox.refuse("engine export plate --gltf taken", &["taken"]);
 }

@@ -2,19 +2,9 @@
 
 use std::fs;
 
-use tests::filter_folder::one_kernel_without_parameters;
 use tests::text::assert_contains;
 
 use crate::sandbox::{Sandbox, assert_done, assert_refused, split, stderr, stdout};
-
-const MANIFEST: &str = r#"
-name = "torn"
-summary = "Divides by what may be zero."
-alignment = "trailing"
-
-[[pass]]
-entry = "work"
-"#;
 
 /// Kernel whose output is not finite at one pixel, where the exposure is that of the scene `dim`.
 const BODY: &str = "
@@ -29,7 +19,7 @@ fn set_up() -> Sandbox {
     sandbox.copy_scene("dim", |text| {
         text.replace("exposure = 0.5", "exposure = 0.25")
     });
-    sandbox.write_filter("torn", MANIFEST, &one_kernel_without_parameters(BODY));
+    sandbox.write_kernel("torn", "", &[], BODY);
     sandbox
 }
 

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use metrics::Measured;
 use suite::Case;
-use tests::text::assert_contains;
+use tests::text::{assert_contains, code_block, squeeze};
 
 use crate::sandbox::Sandbox;
 
@@ -45,10 +45,7 @@ fn copy_filter(sandbox: &Sandbox, name: &str) {
 
 /// Writes the guide's example of Godot's kind, which stores its output in 16 bits.
 fn write_godot_s(folder: &Path) {
-    let block = |start: &str| {
-        let after = GUIDE.split_once(start).unwrap().1;
-        after.split_once("```").unwrap().0
-    };
+    let block = |start: &str| code_block(GUIDE, start);
     fs::create_dir_all(folder).unwrap();
     let manifest = block("`godot_blur/filter.toml` says what its bindings are:\n\n```toml\n");
     fs::write(folder.join("filter.toml"), manifest).unwrap();
@@ -75,11 +72,14 @@ fn measured() -> &'static (String, Vec<Case>) {
         let sandbox = Sandbox::new();
         write_blur(&sandbox, "full", "rgba32float", "1.0");
         write_blur(&sandbox, "half", "rgba16float", "1.0");
-        write_blur(&sandbox, "bright", "rgba16float", "1.0 + 0.5 * there.g");
+        for (name, float) in [("bright", "rgba16float"), ("bright_full", "rgba32float")] {
+            write_blur(&sandbox, name, float, "1.0 + 0.5 * there.g");
+        }
         copy_filter(&sandbox, "drawn");
         copy_filter(&sandbox, "constant");
         write_godot_s(&sandbox.path("godot_blur"));
-        let mut filters = "full,half,bright,drawn,constant,godot_blur".to_owned();
+        let mut filters =
+            "identity,full,half,bright,bright_full,drawn,constant,godot_blur".to_owned();
         #[cfg(unix)]
         {
             write_outside(&sandbox);
@@ -99,7 +99,7 @@ fn find_case(filter: &str) -> &'static Case {
 /// Checks that no score of weights applies to a filter, for these reasons.
 #[track_caller]
 fn assert_no_weights(filter: &str, parts: &[&str]) {
-    for metric in OF_WEIGHTS {
+    for metric in OF_WEIGHTS.into_iter().chain(["energy", "n_eq_label_tv"]) {
         match find_case(filter).scores.get(metric.parse().unwrap()) {
             Measured::NotApplicable { reason } => assert_contains(&reason, parts),
             found => panic!("{metric} of {filter}: {found:?}"),
@@ -141,12 +141,19 @@ fn shaders_of_other_constants_keep_their_scores_in_16_bits() {
 }
 
 #[test]
-fn weights_that_depend_on_colour_are_found_in_16_bits_too() {
-    let words: Vec<&str> = measured().0.split_whitespace().collect();
-    let note = "n/a: grow, loss, bleed, TV of bright:default on plate: \
+fn weights_that_depend_on_colour_give_no_scores_of_weights_and_say_why() {
+    let note = "n/a: grow, loss, bleed, TV of bright:default, bright_full:default on plate: \
         the filter's weights depend on colour";
-    assert_contains(&words.join(" "), &[note]);
-    assert_no_weights("bright", &["weights depend on colour"]);
+    assert_contains(&squeeze(&measured().0), &[note]);
+    assert_eq!(find_case("identity").nonlinearity, Some(0.0));
+    for filter in ["bright", "bright_full"] {
+        assert_no_weights(filter, &["weights depend on colour"]);
+        let case = find_case(filter);
+        // Pixels that are twice as bright weigh up to 1.3 times as much.
+        let nonlinearity = case.nonlinearity.unwrap();
+        assert!(nonlinearity > 0.01, "{filter}: {nonlinearity}");
+        assert!(case.scores.moving.flip.value().is_some(), "{filter}");
+    }
 }
 
 /// The format of a program's picture is the program's own.

@@ -3,12 +3,8 @@
 use frame::read_exr;
 use suite::{BufferSize, CameraJitter, Case, DepthOfField, Multisampling, RenderScale, Sequence};
 
-use crate::sandbox::{SCENE, Sandbox, assert_refused, split};
-
-fn find_case<'a>(cases: &'a [Case], name: &str) -> &'a Case {
-    let found = cases.iter().find(|case| case.name() == name);
-    found.unwrap_or_else(|| panic!("no {name}"))
-}
+use crate::comparison::find_case;
+use crate::sandbox::{SCENE, Sandbox};
 
 /// Measures how far to the right the middle of the plate lies in the output of one frame of a sequence, in pixels.
 fn plate_middle(sandbox: &Sandbox, sequence: &Sequence, frame: usize) -> f64 {
@@ -92,8 +88,6 @@ fn buffers_samples_jitter_and_scale_change_what_filters_get() {
     let other = find_case(&cases, "identity:default jitter=left_in");
     assert_eq!(other.input.jitter, CameraJitter::LeftIn);
     assert_eq!(other.input.msaa, Multisampling::None);
-    let refused = sandbox.run(&["--input", "buffers=eighth"]);
-    assert_refused(&refused, 2, &["eighth", "quarter_dilated"]);
 }
 
 /// Smaller buffers change the filters that read them alone.
@@ -135,13 +129,6 @@ fn assert_sizes_fit(sandbox: &Sandbox, cases: &[Case]) {
 fn depth_of_field_runs_before_a_filter_or_after_it() {
     let sandbox = Sandbox::new();
     let words = "--filters identity,velocity_gather:fine --input depth_of_field=before,after";
-    // A scene without a lens is refused before anything is rendered.
-    let parts = [
-        "depth_of_field=after",
-        "plate has no lens",
-        "aperture and focus",
-    ];
-    assert_refused(&sandbox.run(&split(words)), 2, &parts);
     let lens = SCENE.replace("vertical_fov", "aperture = 0.8\nfocus = 2\nvertical_fov");
     sandbox.write("scene.toml", &lens);
     let printed = sandbox.measure(words);

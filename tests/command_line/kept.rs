@@ -4,13 +4,14 @@ use std::fs;
 use std::path::Path;
 use std::process::{Child, Stdio};
 use std::sync::OnceLock;
-use std::time::Duration;
 
 use frame::{read_exr, write_exr};
 use tests::text::assert_contains;
 
+use crate::kept_cases::damage;
 use crate::sandbox::{
-    Files, OBJ, Sandbox, assert_refused, assert_same_files, files_below, read_below, split, stderr,
+    Files, Sandbox, assert_refused, assert_same_files, files_below, read_below, split, stderr,
+    wait_until,
 };
 
 const REPLICATE: &str = "plate/truth_trailing/replicate_002.exr";
@@ -79,49 +80,27 @@ fn parts_of_several_processes_equal_the_bytes_of_one() {
 #[test]
 fn a_killed_render_resumes_to_the_same_bytes() {
     let sandbox = Sandbox::new();
-    let words = |out| {
-        [
-            &split("truths render --quiet --samples-per-pixel 1024 --threads 1 --out")[..],
-            &[out],
-        ]
-        .concat()
-    };
-    sandbox.execute(&words("whole"));
+    let render = "truths render --quiet --samples-per-pixel 1024 --threads 1 --out";
+    sandbox.done(&format!("{render} whole"));
+    let killed = format!("{render} killed");
     let truth = sandbox.path("killed/plate/truth_trailing");
     let replicate = |index: u32| truth.join(format!("replicate_{index:03}.exr"));
     // Each process is killed as soon as it has kept one more replicate.
     for index in [0, 2] {
-        let mut child = spawn(&sandbox, &words("killed"));
-        while !replicate(index).exists() {
-            let ended = child.try_wait().unwrap();
-            assert!(ended.is_none(), "it ended before it was killed");
-            std::thread::sleep(Duration::from_millis(1));
-        }
+        let mut child = spawn(&sandbox, &split(&killed));
+        wait_until(&mut child, || replicate(index).exists());
         child.kill().unwrap();
         child.wait().unwrap();
         assert!(!truth.with_extension("exr").exists());
     }
     let written = || fs::metadata(replicate(1)).unwrap().modified().unwrap();
     let kept = written();
-    sandbox.execute(&words("killed"));
+    sandbox.done(&killed);
     assert_eq!(written(), kept, "a whole replicate was rendered again");
     let [whole, mut killed] = ["whole", "killed"].map(|out| read_below(&sandbox.path(out)));
     // What a killed process was writing.
     killed.retain(|(name, _)| !name.to_string_lossy().contains(".tmp"));
     assert_same_files(&whole, &killed);
-}
-
-/// Flips one bit of a file's pixels, far behind its header.
-fn flip_a_bit(path: &Path) {
-    let mut bytes = fs::read(path).unwrap();
-    let middle = bytes.len() * 3 / 4;
-    bytes[middle] ^= 1;
-    fs::write(path, bytes).unwrap();
-}
-
-fn cut_in_half(path: &Path) {
-    let bytes = fs::read(path).unwrap();
-    fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
 }
 
 fn replace_by_another(path: &Path) {
@@ -145,8 +124,8 @@ fn damaged_replicates_are_rendered_again_and_never_merged() {
         "make it anew with `shuttertruth truths render`",
     ];
     let rows: [(Damage, &[&str]); 4] = [
-        (flip_a_bit, &[]),
-        (cut_in_half, &[]),
+        (|path| damage(path, "altered"), &[]),
+        (|path| damage(path, "cut"), &[]),
         (replace_by_another, &[]),
         (remove_support, &old),
     ];
@@ -163,12 +142,8 @@ fn damaged_replicates_are_rendered_again_and_never_merged() {
 }
 
 #[test]
-fn damaged_truths_are_made_again() {
+fn files_of_an_older_version_are_made_again() {
     let sandbox = rendered();
-    flip_a_bit(&sandbox.path("out/plate/truth_trailing.exr"));
-    sandbox.execute(&render("out", &[]));
-    assert_whole(&sandbox, "out");
-    // All files are of an older version.
     let is_truth = |path: &Path| path.to_string_lossy().contains("truth_");
     for path in files_below(&sandbox.path("out"))
         .iter()
@@ -178,17 +153,6 @@ fn damaged_truths_are_made_again() {
     }
     sandbox.execute(&render("out", &[]));
     assert_whole(&sandbox, "out");
-}
-
-#[test]
-fn a_changed_byte_in_a_mesh_renders_again() {
-    let sandbox = rendered();
-    sandbox.write("plate.obj", &OBJ.replace("v -0.5 -0.5 0", "v -0.6 -0.5 0"));
-    for out in ["out", "fresh"] {
-        sandbox.execute(&render(out, &[]));
-    }
-    let [out, fresh] = ["out", "fresh"].map(|out| read_below(&sandbox.path(out)));
-    assert_same_files(&fresh, &out);
 }
 
 #[test]
@@ -215,12 +179,13 @@ fn incomplete_parts_are_refused() {
     fs::create_dir(sandbox.path("empty")).unwrap();
     sandbox.refuse_rows(
         "truths merge --out joined",
-        "start gap | 3, 4 | replicates 3..4 | plate/truth_trailing
-        start | replicates 3 are missing | truth of 4
-        start other | start/plate/frame.exr | other/plate/frame.exr | differ
-        start rest | replicate 3 | other inputs | content hash
-        start empty | empty | holds no replicates | a part A..B of the replicates
-        nowhere | nowhere | cannot read",
+        "
+        start gap => 3, 4 | replicates 3..4 | plate/truth_trailing
+        start => replicates 3 are missing | truth of 4
+        start other => start/plate/frame.exr | other/plate/frame.exr | differ
+        start rest => replicate 3 | other inputs | content hash
+        start empty => empty | holds no replicates | a part A..B of the replicates
+        nowhere => nowhere | cannot read",
     );
     assert!(!sandbox.path("joined").exists(), "nothing is written");
 }

@@ -8,7 +8,7 @@ use std::time::SystemTime;
 
 use frame::Alignment;
 use metrics::Metric;
-use tests::filter_folder::{copy_shipped_filter, write_program};
+use tests::filter_folder::copy_shipped_filter;
 
 use crate::sandbox::{Files, Sandbox, assert_done, files_below, quick_command, split, stdout};
 
@@ -223,7 +223,7 @@ fn another_common_shutter_measures_the_compared_cases_again() {
 }
 
 /// Removes a file, cuts it in half, or changes one bit of a pixel.
-fn damage(path: &Path, kind: &str) {
+pub fn damage(path: &Path, kind: &str) {
     let mut bytes = fs::read(path).unwrap();
     let middle = bytes.len() / 2;
     match kind {
@@ -278,7 +278,7 @@ fn missing_truncated_and_altered_files_are_made_again() {
 fn a_program_runs_again_every_time() {
     let sandbox = Sandbox::new();
     let script = "echo again >> runs\ncp $1 $2";
-    write_program(&sandbox.path("copy"), "copy", script, "");
+    sandbox.write_program("copy", script, "");
     let count_runs = || {
         sandbox.measure("--filter copy --allow-commands");
         let text = fs::read_to_string(sandbox.path("copy/runs")).unwrap();

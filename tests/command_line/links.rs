@@ -4,22 +4,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use tests::root;
+use walkdir::{DirEntry, WalkDir};
 
 /// Folders without pages of the project's own.
 const FOREIGN: [&str; 4] = ["target", "out", "node_modules", ".git"];
 
 /// Finds every page below a folder.
 pub fn find_pages(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let entry = entry.unwrap().path();
-        let name = entry.file_name().unwrap().to_string_lossy().into_owned();
-        if entry.is_dir() && !FOREIGN.contains(&name.as_str()) {
-            found.extend(find_pages(&entry));
-        } else if name.ends_with(".md") {
-            found.push(entry);
-        }
-    }
+    let is_own = |entry: &DirEntry| !FOREIGN.iter().any(|name| entry.file_name() == *name);
+    let entries = WalkDir::new(folder).into_iter().filter_entry(is_own);
+    let mut found: Vec<PathBuf> = entries.map(|entry| entry.unwrap().into_path()).collect();
+    found.retain(|path| path.extension().is_some_and(|end| end == "md"));
     found.sort();
     found
 }

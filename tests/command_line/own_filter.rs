@@ -1,8 +1,8 @@
 //! The filter that the guide writes, and the error messages that the guide quotes.
 
-use metrics::Measured;
+use tests::text::code_block;
 
-use crate::sandbox::{Sandbox, split, stderr};
+use crate::sandbox::{Sandbox, stderr};
 
 const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
 
@@ -14,8 +14,7 @@ fn section() -> &'static str {
 
 /// Returns the section's first code block in this language.
 fn block(language: &str) -> &'static str {
-    let start = section().split_once(&format!("```{language}\n")).unwrap().1;
-    start.split_once("```").unwrap().0
+    code_block(section(), &format!("```{language}\n"))
 }
 
 /// Writes the guide's filter, with one of its mistakes if asked.
@@ -90,37 +89,5 @@ fn each_mistake_prints_the_message_in_the_guide() {
         assert_eq!(stderr(&output), mistake.says);
         assert_eq!(output.status.code(), Some(2));
         assert!(!sandbox.path("out").exists());
-    }
-}
-
-#[test]
-fn weights_that_depend_on_colour_give_no_matte_scores_and_say_why() {
-    let sandbox = Sandbox::new();
-    let body = "let trail = frame.exposure * textureLoad(velocity, pixel, 0).xy;
-    var sum = vec4<f32>(0.0);
-    for (var tap = 0; tap < 8; tap++) {
-        let there = bilinear(color, centre(pixel) + trail * (f32(tap) + 0.5) / 8.0);
-        let bright = 1.0 + there.g;
-        sum += bright * vec4<f32>(there.rgb, 1.0);
-    }
-    textureStore(output, pixel, sum / sum.a);";
-    sandbox.write_kernel("bright", "", &["velocity"], body);
-    sandbox.measure("--filters identity --filter bright");
-    let [identity, bright] = &sandbox.read_filter_cases()[..] else {
-        panic!("two filters on one scene");
-    };
-    assert_eq!(identity.nonlinearity, Some(0.0));
-    // Pixels that are twice as bright weigh up to twice as much.
-    let nonlinearity = bright.nonlinearity.unwrap();
-    assert!(nonlinearity > 0.01, "{nonlinearity}");
-    assert!(bright.scores.moving.flip.value().is_some());
-    let metrics = "label_tv lateral_growth energy unity gather_offset n_eq_label_tv";
-    for metric in split(metrics) {
-        let applies = |case: &suite::Case| case.scores.get(metric.parse().unwrap());
-        assert!(applies(identity).value().is_some(), "{metric}");
-        let Measured::NotApplicable { reason } = applies(bright) else {
-            panic!("{metric} of a filter that looks at colour");
-        };
-        assert!(reason.contains("weights depend on colour"), "{reason}");
     }
 }

@@ -2,26 +2,31 @@
 
 use std::fs;
 
-use tests::filter_folder::one_kernel_without_parameters;
+use tests::filter_folder::write_manifest;
 
 use crate::rows::rows;
 use crate::sandbox::{
-    OBJ, SCENE, Sandbox, assert_done, assert_refused, files_below, press_ctrl_c, split,
+    OBJ, SCENE, Sandbox, assert_done, assert_ends_at_ctrl_c, assert_refused, files_below, split,
     wait_until_busy,
 };
 
 #[test]
 fn a_missing_adapter_gives_exit_code_3_and_the_way_out() {
     let sandbox = Sandbox::new();
-    let output = sandbox.without_adapter(&["run", "--out", "out"]);
-    assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
-    assert!(!sandbox.path("out").exists());
+    sandbox.write_bound(0.9);
+    for command in ["run", "check --filters identity", "bench"] {
+        let output = sandbox.without_adapter(&split(&format!("{command} --out out")));
+        assert_refused(&output, 3, &["mesa-vulkan-drivers"]);
+        assert!(!sandbox.path("out").exists(), "{command}");
+    }
 }
 
 #[test]
 fn bad_arguments_are_refused_with_the_allowed_values_and_leave_nothing_behind() {
     let sandbox = Sandbox::two_scenes();
     fs::write(sandbox.path("file"), "no folder").unwrap();
+    let program = "command = ['cp', '{frame}', '{out}']";
+    write_manifest(&sandbox.path("outside"), "outside", program);
     let before = files_below(&sandbox.path(""));
     for (table, more) in [("writing", " --quiet --out out"), ("others", "")] {
         for row in rows(include_str!("refusals.toml"), table) {
@@ -82,8 +87,7 @@ fn ctrl_c_leaves_no_partial_file() {
     let words = "truths render --quiet --out out --size 1024x512 --samples-per-pixel 65536";
     let mut child = sandbox.command(&split(words)).spawn().unwrap();
     wait_until_busy(&mut child, 50);
-    press_ctrl_c(&child);
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_ends_at_ctrl_c(child);
     // Empty; the next process locks it.
     assert_eq!(
         files_below(&sandbox.path("out")),
@@ -95,11 +99,8 @@ fn ctrl_c_leaves_no_partial_file() {
 fn names_that_no_folder_can_have_are_refused_before_anything_is_rendered() {
     let sandbox = Sandbox::new();
     let long = "n".repeat(250);
-    let manifest = format!(
-        "name = \"{long}\"\nsummary = \"It copies.\"\nalignment = \"trailing\"\n[[pass]]\nentry = \"work\"\n"
-    );
     let body = "textureStore(output, pixel, textureLoad(color, pixel, 0));";
-    sandbox.write_filter(&long, &manifest, &one_kernel_without_parameters(body));
+    sandbox.write_kernel(&long, "", &[], body);
     sandbox.copy_scene(&long, |text| text.replace("-1.6", "-0.8"));
     sandbox.write_bound(1.0);
     sandbox.copy_bound(&long);

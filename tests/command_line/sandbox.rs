@@ -4,12 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output};
 use std::sync::OnceLock;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde::de::DeserializeOwned;
 use tests::filter_folder;
 pub use tests::plate::{MTL, OBJ};
-use tests::text::assert_contains;
+use tests::text::{assert_contains, read_rows};
+use walkdir::WalkDir;
 
 /// Scene of a plate. The vertical field of view is 60 degrees from 4 m away, so that 0.4 m is about 2.7 px of 32 px
 /// rows.
@@ -123,6 +124,11 @@ impl Sandbox {
         filter_folder::write_filter(&self.path(name), name, manifest, kernels);
     }
 
+    /// Writes a filter that is a shell script; see [`filter_folder::write_program`].
+    pub fn write_program(&self, name: &str, lines: &str, more: &str) {
+        filter_folder::write_program(&self.path(name), name, lines, more);
+    }
+
     /// Writes a filter with one pass; see [`filter_folder::write_kernel`].
     pub fn write_kernel(&self, name: &str, more: &str, textures: &[&str], body: &str) {
         filter_folder::write_kernel(&self.path(name), more, textures, body);
@@ -159,19 +165,11 @@ impl Sandbox {
         assert!(status.unwrap().success(), "git {line}");
     }
 
-    /// Does it for a table, one row a line: more words of the command, and behind each `|` a part of the message. A line that
-    /// begins with `|` belongs to the row above.
+    /// Does it for a table: more words of the command, and the parts of the message.
     #[track_caller]
     pub fn refuse_rows(&self, command: &str, table: &str) {
-        let lines: Vec<&str> = table.lines().map(str::trim).collect();
-        for row in lines.join("\n").replace("\n|", "|").lines() {
-            let mut cells = row.split('|').map(str::trim);
-            let words = cells.next().unwrap_or_default();
-            let parts: Vec<&str> = cells.collect();
-            assert!(row.is_empty() || !parts.is_empty(), "no message: {row}");
-            if !parts.is_empty() {
-                self.refuse(&format!("{command} {words}"), &parts);
-            }
+        for (words, parts) in read_rows(table) {
+            self.refuse(&format!("{command} {words}"), &parts);
         }
     }
 
@@ -237,6 +235,15 @@ impl Sandbox {
     pub fn read_color(&self, below: &str) -> frame::Image {
         let file = frame::read_exr(&self.path(below)).unwrap();
         file.color("").unwrap()
+    }
+
+    /// Tells whether the process that a file names has ended. A zombie has: nobody has collected it yet.
+    pub fn has_ended(&self, file: &str) -> bool {
+        let pid = fs::read_to_string(self.path(file)).unwrap();
+        let mut ps = Command::new("ps");
+        let output = ps.args(["-o", "stat=", "-p", pid.trim_end()]).output();
+        let state = stdout(&output.unwrap());
+        state.is_empty() || state.starts_with('Z')
     }
 
     /// Reads the findings about the last run.
@@ -305,21 +312,21 @@ pub fn assert_same_files(one: &Files, other: &Files) {
 }
 
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    let below = |path: PathBuf| match path.is_dir() {
-        true => files_below(&path),
-        false => vec![path],
-    };
-    let mut files: Vec<PathBuf> = entries.flat_map(below).collect();
+    let entries = WalkDir::new(folder).into_iter();
+    let paths = entries.map(|entry| entry.unwrap().into_path());
+    let mut files: Vec<PathBuf> = paths.filter(|path| !path.is_dir()).collect();
     files.sort();
     files
 }
 
-/// Presses Ctrl-C for a process.
-pub fn press_ctrl_c(child: &Child) {
-    send(child, "INT");
+/// Presses Ctrl-C for a process, which must end within two seconds.
+#[track_caller]
+pub fn assert_ends_at_ctrl_c(mut child: Child) {
+    let pressed = Instant::now();
+    send(&child, "INT");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let took = pressed.elapsed();
+    assert!(took < Duration::from_secs(2), "{took:?}");
 }
 
 /// Sends a signal to a process.
@@ -327,6 +334,17 @@ pub fn send(child: &Child, signal: &str) {
     let mut kill = Command::new("kill");
     let status = kill.args([&format!("-{signal}"), &child.id().to_string()]);
     assert!(status.status().unwrap().success());
+}
+
+/// Waits until something is so while a process runs, for two minutes at most.
+#[track_caller]
+pub fn wait_until(child: &mut Child, mut is_so: impl FnMut() -> bool) {
+    let end = Instant::now() + Duration::from_secs(120);
+    while !is_so() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        assert!(Instant::now() < end, "it takes too long");
+        std::thread::sleep(Duration::from_millis(1));
+    }
 }
 
 /// Waits until a process has computed for a number of hundredths of a second, summed over its threads, or for two seconds

@@ -1,16 +1,16 @@
 //! `serve` and `evaluate`: searches that other programs drive.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{ChildStdin, Command, Stdio};
-use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use tests::text::assert_contains;
+use tests::text::{assert_contains, read_rows};
 
 use crate::python::python_with;
-use crate::sandbox::{Sandbox, split, stderr, stdout};
+use crate::sandbox::{Sandbox, split, stderr, stdout, wait_until};
 
 pub const SERVE: &str = "tune serve --quiet --filter jump_flood --objective flip --size 64x32 \
     --samples-per-pixel 16 --out out";
@@ -87,24 +87,15 @@ fn requests_get_answers_and_bad_or_cancelled_ones_none() {
 #[test]
 fn parameters_of_a_file_are_checked() {
     let sandbox = Sandbox::new();
-    let rows: [(&str, &[&str]); 3] = [
-        (
-            "{\"sample\": 3}",
-            &["p.json: jump_flood.sample", "allowed: samples"],
-        ),
-        (
-            "{\"samples\": 3.5}",
-            &["p.json: jump_flood.samples: found 3.5", "from 1 to 64"],
-        ),
-        (
-            "samples = 3",
-            &["p.json", "allowed: one table of parameters"],
-        ),
-    ];
     let words = "tune evaluate --quiet --filter jump_flood --params p.json --out out";
-    for (text, parts) in rows {
+    for (text, parts) in read_rows(
+        r#"
+        {"sample": 3} => p.json: jump_flood.sample | allowed: samples
+        {"samples": 3.5} => p.json: jump_flood.samples: found 3.5 | from 1 to 64
+        samples = 3 => p.json | allowed: one table of parameters"#,
+    ) {
         fs::write(sandbox.path("p.json"), text).unwrap();
-        sandbox.refuse(words, parts);
+        sandbox.refuse(words, &parts);
     }
     fs::remove_file(sandbox.path("p.json")).unwrap();
     sandbox.refuse(words, &["p.json: cannot read"]);
@@ -149,16 +140,12 @@ fn read_journal(sandbox: &Sandbox) -> Vec<Value> {
     lines.collect()
 }
 
-/// Lists the workers that began a trial, each once.
-fn list_workers(journal: &[Value]) -> Vec<&str> {
+/// Finds the workers that began a trial.
+fn find_workers(journal: &[Value]) -> BTreeSet<&str> {
     // Optuna's number of the operation.
     let began = journal.iter().filter(|entry| entry["op_code"] == 4);
-    let mut workers: Vec<&str> = began
-        .map(|entry| entry["worker_id"].as_str().unwrap())
-        .collect();
-    workers.sort_unstable();
-    workers.dedup();
-    workers
+    let workers = began.map(|entry| entry["worker_id"].as_str().unwrap());
+    workers.collect()
 }
 
 /// Counts the trials that ended.
@@ -179,15 +166,10 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
         command.spawn().unwrap()
     };
     let [mut killed, other] = [(); 2].map(|()| start());
-    let end = Instant::now() + Duration::from_secs(120);
-    loop {
+    wait_until(&mut killed, || {
         let journal = read_journal(&sandbox);
-        if list_workers(&journal).len() == 2 && count_ended(&journal) >= 2 {
-            break;
-        }
-        assert!(Instant::now() < end, "no two workers began: {journal:?}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
+        find_workers(&journal).len() == 2 && count_ended(&journal) >= 2
+    });
     killed.kill().unwrap();
     killed.wait().unwrap();
     let before = count_ended(&read_journal(&sandbox));
@@ -198,7 +180,7 @@ fn two_workers_share_a_study_and_one_goes_on_when_the_other_is_killed() {
     let best: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert!(!best.as_array().unwrap().is_empty());
     let journal = read_journal(&sandbox);
-    assert_eq!(list_workers(&journal).len(), 2);
+    assert_eq!(find_workers(&journal).len(), 2);
     // Both may have been at their last trial.
     let ended = count_ended(&journal);
     assert!((12..=13).contains(&ended), "{ended}");

@@ -12,22 +12,17 @@ fn read(path: &str) -> String {
 /// Reads the inputs or the outputs of action.yml, each with its lines.
 fn read_section(section: &str) -> BTreeMap<String, Vec<String>> {
     let action = read("action.yml");
-    let lines = action
-        .lines()
-        .skip_while(|line| *line != format!("{section}:"));
-    let mut found = BTreeMap::new();
-    let mut current = String::new();
-    for line in lines
-        .skip(1)
-        .take_while(|line| line.is_empty() || line.starts_with(' '))
-    {
-        let name = line
-            .strip_prefix("  ")
-            .filter(|rest| !rest.starts_with(' '));
-        if let Some(name) = name {
-            current = name.trim_end_matches(':').to_owned();
+    let (_, rest) = action.split_once(&format!("\n{section}:\n")).unwrap();
+    let own = rest.lines();
+    let own = own.take_while(|line| line.is_empty() || line.starts_with(' '));
+    let mut found: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut name = String::new();
+    for line in own {
+        let head = line.strip_prefix("  ");
+        if let Some(head) = head.filter(|head| !head.starts_with(' ')) {
+            head.trim_end_matches(':').clone_into(&mut name);
         }
-        let lines: &mut Vec<String> = found.entry(current.clone()).or_default();
+        let lines = found.entry(name.clone()).or_default();
         lines.push(line.trim().to_owned());
     }
     found

@@ -6,19 +6,15 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use filters::Convention;
-use frame::{
-    ExrFile, FAR_DEPTH, Frame, FrameOptions, Image, Plane, Raster, Vectors, VelocityKind, write_exr,
-};
+use frame::{ExrFile, FAR_DEPTH, Frame, Image, Plane, Raster, Vectors, write_exr};
 use tests::text::assert_contains;
-use tests::{root, scenes, unwatched};
-use tracer::{RenderSettings, load_scene, trace_frame};
+use tests::{root, scenes};
 
+use crate::ingest::capture::{HEIGHT, WIDTH, render_instant};
 use crate::sandbox::{Sandbox, split, stderr, stdout};
 
 /// Number of pictures over the shutter.
 const SUBFRAMES: usize = 4;
-const WIDTH: u32 = 96;
-const HEIGHT: u32 = 54;
 
 /// Copies the example to the target folder, and installs three.js there unless it is installed.
 fn install() -> &'static Path {
@@ -64,18 +60,7 @@ impl Drawn {
         let folder = scenes().display().to_string();
         let words = ["engine", "export", "--gltf", "gltf", "--scenes-dir"];
         sandbox.execute(&[&words, &[folder.as_str(), scene][..]].concat());
-        let settings = RenderSettings {
-            width: WIDTH,
-            height: HEIGHT,
-            samples_per_pixel: 8,
-            options: FrameOptions {
-                velocity: VelocityKind::PreviousFrame,
-                ..FrameOptions::default()
-            },
-            ..RenderSettings::default()
-        };
-        let own = load_scene(scenes().join(scene), None).unwrap();
-        let frame = trace_frame(&own, &settings, &unwatched).unwrap();
+        let frame = render_instant(scenes().join(scene), 8, 0.0);
         let [gltf, out] = [format!("gltf/{scene}"), "capture".to_owned()]
             .map(|below| sandbox.path(&below).display().to_string());
         let [size, subframes] = [format!("{WIDTH}x{HEIGHT}"), SUBFRAMES.to_string()];

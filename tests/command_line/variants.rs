@@ -3,7 +3,6 @@
 use std::fs;
 
 use suite::{Case, Run};
-use tests::text::read_rows;
 
 use crate::sandbox::{IDENTITY, Sandbox, assert_refused, split};
 
@@ -68,20 +67,4 @@ fn kinds_of_frames_are_recorded_and_sealed_scenes_have_other_truths_and_no_limit
     refuse("--seal 7", says);
     let says = "--seal: plate@fast is a variant; allowed: scenes in their default variant";
     refuse("--seal 7 --scenes plate@fast", says);
-}
-
-#[test]
-fn bad_kinds_of_frames_are_refused() {
-    let sandbox = Sandbox::new();
-    for (words, parts) in read_rows(
-        "
-        --frame-sampling sharp => sharp | antialiased, point
-        --color point => --color | auto, always, never
-        --sky-velocity maybe => maybe | off
-        --guard-band wide => --guard-band | wide
-        --guard-band 99999 => 200062x200030 | 16384",
-    ) {
-        let refused = sandbox.run(&[&IDENTITY[..], &split(words)].concat());
-        assert_refused(&refused, 2, &parts);
-    }
 }

@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use walkdir::{DirEntry, WalkDir};
+
 use crate::seeds::in_repository;
 
 /// The program that is fuzzed.
@@ -51,17 +53,11 @@ pub fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Finds the files below a folder whose names end this way, sorted by path.
+/// Finds the files below a folder whose names end this way, sorted by path. A folder that is not there has none.
 pub fn files(folder: &Path, end: &str) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).into_iter().flatten() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            found.extend(files(&path, end));
-        } else if path.to_string_lossy().ends_with(end) {
-            found.push(path);
-        }
-    }
+    let entries = WalkDir::new(folder).into_iter().filter_map(Result::ok);
+    let mut found: Vec<PathBuf> = entries.map(DirEntry::into_path).collect();
+    found.retain(|path| !path.is_dir() && path.to_string_lossy().ends_with(end));
     found.sort();
     found
 }

@@ -8,6 +8,17 @@ pub fn assert_contains(text: &str, parts: &[&str]) {
     }
 }
 
+/// Joins the words of a text by single spaces: lines break at the width of the terminal.
+pub fn squeeze(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Finds the first block of code of a page that begins with this text and its line of back quotes.
+pub fn code_block<'a>(page: &'a str, start: &str) -> &'a str {
+    let (_, rest) = page.split_once(start).expect(start);
+    rest.split("```").next().unwrap_or_default()
+}
+
 /// Reads the rows of a table, `what => part | part`, as pairs.
 pub fn read_rows(table: &str) -> Vec<(&str, Vec<&str>)> {
     let rows = table.lines().filter(|line| !line.trim().is_empty());

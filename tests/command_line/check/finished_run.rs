@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use tests::text::{assert_contains, squeeze};
+
 use super::{assert_ends, bound, check, make_bounded};
 use crate::sandbox::{assert_refused, split, stderr};
 
@@ -18,8 +20,7 @@ fn a_finished_run_is_judged_without_an_adapter() {
     let judged = assert_ends(&judge("out/run.json --evidence"), 1, &[note]);
     assert_eq!(judged.replace(note, ""), made);
     let said = stderr(&judge("out/run.json --json"));
-    let said: Vec<&str> = said.split_whitespace().collect();
-    assert!(said.join(" ").contains(note.trim_end()), "{said:?}");
+    assert_contains(&squeeze(&said), &[note.trim_end()]);
     // Evidence takes a while, so only who asks for it gets it.
     let plain = assert_ends(&judge("out"), 1, &broken);
     assert!(!plain.contains("worst at"), "{plain}");
@@ -43,6 +44,6 @@ fn a_judgement_of_another_run_is_refused() {
     let run = sandbox.path("out/run.json");
     let text = fs::read_to_string(&run).unwrap();
     fs::write(&run, text.replace("\"seed\": 1,", "\"seed\": 2,")).unwrap();
-    let row = "| judgement.json | about another run.json | shuttertruth check out/run.json";
+    let row = " => judgement.json | about another run.json | shuttertruth check out/run.json";
     sandbox.refuse_rows("report out --html page.html", row);
 }

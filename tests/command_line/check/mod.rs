@@ -9,6 +9,8 @@ mod sequences;
 use std::process::Output;
 use std::sync::OnceLock;
 
+use tests::text::squeeze;
+
 use crate::sandbox::{Files, Sandbox, split, stderr, stdout};
 
 /// A bound that the identity keeps.
@@ -46,7 +48,7 @@ fn assert_ends(output: &Output, code: i32, parts: &[&str]) -> String {
     let text = stdout(output);
     assert_eq!(output.status.code(), Some(code), "{text}{}", stderr(output));
     // Lines break at the width of the terminal.
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = squeeze(&text);
     for part in parts {
         let found = text.contains(part) || words.contains(part);
         assert!(found, "\"{part}\" is missing from:\n{text}");

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use tests::root;
+use tests::text::code_block;
 
 use crate::conventions::largest_difference;
 use crate::sandbox::{Sandbox, assert_done, read_below, split};
@@ -35,10 +36,7 @@ fn write_fixture(sandbox: &Sandbox, language: &str, head: &str) {
 #[test]
 fn each_compiler_makes_the_picture_that_wgsl_makes() {
     const README: &str = include_str!("../../../shaders/README.md");
-    let block = |language: &str| {
-        let after = README.split_once(&format!("```{language}\n")).unwrap().1;
-        after.split_once("```").unwrap().0
-    };
+    let block = |language: &str| code_block(README, &format!("```{language}\n"));
     let sandbox = Sandbox::new();
     sandbox.write_filter("centre_blur", block("toml"), block("wgsl"));
     let head = block("toml").split_once("[[pass]]").unwrap().0;

@@ -1,5 +1,7 @@
 //! The tables of scores that README.md and docs/results.md show, against what `run` prints.
 
+use tests::text::squeeze;
+
 use super::reader::Reader;
 use crate::sandbox::{assert_done, stdout};
 
@@ -18,11 +20,6 @@ fn find_rows(page: &str) -> Vec<&str> {
         block.starts_with("    ") && (head.starts_with("mean over") || head.starts_with("scene /"))
     });
     tables.flat_map(str::lines).map(|line| &line[4..]).collect()
-}
-
-/// Joins the words of a line by single spaces.
-fn squeeze(line: &str) -> String {
-    line.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[test]

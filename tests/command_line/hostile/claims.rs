@@ -4,6 +4,7 @@ use std::io::Write;
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use png::{BitDepth, ColorType, Encoder, chunk};
 use serde::Deserialize;
 
 /// Content of an OpenEXR header.
@@ -116,21 +117,14 @@ impl Claim {
 pub fn png(width: u32, height: u32, [depth, kind]: [u8; 2], zeros: usize) -> Vec<u8> {
     let mut rows = ZlibEncoder::new(Vec::new(), Compression::best());
     rows.write_all(&vec![0; zeros]).unwrap();
-    let mut header = [width.to_be_bytes(), height.to_be_bytes()].concat();
-    header.extend([depth, kind, 0, 0, 0]);
-    let mut png = b"\x89PNG\r\n\x1a\n".to_vec();
-    for (kind, data) in [
-        (b"IHDR", header),
-        (b"IDAT", rows.finish().unwrap()),
-        (b"IEND", Vec::new()),
-    ] {
-        let mut crc = flate2::Crc::new();
-        crc.update(kind);
-        crc.update(&data);
-        png.extend((data.len() as u32).to_be_bytes());
-        png.extend(kind);
-        png.extend(&data);
-        png.extend(crc.sum().to_be_bytes());
-    }
-    png
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, width, height);
+    encoder.set_depth(BitDepth::from_u8(depth).unwrap());
+    encoder.set_color(ColorType::from_u8(kind).unwrap());
+    let mut writer = encoder.write_header().unwrap();
+    writer
+        .write_chunk(chunk::IDAT, &rows.finish().unwrap())
+        .unwrap();
+    drop(writer);
+    file
 }

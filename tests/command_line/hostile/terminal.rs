@@ -1,17 +1,13 @@
 //! Output to terminals, logs and summaries: hostile names and messages, and closed pipes.
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::{Output, Stdio};
 
-use cli::{
-    annotations, check_text, compare_table, ranking_text, run_table, summary, terminal_text,
-};
+use cli::{annotations, check_text, summary, terminal_text};
 use frame::{Alignment, Frame, Truth};
-use judge::{CHECK_FORMAT, Check, Decision, check, compare_runs};
-use suite::{Failure, StoredRun};
+use judge::{CHECK_FORMAT, Check, Decision};
+use suite::Failure;
 use tests::text::assert_contains;
 use tracer::SceneId;
 
@@ -25,13 +21,13 @@ const HOSTILE: &str = "a\n::error::b\u{1b}[2J";
 #[track_caller]
 fn assert_no_command(text: &str) {
     for line in text.lines() {
-        assert!(!line.trim_start().starts_with("::error::"), "{text}");
+        assert!(!line.trim_start().starts_with("::"), "{text}");
     }
 }
 
 /// Asserts that the output has no escape codes and no such line.
 #[track_caller]
-fn assert_tame(output: &Output) {
+pub fn assert_tame(output: &Output) {
     for text in [stdout(output), stderr(output)] {
         let is_code = |letter: char| letter.is_control() && letter != '\n';
         assert!(!text.contains(is_code), "{text:?}");
@@ -103,57 +99,20 @@ fn names_in_files_are_printed_without_control_codes() {
     assert_eq!(json["scene"], name);
 }
 
-/// Makes a failure of which everything is this text.
-fn failure(text: &str) -> Failure {
-    Failure {
-        scene: SceneId::new(text, None),
-        filter: text.to_owned(),
-        alignment: Alignment::Trailing,
-        reason: text.to_owned(),
-    }
-}
-
 #[test]
 fn names_in_a_run_are_printed_without_control_codes() {
-    let sandbox = Sandbox::two_scenes();
-    assert_done(&sandbox.run(&["--filters", "jump_flood:paper"]));
-    let name = "a\n::error::b\u{1b}[35m\u{9b}2J";
-    let whole = StoredRun::read(&sandbox.path("out")).unwrap();
-    let mut side = StoredRun::read(&sandbox.path("out")).unwrap();
-    let first = side.run.cases[0].scene.clone();
-    // Cases of the first scene stay, to be compared.
-    for case in (side.run.cases.iter_mut()).filter(|case| case.scene != first) {
-        case.id.scene = SceneId::new(name, None);
-        case.id.filter = name.to_owned();
-    }
-    side.run.failures.push(failure(name));
-    let go_on = |_| ControlFlow::Continue(());
-    let compared = compare_runs(&whole, &side, &BTreeMap::new(), &go_on).unwrap();
-    let checked = check(&side.run, Vec::new(), Vec::new());
-    for text in [
-        run_table(&side.run),
-        ranking_text(&side.run.cases),
-        compare_table(&compared),
-        check_text(&checked, Path::new("out"), true),
-    ] {
-        let shown = terminal_text(&text);
-        assert_contains(&shown, &["::error::b\\u001b[35m\\u009b2J"]);
-        assert!(
-            !shown.contains("\u{1b}[35m") && !shown.contains('\u{9b}'),
-            "{shown:?}"
-        );
-        assert_no_command(&shown);
-    }
-    assert_contains(&terminal_text(&run_table(&side.run)), &["\u{1b}[1m"]);
-
+    let sandbox = Sandbox::measured();
     let text = fs::read_to_string(sandbox.path("out/run.json")).unwrap();
-    let planted = text.replace("\"jump_flood\"", "\"a\\u001b[35m\\u009b2J\"");
+    let planted = text.replace("\"identity\"", "\"a\\u001b[35m\\u009b2J\"");
     assert_ne!(planted, text);
     fs::write(sandbox.path("out/run.json"), planted).unwrap();
-    let compared = sandbox.shuttertruth(&["compare", "out", "out"]);
-    assert_done(&compared);
-    assert_tame(&compared);
-    assert_contains(&stdout(&compared), &["a\\u001b[35m\\u009b2J"]);
+    sandbox.write_bound(0.2);
+    for (line, code) in [("compare out out", 0), ("check out", 1)] {
+        let output = sandbox.outside_ci(&split(line));
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        assert_tame(&output);
+        assert_contains(&stdout(&output), &["a\\u001b[35m\\u009b2J"]);
+    }
 }
 
 #[test]
@@ -163,7 +122,12 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
         format: CHECK_FORMAT,
         program: suite::PROGRAM.to_owned(),
         decision: Decision::Broken,
-        failures: vec![failure(hostile)],
+        failures: vec![Failure {
+            scene: SceneId::new(hostile, None),
+            filter: hostile.to_owned(),
+            alignment: Alignment::Trailing,
+            reason: hostile.to_owned(),
+        }],
         findings: Vec::new(),
         comparisons: Vec::new(),
     };
@@ -180,6 +144,8 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
             !text.contains("\u{1b}[2J") && !text.contains('\r'),
             "{text:?}"
         );
+    }
+    for text in [&failures, &markdown] {
         assert_no_command(text);
     }
     for code in ["\u{1b}", "![x]", " <img"] {

@@ -13,8 +13,8 @@ use tracer::{RenderSettings, load_scene, trace_frame};
 use crate::sandbox::Sandbox;
 
 pub const EXPOSURE: f64 = 0.5;
-const WIDTH: u32 = 96;
-const HEIGHT: u32 = 54;
+pub const WIDTH: u32 = 96;
+pub const HEIGHT: u32 = 54;
 const NEAR: f32 = 0.1;
 
 pub const DESCRIPTION: &str = "\
@@ -51,7 +51,7 @@ impl<'a> Capture<'a> {
     pub fn at(sandbox: &'a Sandbox, time: f64) -> Self {
         let capture = Self {
             sandbox,
-            frame: render_instant(sandbox, time),
+            frame: render_plate(sandbox, time),
         };
         fs::create_dir(sandbox.path("capture")).unwrap();
         capture.write("capture.toml", DESCRIPTION);
@@ -103,7 +103,7 @@ impl<'a> Capture<'a> {
             let time = shutter.at((f64::from(index) + 0.5) / f64::from(count));
             let Frame {
                 color, object_id, ..
-            } = render_instant(self.sandbox, time);
+            } = render_plate(self.sandbox, time);
             let ids = has_ids.then_some(&object_id);
             self.write_picture(&format!("subframes/{index:04}.exr"), &color, ids);
             if index < 4 {
@@ -149,14 +149,13 @@ impl<'a> Capture<'a> {
     }
 }
 
-/// Renders the plate as it is at a time.
-fn render_instant(sandbox: &Sandbox, time: f64) -> Frame {
-    let scene = load_scene(sandbox.path("scenes/plate"), None).unwrap();
-    let scene = scene.later_by(time);
+/// Renders the scene of a folder as it is at a time, with the velocity that engines have.
+pub fn render_instant(folder: PathBuf, samples_per_pixel: u32, time: f64) -> Frame {
+    let scene = load_scene(folder, None).unwrap().later_by(time);
     let settings = RenderSettings {
         width: WIDTH,
         height: HEIGHT,
-        samples_per_pixel: 16,
+        samples_per_pixel,
         options: FrameOptions {
             velocity: VelocityKind::PreviousFrame,
             ..FrameOptions::default()
@@ -164,4 +163,8 @@ fn render_instant(sandbox: &Sandbox, time: f64) -> Frame {
         ..RenderSettings::default()
     };
     trace_frame(&scene, &settings, &unwatched).unwrap()
+}
+
+fn render_plate(sandbox: &Sandbox, time: f64) -> Frame {
+    render_instant(sandbox.path("scenes/plate"), 16, time)
 }

@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 
 use suite::{Monitor, TRAVERSALS, Verification};
-use tests::filter_folder::one_kernel_without_parameters;
 use tests::text::assert_contains;
 
 use super::{
@@ -129,8 +128,7 @@ fn the_instructions_of_all_machines_are_known() {
 fn no_pack_turns_a_failed_check_into_a_success() {
     let sandbox = packed();
     let body = "textureStore(output, pixel, 0.5 * textureLoad(color, pixel, 0));";
-    let manifest = "name = \"half\"\nsummary = \"Halves.\"\nalignment = \"trailing\"\n\n[[pass]]\nentry = \"work\"\n";
-    sandbox.write_filter("half", manifest, &one_kernel_without_parameters(body));
+    sandbox.write_kernel("half", "", &[], body);
     sandbox.write_bound(0.4);
     let check = |pack: &str| {
         let words = format!("check --filter ./half --truths {pack} --out checked {QUICK}");

@@ -15,9 +15,7 @@ use frame::{Replicate, Truth};
 use store::Manifest;
 
 use crate::sandbox::{Files, Sandbox, assert_refused, split};
-
-/// Options that measure in next to no time.
-const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
+use crate::shared_runs::QUICK;
 
 /// Replicates of a truth.
 const REPLICATES: u32 = 8;

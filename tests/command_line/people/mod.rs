@@ -9,7 +9,7 @@ use study::{
     Answer, AnswerFile, Chosen, Clip, DisplayFacts, Question, SHARP_CLIP, ShownPair, Study,
     TRUTH_CLIP, draw_session,
 };
-use tests::text::{assert_contains, read_rows};
+use tests::text::{assert_contains, squeeze};
 
 use crate::sandbox::{Sandbox, assert_same_files, files_below, read_below, split};
 
@@ -125,9 +125,10 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
         "128 pixels",
         "Nobody has answered yet",
     ];
-    assert_contains(&split(&text).join(" "), &parts);
+    assert_contains(&squeeze(&text), &parts);
     finish_half_a_page(&sandbox);
-    for (words, parts) in read_rows(
+    sandbox.refuse_rows(
+        "people ask --out new",
         r#"
         out --filters identity => this many filters of the trailing shutter: 1 | 2 to 64
         out --filters bevy => "bevy" fits nothing in the run; it has | jump_flood:paper
@@ -135,10 +136,8 @@ fn a_page_has_copies_of_the_pictures_and_refuses_what_people_cannot_compare() {
         out --pairs 2 => allows 2 pairs | 3 or more
         out --question best => 'best' for '--question <QUESTION>' | better
         none => no such file"#,
-    ) {
-        sandbox.refuse(&format!("people ask {words} --out new"), &parts);
-        assert!(!sandbox.path("new").exists(), "{words}");
-    }
+    );
+    assert!(!sandbox.path("new").exists());
     let parts = ["page: holds 2 files or folders", "a new folder"];
     sandbox.refuse("people ask out --out page", &parts);
     fs::remove_file(sandbox.path("out/slow/0001/frame.png")).unwrap();
@@ -209,7 +208,7 @@ fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
         "people chose alike in",
         "flip_moving +1.00",
     ];
-    assert_contains(&split(&table).join(" "), &parts);
+    assert_contains(&squeeze(&table), &parts);
     let mut lines = table.lines();
     assert!(lines.all(|line| line.chars().count() <= 80), "{table}");
 
@@ -223,7 +222,7 @@ fn answers_to_a_page_become_a_scale_beside_the_scores_of_the_run() {
         "the prior alone holds",
         "0 of 2 checks failed",
     ];
-    assert_contains(&split(&table).join(" "), &parts);
+    assert_contains(&squeeze(&table), &parts);
     refusals::assert_answers_are_refused(&sandbox, &study);
 }
 

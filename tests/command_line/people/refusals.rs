@@ -3,6 +3,7 @@
 use std::fs;
 
 use study::{AnswerFile, Question, Study};
+use tests::text::read_rows;
 
 use super::{FILTERS, answer, prefer_first, preferences, write_answers};
 use crate::sandbox::{Sandbox, assert_refused};
@@ -30,45 +31,26 @@ pub fn assert_answers_are_refused(sandbox: &Sandbox, study: &Study) {
     let says =
         "answers_1.json: answers about other pictures than answers_0.json: the pictures differ";
     refuse(&[session(1), others], &[says]);
-    let changes: [(Change, &[&str]); 10] = [
-        (
-            |file| file.format = 2,
-            &["answers_0.json: has format 2; allowed: 1"],
-        ),
-        (
-            |file| file.seed = 4,
-            &["answer 1 of 8 is about", "the seed 4 shows"],
-        ),
-        (swap_sides, &["answer 5 of 8 is about"]),
-        (
-            |file| file.answers.push(file.answers[0].clone()),
-            &["9 answers; allowed: 1 to 8"],
-        ),
-        (|file| file.answers.clear(), &["0 answers; allowed: 1 to 8"]),
-        (
-            |file| file.answers[0].milliseconds = -1.0,
-            &["answer 1 of 8 took -1 milliseconds"],
-        ),
-        (
-            |file| file.seed = 1 << 60,
-            &["allowed: 0 to 9007199254740991"],
-        ),
-        (
-            |file| file.study.shutters[0].filters.truncate(1),
-            &["its page has this many filters"],
-        ),
-        (
-            |file| file.study.shutters[0].blurred_scenes = vec![7],
-            &["differs from the sharp frame"],
-        ),
-        // One answer is no scale.
-        (
-            |file| file.answers.truncate(1),
-            &["no scale of the trailing shutter exists", " | "],
-        ),
-    ];
-    for (change, parts) in changes {
-        refuse(&[changed(change)], parts);
+    let parts = ["answer 5 of 8 is about"];
+    refuse(&[changed(swap_sides)], &parts);
+    let more = changed(|file| file.answers.push(file.answers[0].clone()));
+    refuse(&[more], &["9 answers; allowed: 1 to 8"]);
+    let parts = ["no scale of the trailing shutter exists", " | "];
+    refuse(&[changed(|file| file.answers.truncate(1))], &parts);
+    for (change, parts) in read_rows(
+        r#"
+        /format 2 => answers_0.json: has format 2; allowed: 1
+        /seed 4 => answer 1 of 8 is about | the seed 4 shows
+        /seed 1152921504606846976 => allowed: 0 to 9007199254740991
+        /answers [] => 0 answers; allowed: 1 to 8
+        /answers/0/milliseconds -1.0 => answer 1 of 8 took -1 milliseconds
+        /study/shutters/0/filters ["identity:default"] => its page has this many filters
+        /study/shutters/0/telling_scenes [7] => differs from the sharp frame"#,
+    ) {
+        let mut file = serde_json::to_value(session(3)).unwrap();
+        let (pointer, value) = change.split_once(' ').unwrap();
+        *file.pointer_mut(pointer).unwrap() = serde_json::from_str(value).unwrap();
+        refuse(&[serde_json::from_value(file).unwrap()], &parts);
     }
 
     let text = serde_json::to_string(&session(3)).unwrap();

@@ -219,7 +219,7 @@ fn costs_come_from_the_bench_beside_the_run() {
     let bench = sandbox.path("out/bench.json");
     let text = fs::read_to_string(&bench).unwrap();
     fs::write(bench, text.replace("\"format\": 1", "\"format\": 0")).unwrap();
-    let row = "| out/bench.json: has format 0; allowed: 1 | `shuttertruth bench`";
+    let row = " => out/bench.json: has format 0; allowed: 1 | `shuttertruth bench`";
     sandbox.refuse_rows(REPORT, row);
 }
 

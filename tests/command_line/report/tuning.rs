@@ -104,7 +104,7 @@ fn the_page_of_a_sensitivity_study_shows_intervals_and_slices() {
         own["indices"] = serde_json::Value::Null;
     }
     fs::write(sandbox.path("tuned/sensitivity.json"), old.to_string()).unwrap();
-    let row = "| tuned/sensitivity.json | no Sobol indices | `shuttertruth tune search`";
+    let row = " => tuned/sensitivity.json | no Sobol indices | `shuttertruth tune search`";
     sandbox.refuse_rows(REPORT, row);
 }
 

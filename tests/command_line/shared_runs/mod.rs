@@ -13,7 +13,7 @@ use crate::sandbox::{Files, Sandbox};
 const FILTERS: &str = "velocity_gather:fine,velocity_gather:coarse,kino:default";
 
 /// Options that measure in next to no time.
-const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
+pub const QUICK: &str = "--quiet --size 64x32 --samples-per-pixel 16 --jitter-frames 2";
 
 /// Plans a command; returns one job per line.
 fn plan(sandbox: &Sandbox, words: &str) -> Vec<Value> {

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use tests::text::read_rows;
+
 use super::{QUICK, parts};
 use crate::sandbox::Sandbox;
 
@@ -27,31 +29,14 @@ fn measure_other(sandbox: &Sandbox, more: &str) {
 #[test]
 fn runs_of_other_settings_are_refused() {
     let sandbox = parts();
-    let rows: [(&str, &[&str]); 4] = [
-        (
-            "identity --seed 2",
-            &["has the seed 1, other/run.json has 2"],
-        ),
-        (
-            "identity --velocity previous_frame",
-            &["has the velocity instantaneous"],
-        ),
-        (
-            "identity --frames 2",
-            &["has the number of frames 1 at 60 per second"],
-        ),
-        (
-            "kino:default",
-            &[
-                "common shutter trailing",
-                "has centred",
-                "the same common shutter",
-            ],
-        ),
-    ];
-    for (more, found) in rows {
+    for (more, found) in read_rows(
+        "
+        identity --seed 2 => plate/run.json | has the seed 1, other/run.json has 2
+        identity --velocity previous_frame => plate/run.json | has the velocity instantaneous
+        identity --frames 2 => plate/run.json | has the number of frames 1 at 60 per second
+        kino:default => plate/run.json | common shutter trailing | has centred | the same common shutter",
+    ) {
         measure_other(&sandbox, &format!("--scenes slow --filter {more}"));
-        let found = [&["plate/run.json"], found].concat();
         refuse(&sandbox, "plate other", &found);
     }
     change(&sandbox, "slow", "\"driver\": \"", "\"driver\": \"other ");
@@ -114,18 +99,6 @@ fn missing_cases_are_named() {
 }
 
 #[test]
-fn truths_are_not_looked_for_in_vain() {
-    let sandbox = Sandbox::new();
-    let run = format!("run --filter identity {QUICK} --truths");
-    sandbox.refuse_rows(
-        &run,
-        "nowhere | --truths nowhere: there is no such folder | truths render --ladders
-        scenes --no-cache | --truths | --no-cache",
-    );
-    assert!(!sandbox.path("out").exists());
-}
-
-#[test]
 fn what_holds_no_run_is_refused() {
     let sandbox = parts();
     for folder in ["empty", "damaged"] {
@@ -134,9 +107,10 @@ fn what_holds_no_run_is_refused() {
     fs::write(sandbox.path("damaged/run.json"), "{").unwrap();
     sandbox.refuse_rows(
         "truths merge --out whole plate",
-        "empty | empty holds no replicates | or finished runs alone
-        damaged | damaged/run.json | no run of this program
-        nowhere | nowhere",
+        "
+        empty => empty holds no replicates | or finished runs alone
+        damaged => damaged/run.json | no run of this program
+        nowhere => nowhere",
     );
     assert!(!sandbox.path("whole").exists(), "nothing is written");
 }

@@ -64,9 +64,3 @@ fn read_trials(sandbox: &Sandbox) -> Vec<Trial> {
 fn read_tuning(sandbox: &Sandbox) -> Tuning {
     sandbox.read_json("out/tune.json")
 }
-
-/// Joins the lines of a text, which break at the width of the terminal.
-fn unwrap_lines(text: &str) -> String {
-    let words: Vec<&str> = text.split_whitespace().collect();
-    words.join(" ")
-}

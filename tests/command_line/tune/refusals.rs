@@ -3,9 +3,9 @@
 use std::fs;
 
 use tests::filter_folder::{write_manifest, write_script};
-use tests::text::assert_contains;
+use tests::text::{assert_contains, squeeze};
 
-use super::{read_tuning, set_up, unwrap_lines};
+use super::{read_tuning, set_up};
 use crate::sandbox::{SCENE, Sandbox, assert_done, split, stderr, stdout};
 
 const SEARCH: &str = "tune search --quiet --size 64x32 --samples-per-pixel 16 --out out";
@@ -19,19 +19,17 @@ fn bad_tunings_are_refused_and_leave_no_files() {
     sandbox.refuse_rows(
         &format!("{search} --objective flip"),
         r#"
-        --scenes nowhere | no scene "nowhere" | allowed: a, b
-        --scenes a,a | a is named twice
-        --scenes a,b --held-out b --vary samples | scene b | proves nothing
-        --scenes a --vary sample | parameter sample: | no parameter | samples
-        --scenes a --vary samples=9..3 | parameter samples=9..3 | the range is empty
-        --scenes a --cost-at-most 1x | cost has a limit | objectives: flip,cost
-        --scenes a --from fastest | no preset "fastest" | paper
+        --scenes nowhere => no scene "nowhere" | allowed: a, b
+        --scenes a,a => a is named twice
+        --scenes a,b --held-out b --vary samples => scene b | proves nothing
+        --scenes a --vary sample => parameter sample: | no parameter | samples
+        --scenes a --vary samples=9..3 => parameter samples=9..3 | the range is empty
+        --scenes a --cost-at-most 1x => cost has a limit | objectives: flip,cost
+        --scenes a --from fastest => no preset "fastest" | paper
         "#,
     );
-    let rows = "--scenes a --objective speed | allowed: flip, bleed, cost";
+    let rows = "--scenes a --objective speed => allowed: flip, bleed, cost";
     sandbox.refuse_rows(&search, rows);
-    let no_budget = search.replace("--budget 2", "--budget 0");
-    sandbox.refuse(&no_budget, &["--budget <N>", "0 is not in 1.."]);
     assert!(!sandbox.path("out").exists(), "nothing is written");
     let parts = ["scene g: nothing moves", "leave the scene out"];
     sandbox.refuse(&format!("{search} --scenes g"), &parts);
@@ -44,7 +42,7 @@ fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
     fs::write(sandbox.path("out/preset.toml"), "of an earlier tuning").unwrap();
     let more = "--filter jump_flood --from paper --vary samples=2..16,jitter \
         --objective flip --scenes a,b --budget 12";
-    let text = unwrap_lines(&sandbox.done(&format!("{SEARCH} {more}")));
+    let text = squeeze(&sandbox.done(&format!("{SEARCH} {more}")));
     let reason = match read_tuning(&sandbox).choice.trial {
         0 => "no trial beats it".to_owned(),
         trial => format!("2 scenes cannot tell trial {trial} from it, and 5 or more may"),

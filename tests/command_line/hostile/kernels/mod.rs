@@ -7,8 +7,9 @@ use std::process::Output;
 
 use filters::Filter;
 
+use crate::hostile::terminal::assert_tame;
 use crate::rows::{divide, rows};
-use crate::sandbox::{Sandbox, assert_refused, stderr};
+use crate::sandbox::{Sandbox, assert_refused};
 
 /// Makes a sandbox with the filter `mine`, after these replacements in its files.
 fn write_mine(changes: &[(&str, &str)]) -> Sandbox {
@@ -39,17 +40,7 @@ fn refuse_rows(table: &str) -> Vec<(Sandbox, Vec<&'static str>)> {
             let sandbox = write_mine(&changes);
             let output = list(&sandbox);
             assert_refused(&output, 2, &parts);
-            let message = stderr(&output);
-            assert!(
-                !message.contains(|sign: char| sign.is_control() && sign != '\n'),
-                "{message:?}"
-            );
-            assert!(
-                !message
-                    .lines()
-                    .any(|line| line.trim_start().starts_with("::")),
-                "{message}"
-            );
+            assert_tame(&output);
             (sandbox, parts)
         });
     refused.collect()

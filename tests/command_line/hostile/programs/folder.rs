@@ -1,6 +1,6 @@
 //! One folder that several processes use.
 
-use std::fs::{self, OpenOptions};
+use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 
@@ -19,13 +19,7 @@ fn two_runs_cannot_share_a_folder_at_the_same_time() {
     ];
     // The lock file that another process holds.
     fs::create_dir(sandbox.path("out")).unwrap();
-    let lock = sandbox.path("out/.shuttertruth.lock");
-    let other = OpenOptions::new()
-        .write(true)
-        .create(true)
-        .truncate(false)
-        .open(lock)
-        .unwrap();
+    let other = fs::File::create(sandbox.path("out/.shuttertruth.lock")).unwrap();
     other.try_lock().unwrap();
     for line in [
         RUN,

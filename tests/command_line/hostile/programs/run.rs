@@ -1,20 +1,14 @@
 //! Filters that are programs: permission, environment, end.
 
 use std::fs;
-use std::path::Path;
 use std::process::{Command, Output};
-use std::time::{Duration, Instant};
 
 use frame::{ExrFile, Raster, write_exr};
-use tests::filter_folder::write_program;
 use tests::text::assert_contains;
 
-use crate::sandbox::{Sandbox, assert_done, assert_refused, press_ctrl_c, split};
-
-/// Writes the filter `mine`, a shell script that gets the files as $1 and $2.
-fn write_mine(sandbox: &Sandbox, lines: &str, more: &str) {
-    write_program(&sandbox.path("mine"), "mine", lines, more);
-}
+use crate::sandbox::{
+    Sandbox, assert_done, assert_ends_at_ctrl_c, assert_refused, split, wait_until,
+};
 
 /// Makes a sandbox with a frame of 16 x 16 pixels, which is quick to blur.
 fn set_up() -> Sandbox {
@@ -41,14 +35,14 @@ fn command(sandbox: &Sandbox) -> Command {
 
 /// Blurs with the script as the filter.
 fn blur(sandbox: &Sandbox, lines: &str, more: &str) -> Output {
-    write_mine(sandbox, lines, more);
+    sandbox.write_program("mine", lines, more);
     command(sandbox).output().unwrap()
 }
 
 #[test]
 fn no_command_runs_a_program_without_permission() {
     let sandbox = set_up();
-    write_mine(&sandbox, "touch ran; cp $1 $2", "");
+    sandbox.write_program("mine", "touch ran; cp $1 $2", "");
     for line in [
         "run --out out --filter mine",
         "check --out out --filter mine",
@@ -76,7 +70,7 @@ fn no_command_runs_a_program_without_permission() {
 fn a_program_gets_no_secret_from_the_environment() {
     let sandbox = set_up();
     let named = "environment = [\"CUDA_VISIBLE_DEVICES\", \"NOT_SET\"]";
-    write_mine(&sandbox, "env > seen; cp $1 $2", named);
+    sandbox.write_program("mine", "env > seen; cp $1 $2", named);
     let mut command = command(&sandbox);
     let secrets = ["GITHUB_TOKEN", "ACTIONS_RUNTIME_TOKEN", "MY_SECRET"];
     command.envs(secrets.map(|name| (name, "hidden")));
@@ -100,7 +94,7 @@ fn a_program_gets_no_secret_from_the_environment() {
     let listed = sandbox.execute(&split("list --filter mine"));
     assert_contains(&listed, &["environment: CUDA_VISIBLE_DEVICES NOT_SET"]);
     for name in ["A=B", "", "1A"] {
-        write_mine(&sandbox, "", &format!("environment = [\"{name}\"]"));
+        sandbox.write_program("mine", "", &format!("environment = [\"{name}\"]"));
         let part = format!("mine/filter.toml:5: environment: \"{name}\" names no variable");
         sandbox.refuse(BLUR, &[&part]);
     }
@@ -115,14 +109,6 @@ fn a_program_gets_no_secret_from_the_environment() {
 const LEAVES_ONE: &str = "(setsid sh -c 'echo $$ > pid.new; mv pid.new pid; exec sleep 300' &)\n\
                           while [ ! -e pid ]; do sleep 0.01; done";
 
-/// Returns whether the process in `pid` has ended, as a zombie has.
-#[cfg(target_os = "linux")]
-fn has_ended(sandbox: &Sandbox) -> bool {
-    let pid = fs::read_to_string(sandbox.path("mine/pid")).unwrap();
-    let stat = Path::new("/proc").join(pid.trim_end()).join("stat");
-    fs::read_to_string(stat).map_or(true, |stat| stat.contains(") Z "))
-}
-
 #[cfg(target_os = "linux")]
 #[test]
 fn a_child_session_ends_with_its_program() {
@@ -135,7 +121,8 @@ fn a_child_session_ends_with_its_program() {
         let output = blur(&sandbox, &format!("{LEAVES_ONE}\n{rest}"), more);
         assert_eq!(output.status.code(), Some(code), "{rest}");
         assert_contains(&String::from_utf8_lossy(&output.stderr), &[part]);
-        assert!(has_ended(&sandbox), "it lives on after: {rest}");
+        let has_ended = sandbox.has_ended("mine/pid");
+        assert!(has_ended, "it lives on after: {rest}");
     }
 }
 
@@ -143,17 +130,11 @@ fn a_child_session_ends_with_its_program() {
 #[test]
 fn a_child_session_ends_at_ctrl_c() {
     let sandbox = set_up();
-    write_mine(&sandbox, &format!("{LEAVES_ONE}\nsleep 300"), "");
+    sandbox.write_program("mine", &format!("{LEAVES_ONE}\nsleep 300"), "");
     let mut child = sandbox.command(&split(BLUR)).spawn().unwrap();
-    while !sandbox.path("mine/pid").exists() {
-        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    let pressed = Instant::now();
-    press_ctrl_c(&child);
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(pressed.elapsed() < Duration::from_secs(2));
-    assert!(has_ended(&sandbox));
+    wait_until(&mut child, || sandbox.path("mine/pid").exists());
+    assert_ends_at_ctrl_c(child);
+    assert!(sandbox.has_ended("mine/pid"));
 }
 
 #[test]
@@ -186,8 +167,8 @@ fn the_output_of_a_program_is_limited() {
         assert_refused(&blur(&sandbox, lines, ""), 2, &parts);
     }
     // 300 MB on standard output, although no file may exceed 50 MB: the program keeps only the end, in memory.
-    write_mine(
-        &sandbox,
+    sandbox.write_program(
+        "mine",
         "yes | head -c 300000000; echo the end >&2; exit 7",
         "",
     );

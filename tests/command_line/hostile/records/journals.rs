@@ -45,12 +45,17 @@ fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchange
         let place = format!("journal.jsonl:{line}");
         refused(&(edited.join("\n") + "\n"), commands, &[&place, row[3]]);
     }
-    for text in ["[".repeat(100_000) + "\n", "x".repeat(1 << 20) + "\n"] {
-        refused(
-            &text,
-            &[TUNE],
-            &["journal.jsonl:1", "no journal of a tuning"],
-        );
+    let [deep, long] = ["[".repeat(100_000), "x".repeat(1 << 20)].map(|text| text + "\n");
+    let none = "no journal of a tuning";
+    for (text, found) in [
+        (&*deep, none),
+        (&long, none),
+        ("my notes, without an end of line", none),
+        ("first line\nsecond line\n", none),
+        ("{\"format\":1}\nand half a line", "begun with another"),
+    ] {
+        let parts = ["journal.jsonl:1:", found, "another output folder"];
+        refused(text, &[TUNE], &parts);
     }
     #[cfg(unix)]
     {

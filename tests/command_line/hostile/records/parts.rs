@@ -2,8 +2,9 @@
 
 use std::fs;
 
-use frame::{AtInstant, Raster, Replicate, Support};
+use frame::{Raster, Replicate, read_exr, write_exr};
 
+use super::pictures::enlarge;
 use crate::sandbox::{Sandbox, make_fifo, split};
 
 const SECOND: &str = "b/plate/truth_trailing/replicate_001.exr";
@@ -32,28 +33,6 @@ fn merge(sandbox: &Sandbox) {
     sandbox.execute(&split("truths merge a b --out whole"));
 }
 
-/// Crops the border from a replicate.
-fn smaller(replicate: &Replicate) -> Replicate {
-    let (at, support) = (&replicate.at_instant, &replicate.support);
-    Replicate {
-        picture: replicate.picture.cropped(2),
-        at_instant: AtInstant {
-            frozen: at.frozen.cropped(2),
-            unknowable: at.unknowable.cropped(2),
-            placed: at.placed.cropped(2),
-            offset: at.offset.cropped(2),
-            spread: at.spread.cropped(2),
-        },
-        samples: replicate.samples.cropped(2),
-        support: Support {
-            seen: support.seen.iter().map(|mask| mask.cropped(2)).collect(),
-            moving: support.moving.cropped(2),
-            unknowable: support.unknowable.cropped(2),
-        },
-        ..replicate.clone()
-    }
-}
-
 #[test]
 fn replicates_of_different_truths_are_refused() {
     let sandbox = parts();
@@ -63,8 +42,11 @@ fn replicates_of_different_truths_are_refused() {
         replicate.write(&path).unwrap();
         refuse(&sandbox, "a b", found);
     };
+    let mut larger = read_exr(&path).unwrap();
+    enlarge(&mut larger);
+    write_exr(&path, &larger).unwrap();
     let size = ["plate/truth_trailing", "another size than replicate 0"];
-    refused(&smaller(&whole), &size);
+    refuse(&sandbox, "a b", &size);
 
     let mut fewer = whole.clone();
     fewer.objects.truncate(1);
@@ -89,8 +71,6 @@ fn replicates_of_different_truths_are_refused() {
     };
     let more = provenance(&|own| own.samples_per_pixel = u32::MAX);
     refused(&more, &["another number of samples"]);
-    let foreign = provenance(&|own| own.content_hash = "00".repeat(32));
-    refused(&foreign, &["made from other inputs"]);
     let stray = provenance(&|own| own.scene = "../../etc".to_owned());
     refused(
         &stray,
@@ -131,7 +111,6 @@ fn circular_links_and_pipes_are_not_read_as_parts() {
         make();
         refuse(&sandbox, "a b", &["b holds no replicates"]);
     }
-    refuse(&sandbox, "a b/plate/none", &["b/plate/none: cannot read"]);
     fs::write(sandbox.path("file"), "").unwrap();
     refuse(&sandbox, "a file", &["file: cannot read"]);
 }
