@@ -92,3 +92,27 @@ fn the_readme_links_every_guide() {
         assert!(named, "README.md does not lead to {name}");
     }
 }
+
+#[test]
+fn the_page_of_evidence_names_tests_that_exist() {
+    let page = fs::read_to_string(root().join("docs/evidence.md")).unwrap();
+    let makefile = fs::read_to_string(root().join("Makefile")).unwrap();
+    let mut count = 0;
+    for row in page.lines().filter(|line| line.ends_with("` |")) {
+        let cell = row.rsplit('|').nth(1).unwrap();
+        for name in cell.split('`').skip(1).step_by(2) {
+            count += 1;
+            let exists = match name.split_once(' ') {
+                Some(("make", target)) => makefile.contains(&format!("\n{target}:")),
+                Some((program, module)) => {
+                    let module = module.replace("::", "/");
+                    let path = root().join("tests").join(program).join(module);
+                    path.is_dir() || path.with_extension("rs").is_file()
+                }
+                None => root().join(name).is_dir(),
+            };
+            assert!(exists, "docs/evidence.md: no test is called {name}");
+        }
+    }
+    assert!(count > 30, "only {count} tests were found");
+}
