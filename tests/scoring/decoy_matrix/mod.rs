@@ -93,7 +93,11 @@ fn format_table(columns: &[Column]) -> String {
                 false => somewhere.push(format!("{bound} ({count})")),
             }
         }
-        text += &format!("| {decoy} | {} | {} |\n", cell(&everywhere), cell(&somewhere));
+        text += &format!(
+            "| {decoy} | {} | {} |\n",
+            cell(&everywhere),
+            cell(&somewhere)
+        );
     }
     text
 }
