@@ -17,8 +17,9 @@ fn read_sources(crate_name: &str) -> String {
 
 /// Finds the value of a constant, named `NAME` or, if several crates have one, `crate::NAME`.
 fn find_value(all: &str, constant: &str) -> f64 {
-    let declared = |source: &str, name: &str| {
-        let mut values = source.split(&format!("const {name}:")).skip(1);
+    let find = |source: &str, name: &str| {
+        let declared = format!("const {name}:");
+        let mut values = source.split(&declared).skip(1);
         let value = values.next().and_then(|rest| {
             let declaration = rest.split(';').next()?;
             declaration.split_once('=').map(|(_, value)| number(value))
@@ -27,8 +28,8 @@ fn find_value(all: &str, constant: &str) -> f64 {
         value.unwrap_or_else(|| panic!("no source has {name}"))
     };
     match constant.split_once("::") {
-        Some((crate_name, name)) => declared(&read_sources(crate_name), name),
-        None => declared(all, constant),
+        Some((crate_name, name)) => find(&read_sources(crate_name), name),
+        None => find(all, constant),
     }
 }
 
