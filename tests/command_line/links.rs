@@ -1,5 +1,6 @@
 //! Links between the project's own pages. Each leads to a file, and to a heading if it names one.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -81,15 +82,25 @@ fn every_link_between_pages_has_a_target() {
 }
 
 #[test]
-fn the_readme_links_every_guide() {
-    let readme = fs::read_to_string(root().join("README.md")).unwrap();
-    let links = find_links(&prose(&readme));
-    for guide in find_pages(&root().join("docs")) {
-        let name = format!("docs/{}", guide.file_name().unwrap().to_string_lossy());
-        let named = links
-            .iter()
-            .any(|link| link.split('#').next() == Some(&name));
-        assert!(named, "README.md does not lead to {name}");
+fn links_lead_from_the_readme_to_every_guide() {
+    let mut reached = BTreeSet::new();
+    let mut found = vec![root().join("README.md").canonicalize().unwrap()];
+    while let Some(page) = found.pop() {
+        if reached.insert(page.clone()) {
+            let links = find_links(&prose(&fs::read_to_string(&page).unwrap()));
+            let files = links.iter().map(|link| link.split('#').next().unwrap());
+            let pages = files.filter(|file| file.ends_with(".md"));
+            let paths = pages.map(|file| page.parent().unwrap().join(file));
+            // A link that leads nowhere fails the test above.
+            found.extend(paths.filter_map(|path| path.canonicalize().ok()));
+        }
+    }
+    for guide in ["docs", "results"]
+        .map(|folder| find_pages(&root().join(folder)))
+        .concat()
+    {
+        let is_reached = reached.contains(&guide.canonicalize().unwrap());
+        assert!(is_reached, "no links lead to {}", guide.display());
     }
 }
 
