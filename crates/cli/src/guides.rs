@@ -2,9 +2,10 @@
 //! that a guide shows.
 
 use std::fs;
+use std::iter::once;
 use std::path::{Path, PathBuf};
 
-use clap::{Command, CommandFactory, Parser};
+use clap::{Arg, Command, CommandFactory, Id, Parser};
 
 use crate::program::Cli;
 
@@ -75,25 +76,82 @@ fn every_command_that_the_guides_show_is_one() {
     }
 }
 
-/// Makes the page of all commands: its own introduction, then the help.
+/// Options that commands share: their heading on the page, and their groups in the code.
+const SHARED: [(&str, &[&str]); 9] = [
+    ("Every command", &["OutputArgs"]),
+    ("Scenes", &["SceneArgs", "FrameRateArgs"]),
+    ("Folder of scenes", &["RootArgs"]),
+    ("Measurement", &["MeasureArgs", "InputFormArgs"]),
+    ("Intervals", &["RunOptions"]),
+    ("Sequences", &["SequenceArgs"]),
+    ("Candidate", &["CandidateArgs"]),
+    ("Programs", &["ProgramArgs"]),
+    ("Adapter", &["AdapterArgs"]),
+];
+
+/// Makes the page of all commands: its own introduction, the help of each command, and the options that commands share.
 fn commands_page(written: &str) -> String {
     let program = Cli::command_line();
-    let introduction = written.split("\n## ").next().unwrap_or_default();
-    let mut text = introduction.to_owned() + &help(&program);
-    let commands = program.get_subcommands();
-    for command in commands.filter(|own| own.get_name() != "help") {
-        text += &help(command);
-        text.extend(command.get_subcommands().map(help));
+    let mut text = written.split("\n## ").next().unwrap().to_owned();
+    let below = (program.get_subcommands()).filter(|own| own.get_name() != "help");
+    let below = below.flat_map(|own| once(own).chain(own.get_subcommands()));
+    let all: Vec<&Command> = once(&program).chain(below).collect();
+    for command in &all {
+        text += &describe(command);
+    }
+    for (title, groups) in SHARED {
+        let mut members = all.iter().map(|own| (own, list_members(own, groups)));
+        let (command, members) = members.find(|(_, ids)| !ids.is_empty()).expect(title);
+        text += &format!("\n## {title}\n\n{}", options(command, "", &members));
     }
     text
 }
 
-fn help(command: &Command) -> String {
-    let mut command = command.clone().term_width(WIDTH);
-    let name = command.get_bin_name().unwrap_or("shuttertruth").to_owned();
-    let help = command.render_help().to_string();
-    let lines = help.lines().map(str::trim_end).collect::<Vec<_>>();
-    format!("\n## {name}\n\n```text\n{}\n```\n", lines.join("\n"))
+/// Lists the arguments of a command that belong to some groups.
+fn list_members(command: &Command, groups: &[&str]) -> Vec<Id> {
+    let groups = (command.get_groups()).filter(|own| groups.contains(&own.get_id().as_str()));
+    groups.flat_map(|own| own.get_args()).cloned().collect()
+}
+
+/// Describes a command: its purpose, its own arguments, and links to those that it shares.
+fn describe(command: &Command) -> String {
+    let name = command.get_bin_name().unwrap_or("shuttertruth");
+    let heading = format!("\n## {name}\n\n{}.\n", command.get_about().unwrap());
+    if command.has_subcommands() && name != "shuttertruth" {
+        return heading;
+    }
+    let shared = SHARED.map(|(title, groups)| (title, list_members(command, groups)));
+    let is_shared = |id| shared.iter().any(|(_, ids)| ids.contains(id));
+    let own = (command.get_arguments())
+        .filter(|own| !own.is_global_set() && own.get_id() != "help")
+        .map(|own| own.get_id().clone());
+    let own: Vec<Id> = own.filter(|id| !is_shared(id)).collect();
+    let links = shared.iter().filter(|(_, ids)| !ids.is_empty());
+    let links =
+        links.map(|(title, _)| format!("[{title}](#{})", title.to_lowercase().replace(' ', "-")));
+    let links = match links.collect::<Vec<_>>() {
+        links if links.is_empty() => String::new(),
+        links => format!("\nShared: {}\n", links.join(", ")),
+    };
+    format!(
+        "{heading}\n{}{links}",
+        options(command, "{usage}\n\n", &own)
+    )
+}
+
+/// Renders the help of some arguments of a command as a block, below a head.
+fn options(command: &Command, head: &str, listed: &[Id]) -> String {
+    let usage = command.clone().render_usage().to_string();
+    let head = head.replace("{usage}", usage.trim_start_matches("Usage: "));
+    let hide = |own: Arg| {
+        let is_hidden = own.is_hide_set() || !listed.contains(own.get_id());
+        own.hide(is_hidden)
+    };
+    let command = command.clone().term_width(WIDTH).mut_args(hide);
+    let help = (command.help_template("{all-args}").render_help()).to_string();
+    let text = head + &help;
+    let lines = text.trim().lines().map(str::trim_end).collect::<Vec<_>>();
+    format!("```text\n{}\n```\n", lines.join("\n"))
 }
 
 #[test]
