@@ -16,7 +16,7 @@ use crate::tables::bench_table;
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset; repeatable, or separated by commas
-    /// [default: all built-in ones]. jump_flood:paper, which times are relative to, is timed as well.
+    /// [default: all built-in ones]. Times are relative to jump_flood:paper, which is timed as well.
     #[arg(
         long = "filter",
         visible_alias = "filters",
