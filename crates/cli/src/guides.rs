@@ -121,7 +121,7 @@ fn describe(command: &Command) -> String {
         return heading;
     }
     let shared = SHARED.map(|(title, groups)| (title, list_members(command, groups)));
-    let is_shared = |id| shared.iter().any(|(_, ids)| ids.contains(id));
+    let is_shared = |id: &Id| shared.iter().any(|(_, ids)| ids.contains(id));
     let own = (command.get_arguments())
         .filter(|own| !own.is_global_set() && own.get_id() != "help")
         .map(|own| own.get_id().clone());
