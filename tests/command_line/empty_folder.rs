@@ -83,7 +83,7 @@ fn the_program_s_own_scenes_are_those_of_the_repository() {
 #[test]
 fn copied_scenes_are_those_of_the_program_and_nothing_is_overwritten() {
     let sandbox = empty();
-    let text = sandbox.execute(&split("copy fan rail*"));
+    let text = sandbox.execute(&split("list fan rail* --copy-to scenes"));
     assert_eq!(text, "written: scenes (2 scenes)\n");
     let copied = read_below(&sandbox.path("scenes"));
     let is_expected = |name: &Path| {
@@ -98,15 +98,15 @@ fn copied_scenes_are_those_of_the_program_and_nothing_is_overwritten() {
     // Limits of your own are kept.
     let bounds = sandbox.path("scenes/bounds.toml");
     fs::write(&bounds, "# mine\n").unwrap();
-    sandbox.refuse("copy fan two_spheres", &["fan exists", "--out"]);
+    sandbox.refuse("list fan two_spheres --copy-to scenes", &["fan exists"]);
     assert!(!sandbox.path("scenes/two_spheres").exists());
-    let text = sandbox.execute(&split("copy two_spheres"));
+    let text = sandbox.execute(&split("list two_spheres --copy-to scenes"));
     assert!(text.starts_with("kept: scenes"), "{text}");
     assert_eq!(fs::read_to_string(bounds).unwrap(), "# mine\n");
     // The copies are the scenes that every command finds.
     let listed = sandbox.execute(&split("list scenes"));
     assert!(listed.contains("two_spheres") && !listed.contains("fence"));
-    sandbox.refuse("copy fann", &["did you mean fan?"]);
+    sandbox.refuse("list fann --copy-to scenes", &["did you mean fan?"]);
 }
 
 #[test]

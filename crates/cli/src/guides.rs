@@ -5,8 +5,13 @@ use std::fs;
 use std::iter::once;
 use std::path::{Path, PathBuf};
 
-use clap::{Arg, Command, CommandFactory, Id, Parser};
+use clap::{Arg, Args, Command, CommandFactory, Id, Parser};
 
+use crate::arguments::{
+    AdapterArgs, CandidateArgs, MeasureArgs, ProgramArgs, RootArgs, RunOptions, SceneArgs,
+    SequenceArgs,
+};
+use crate::output::OutputArgs;
 use crate::program::Cli;
 
 /// Columns of the help on the page of all commands.
@@ -76,20 +81,23 @@ fn every_command_that_the_guides_show_is_one() {
     }
 }
 
-/// Options that commands share: their heading on the page, and their groups in the code.
-const SHARED: [(&str, &[&str]); 9] = [
-    ("Every command", &["OutputArgs"]),
-    ("Scenes", &["SceneArgs", "FrameRateArgs"]),
-    ("Folder of scenes", &["RootArgs"]),
-    ("Measurement", &["MeasureArgs", "InputFormArgs"]),
-    ("Intervals", &["RunOptions"]),
-    ("Sequences", &["SequenceArgs"]),
-    ("Candidate", &["CandidateArgs"]),
-    ("Programs", &["ProgramArgs"]),
-    ("Adapter", &["AdapterArgs"]),
+/// Adds the arguments of a group to a command.
+type Group = fn(Command) -> Command;
+
+/// Arguments that commands share: their heading on the page, and their group. A group comes after those that it includes.
+const SHARED: [(&str, Group); 9] = [
+    ("Every command", OutputArgs::augment_args),
+    ("Folder of scenes", RootArgs::augment_args),
+    ("Programs", ProgramArgs::augment_args),
+    ("Adapter", AdapterArgs::augment_args),
+    ("Scenes", SceneArgs::augment_args),
+    ("Measurement", MeasureArgs::augment_args),
+    ("Sequences", SequenceArgs::augment_args),
+    ("Intervals", RunOptions::augment_args),
+    ("Candidate", CandidateArgs::augment_args),
 ];
 
-/// Makes the page of all commands: its own introduction, the help of each command, and the options that commands share.
+/// Makes the page of all commands: its own introduction, the help of each command, and the arguments that commands share.
 fn commands_page(written: &str) -> String {
     let program = Cli::command_line();
     let mut text = written.split("\n## ").next().unwrap().to_owned();
@@ -99,18 +107,35 @@ fn commands_page(written: &str) -> String {
     for command in &all {
         text += &describe(command);
     }
-    for (title, groups) in SHARED {
-        let mut members = all.iter().map(|own| (own, list_members(own, groups)));
-        let (command, members) = members.find(|(_, ids)| !ids.is_empty()).expect(title);
-        text += &format!("\n## {title}\n\n{}", options(command, "", &members));
+    for (title, _) in SHARED {
+        let mut shared = all.iter().flat_map(|own| {
+            let groups = list_shared(own).into_iter();
+            groups.map(move |(group, ids)| (own, group, ids))
+        });
+        let (command, _, ids) = shared.find(|(_, group, _)| *group == title).expect(title);
+        text += &format!("\n## {title}\n\n{}", options(command, "", &ids));
     }
     text
 }
 
-/// Lists the arguments of a command that belong to some groups.
-fn list_members(command: &Command, groups: &[&str]) -> Vec<Id> {
-    let groups = (command.get_groups()).filter(|own| groups.contains(&own.get_id().as_str()));
-    groups.flat_map(|own| own.get_args()).cloned().collect()
+/// Lists the groups that a command has as a whole, each with its arguments that are in no group before.
+fn list_shared(command: &Command) -> Vec<(&'static str, Vec<Id>)> {
+    let has = |arg: &Arg| {
+        let is_same = |own: &Arg| own.get_id() == arg.get_id() && own.get_help() == arg.get_help();
+        command.get_arguments().any(is_same)
+    };
+    let mut taken = Vec::new();
+    let mut found = Vec::new();
+    for (title, group) in SHARED {
+        let group = group(Command::new("group"));
+        if group.get_arguments().all(has) {
+            let ids = group.get_arguments().map(|arg| arg.get_id().clone());
+            let ids: Vec<Id> = ids.filter(|id| !taken.contains(id)).collect();
+            taken.extend(ids.iter().cloned());
+            found.push((title, ids));
+        }
+    }
+    found
 }
 
 /// Describes a command: its purpose, its own arguments, and links to those that it shares.
@@ -120,23 +145,20 @@ fn describe(command: &Command) -> String {
     if command.has_subcommands() && name != "shuttertruth" {
         return heading;
     }
-    let shared = SHARED.map(|(title, groups)| (title, list_members(command, groups)));
-    let is_shared = |id: &Id| shared.iter().any(|(_, ids)| ids.contains(id));
-    let own = (command.get_arguments())
-        .filter(|own| !own.is_global_set() && own.get_id() != "help")
-        .map(|own| own.get_id().clone());
-    let own: Vec<Id> = own.filter(|id| !is_shared(id)).collect();
-    let links = shared.iter().filter(|(_, ids)| !ids.is_empty());
-    let links =
-        links.map(|(title, _)| format!("[{title}](#{})", title.to_lowercase().replace(' ', "-")));
-    let links = match links.collect::<Vec<_>>() {
-        links if links.is_empty() => String::new(),
+    let shared = list_shared(command);
+    let is_own = |id: &Id| *id != "help" && !shared.iter().any(|(_, ids)| ids.contains(id));
+    let own = command.get_arguments().map(|arg| arg.get_id().clone());
+    let own: Vec<Id> = own.filter(is_own).collect();
+    let titles = shared.iter().map(|(title, _)| title);
+    let links: Vec<String> = (titles.skip(1))
+        .map(|title| format!("[{title}](#{})", title.to_lowercase().replace(' ', "-")))
+        .collect();
+    let links = match links.as_slice() {
+        [] => String::new(),
         links => format!("\nShared: {}\n", links.join(", ")),
     };
-    format!(
-        "{heading}\n{}{links}",
-        options(command, "{usage}\n\n", &own)
-    )
+    let options = options(command, "{usage}\n\n", &own);
+    format!("{heading}\n{options}{links}")
 }
 
 /// Renders the help of some arguments of a command as a block, below a head.

@@ -44,8 +44,6 @@ pub enum Command {
     Compare(compare::CompareArgs),
     /// List scenes, filters, parameters, presets, inputs and adapters
     List(list::ListArgs),
-    /// Copy built-in scenes and their bounds into a folder of your own
-    Copy(copy::CopyArgs),
     /// Time filters pass by pass, and against their blur length
     ///
     /// Prints tables; writes bench.json.
@@ -215,7 +213,6 @@ pub fn execute(program: &Cli) -> Result<Ending, Error> {
         Command::Report(args) => report::execute(args),
         Command::Compare(args) => compare::execute(args),
         Command::List(args) => list::execute(args),
-        Command::Copy(args) => copy::execute(args),
         Command::Bench(args) => bench::execute(args),
         Command::Tune(TuneCommand::Search(args)) => tune::execute(args),
         Command::Tune(TuneCommand::Sensitivity(args)) => sensitivity::execute(args),

@@ -1,8 +1,7 @@
-//! The command `copy`.
+//! Copies of the built-in scenes, for `list --copy-to`.
 
-use std::path::PathBuf;
+use std::path::Path;
 
-use clap::Args;
 use frame::write_atomically;
 use store::printable_path;
 use suite::Error;
@@ -11,24 +10,15 @@ use tracer::{Location, list_scenes};
 use crate::output::{count_text, print};
 use crate::selection::choose_names;
 
-#[derive(Debug, Args)]
-pub struct CopyArgs {
-    /// Built-in scenes: names, or patterns such as 'rail*' [default: all].
-    #[arg(value_name = "SCENE")]
-    pub scenes: Vec<String>,
-    /// Folder to write. A scene that exists there is refused; a bounds.toml that exists there is kept.
-    #[arg(short, long, value_name = "DIR", default_value = "scenes")]
-    pub out: PathBuf,
-}
-
-/// Writes the folders of the chosen scenes, and the bounds of all scenes. Overwrites nothing.
-pub fn execute(args: &CopyArgs) -> Result<(), Error> {
+/// Writes the folders of the named built-in scenes, or of all, and their bounds below `out`. Overwrites nothing.
+pub fn copy_scenes(names: &[String], out: &Path) -> Result<(), Error> {
+    let names = if names == ["scenes"] { &[] } else { names };
     let listings = list_scenes(Location::of_bundle(&catalogue::SCENES))?;
     let known: Vec<String> = listings.into_iter().map(|own| own.name).collect();
-    let scenes = choose_names("copy", &args.scenes, &known)?;
-    if let Some(folder) = (scenes.iter().map(|own| args.out.join(own))).find(|own| own.exists()) {
+    let scenes = choose_names("--copy-to", names, &known)?;
+    if let Some(folder) = (scenes.iter().map(|own| out.join(own))).find(|own| own.exists()) {
         refuse!(
-            "copy: {} exists; allowed: new scenes; name other scenes, or another folder with --out",
+            "--copy-to: {} exists; allowed: new scenes; name other scenes or another folder",
             folder.display()
         );
     }
@@ -37,7 +27,7 @@ pub fn execute(args: &CopyArgs) -> Result<(), Error> {
     };
     let mut text = String::new();
     for path in (catalogue::SCENES.list)().into_iter().filter(is_chosen) {
-        let to = args.out.join(path);
+        let to = out.join(path);
         if to.exists() {
             text += &format!("kept: {}\n", printable_path(&to));
             continue;
@@ -46,6 +36,6 @@ pub fn execute(args: &CopyArgs) -> Result<(), Error> {
         write_atomically(&to, &bytes)?;
     }
     let count = count_text(scenes.len(), "scene", "scenes");
-    text += &format!("written: {} ({count})\n", printable_path(&args.out));
+    text += &format!("written: {} ({count})\n", printable_path(out));
     print(&text)
 }

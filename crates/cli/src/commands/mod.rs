@@ -11,7 +11,7 @@ mod capture;
 pub mod check;
 pub mod compare;
 pub mod compare_presets;
-pub mod copy;
+mod copy;
 pub mod description;
 pub mod evaluate;
 mod expected;
