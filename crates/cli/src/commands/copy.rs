@@ -12,7 +12,7 @@ use crate::selection::choose_names;
 
 /// Writes the folders of the named built-in scenes, or of all, and their bounds below `out`. Overwrites nothing.
 pub fn copy_scenes(names: &[String], out: &Path) -> Result<(), Error> {
-    let names = if names == ["scenes"] { &[] } else { names };
+    let names: &[String] = if names == ["scenes"] { &[] } else { names };
     let listings = list_scenes(Location::of_bundle(&catalogue::SCENES))?;
     let known: Vec<String> = listings.into_iter().map(|own| own.name).collect();
     let scenes = choose_names("--copy-to", names, &known)?;
