@@ -87,7 +87,7 @@ type Group = fn(Command) -> Command;
 /// Arguments that commands share: their heading on the page, and their group. A group comes after those that it includes.
 const SHARED: [(&str, Group); 9] = [
     ("Every command", OutputArgs::augment_args),
-    ("Folder of scenes", RootArgs::augment_args),
+    ("Scene folder", RootArgs::augment_args),
     ("Programs", ProgramArgs::augment_args),
     ("Adapter", AdapterArgs::augment_args),
     ("Scenes", SceneArgs::augment_args),
@@ -113,7 +113,7 @@ fn commands_page(written: &str) -> String {
             groups.map(move |(group, ids)| (own, group, ids))
         });
         let (command, _, ids) = shared.find(|(_, group, _)| *group == title).expect(title);
-        text += &format!("\n## {title}\n\n{}", options(command, "", &ids));
+        text += &format!("\n## {title}\n\n{}", help(command, "{options}", &ids));
     }
     text
 }
@@ -157,22 +157,24 @@ fn describe(command: &Command) -> String {
         [] => String::new(),
         links => format!("\nShared: {}\n", links.join(", ")),
     };
-    let options = options(command, "{usage}\n\n", &own);
-    format!("{heading}\n{options}{links}")
+    let usage = command.clone().render_usage().to_string();
+    let template = usage.replace("Usage: ", "") + "\n\n{all-args}";
+    format!("{heading}\n{}{links}", help(command, &template, &own))
 }
 
-/// Renders the help of some arguments of a command as a block, below a head.
-fn options(command: &Command, head: &str, listed: &[Id]) -> String {
-    let usage = command.clone().render_usage().to_string();
-    let head = head.replace("{usage}", usage.trim_start_matches("Usage: "));
+/// Renders the help of some arguments of a command as a block.
+fn help(command: &Command, template: &str, listed: &[Id]) -> String {
     let hide = |own: Arg| {
         let is_hidden = own.is_hide_set() || !listed.contains(own.get_id());
         own.hide(is_hidden)
     };
     let command = command.clone().term_width(WIDTH).mut_args(hide);
-    let help = (command.help_template("{all-args}").render_help()).to_string();
-    let text = head + &help;
-    let lines = text.trim().lines().map(str::trim_end).collect::<Vec<_>>();
+    let help = command
+        .help_template(template.to_owned())
+        .render_help()
+        .to_string();
+    let lines = help.trim_matches('\n').lines().map(str::trim_end);
+    let lines = lines.collect::<Vec<_>>();
     format!("```text\n{}\n```\n", lines.join("\n"))
 }
 

@@ -46,7 +46,7 @@ pub struct MeasureArgs {
     pub replicates: u32,
     #[command(flatten)]
     pub forms: InputFormArgs,
-    /// Frames to run a noisy filter on, to separate its noise from its other errors; 0 for none.
+    /// Frames of noise, to separate a noisy filter's noise from its other errors; 0 for none.
     #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = within::<u32>(0..=1024))]
     pub jitter_frames: u32,
     /// Pack, or folder laid out as --out, with frames, truths and ladders. Those of the same inputs are not rendered again.

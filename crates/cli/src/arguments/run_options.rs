@@ -23,7 +23,7 @@ pub struct RunOptions {
 /// Number and rate of the frames of every scene.
 #[derive(Clone, Debug, Args)]
 pub struct SequenceArgs {
-    /// Consecutive frames to render and blur of every scene. Later frames lie in numbered folders below the scene's own.
+    /// Consecutive frames to render and blur of every scene. Later frames go to numbered folders below the scene's own.
     #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count())]
     pub frames: u32,
     /// Frames per second at which a sequence is shown. It changes only the score JOD. Scenes at a --frame-rate are shown at that

@@ -27,7 +27,7 @@ pub struct BenchArgs {
     /// Picture size in pixels [default: 1920x1080, or 320x180 on a software adapter].
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
-    /// Times that each filter is timed, in turns with the others; 20 or more.
+    /// Times that each filter runs, in turns with the others; 20 or more.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = within::<u32>(20..=10_000))]
     pub rounds: u32,
     /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the

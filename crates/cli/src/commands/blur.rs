@@ -31,7 +31,7 @@ pub struct BlurArgs {
     #[arg(long)]
     pub as_written: bool,
     /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y. With --frames the first frame's file, as `run` and `truths render`
-    /// lay them out, or a folder of 0000.exr, 0001.exr and so on.
+    /// write it, or a folder of 0000.exr, 0001.exr and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub frame: PathBuf,
     /// TOML file with a table [convention] that says which velocity, depth and colour the frame has and the picture gets

@@ -32,8 +32,7 @@ pub struct ScoreArgs {
     /// unless the shutter is centred].
     #[arg(long, value_name = "FOLDER")]
     pub ladder: Option<PathBuf>,
-    /// Score a sequence of N consecutive frames. Later frames and truths lie in numbered folders next to the first ones, as `run` and
-    /// `truths render` lay them out.
+    /// Score a sequence of N consecutive frames, with files as `run` and `truths render` write them.
     #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count(), conflicts_with = "ladder")]
     pub frames: u32,
     /// Frames per second at which the sequence is shown. It changes only the score JOD. A scene at a frame rate is shown at that rate.
