@@ -1,12 +1,13 @@
 //! The program in a folder without scenes: it brings its own along.
 
 use std::fs;
+use std::path::Path;
 
 use serde_json::Value;
 use tests::{root, scenes};
 use tracer::{Location, load_scene};
 
-use crate::sandbox::{Sandbox, files_below, split};
+use crate::sandbox::{Files, Sandbox, assert_same_files, files_below, read_below, split};
 
 const QUICK: &str = "--scenes fan --filter velocity_gather --size 32x18 --samples-per-pixel 16";
 
@@ -92,6 +93,35 @@ fn the_program_s_own_scenes_are_those_of_the_repository() {
     assert!(names.is_empty(), "not in the repository: {names:?}");
     let hash = |folder: Location| load_scene(folder, None).unwrap().hash;
     assert_eq!(hash(own.join("fan")), hash(scenes().join("fan").into()));
+}
+
+#[test]
+fn copied_scenes_are_those_of_the_program_and_nothing_is_overwritten() {
+    let sandbox = empty();
+    let text = sandbox.execute(&split("list fan rail* --copy-to scenes"));
+    assert_eq!(text, "written: scenes (2 scenes)\n");
+    let copied = read_below(&sandbox.path("scenes"));
+    let is_expected = |name: &Path| {
+        ["fan", "railing", "bounds.toml"]
+            .iter()
+            .any(|own| name.starts_with(own))
+    };
+    let shipped: Files = (read_below(&scenes()).into_iter())
+        .filter(|(name, _)| is_expected(name))
+        .collect();
+    assert_same_files(&copied, &shipped);
+    // Limits of your own are kept.
+    let bounds = sandbox.path("scenes/bounds.toml");
+    fs::write(&bounds, "# mine\n").unwrap();
+    sandbox.refuse("list fan two_spheres --copy-to scenes", &["fan exists"]);
+    assert!(!sandbox.path("scenes/two_spheres").exists());
+    let text = sandbox.execute(&split("list two_spheres --copy-to scenes"));
+    assert!(text.starts_with("kept: scenes"), "{text}");
+    assert_eq!(fs::read_to_string(bounds).unwrap(), "# mine\n");
+    // The copies are the scenes that every command finds.
+    let listed = sandbox.execute(&split("list scenes"));
+    assert!(listed.contains("two_spheres") && !listed.contains("fence"));
+    sandbox.refuse("list fann --copy-to scenes", &["did you mean fan?"]);
 }
 
 #[test]

@@ -2,10 +2,16 @@
 //! that a guide shows.
 
 use std::fs;
+use std::iter::once;
 use std::path::{Path, PathBuf};
 
-use clap::{Command, CommandFactory, Parser};
+use clap::{Arg, Args, Command, CommandFactory, Id, Parser};
 
+use crate::arguments::{
+    AdapterArgs, CandidateArgs, MeasureArgs, ProgramArgs, RootArgs, RunOptions, SceneArgs,
+    SequenceArgs,
+};
+use crate::output::OutputArgs;
 use crate::program::Cli;
 
 /// Columns of the help on the page of all commands.
@@ -77,25 +83,101 @@ fn every_command_that_the_guides_show_is_one() {
     }
 }
 
-/// Makes the page of all commands: its own introduction, then the help.
+/// Adds the arguments of a group to a command.
+type Group = fn(Command) -> Command;
+
+/// Arguments that commands share: their heading on the page, and their group. A group comes after those that it includes.
+const SHARED: [(&str, Group); 9] = [
+    ("Every command", OutputArgs::augment_args),
+    ("Scene folder", RootArgs::augment_args),
+    ("Programs", ProgramArgs::augment_args),
+    ("Adapter", AdapterArgs::augment_args),
+    ("Scenes", SceneArgs::augment_args),
+    ("Measurement", MeasureArgs::augment_args),
+    ("Sequences", SequenceArgs::augment_args),
+    ("Intervals", RunOptions::augment_args),
+    ("Candidate", CandidateArgs::augment_args),
+];
+
+/// Makes the page of all commands: its own introduction, the help of each command, and the arguments that commands share.
 fn commands_page(written: &str) -> String {
     let program = Cli::command_line();
-    let introduction = written.split("\n## ").next().unwrap_or_default();
-    let mut text = introduction.to_owned() + &help(&program);
-    let commands = program.get_subcommands();
-    for command in commands.filter(|own| own.get_name() != "help") {
-        text += &help(command);
-        text.extend(command.get_subcommands().map(help));
+    let mut text = written.split("\n## ").next().unwrap().to_owned();
+    let below = (program.get_subcommands()).filter(|own| own.get_name() != "help");
+    let below = below.flat_map(|own| once(own).chain(own.get_subcommands()));
+    let all: Vec<&Command> = once(&program).chain(below).collect();
+    for command in &all {
+        text += &describe(command);
+    }
+    for (title, _) in SHARED {
+        let mut shared = all.iter().flat_map(|own| {
+            let groups = list_shared(own).into_iter();
+            groups.map(move |(group, ids)| (own, group, ids))
+        });
+        let (command, _, ids) = shared.find(|(_, group, _)| *group == title).expect(title);
+        text += &format!("\n## {title}\n\n{}", help(command, "{options}", &ids));
     }
     text
 }
 
-fn help(command: &Command) -> String {
-    let mut command = command.clone().term_width(WIDTH);
-    let name = command.get_bin_name().unwrap_or("shuttertruth").to_owned();
-    let help = command.render_help().to_string();
-    let lines = help.lines().map(str::trim_end).collect::<Vec<_>>();
-    format!("\n## {name}\n\n```text\n{}\n```\n", lines.join("\n"))
+/// Lists the groups that a command has as a whole, each with its arguments that are in no group before.
+fn list_shared(command: &Command) -> Vec<(&'static str, Vec<Id>)> {
+    let has = |arg: &Arg| {
+        let is_same = |own: &Arg| own.get_id() == arg.get_id() && own.get_help() == arg.get_help();
+        command.get_arguments().any(is_same)
+    };
+    let mut taken = Vec::new();
+    let mut found = Vec::new();
+    for (title, group) in SHARED {
+        let group = group(Command::new("group"));
+        if group.get_arguments().all(has) {
+            let ids = group.get_arguments().map(|arg| arg.get_id().clone());
+            let ids: Vec<Id> = ids.filter(|id| !taken.contains(id)).collect();
+            taken.extend(ids.iter().cloned());
+            found.push((title, ids));
+        }
+    }
+    found
+}
+
+/// Describes a command: its purpose, its own arguments, and links to those that it shares.
+fn describe(command: &Command) -> String {
+    let name = command.get_bin_name().unwrap_or("shuttertruth");
+    let heading = format!("\n## {name}\n\n{}.\n", command.get_about().unwrap());
+    if command.has_subcommands() && name != "shuttertruth" {
+        return heading;
+    }
+    let shared = list_shared(command);
+    let is_own = |id: &Id| *id != "help" && !shared.iter().any(|(_, ids)| ids.contains(id));
+    let own = command.get_arguments().map(|arg| arg.get_id().clone());
+    let own: Vec<Id> = own.filter(is_own).collect();
+    let titles = shared.iter().map(|(title, _)| title);
+    let links: Vec<String> = (titles.skip(1))
+        .map(|title| format!("[{title}](#{})", title.to_lowercase().replace(' ', "-")))
+        .collect();
+    let links = match links.as_slice() {
+        [] => String::new(),
+        links => format!("\nShared: {}\n", links.join(", ")),
+    };
+    let usage = command.clone().render_usage().to_string();
+    let template = usage.replace("Usage: ", "") + "\n\n{all-args}";
+    format!("{heading}\n{}{links}", help(command, &template, &own))
+}
+
+/// Renders the help of some arguments of a command as a block.
+fn help(command: &Command, template: &str, listed: &[Id]) -> String {
+    let hide = |own: Arg| {
+        let is_hidden = own.is_hide_set() || !listed.contains(own.get_id());
+        own.hide(is_hidden)
+    };
+    let command = command.clone().term_width(WIDTH).mut_args(hide);
+    let help = command
+        .help_template(template.to_owned())
+        .render_help()
+        .to_string();
+    let lines = help.trim_matches('\n').lines().map(str::trim_end);
+    let lines = lines.collect::<Vec<_>>();
+    format!("```text\n{}\n```\n", lines.join("\n"))
 }
 
 #[test]

@@ -34,7 +34,7 @@ pub enum Command {
     ///
     /// Prints a ranking; writes report.html, run.json, EXR and PNG.
     Run(run::RunArgs),
-    /// Run, and hold every score to its bound: pass or fail
+    /// Run, and compare every score with its bound: pass or fail
     Check(check::CheckArgs),
     /// Measure a finished picture from any source
     Score(score::ScoreArgs),
@@ -74,7 +74,7 @@ pub enum Command {
 /// The commands of `tune`.
 #[derive(Debug, Subcommand)]
 pub enum TuneCommand {
-    /// Search parameters that bring a filter nearer to the truth
+    /// Search for parameters that bring a filter nearer to the truth
     ///
     /// Writes journal.jsonl and tune.json.
     Search(tune::TuneArgs),
@@ -96,13 +96,13 @@ pub enum TuneCommand {
 /// The commands of `engine`.
 #[derive(Debug, Subcommand)]
 pub enum EngineCommand {
-    /// Make a scene of an OBJ file, with camera, floor, wall and motion
+    /// Make a scene from an OBJ file, with camera, floor, wall and motion
     Import(import::ImportArgs),
     /// Write scenes as glTF 2.0, so that an engine can draw them
     Export(export::ExportArgs),
-    /// Make a frame, a truth and a picture of what an engine drew, so that `run` and `score` can measure them
+    /// Make a frame, a truth and a picture from an engine's images, so that `run` and `score` can measure them
     Ingest(ingest::IngestArgs),
-    /// Compare an engine's velocity and depth with those of the scene that it drew, and name what is wrong
+    /// Compare an engine's velocity and depth with the scene's, and name what is wrong
     Audit(audit::AuditArgs),
     /// Run a filter on a frame file
     Blur(blur::BlurArgs),
@@ -119,7 +119,7 @@ pub enum TruthsCommand {
     Plan(plan::PlanArgs),
     /// Join what several machines made: replicates of truths, or runs of some of the cases
     Merge(merge::MergeArgs),
-    /// Put the truths of a finished run into one archive, from which other machines run
+    /// Put the truths of a finished run into one archive, so that other machines need not render
     Pack(pack::PackArgs),
     /// Trace random tiles of truths again, and compare them with the files byte for byte
     Verify(verify::VerifyArgs),

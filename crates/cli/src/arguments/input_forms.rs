@@ -8,8 +8,8 @@ use crate::selection::suggest_names;
 /// Forms to try on every filter beside the full one.
 #[derive(Clone, Debug, Args)]
 pub struct InputFormArgs {
-    /// Form of the input to try on every filter, beside the full one and apart from others: velocity=float16; repeatable, and
-    /// velocity=float16,linear8 are two. shuttertruth list inputs prints the kinds and their forms.
+    /// Form of the input to try on every filter, in addition to the full one: velocity=float16. Repeatable; each form is tried alone;
+    /// velocity=float16,linear8 are two. shuttertruth list inputs prints all.
     #[arg(help_heading = "Filters", long, value_name = "KIND=FORM", value_parser = parse_input)]
     pub input: Vec<InputForms>,
 }

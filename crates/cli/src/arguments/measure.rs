@@ -31,7 +31,7 @@ pub struct MeasureArgs {
     /// picture's].
     #[arg(help_heading = "Filters", long)]
     pub as_written: bool,
-    /// Picture size in pixels. Where --out holds a run of another size, this one goes to a folder below it, such as out/160x90
+    /// Picture size in pixels. If --out holds a run of another size, this one goes to a folder below it, such as out/160x90
     /// [default: 320x180; for `check`, the size that the bounds hold at].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
@@ -46,14 +46,13 @@ pub struct MeasureArgs {
     pub replicates: u32,
     #[command(flatten)]
     pub forms: InputFormArgs,
-    /// Frames to run a noisy filter on, to tell its noise from its other errors; 0 for none.
+    /// Frames of noise, to separate a noisy filter's noise from its other errors; 0 for none.
     #[arg(help_heading = "Filters", long, value_name = "N", default_value_t = 16, value_parser = within::<u32>(0..=1024))]
     pub jitter_frames: u32,
-    /// Pack, or folder with frames, truths and ladders that lie as in --out. Those of the same inputs are taken from there, and not
-    /// rendered.
+    /// Pack, or folder laid out as --out, with frames, truths and ladders. Those of the same inputs are not rendered again.
     #[arg(help_heading = "Scenes and files", long, value_name = "FILE|DIR")]
     pub truths: Option<PathBuf>,
-    /// Remove the truths and cases in --out, and make all anew.
+    /// Remove the truths and cases of these scenes in --out first.
     #[arg(help_heading = "Scenes and files", long, conflicts_with = "truths")]
     pub no_cache: bool,
     #[command(flatten)]

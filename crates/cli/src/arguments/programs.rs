@@ -8,7 +8,7 @@ use crate::selection::Programs;
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "Filters")]
 pub struct ProgramArgs {
-    /// Run filters that are programs. They have all rights that you have: read their filter.toml first.
+    /// Run filters that are programs. They can do whatever you can: read their filter.toml first.
     #[arg(long)]
     pub allow_commands: bool,
 }

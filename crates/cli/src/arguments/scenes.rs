@@ -32,7 +32,7 @@ pub struct SceneArgs {
         value_name = "SCENES"
     )]
     pub scenes: Vec<String>,
-    /// Take the sealed variant SCENE@sealS of every scene. It has other speeds, directions, places, times and colours.
+    /// Use the sealed variant SCENE@sealS of every scene. It has other speeds, directions, places, times and colours.
     #[arg(long, value_name = "S")]
     pub seal: Option<u64>,
     #[command(flatten)]
@@ -65,7 +65,7 @@ pub struct SceneArgs {
     /// Seed of all random numbers.
     #[arg(long, value_name = "S", default_value_t = RenderSettings::default().seed)]
     pub seed: u64,
-    /// Folder for all files. Truths and cases that lie there are used again if their inputs have not changed.
+    /// Folder for all files. Truths and cases in it are reused if their inputs have not changed.
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
 }

@@ -20,7 +20,7 @@ pub struct AskArgs {
     /// New or empty folder for the page and its pictures.
     #[arg(short, long, value_name = "DIR", default_value = "out/ask")]
     pub out: PathBuf,
-    /// Questions that the page offers, of which a session asks one; repeatable, or separated by commas.
+    /// Questions that the page offers; each session asks one; repeatable, or separated by commas.
     #[arg(
         long,
         value_name = "QUESTION",

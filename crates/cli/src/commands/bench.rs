@@ -16,7 +16,7 @@ use crate::tables::bench_table;
 #[derive(Debug, Args)]
 pub struct BenchArgs {
     /// Filters: names, folders or patterns such as 'jump*', each with an optional :preset; repeatable, or separated by commas
-    /// [default: all built-in ones]. jump_flood:paper, which times are relative to, is timed as well.
+    /// [default: all built-in ones]. Times are relative to jump_flood:paper, which is timed as well.
     #[arg(
         long = "filter",
         visible_alias = "filters",
@@ -27,7 +27,7 @@ pub struct BenchArgs {
     /// Picture size in pixels [default: 1920x1080, or 320x180 on a software adapter].
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
-    /// Times that each filter is timed, in turns with the others; 20 or more.
+    /// Times that each filter runs, in turns with the others; 20 or more.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = within::<u32>(20..=10_000))]
     pub rounds: u32,
     /// Keep lengths in pixels as the preset has them [default: scale them from the width that the preset was made for to the

@@ -30,18 +30,18 @@ pub struct BlurArgs {
     /// picture's].
     #[arg(long)]
     pub as_written: bool,
-    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y. With --frames that of the first frame, as `run` and `truths render`
-    /// lay them out, or a folder of 0000.exr, 0001.exr and so on.
+    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y. With --frames the first frame's file, as `run` and `truths render`
+    /// write it, or a folder of 0000.exr, 0001.exr and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub frame: PathBuf,
-    /// TOML file with a table [convention] that says which velocity, depth and colour the frame has, and the picture gets
+    /// TOML file with a table [convention] that says which velocity, depth and colour the frame has and the picture gets
     /// [default: pixels per frame, metres, scene-linear].
     #[arg(long, value_name = "FILE")]
     pub convention: Option<PathBuf>,
     /// Exposure in frames [default: the file's attribute "exposure"].
     #[arg(long, value_name = "E", value_parser = parse_exposure)]
     pub exposure: Option<f64>,
-    /// Frame number, which seeds the filter's noise; of a sequence that of the first frame.
+    /// Frame number, which seeds the filter's noise; for a sequence, the first frame's.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub frame_index: u32,
     /// Blur N consecutive frames, each with the next frame number, and with the frame before for filters with history.

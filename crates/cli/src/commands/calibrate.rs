@@ -33,7 +33,7 @@ pub struct CalibrateArgs {
         value_name = "ADAPTERS"
     )]
     pub adapters: Vec<String>,
-    /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination; with --frames all of sequences too].
+    /// Metrics to propose bounds for, separated by commas [default: those that have bounds, and deficit, gather_spread, label_tv_p95 and static_contamination; with --frames all metrics of sequences too].
     #[arg(help_heading = "Calibration", long, value_delimiter = ',', value_name = "METRICS", value_parser = Metric::parse_bounded)]
     pub metrics: Vec<Metric>,
 }

@@ -38,7 +38,7 @@ pub struct CheckArgs {
     /// Finished run to judge: its run.json, or its folder. Renders nothing and opens no adapter [default: measure now].
     #[arg(value_name = "RUN", conflicts_with_all = list_measuring())]
     pub run: Option<PathBuf>,
-    /// For every broken bound of RUN, find the worst place and the known failure that the picture is most like. A check that
+    /// For every broken bound of RUN, find the worst place and the known failure that the picture resembles most. A check that
     /// measures always does.
     #[arg(help_heading = "Judging", long, requires = "run")]
     pub evidence: bool,

@@ -21,8 +21,7 @@ pub struct ExportArgs {
     /// Folder for glTF 2.0: each scene gets one of its own there.
     #[arg(long, value_name = "DIR", default_value = "out/gltf")]
     pub gltf: PathBuf,
-    /// Write flat emissive colours and no lights: the scene as SCENE@unlit, which `run` and `truths render` take as well. There an engine's
-    /// picture can be compared with the truth directly.
+    /// Write SCENE@unlit: flat emissive colours and no lights. An engine's picture of it can be compared with the truth directly.
     #[arg(long)]
     pub unlit: bool,
 }

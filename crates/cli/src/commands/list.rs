@@ -1,10 +1,13 @@
 //! The command `list`.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use filters::{AdapterDescription, Filter, FilterError, Limits, list_adapters, try_out};
 use suite::{Error, InputFormat, open_adapter};
 use tracer::{SceneListing, list_scenes};
 
+use super::copy::copy_scenes;
 use crate::arguments::{AdapterArgs, RootArgs};
 use crate::output::{make_monitor, print, print_json, print_note};
 use crate::selection::{is_pattern, load_filters, match_names, suggest_names};
@@ -25,6 +28,9 @@ pub struct ListArgs {
         value_name = "FILTERS"
     )]
     pub filters: Vec<String>,
+    /// Copy the named built-in scenes, or all, and bounds.toml into this folder. Nothing is overwritten.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "json"])]
+    pub copy_to: Option<PathBuf>,
     #[command(flatten)]
     pub root: RootArgs,
     #[command(flatten)]
@@ -36,6 +42,9 @@ pub struct ListArgs {
 
 /// Prints scenes and filters: in brief, or those that are named in detail.
 pub fn execute(args: &ListArgs) -> Result<(), Error> {
+    if let Some(folder) = &args.copy_to {
+        return copy_scenes(&args.what, folder);
+    }
     if args.what == ["adapters"] {
         return print(&adapters_text());
     }

@@ -11,6 +11,7 @@ mod capture;
 pub mod check;
 pub mod compare;
 pub mod compare_presets;
+mod copy;
 pub mod description;
 pub mod evaluate;
 mod expected;

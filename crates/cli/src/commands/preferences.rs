@@ -15,7 +15,7 @@ pub struct PreferencesArgs {
     /// Files of answers that the page of `people ask` saved, one per session.
     #[arg(value_name = "ANSWERS", required = true)]
     pub answers: Vec<PathBuf>,
-    /// run.json of the run that the page was made of, or its folder, with the pictures: compares its scores with the answers.
+    /// run.json of the run that the page shows, or its folder, with the pictures. Its scores are compared with the answers.
     #[arg(long, value_name = "RUN")]
     pub run: Option<PathBuf>,
     /// Print all numbers as JSON instead of the tables.

@@ -22,7 +22,7 @@ pub struct RenderArgs {
     /// Picture size in pixels [default: each scene's own].
     #[arg(help_heading = "Scenes and files", long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
-    /// Consecutive frames to render of every scene. Later frames lie in numbered folders below the scene's own.
+    /// Consecutive frames to render of every scene. Later frames go to numbered folders below the scene's own.
     #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count())]
     pub frames: u32,
     /// Shutter alignments of the truths, separated by commas.

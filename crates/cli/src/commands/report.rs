@@ -16,7 +16,7 @@ pub struct ReportArgs {
     /// run.json of a finished `run` or `check`, or its folder; or the folder of a `tune search`.
     #[arg(value_name = "RUN", default_value = "out")]
     pub run: PathBuf,
-    /// HTML page to write [default: report.html beside run.json, unless --exr or --gallery is given].
+    /// HTML page to write [default: report.html next to run.json, unless --exr or --gallery is given].
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity, coverage and more.

@@ -15,10 +15,10 @@ use crate::tables::score_table;
 
 #[derive(Debug, Args)]
 pub struct ScoreArgs {
-    /// The truth: truth_<alignment>.exr of `truths render` or `run`; of a sequence that of the first frame.
+    /// The truth: truth_<alignment>.exr of `truths render` or `run`; for a sequence, the first frame's.
     #[arg(long, value_name = "FILE")]
     pub truth: PathBuf,
-    /// The frame that the picture was made from: frame.exr of the same scene; of a sequence the first one.
+    /// The frame that the picture was made from: frame.exr of the same scene; for a sequence, the first one.
     #[arg(long, value_name = "FILE")]
     pub frame: PathBuf,
     /// The picture: OpenEXR with scene-linear R G B and optional coverage.<object>; or a PNG for display. With --frames a folder of
@@ -32,11 +32,10 @@ pub struct ScoreArgs {
     /// unless the shutter is centred].
     #[arg(long, value_name = "FOLDER")]
     pub ladder: Option<PathBuf>,
-    /// Score a sequence of N consecutive frames. Later frames and truths lie in numbered folders beside the first ones, as `run` and
-    /// `truths render` lay them out.
+    /// Score a sequence of N consecutive frames, with files as `run` and `truths render` write them.
     #[arg(help_heading = "Sequences", long, value_name = "N", default_value_t = 1, value_parser = frame_count(), conflicts_with = "ladder")]
     pub frames: u32,
-    /// Frames per second at which the sequence is shown. No score but JOD depends on it. A scene at a frame rate is shown at that.
+    /// Frames per second at which the sequence is shown. It changes only the score JOD. A scene at a frame rate is shown at that rate.
     #[arg(help_heading = "Sequences", long, value_name = "F", default_value_t = Frames::default().per_second, value_parser = above_zero(1000.0))]
     pub fps: f64,
     #[command(flatten, next_help_heading = "Sequences")]
