@@ -62,7 +62,9 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
         ("{RANK_RULE}", RANK_RULE.to_owned()),
     ];
     let fill = |text: &str| {
-        (settings.iter()).fold(text.to_owned(), |text, (key, value)| text.replace(key, value))
+        (settings.iter()).fold(text.to_owned(), |text, (key, value)| {
+            text.replace(key, value)
+        })
     };
     let groups = results.ranking();
     let mut page = fill(HEAD) + &engines(results, &groups);
@@ -72,7 +74,7 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
         let alignment = group[0].alignment;
         let others = (sealed_groups.iter()).find(|other| other[0].alignment == alignment);
         page += &format!("\n### Presets of a {alignment} shutter\n\n");
-        page += &ranking(group, others.map_or(&[], Vec::as_slice));
+        page += &ranking(group, others.map_or(&[][..], Vec::as_slice));
         if let Some(sealed) = sealed {
             page += &agreement(results, sealed, alignment)?;
         }
@@ -112,51 +114,74 @@ score; [engines.toml](engines.toml) holds the sentences about engines. [Picture 
 sizes. [What the scores mean](../crates/metrics/README.md).
 ";
 
-/// Lists the engines, the worst against no blur first: a table, and a part for each with its worst picture.
-fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
-    let find = |name: &str, alignment: Option<Alignment>| {
-        let mut all = groups.iter().flatten();
-        all.find(|own| own.name == name && alignment.is_none_or(|it| it == own.alignment))
-    };
-    let mut listed: Vec<(Engine, &RankedFilter, f64)> = (list_engines().into_iter())
-        .filter_map(|engine| {
-            let shipped = find(&engine.ships, None)?;
-            let none = find(&format!("{IDENTITY}:default"), Some(shipped.alignment))?;
-            Some((engine, shipped, none.mean))
+/// An engine with its scores.
+struct Measured<'a> {
+    engine: Engine,
+    shipped: &'a RankedFilter,
+    /// Mean FLIP of no blur, under the same shutter.
+    none: f64,
+    /// Mean FLIP after the change.
+    changed: Option<f64>,
+}
+
+/// Finds the scores of the engines, the worst against no blur first.
+fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
+    let find = |name: &str| groups.iter().flatten().find(|own| own.name == name);
+    let measure = |engine: Engine| {
+        let shipped = find(&engine.ships)?;
+        let group = (groups.iter()).find(|group| group[0].alignment == shipped.alignment)?;
+        let none = group.iter().find(|own| own.filter == IDENTITY)?.mean;
+        let change = engine.change.as_ref();
+        let changed = change.and_then(|change| Some(find(&change.preset)?.mean));
+        Some(Measured {
+            engine,
+            shipped,
+            none,
+            changed,
         })
-        .collect();
-    listed.sort_by(|(_, a, a_none), (_, b, b_none)| {
-        (b.mean / b_none).total_cmp(&(a.mean / a_none))
-    });
+    };
+    let mut all: Vec<Measured> = list_engines().into_iter().filter_map(measure).collect();
+    let badness = |own: &Measured| own.shipped.mean / own.none;
+    all.sort_by(|a, b| badness(b).total_cmp(&badness(a)));
+    all
+}
+
+/// Makes a table of the engines, and a part for each with its worst picture.
+fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
+    let all = measured(groups);
     let number = |value: f64| Metric::FLIP.number(value);
-    let change = |engine: &Engine| {
-        let change = engine.change.as_ref()?;
-        Some((change.by.clone(), number(find(&change.preset, None)?.mean)))
+    let row = |own: &Measured| -> Vec<String> {
+        let scores = [own.shipped.mean, own.none].map(number);
+        let names = [own.engine.name.clone(), own.shipped.alignment.to_string()];
+        let changed = own.changed.map_or("-".to_owned(), number);
+        (names.into_iter().chain(scores).chain([changed])).collect()
     };
-    let row = |(engine, shipped, none): &(Engine, &RankedFilter, f64)| {
-        vec![
-            engine.name.clone(),
-            shipped.alignment.to_string(),
-            number(shipped.mean),
-            number(*none),
-            change(engine).map_or("-".to_owned(), |(_, mended)| mended),
-        ]
-    };
-    let titles = ["engine ships", "shutter", "FLIP", "no blur", "after the change below"];
-    let mut text = markdown_table(&titles, listed.iter().map(row));
-    let worse: Vec<&str> = (listed.iter())
-        .filter(|(_, shipped, none)| shipped.mean > *none)
-        .map(|(engine, ..)| engine.name.as_str())
+    let titles = ["engine ships", "shutter", "FLIP", "no blur", "after change"];
+    let mut text = markdown_table(&titles, all.iter().map(row));
+    let worse: Vec<&str> = (all.iter())
+        .filter(|own| own.shipped.mean > own.none)
+        .map(|own| own.engine.name.as_str())
         .collect();
     if !worse.is_empty() {
         text += &format!("\nWorse than no blur: {}.\n", worse.join(", "));
     }
-    for (engine, ..) in &listed {
-        let change = change(engine).map_or(String::new(), |(by, mended)| format!(" {by}: {mended}."));
-        text += &format!("\n### {}\n\n{}{change}\n", engine.name, engine.wrong);
-        if let Some(worst) = results.worst_of(&engine.ships) {
+    for own in &all {
+        let Engine {
+            name,
+            wrong,
+            change,
+            ships,
+        } = &own.engine;
+        text += &format!("\n### {name}\n\n{wrong}");
+        if let (Some(change), Some(changed)) = (change, own.changed) {
+            let [before, after] = [own.shipped.mean, changed].map(number);
+            text += &format!(" {}: {before} becomes {after}.", change.by);
+        }
+        text += "\n";
+        if let Some(worst) = results.worst_of(ships) {
             let file = picture_name(worst);
-            text += &format!("\n![truth, {} and FLIP on {}](pictures/{file})\n", worst.name, worst.scene);
+            let scene = &worst.scene;
+            text += &format!("\n![truth, {ships} and FLIP on {scene}](pictures/{file})\n");
         }
     }
     text
@@ -173,10 +198,14 @@ fn ranking(group: &[RankedFilter], sealed: &[RankedFilter]) -> String {
     let row = |ranked: &RankedFilter| {
         let other = sealed.iter().find(|other| other.name == ranked.name);
         let (scene, worst) = &ranked.worst;
-        let note = if ranked.filter == IDENTITY { ", no blur" } else { "" };
+        let is_blur = ranked.filter != IDENTITY;
         vec![
             ranked.rank_text(),
-            format!("`{}`{note}", ranked.name),
+            format!(
+                "`{}`{}",
+                ranked.name,
+                if is_blur { "" } else { ", no blur" }
+            ),
             mean(ranked),
             other.map_or("-".to_owned(), RankedFilter::rank_text),
             format!("{scene} {}", Metric::FLIP.number(*worst)),

@@ -218,11 +218,11 @@ impl Results {
     /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing is ranked in both: its FLIP* is that against a
     /// centred shutter, if any filter declares one.
     pub fn ranking(&self) -> Vec<Vec<RankedFilter>> {
-        let is_centred = |own: &ResultScores| own.alignment == Alignment::Centred;
-        let has_centred = self.scores.iter().any(is_centred);
+        let centred = Alignment::Centred;
+        let has_centred = self.scores.iter().any(|own| own.alignment == centred);
         let unblurred = (self.scores.iter())
-            .filter(|own| has_centred && own.filter == IDENTITY && !is_centred(own))
-            .filter_map(|own| own.ranked(Alignment::Centred, Metric::CommonFlip));
+            .filter(|own| has_centred && own.filter == IDENTITY && own.alignment != centred)
+            .filter_map(|own| own.ranked(centred, Metric::CommonFlip));
         let scores: Vec<RankedScore> = (self.scores.iter())
             .filter_map(|own| own.ranked(own.alignment, Metric::FLIP))
             .chain(unblurred)

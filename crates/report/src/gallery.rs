@@ -80,8 +80,8 @@ impl<'a> Extremes<'a> {
             .filter_map(|case| Some((case.estimate(Metric::FLIP)?, *case)))
             .collect();
         ranked.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        let (_, best) = ranked.first()?;
-        let (_, worst) = ranked.last()?;
+        let &(_, best) = ranked.first()?;
+        let &(_, worst) = ranked.last()?;
         Some(Self { best, worst })
     }
 }
@@ -104,7 +104,8 @@ fn introduction(run: &Run, folder: &Path, out: &Path) -> String {
 }
 
 fn section(shutters: &[Extremes]) -> String {
-    let Case { scene, exposes, .. } = shutters[0].best;
+    let scene = &shutters[0].best.scene;
+    let exposes = &shutters[0].best.exposes;
     let text = |own: &Extremes| {
         let [best, worst] = [own.best, own.worst]
             .map(|case| format!("`{}` {}", case.name(), case.score_text(Metric::FLIP)));
@@ -123,7 +124,10 @@ fn rows(folder: &Path, extremes: &Extremes) -> Result<Vec<Image>, Error> {
     let instant = read_png(&folder.join(best.scene.folder()).join("frame.png"))?;
     let [_, output, flip] = strip(worst, folder, "worst")?;
     let lower = [label(&instant, "instant"), output, flip];
-    Ok(strip(best, folder, "best")?.into_iter().chain(lower).collect())
+    Ok(strip(best, folder, "best")?
+        .into_iter()
+        .chain(lower)
+        .collect())
 }
 
 /// Reads truth, output and FLIP of a case, and labels them; the last with the score and a word.

@@ -35,7 +35,7 @@ fn is_ink(text: &str, x: u32, y: u32) -> bool {
     let column = (x % PITCH[0]) as usize;
     let at = 10 * index + 2 * column;
     let bits = u8::from_str_radix(&COLUMNS[at..(at + 2).min(COLUMNS.len())], 16);
-    column < 5 && row < 7 && bits.is_ok_and(|bits| bits >> row & 1 == 1)
+    column < 5 && row < 7 && bits.is_ok_and(|bits| (bits >> row) & 1 == 1)
 }
 
 #[cfg(test)]
