@@ -17,10 +17,10 @@ fn a_gallery_shows_the_best_and_the_worst_filter_of_each_shutter() {
     let parts = ["](truths.png)", "## plate", "](slow.jpg)", "64x32 pixels"];
     assert_contains(&page, &parts);
     let command = "\n    shuttertruth report out --gallery shown\n";
-    let centred = "centred: best `bevy:default` 0.";
+    let centred = "centred: `bevy:default` 0.";
     // The camera stands still, so that its motion blurs nothing.
-    let trailing = "trailing: best `velocity_gather:fine` 0.";
-    let worst = "worst `camera_gather:default` 0.";
+    let trailing = "trailing: `velocity_gather:fine` 0.";
+    let worst = ", `camera_gather:default` 0.";
     assert_contains(&page, &[command, centred, trailing, worst]);
     assert!(!page.contains("`identity:default`"), "{page}");
     // Two rows per shutter, with labels of 10 pixels and gaps of 2.

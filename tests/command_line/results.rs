@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use filters::Filter;
 use frame::Alignment;
-use judge::Results;
+use judge::{Agreement, Results, compare_sizes};
 use metrics::Metric;
 use suite::{IDENTITY, Run};
 use tests::filter_folder::copy_changed_filter;
@@ -87,6 +87,39 @@ fn doing_nothing_is_ranked_in_both_shutters() {
     // Without a filter of a centred shutter there is no score against one.
     let trailing = Results::from_runs(&[run("")]).unwrap();
     assert_eq!(trailing.ranking().len(), 1);
+}
+
+#[test]
+fn the_study_of_picture_sizes_has_the_numbers_of_the_kept_results() {
+    let read = |size: &str| Results::read(&folder().join(format!("{size}_llvmpipe.json"))).unwrap();
+    let all = ["160x90", "320x180", "1280x720", "1920x1080"].map(read);
+    let compared = compare_sizes(&all.each_ref(), Metric::FLIP).unwrap();
+    let row = |name: &str, cells: Vec<String>| format!("| {name} | {} |", cells.join(" | "));
+    let pairs = |name: &str, count: fn(&Agreement) -> usize| {
+        let sum = |size: usize| -> usize {
+            (compared.iter().map(|own| count(&own.agreement[size]))).sum()
+        };
+        row(name, (0..4).map(|size| sum(size).to_string()).collect())
+    };
+    let mut printed = vec![
+        pairs("separated here and at 1920x1080, same order", |own| {
+            own.alike
+        }),
+        pairs("separated in both, reversed", |own| own.reversed.len()),
+        pairs("separated at 1920x1080 only", |own| own.only_at_largest),
+    ];
+    for filter in compared.iter().flat_map(|own| &own.filters) {
+        let means = filter.means.iter();
+        let cells = means.map(|mean| Metric::FLIP.number(mean.mean));
+        printed.push(row(&format!("`{}`", filter.name), cells.collect()));
+    }
+    let page = fs::read_to_string(folder().join("studies/picture-sizes.md")).unwrap();
+    let is_row = |line: &&str| line.starts_with("| `") || line.starts_with("| separated");
+    let rows: Vec<&str> = page.lines().filter(is_row).collect();
+    assert!(rows.len() > 10, "only {rows:?}");
+    for row in rows {
+        assert!(printed.iter().any(|own| own == row), "{row}: {printed:#?}");
+    }
 }
 
 const FILTERS: &str = "--filters identity,velocity_gather:fine,velocity_gather:coarse";
