@@ -10,6 +10,9 @@ use suite::{Error, IDENTITY};
 /// What engines ship, with the scores left out.
 const ENGINES: &str = include_str!("../../results/engines.toml");
 
+/// Characters of a line of the page.
+const WIDTH: usize = 135;
+
 /// An engine with the preset that it ships.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -79,7 +82,28 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
             page += &agreement(results, sealed, alignment)?;
         }
     }
-    Ok(page + &fill(COMMANDS))
+    Ok(wrap(&(page + &fill(COMMANDS))))
+}
+
+/// Fills the lines of paragraphs; tables, pictures, headings and commands stay as they are.
+fn wrap(page: &str) -> String {
+    let wrap_part = |part: &str| {
+        if part.starts_with(['|', '!', '#', ' ']) {
+            return part.to_owned();
+        }
+        let mut lines = vec![String::new()];
+        for word in part.split_whitespace() {
+            let line = lines.last_mut().expect("there is a line");
+            match line.len() + word.len() < WIDTH {
+                _ if line.is_empty() => *line += word,
+                true => *line += &format!(" {word}"),
+                false => lines.push(word.to_owned()),
+            }
+        }
+        lines.join("\n")
+    };
+    let parts: Vec<String> = page.trim_end().split("\n\n").map(wrap_part).collect();
+    parts.join("\n\n") + "\n"
 }
 
 const HEAD: &str = "\
@@ -102,7 +126,7 @@ fitted to. `shuttertruth list three` prints a filter's source, presets and known
 const COMMANDS: &str = "
 ## Measure it again
 
-These commands make the scores, the pictures and this page. They need {SCENES} scenes twice, so allow an hour on two cores:
+These commands make the scores, the pictures and this page. Each run announces the time that it needs:
 
     shuttertruth run --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/results_{SIZE}
     shuttertruth run --seal 1 --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/sealed_{SIZE}
@@ -152,11 +176,18 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
     let number = |value: f64| Metric::FLIP.number(value);
     let row = |own: &Measured| -> Vec<String> {
         let scores = [own.shipped.mean, own.none].map(number);
-        let names = [own.engine.name.clone(), own.shipped.alignment.to_string()];
+        let name = format!("{}, `{}`", own.engine.name, own.engine.ships);
+        let names = [name, own.shipped.alignment.to_string()];
         let changed = own.changed.map_or("-".to_owned(), number);
         (names.into_iter().chain(scores).chain([changed])).collect()
     };
-    let titles = ["engine ships", "shutter", "FLIP", "no blur", "after change"];
+    let titles = [
+        "engine ships",
+        "shutter",
+        "FLIP",
+        "no blur",
+        "after the change",
+    ];
     let mut text = markdown_table(&titles, all.iter().map(row));
     let worse: Vec<&str> = (all.iter())
         .filter(|own| own.shipped.mean > own.none)
@@ -175,7 +206,8 @@ fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
         text += &format!("\n### {name}\n\n{wrong}");
         if let (Some(change), Some(changed)) = (change, own.changed) {
             let [before, after] = [own.shipped.mean, changed].map(number);
-            text += &format!(" {}: {before} becomes {after}.", change.by);
+            let Change { by, preset } = change;
+            text += &format!(" {by} (`{preset}`): {before} becomes {after}.");
         }
         text += "\n";
         if let Some(worst) = results.worst_of(ships) {

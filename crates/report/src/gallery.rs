@@ -122,22 +122,24 @@ fn section(shutters: &[Extremes]) -> String {
 fn rows(folder: &Path, extremes: &Extremes) -> Result<Vec<Image>, Error> {
     let Extremes { best, worst } = extremes;
     let instant = read_png(&folder.join(best.scene.folder()).join("frame.png"))?;
-    let [_, output, flip] = strip(worst, folder, "worst")?;
+    let [_, output, flip] = strip(worst, folder, "", " worst")?;
     let lower = [label(&instant, "instant"), output, flip];
-    Ok(strip(best, folder, "best")?
+    Ok(strip(best, folder, &best.alignment.to_string(), " best")?
         .into_iter()
         .chain(lower)
         .collect())
 }
 
-/// Reads truth, output and FLIP of a case, and labels them; the last with the score and a word.
-fn strip(case: &Case, folder: &Path, word: &str) -> Result<[Image; 3], Error> {
+/// Reads truth, output and FLIP of a case, and labels them; words follow the truth's label and the score.
+fn strip(case: &Case, folder: &Path, truth: &str, score: &str) -> Result<[Image; 3], Error> {
     let flip = read_png(&folder.join(&case.folder).join("flip.png"))?;
     let output = read_png(&folder.join(&case.folder).join("output.png"))?;
-    let truth = read_truth(folder, case)?;
-    let score = format!("FLIP {} {word}", case.score_text(Metric::FLIP));
+    let [truth, score] = [
+        format!("truth {truth}"),
+        format!("FLIP {}{score}", case.score_text(Metric::FLIP)),
+    ];
     Ok([
-        label(&truth, &format!("truth {}", case.alignment)),
+        label(&read_truth(folder, case)?, &truth),
         label(&output, &case.name()),
         label(&flip, &score),
     ])
@@ -148,7 +150,7 @@ fn strip(case: &Case, folder: &Path, word: &str) -> Result<[Image; 3], Error> {
 /// # Errors
 /// A picture of the case cannot be read, or the file cannot be written.
 pub fn write_case_strip(case: &Case, folder: &Path, out: &Path) -> Result<(), Error> {
-    let pictures = strip(case, folder, &case.scene.to_string())?;
+    let pictures = strip(case, folder, &case.scene.to_string(), "")?;
     Ok(write_png(out, &tile_pictures(&pictures, 3, GAP, [1.0; 3]))?)
 }
 
