@@ -1,5 +1,5 @@
 # `make run` does the main job; `make test` proves that the program is right, and `make prove` repeats it at full breadth within an
-# hour: docs/testing.md. `make archive` makes the release archive; `make action` and `make image` try it in a bare Debian and in two
+# hour: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and `make image` try it in a bare Debian and in two
 # images: docs/release.md.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
