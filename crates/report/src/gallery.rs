@@ -90,8 +90,8 @@ fn introduction(run: &Run, folder: &Path, out: &Path) -> String {
     format!(
         "# Gallery\n\nSee where filters succeed and fail: every scene with the best and the worst filter of each shutter.\n\n![The truths of \
          all scenes]({SHEET})\n\nEach scene has two rows per shutter: the truth, the best filter and its FLIP error map; the frame of \
-         one instant, the worst filter and its error map. In an error map, black is no visible difference. The line below names the \
-         best and the worst filter, with FLIP where anything moves; lower is better. Compare filters of one shutter only. The filter \
+         one instant, the\nworst filter and its error map. In an error map, black is no visible difference. The line below names the \
+         best and the worst filter,\nwith FLIP where anything moves; lower is better. Compare filters of one shutter only. The filter \
          `identity` is left out.\n\nThe pictures have {}x{} pixels; the truths have {} samples per pixel. These commands make them:\n\n    \
          {}\n    shuttertruth report {} --gallery {}\n",
         run.render.width,
@@ -109,12 +109,12 @@ fn section(shutters: &[Extremes]) -> String {
     let text = |own: &Extremes| {
         let [best, worst] = [own.best, own.worst]
             .map(|case| format!("`{}` {}", case.name(), case.score_text(Metric::FLIP)));
-        format!("{}: {best}, {worst}.", own.best.alignment)
+        format!("{}: {best}, {worst}", own.best.alignment)
     };
     let texts: Vec<String> = shutters.iter().map(text).collect();
     format!(
-        "\n## {scene}\n\n{exposes}\n\n![{scene}]({scene}.jpg)\n\n{}\n",
-        texts.join(" ")
+        "\n## {scene}\n\n{exposes}\n\n![{scene}]({scene}.jpg)\n\nShutter {}\n",
+        texts.join("; ")
     )
 }
 
