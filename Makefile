@@ -53,7 +53,7 @@ fuzz: vulkan
 	    $(if $(TARGETS),--targets $(TARGETS))
 
 # Changes shipped kernels in small ways and counts the changes that the limits notice: `make mutants SIZE=128x72 FILTERS=kino:default`.
-# See docs/mutation.md.
+# See results/studies/mutation.md.
 mutants: vulkan
 	cargo test --workspace --locked --test mutants -- $(call given,FILTERS,--filters) $(call given,SCENES,--scenes) \
 	    $(call given,SIZE,--size) $(call given,SAMPLES,--samples-per-pixel) $(call given,COUNT,--count) \

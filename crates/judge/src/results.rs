@@ -1,7 +1,5 @@
 //! Results: the scores of runs in short, as a file for version control.
 
-mod cost;
-
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
@@ -9,10 +7,9 @@ use frame::Alignment;
 use metrics::Metric;
 use serde::{Deserialize, Serialize};
 use store::{read_text, to_lines};
-use suite::{Case, Error, InputFormat, Run, refuse_failures};
+use suite::{Case, Error, IDENTITY, InputFormat, Run, refuse_failures};
 use tracer::{Family, SceneId};
 
-pub use self::cost::ResultCost;
 use crate::groups::group_by;
 use crate::numbers::round_to_digits;
 use crate::ranking::filters::{RankedFilter, RankedScore, rank_by_score};
@@ -39,9 +36,6 @@ pub struct Results {
     pub samples_per_pixel: u32,
     /// Number of the sealed variants that the scenes were taken in; none for the scenes themselves.
     pub seal: Option<u64>,
-    /// Costs of filter presets by name; empty where none was timed.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub costs: BTreeMap<String, ResultCost>,
     /// One per scene and filter preset.
     pub scores: Vec<ResultScores>,
 }
@@ -109,7 +103,6 @@ impl Results {
             size: [run.render.width, run.render.height],
             samples_per_pixel: run.render.samples_per_pixel,
             seal,
-            costs: BTreeMap::new(),
             scores: Vec::new(),
         }
     }
@@ -149,7 +142,6 @@ impl Results {
         }
         self.program = newer.program;
         self.adapter = newer.adapter;
-        self.costs.extend(newer.costs);
         for score in newer.scores {
             let is_same = |own: &ResultScores| own.scene == score.scene && own.name == score.name;
             if let Some(own) = self.scores.iter_mut().find(|own| is_same(own)) {
@@ -211,25 +203,29 @@ impl Results {
         scenes.map(|scores| &scores[0].scene).collect()
     }
 
-    /// Finds the worst score by FLIP of the best preset of a filter, among the scenes where one frame knows enough for a gain: those
-    /// with a skill. Without any of them it is the worst of all; none where no FLIP is known.
-    pub fn worst_of(&self, filter: &str) -> Option<&ResultScores> {
-        let mut ranked = self.ranking(None).into_iter().flatten();
-        let best = ranked.find(|own| own.filter == filter)?;
+    /// Finds the worst score by FLIP of a preset, among the scenes where one frame knows enough for a gain: those with a skill. Without
+    /// any of them it is the worst of all; none where no FLIP is known.
+    pub fn worst_of(&self, name: &str) -> Option<&ResultScores> {
         let error = |own: &&ResultScores| {
             let has_skill = own.score(Metric::SKILL).is_some();
             Some((has_skill, own.score(Metric::FLIP)?))
         };
         (self.scores.iter())
-            .filter(|own| own.name == best.name && error(own).is_some())
+            .filter(|own| own.name == name && error(own).is_some())
             .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
     }
 
-    /// Ranks the filter presets of each shutter by FLIP, over the scenes of one family or over all.
-    pub fn ranking(&self, family: Option<Family>) -> Vec<Vec<RankedFilter>> {
-        let of_family = |own: &&ResultScores| family.is_none() || own.family == family;
-        let scores: Vec<RankedScore> = (self.scores.iter().filter(of_family))
-            .filter_map(ResultScores::flip)
+    /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing is ranked in both: its FLIP* is that against a
+    /// centred shutter, if any filter declares one.
+    pub fn ranking(&self) -> Vec<Vec<RankedFilter>> {
+        let centred = Alignment::Centred;
+        let has_centred = self.scores.iter().any(|own| own.alignment == centred);
+        let unblurred = (self.scores.iter())
+            .filter(|own| has_centred && own.filter == IDENTITY && own.alignment != centred)
+            .filter_map(|own| own.ranked(centred, Metric::CommonFlip));
+        let scores: Vec<RankedScore> = (self.scores.iter())
+            .filter_map(|own| own.ranked(own.alignment, Metric::FLIP))
+            .chain(unblurred)
             .collect();
         rank_by_score(&scores, false)
     }
@@ -258,13 +254,13 @@ impl ResultScores {
         self.scores.get(&metric).copied()
     }
 
-    fn flip(&self) -> Option<RankedScore> {
+    fn ranked(&self, alignment: Alignment, metric: Metric) -> Option<RankedScore> {
         Some(RankedScore {
             scene: self.scene.clone(),
             filter: self.filter.clone(),
             name: self.name.clone(),
-            alignment: self.alignment,
-            value: self.score(Metric::FLIP)?,
+            alignment,
+            value: self.score(metric)?,
             floor: self.floor,
         })
     }
