@@ -1,5 +1,5 @@
 # `make run` does the main job; `make test` proves that the program is right, and `make prove` repeats it at full breadth within an
-# hour: docs/testing.md. `make archive` makes the release archive; `make action` and `make image` try it in a bare Debian and in two
+# hour: CONTRIBUTING.md. `make archive` makes the release archive; `make action` and `make image` try it in a bare Debian and in two
 # images: docs/release.md.
 #
 # All look for a Vulkan driver first and, on Debian and Ubuntu, install the software one where there is none. The tests need Python:
@@ -53,7 +53,7 @@ fuzz: vulkan
 	    $(if $(TARGETS),--targets $(TARGETS))
 
 # Changes shipped kernels in small ways and counts the changes that the limits notice: `make mutants SIZE=128x72 FILTERS=kino:default`.
-# See docs/mutation.md.
+# See results/studies/mutation.md.
 mutants: vulkan
 	cargo test --workspace --locked --test mutants -- $(call given,FILTERS,--filters) $(call given,SCENES,--scenes) \
 	    $(call given,SIZE,--size) $(call given,SAMPLES,--samples-per-pixel) $(call given,COUNT,--count) \

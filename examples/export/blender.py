@@ -10,8 +10,10 @@ With a shutter as the last word, trailing or centred, Cycles blurs as its own mo
     blender -b --python examples/export/blender.py -- out/gltf/railing out/blurred.exr 160 90 centred
     python3 examples/export/compare.py out/blurred.exr out/render/railing/truth_centred.exr
 
+With the word vectors instead, the compositor's Vector Blur blurs the sharp frame along its vectors, centred on the frame.
+
 The importer keeps places, motion, colours and the sun. The script adds what glTF cannot say: the lens, the sky, light without limits on
-bounces, and diffuse surfaces without Blender's own gloss. Tried with Blender 3.4.1.
+bounces, and diffuse surfaces without Blender's own gloss. Tried with Blender 3.4.1 and 4.2.0.
 """
 
 import json
@@ -24,6 +26,9 @@ import numpy
 numpy.bool = bool
 
 import bpy  # noqa: E402
+
+# Blender 4.0 renamed this and some inputs of surfaces.
+LINEAR = "Linear" if bpy.app.version < (4, 0) else "Linear Rec.709"
 
 folder, picture, width, height, *shutter = sys.argv[sys.argv.index("--") + 1 :]
 with open(f"{folder}/manifest.json") as file:
@@ -44,7 +49,7 @@ def add_sky():
     nodes, links = world.node_tree.nodes, world.node_tree.links
     sky = nodes.new("ShaderNodeTexEnvironment")
     sky.image = bpy.data.images.load(f"{folder}/{manifest['sky']}")
-    sky.image.colorspace_settings.name = "Linear"
+    sky.image.colorspace_settings.name = LINEAR
     place = nodes.new("ShaderNodeTexCoord")
     turn = nodes.new("ShaderNodeMapping")
     # The middle of the sky lies towards -Z in glTF, which is +Y in Blender, whose own skies have it towards -X.
@@ -130,16 +135,22 @@ def make_pane(material, surface):
         links.new(both.outputs[0], link.to_socket)
 
 
+def find_input(surface, *names):
+    """Finds an input of a surface, some of which Blender 4.0 renamed."""
+    return next(surface.inputs[name] for name in names if name in surface.inputs)
+
+
 def make_diffuse(material):
     """Replaces the importer's surface, whose diffuse part is not Lambert's; one that emits is left, and glass is made thin."""
     nodes, links = material.node_tree.nodes, material.node_tree.links
     for surface in [n for n in nodes if n.type == "BSDF_PRINCIPLED"]:
-        if surface.inputs["Transmission"].default_value > 0:
+        if find_input(surface, "Transmission", "Transmission Weight").default_value > 0:
             make_pane(material, surface)
             continue
-        emission = surface.inputs["Emission"]
-        if emission.links or max(emission.default_value[:3]) > 0:
-            surface.inputs["Specular"].default_value = 0
+        emission = find_input(surface, "Emission", "Emission Color")
+        shines = emission.links or max(emission.default_value[:3]) > 0
+        if shines and surface.inputs["Emission Strength"].default_value > 0:
+            find_input(surface, "Specular", "Specular IOR Level").default_value = 0
             continue
         diffuse = nodes.new("ShaderNodeBsdfDiffuse")
         color = surface.inputs["Base Color"]
@@ -159,7 +170,7 @@ def decode_textures():
         color = texels[:, :3]
         texels[:, :3] = numpy.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
         linear = bpy.data.images.new(image.name + " linear", *image.size, alpha=True, float_buffer=True)
-        linear.colorspace_settings.name = "Linear"
+        linear.colorspace_settings.name = LINEAR
         linear.pixels.foreach_set(texels.ravel())
         image.user_remap(linear)
 
@@ -180,6 +191,25 @@ def open_shutter(alignment):
             thing.cycles.motion_steps = 7
 
 
+def blur_vectors():
+    """Blurs the sharp frame in the compositor, centred on it.
+
+    The factor of Vector Blur is the shutter's time in frames in Blender 3.4, and half of it in Blender 4.2.
+    """
+    layer = scene.view_layers[0]
+    layer.use_pass_z = layer.use_pass_vector = True
+    scene.use_nodes = True
+    nodes, links = scene.node_tree.nodes, scene.node_tree.links
+    nodes.clear()
+    drawn = nodes.new("CompositorNodeRLayers")
+    blur = nodes.new("CompositorNodeVecBlur")
+    blur.factor = manifest["exposure"] / (1 if bpy.app.version < (4, 0) else 2)
+    blur.samples = 64
+    for output, socket in (("Image", "Image"), ("Depth", "Z"), ("Vector", "Speed")):
+        links.new(drawn.outputs[output], blur.inputs[socket])
+    links.new(blur.outputs["Image"], nodes.new("CompositorNodeComposite").inputs["Image"])
+
+
 for image in bpy.data.images:
     image.update()
 decode_textures()
@@ -196,8 +226,11 @@ scene.cycles.max_bounces = scene.cycles.diffuse_bounces = 16
 scene.cycles.transparent_max_bounces = 64
 scene.cycles.pixel_filter_type = "BOX"
 scene.cycles.sample_clamp_indirect = 0
-for alignment in shutter:
-    open_shutter(alignment)
+for word in shutter:
+    if word == "vectors":
+        blur_vectors()
+    else:
+        open_shutter(word)
 scene.view_settings.view_transform = "Raw"
 scene.render.resolution_x, scene.render.resolution_y = int(width), int(height)
 scene.render.resolution_percentage = 100

@@ -1,26 +1,22 @@
-//! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes its pages from all files
-//! there: `cargo run -p cli --example results -- out/run.json`. A bench.json beside a run.json says what filters cost. Without a run
-//! it writes the pages alone.
+//! Keeps results: puts the scores of runs of different scenes into their file below `results/`, and writes its page from all files
+//! there: `cargo run -p cli --example results -- out/run.json`. Without a run it writes the page alone.
 
-mod filter_page;
 mod page;
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use judge::Results;
-use report::{read_bench, write_case_strip};
+use report::write_case_strip;
 use suite::{Case, Error, Run};
 
-use crate::filter_page::{picture_name, results_filter_pages};
-use crate::page::{main_results, results_page};
+use crate::page::{list_engines, main_results, picture_name, results_page};
 
 const FOLDER: &str = "results";
 
 fn main() -> ExitCode {
     let runs: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    match keep(&runs).and_then(|()| write_pages(&runs)) {
+    match keep(&runs).and_then(|()| write_page(&runs)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -38,11 +34,6 @@ fn keep(paths: &[PathBuf]) -> Result<(), Error> {
         .map(|path| Run::read(path))
         .collect::<Result<_, _>>()?;
     let mut results = Results::from_runs(&runs)?;
-    for path in paths {
-        if let Some(bench) = read_bench(folder_of(path))? {
-            results.add_costs(&bench)?;
-        }
-    }
     let path = Path::new(FOLDER).join(results.file_name());
     if path.exists() {
         let newer = std::mem::replace(&mut results, Results::read(&path)?);
@@ -53,37 +44,29 @@ fn keep(paths: &[PathBuf]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Writes all pages from every file of results, and pictures of the runs' cases that they show.
-fn write_pages(runs: &[PathBuf]) -> Result<(), Error> {
+/// Writes the page from every file of results, and pictures of the runs' cases that it shows.
+fn write_page(runs: &[PathBuf]) -> Result<(), Error> {
     let results = Results::read_all(Path::new(FOLDER))?;
-    let mut pages = results_filter_pages(&results);
-    pages.insert("README.md".to_owned(), results_page(&results)?);
-    for (name, text) in pages {
-        let path = Path::new(FOLDER).join(name);
-        frame::write_atomically(&path, text.as_bytes())?;
-        println!("{}", path.display());
-    }
+    let path = Path::new(FOLDER).join("README.md");
+    frame::write_atomically(&path, results_page(&results)?.as_bytes())?;
+    println!("{}", path.display());
     for path in runs {
-        write_pictures(&results, &Run::read(path)?, folder_of(path))?;
+        write_pictures(&results, &Run::read(path)?, path)?;
     }
     Ok(())
 }
 
-/// Writes the worst picture of each filter, where the run made it.
-fn write_pictures(all: &[Results], run: &Run, folder: &Path) -> Result<(), Error> {
+/// Writes the worst picture of what each engine ships, if the run made it.
+fn write_pictures(all: &[Results], run: &Run, path: &Path) -> Result<(), Error> {
     let Some(results) = main_results(all) else {
         return Ok(());
     };
     if [run.render.width, run.render.height] != results.size {
         return Ok(());
     }
-    let filters: BTreeSet<&str> = (results.scores.iter())
-        .map(|own| own.filter.as_str())
-        .collect();
-    for worst in filters
-        .into_iter()
-        .filter_map(|filter| results.worst_of(filter))
-    {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let engines = list_engines().into_iter();
+    for worst in engines.filter_map(|engine| results.worst_of(&engine.ships)) {
         let is_worst = |own: &&Case| own.name() == worst.name && own.scene == worst.scene;
         if let Some(case) = run.cases.iter().find(is_worst) {
             let path = Path::new(FOLDER).join("pictures").join(picture_name(worst));
@@ -92,8 +75,4 @@ fn write_pictures(all: &[Results], run: &Run, folder: &Path) -> Result<(), Error
         }
     }
     Ok(())
-}
-
-fn folder_of(run: &Path) -> &Path {
-    run.parent().unwrap_or(Path::new(""))
 }

@@ -1,255 +1,281 @@
-//! The page of kept results, in Markdown.
+//! The page of kept results, in Markdown: what engines ship, and the ranking of all presets.
 
-use std::collections::BTreeMap;
-
-use cli::{list_once, markdown_table, range_text};
+use cli::{markdown_table, range_text};
 use frame::Alignment;
-use judge::{RANK_RULE, RankedFilter, ResultCost, Results, SizeComparison, compare_sizes};
+use judge::{RANK_RULE, RankedFilter, ResultScores, Results, SizeComparison, compare_sizes};
 use metrics::Metric;
-use suite::{Error, MIN_SCENES};
-use tracer::{Family, Location, SceneId, SceneListing, list_scenes};
+use serde::Deserialize;
+use suite::{Error, IDENTITY};
 
-const FAMILIES: [Family; 7] = [
-    Family::Translation,
-    Family::Rotation,
-    Family::Camera,
-    Family::Thin,
-    Family::Overlap,
-    Family::Deforming,
-    Family::Limits,
-];
+/// What engines ship, with the scores left out.
+const ENGINES: &str = include_str!("../../results/engines.toml");
 
-/// Makes the page of files of results: one part per size, the one with most scenes first, with its sealed variants beside it.
-pub fn results_page(all: &[Results]) -> Result<String, Error> {
-    let mut page = HEAD.replace("{RANK_RULE}", RANK_RULE);
-    let pages = main_results(all).map_or_else(Vec::new, list_filters);
-    for catalogue in sort_catalogues(all) {
-        push_size(&mut page, catalogue, sealed_of(all, catalogue), &pages)?;
+/// Characters of a line of the page.
+const WIDTH: usize = 135;
+
+/// An engine with the preset that it ships.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Engine {
+    name: String,
+    /// The preset that equals what it ships.
+    pub ships: String,
+    /// What is wrong with it, in one sentence.
+    wrong: String,
+    /// The smallest measured change that mends most.
+    change: Option<Change>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Change {
+    preset: String,
+    /// What to do, as the beginning of a sentence.
+    by: String,
+}
+
+/// Lists the engines of results/engines.toml.
+pub fn list_engines() -> Vec<Engine> {
+    #[derive(Deserialize)]
+    struct File {
+        engine: Vec<Engine>,
     }
-    Ok(page)
+    let file: File = toml::from_str(ENGINES).expect("engines.toml lists engines");
+    file.engine
 }
 
-/// Finds the results that pages of filters are about: those with most scenes, in the scenes themselves.
+/// Finds the results that the page is about: those with most scenes, in the scenes themselves.
 pub fn main_results(all: &[Results]) -> Option<&Results> {
-    sort_catalogues(all).into_iter().next()
+    let catalogues = all.iter().filter(|own| own.seal.is_none());
+    catalogues.max_by_key(|own| own.scenes().len())
 }
 
-fn sort_catalogues(all: &[Results]) -> Vec<&Results> {
-    let mut catalogues: Vec<&Results> = all.iter().filter(|own| own.seal.is_none()).collect();
-    catalogues.sort_by_key(|own| (std::cmp::Reverse(own.scenes().len()), own.size));
-    catalogues
+/// Makes the page of files of results: what engines ship, and all presets of each shutter next to their ranks in the sealed variants.
+pub fn results_page(all: &[Results]) -> Result<String, Error> {
+    let results = main_results(all).ok_or_else(|| Error::Usage("no file of results".to_owned()))?;
+    let sealed = all.iter().find(|own| {
+        own.seal.is_some() && own.size == results.size && own.adapter == results.adapter
+    });
+    let [width, height] = results.size;
+    let settings = [
+        ("{SCENES}", results.scenes().len().to_string()),
+        ("{SIZE}", format!("{width}x{height}")),
+        ("{SAMPLES}", results.samples_per_pixel.to_string()),
+        ("{ADAPTER}", results.adapter.clone().unwrap_or_default()),
+        ("{RANK_RULE}", RANK_RULE.to_owned()),
+    ];
+    let fill = |text: &str| {
+        (settings.iter()).fold(text.to_owned(), |text, (key, value)| {
+            text.replace(key, value)
+        })
+    };
+    let groups = results.ranking();
+    let mut page = fill(HEAD) + &engines(results, &groups);
+    page += &fill(PRESETS);
+    let sealed_groups = sealed.map(Results::ranking).unwrap_or_default();
+    for group in &groups {
+        let alignment = group[0].alignment;
+        let others = (sealed_groups.iter()).find(|other| other[0].alignment == alignment);
+        page += &format!("\n### Presets of a {alignment} shutter\n\n");
+        page += &ranking(group, others.map_or(&[][..], Vec::as_slice));
+        if let Some(sealed) = sealed {
+            page += &agreement(results, sealed, alignment)?;
+        }
+    }
+    Ok(wrap(&(page + &fill(COMMANDS))))
 }
 
-/// Lists the filters of results.
-pub fn list_filters(results: &Results) -> Vec<&str> {
-    list_once(results.scores.iter().map(|own| own.filter.as_str()))
-}
-
-/// Finds the sealed variants of results.
-pub fn sealed_of<'a>(all: &'a [Results], catalogue: &Results) -> Option<&'a Results> {
-    (all.iter()).find(|own| {
-        own.seal.is_some() && own.size == catalogue.size && own.adapter == catalogue.adapter
-    })
+/// Fills the lines of paragraphs; tables, pictures, headings and commands stay as they are.
+fn wrap(page: &str) -> String {
+    let wrap_part = |part: &str| {
+        if part.starts_with(['|', '!', '#', ' ']) {
+            return part.to_owned();
+        }
+        let mut lines = vec![String::new()];
+        for word in part.split_whitespace() {
+            let line = lines.last_mut().expect("there is a line");
+            match line.len() + word.len() < WIDTH {
+                _ if line.is_empty() => *line += word,
+                true => *line += &format!(" {word}"),
+                false => lines.push(word.to_owned()),
+            }
+        }
+        lines.join("\n")
+    };
+    let parts: Vec<String> = page.trim_end().split("\n\n").map(wrap_part).collect();
+    parts.join("\n\n") + "\n"
 }
 
 const HEAD: &str = "\
 # Results
 
-How near each filter comes to the truth, by FLIP where anything moves; lower is better. `cargo run -p cli --example results` writes this
-page from the files beside it. Nothing is entered by hand. To enter a filter, add its folder to `shaders/`, run the commands of a part with
-`--filter` and its name, and put each run.json into its file:
+See how close each engine's motion blur comes to path-traced truth, what is wrong with it, and which small change helps most.
 
-    cargo run -p cli --example results -- out/results_320x180/run.json
+Scores are FLIP where anything moves: the mean over {SCENES} scenes at {SIZE}, on {ADAPTER}. Lower is better. *No blur* is the score of
+the sharp frame. Compare scores of one shutter only.
 
-- Compare filters of one shutter only.
-- {RANK_RULE}
-- *Sealed* are the same scenes with speeds, directions, places, times and colours that follow from a number, as in `fan@seal1`. A preset
-  that was fitted to the catalogue falls there. Scores differ from the catalogue's because speeds do: compare the ranks.
-- *Time* is that of `shuttertruth bench` at this size, divided by that of `jump_flood:paper` in the same round; a bench.json beside a
-  run.json comes along. Ratios on a software adapter say little about ratios on a graphics card.
-- A filter's name leads to its page: what it is, where its code comes from, and its worst picture.
-- [What the scores mean](../crates/metrics/README.md).
 ";
 
-fn push_size(
-    page: &mut String,
-    results: &Results,
-    sealed: Option<&Results>,
-    pages: &[&str],
-) -> Result<(), Error> {
-    let [width, height] = results.size;
-    let scenes = results.scenes();
-    *page += &format!(
-        "\n## {width}x{height}, {} scenes\n\nOn {}:\n\n",
-        scenes.len(),
-        results.adapter.as_deref().unwrap_or("no adapter"),
-    );
-    for run in std::iter::once(results).chain(sealed) {
-        *page += &format!("    {}\n", command(run, &scenes));
-    }
-    let sealed_groups = sealed.map(|sealed| sealed.ranking(None));
-    for group in results.ranking(None) {
-        let alignment = group[0].alignment;
-        let others = (sealed_groups.iter().flatten()).find(|other| other[0].alignment == alignment);
-        *page += &format!("\n### {width}x{height}, {alignment} shutter\n\n");
-        *page += &ranking(&group, others.map(Vec::as_slice), &results.costs, pages);
-        if let Some(sealed) = sealed {
-            push_agreement(page, results, sealed, alignment)?;
-        }
-        push_families(page, results, &group);
-    }
-    Ok(())
+const PRESETS: &str = "
+## All presets
+
+{RANK_RULE} *Sealed* is the rank on variants of the scenes with other speeds, directions, places and colours, which no preset was
+fitted to. `shuttertruth list three` prints a filter's source, presets and known limits.
+";
+
+const COMMANDS: &str = "
+## Measure it again
+
+These commands make the scores, the pictures and this page. Each run announces the time that it needs:
+
+    shuttertruth run --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/results_{SIZE}
+    shuttertruth run --seal 1 --size {SIZE} --samples-per-pixel {SAMPLES} --jitter-frames 0 --out out/sealed_{SIZE}
+    cargo run -p cli --example results -- out/results_{SIZE}/run.json
+    cargo run -p cli --example results -- out/sealed_{SIZE}/run.json
+
+To add a filter, put its folder into `shaders/` and run them with `--filter` and its name. The JSON files next to this page hold every
+score; [engines.toml](engines.toml) holds the sentences about engines. [Picture sizes](studies/picture-sizes.md) uses the files of other
+sizes. [What the scores mean](../crates/metrics/README.md).
+";
+
+/// An engine with its scores.
+struct Measured<'a> {
+    engine: Engine,
+    shipped: &'a RankedFilter,
+    /// Mean FLIP of no blur, under the same shutter.
+    none: f64,
+    /// Mean FLIP after the change.
+    changed: Option<f64>,
 }
 
-/// Writes the command that makes the run.
-fn command(results: &Results, scenes: &[&SceneId]) -> String {
-    let [width, height] = results.size;
-    let (seal, of_seal) = match results.seal {
-        Some(seed) => (format!(" --seal {seed}"), format!("_seal{seed}")),
-        None => (String::new(), String::new()),
+/// Finds the scores of the engines, the worst against no blur first.
+fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
+    let find = |name: &str| groups.iter().flatten().find(|own| own.name == name);
+    let measure = |engine: Engine| {
+        let shipped = find(&engine.ships)?;
+        let group = (groups.iter()).find(|group| group[0].alignment == shipped.alignment)?;
+        let none = group.iter().find(|own| own.filter == IDENTITY)?.mean;
+        let change = engine.change.as_ref();
+        let changed = change.and_then(|change| Some(find(&change.preset)?.mean));
+        Some(Measured {
+            engine,
+            shipped,
+            none,
+            changed,
+        })
     };
-    let shipped = list_scenes(Location::of_bundle(&catalogue::SCENES))
-        .expect("the program's own scenes can be listed");
-    let is_there = |listing: &SceneListing| scenes.iter().any(|own| **own == listing.name.as_str());
-    let scenes = match shipped.iter().all(is_there) {
-        true => String::new(),
-        false => {
-            let names: Vec<String> = scenes.iter().map(|scene| scene.to_string()).collect();
-            format!(" --scenes {}", names.join(","))
-        }
-    };
-    format!(
-        "shuttertruth run{scenes}{seal} --size {width}x{height} --samples-per-pixel {} --jitter-frames 0 --filter {} --out out/results_{width}x{height}{of_seal}",
-        results.samples_per_pixel,
-        list_filters(results).join(",")
-    )
+    let mut all: Vec<Measured> = list_engines().into_iter().filter_map(measure).collect();
+    let badness = |own: &Measured| own.shipped.mean / own.none;
+    all.sort_by(|a, b| badness(b).total_cmp(&badness(a)));
+    all
 }
 
-/// Makes the table of a shutter's filters, with their ranks in the sealed variants and their costs. Names of filters with a page lead
-/// there.
-fn ranking(
-    group: &[RankedFilter],
-    sealed: Option<&[RankedFilter]>,
-    costs: &BTreeMap<String, ResultCost>,
-    pages: &[&str],
-) -> String {
-    let mut titles = vec!["rank", "filter", "FLIP (95 % CI)"];
-    if sealed.is_some() {
-        titles.extend(["sealed: rank", "FLIP (95 % CI)"]);
+/// Makes a table of the engines, and a part for each with its worst picture.
+fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
+    let all = measured(groups);
+    let number = |value: f64| Metric::FLIP.number(value);
+    let row = |own: &Measured| -> Vec<String> {
+        let scores = [own.shipped.mean, own.none].map(number);
+        let name = format!("{}, `{}`", own.engine.name, own.engine.ships);
+        let names = [name, own.shipped.alignment.to_string()];
+        let changed = own.changed.map_or("-".to_owned(), number);
+        (names.into_iter().chain(scores).chain([changed])).collect()
+    };
+    let titles = [
+        "engine ships",
+        "shutter",
+        "FLIP",
+        "no blur",
+        "after the change",
+    ];
+    let mut text = markdown_table(&titles, all.iter().map(row));
+    let worse: Vec<&str> = (all.iter())
+        .filter(|own| own.shipped.mean > own.none)
+        .map(|own| own.engine.name.as_str())
+        .collect();
+    if !worse.is_empty() {
+        text += &format!("\nWorse than no blur: {}.\n", worse.join(", "));
     }
-    if !costs.is_empty() {
-        titles.push("time");
+    for own in &all {
+        let Engine {
+            name,
+            wrong,
+            change,
+            ships,
+        } = &own.engine;
+        text += &format!("\n### {name}\n\n{wrong}");
+        if let (Some(change), Some(changed)) = (change, own.changed) {
+            let [before, after] = [own.shipped.mean, changed].map(number);
+            let Change { by, preset } = change;
+            text += &format!(" {by} (`{preset}`): {before} becomes {after}.");
+        }
+        text += "\n";
+        if let Some(worst) = results.worst_of(ships) {
+            let file = picture_name(worst);
+            let scene = &worst.scene;
+            text += &format!("\n![truth, {ships} and FLIP on {scene}](pictures/{file})\n");
+        }
     }
-    titles.push(match sealed {
-        Some(_) => "worst scene of the catalogue",
-        None => "worst scene",
-    });
+    text
+}
+
+/// Names the file of a case's picture: `mcguire_tuned_fan.png`.
+pub fn picture_name(case: &ResultScores) -> String {
+    format!("{}_{}.png", case.name.replace(':', "_"), case.scene)
+}
+
+/// Makes the table of a shutter's presets, with their ranks in the sealed variants.
+fn ranking(group: &[RankedFilter], sealed: &[RankedFilter]) -> String {
+    let titles = ["rank", "preset", "FLIP (95 % CI)", "sealed", "worst scene"];
     let row = |ranked: &RankedFilter| {
-        let name = format!("`{}`", ranked.name);
-        let name = match pages.contains(&ranked.filter.as_str()) {
-            true => format!("[{name}]({}.md)", ranked.filter),
-            false => name,
-        };
-        let mut cells = vec![ranked.rank_text(), name, mean(ranked)];
-        if let Some(sealed) = sealed {
-            let other = sealed.iter().find(|other| other.name == ranked.name);
-            cells.extend([RankedFilter::rank_text, mean].map(|text| or_dash(other, text)));
-        }
-        if !costs.is_empty() {
-            cells.push(or_dash(costs.get(&ranked.name), cost_text));
-        }
+        let other = sealed.iter().find(|other| other.name == ranked.name);
         let (scene, worst) = &ranked.worst;
-        cells.push(format!("{scene} {}", Metric::FLIP.number(*worst)));
-        cells
+        let is_blur = ranked.filter != IDENTITY;
+        vec![
+            ranked.rank_text(),
+            format!(
+                "`{}`{}",
+                ranked.name,
+                if is_blur { "" } else { ", no blur" }
+            ),
+            mean(ranked),
+            other.map_or("-".to_owned(), RankedFilter::rank_text),
+            format!("{scene} {}", Metric::FLIP.number(*worst)),
+        ]
     };
     markdown_table(&titles, group.iter().map(row))
 }
 
-/// Fills a cell; a dash where there is nothing.
-pub fn or_dash<T>(value: Option<T>, text: impl FnOnce(T) -> String) -> String {
-    value.map_or("-".to_owned(), text)
-}
-
-/// `0.47 (0.40 to 0.53)`: median and quartiles.
-pub fn cost_text(cost: &ResultCost) -> String {
-    let ResultCost { median, low, high } = cost;
-    match low == high {
-        true => format!("{median:.2}"),
-        false => format!("{median:.2} ({low:.2} to {high:.2})"),
-    }
-}
-
-pub fn mean(ranked: &RankedFilter) -> String {
-    let number = |value| Metric::FLIP.number(value);
-    let interval = ranked
-        .interval
-        .map(|ends| format!(" ({})", range_text(ends, number)));
+/// `0.047 (0.040 to 0.053)`; FLIP is at least 0, and so are the limits of its mean.
+fn mean(ranked: &RankedFilter) -> String {
+    let number = |value: f64| Metric::FLIP.number(value);
+    let interval = (ranked.interval)
+        .map(|ends| format!(" ({})", range_text(ends.map(|end| end.max(0.0)), number)));
     number(ranked.mean) + &interval.unwrap_or_default()
 }
 
 /// Says whether the sealed variants order the filters as the catalogue does.
-fn push_agreement(
-    page: &mut String,
-    results: &Results,
-    sealed: &Results,
-    alignment: Alignment,
-) -> Result<(), Error> {
+fn agreement(results: &Results, sealed: &Results, alignment: Alignment) -> Result<String, Error> {
     let compared = compare_sizes(&[results, sealed], Metric::FLIP)?;
     let mut of_shutter = compared.iter().filter(|own| own.alignment == alignment);
     let Some(SizeComparison { agreement, .. }) = of_shutter.next() else {
-        return Ok(());
+        return Ok(String::new());
     };
     let own = &agreement[0];
     let interval = (own.interval)
         .map(|[low, high]| format!(" (95 % CI {low:.2} to {high:.2})"))
         .unwrap_or_default();
-    *page += &format!(
-        "\nKendall's tau of the catalogue's order and the sealed variants' is {:.2}{interval}. Both order {} pairs of filters alike; {} pairs are turned round.\n",
-        own.tau,
+    let mut text = format!(
+        "\nThe scenes and their sealed variants order {} pairs of presets alike and {} differently. Kendall's tau is {:.2}{interval}.\n",
         own.alike,
-        own.reversed.len()
+        own.reversed.len(),
+        own.tau,
     );
     for turned in &own.reversed {
-        *page += &format!(
-            "`{}` is better than `{}` on the catalogue, and worse on the sealed variants.\n",
+        text += &format!(
+            "`{}` is better than `{}` on the scenes, and worse on the variants.\n",
             turned.better_here, turned.better_at_largest
         );
     }
-    Ok(())
-}
-
-/// The mean of each filter over the scenes of each family, with its rank there if the scenes are enough to order filters.
-fn push_families(page: &mut String, results: &Results, group: &[RankedFilter]) {
-    let alignment = group[0].alignment;
-    let families: Vec<(Family, Vec<RankedFilter>)> = (FAMILIES.into_iter())
-        .filter_map(|family| {
-            let mut groups = results.ranking(Some(family)).into_iter();
-            Some((family, groups.find(|own| own[0].alignment == alignment)?))
-        })
-        .collect();
-    if families.len() < 2 {
-        return;
-    }
-    let names = (families.iter())
-        .map(|(family, ranked)| format!("{} ({})", family.name(), ranked[0].scenes));
-    let titles: Vec<String> = std::iter::once("filter".to_owned()).chain(names).collect();
-    let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
-    let cell = |own: &RankedFilter| match own.scenes >= MIN_SCENES {
-        true => format!("{}, {}", mean(own), own.rank_text()),
-        false => Metric::FLIP.number(own.mean),
-    };
-    let row = |ranked: &RankedFilter| {
-        let of_family = |(_, family): &(Family, Vec<RankedFilter>)| {
-            let own = family.iter().find(|own| own.name == ranked.name);
-            own.map_or_else(String::new, cell)
-        };
-        let cells = families.iter().map(of_family);
-        std::iter::once(format!("`{}`", ranked.name))
-            .chain(cells)
-            .collect()
-    };
-    *page += &format!(
-        "\nMean FLIP per family, with its number of scenes; where there are {MIN_SCENES} or more, with its 95 % CI and the rank. Fewer order nothing:\n\n{}",
-        markdown_table(&titles, group.iter().map(row))
-    );
+    Ok(text)
 }

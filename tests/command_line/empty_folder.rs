@@ -54,6 +54,21 @@ fn other_commands_work_in_an_empty_folder() {
 }
 
 #[test]
+fn a_check_in_an_empty_folder_is_judged_by_the_limits_that_come_along() {
+    let sandbox = empty();
+    let printed = sandbox.execute(&split(
+        "check --quiet --scenes sliding_panel --filter mcguire:paper --size 160x90 --samples-per-pixel 64",
+    ));
+    assert!(printed.contains("14 required bounds: 14 met"), "{printed}");
+    let judgement: Value = sandbox.read_json("out/judgement.json");
+    let place = judgement["findings"][0]["place"].as_str().unwrap();
+    assert!(
+        place.starts_with("built-in/sliding_panel/bounds.toml:"),
+        "{place}"
+    );
+}
+
+#[test]
 fn the_program_s_own_scenes_are_those_of_the_repository() {
     let own = Location::of_bundle(&catalogue::SCENES);
     let mut names = (catalogue::SCENES.list)();

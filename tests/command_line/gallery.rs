@@ -8,21 +8,29 @@ use tests::text::assert_contains;
 use crate::sandbox::Sandbox;
 
 #[test]
-fn a_gallery_shows_each_scene_with_its_best_and_its_worst_filter() {
+fn a_gallery_shows_the_best_and_the_worst_filter_of_each_shutter() {
     let sandbox = Sandbox::two_scenes();
-    sandbox.measure("--filters identity,velocity_gather:fine,bevy:default");
+    let trailing = "velocity_gather:fine,velocity_gather:coarse,camera_gather";
+    sandbox.measure(&format!("--filters identity,{trailing},bevy:default"));
     sandbox.done("report out --gallery shown");
     let page = fs::read_to_string(sandbox.path("shown/README.md")).unwrap();
-    let parts = ["](truths.png)", "## plate", "](slow.png)", "64x32 pixels"];
+    let parts = ["](truths.png)", "## plate", "](slow.jpg)", "64x32 pixels"];
     assert_contains(&page, &parts);
-    assert_contains(&page, &["| best | `", "| worst | `"]);
+    let command = "\n    shuttertruth report out --gallery shown\n";
+    let centred = "centred: `bevy:default` 0.";
+    // The camera stands still, so that its motion blurs nothing.
+    let trailing = "trailing: `velocity_gather:fine` 0.";
+    let worst = ", `camera_gather:default` 0.";
+    assert_contains(&page, &[command, centred, trailing, worst]);
     assert!(!page.contains("`identity:default`"), "{page}");
-    let strip = read_png(&sandbox.path("shown/plate.png")).unwrap();
-    // Five pictures of 64x32 with gaps of 2 pixels.
-    assert_eq!((strip.width, strip.height), (5 * 66 - 2, 32));
+    // Two rows per shutter, with labels of 10 pixels and gaps of 2.
+    let picture = image::open(sandbox.path("shown/plate.jpg")).unwrap();
+    let size = (picture.width(), picture.height());
+    assert_eq!(size, (3 * 66 - 2, 4 * (32 + 12) - 2));
     let sheet = read_png(&sandbox.path("shown/truths.png")).unwrap();
     assert_eq!((sheet.width, sheet.height), (2 * 66 - 2, 32));
-    assert_eq!(sheet.at(10, 10), strip.at(66 + 10, 10), "the first truth");
+    let truth = read_png(&sandbox.path("out/plate/truth_centred.png")).unwrap();
+    assert_eq!(sheet.at(10, 10), truth.at(10, 10), "the first truth");
 }
 
 #[test]

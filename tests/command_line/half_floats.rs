@@ -1,12 +1,11 @@
 //! Filters with colours of 16-bit floats: what they gather is measured in 32 bits.
 
 use std::fs;
-use std::path::Path;
 use std::sync::OnceLock;
 
 use metrics::Measured;
 use suite::Case;
-use tests::text::{assert_contains, code_block, squeeze};
+use tests::text::{assert_contains, squeeze};
 
 use crate::sandbox::Sandbox;
 
@@ -22,8 +21,6 @@ const OF_WEIGHTS: [&str; 9] = [
     "gather_offset",
     "gather_spread",
 ];
-
-const GUIDE: &str = include_str!("../../docs/add-a-filter.md");
 
 /// Writes the fixture `blur` with a name, a format and a weight of its taps.
 fn write_blur(sandbox: &Sandbox, name: &str, float: &str, weight: &str) {
@@ -43,14 +40,10 @@ fn copy_filter(sandbox: &Sandbox, name: &str) {
     tests::filter_folder::copy_folder(&fixture, &sandbox.path(name));
 }
 
-/// Writes the guide's example of Godot's kind, which stores its output in 16 bits.
-fn write_godot_s(folder: &Path) {
-    let block = |start: &str| code_block(GUIDE, start);
-    fs::create_dir_all(folder).unwrap();
-    let manifest = block("`godot_blur/filter.toml` says what its bindings are:\n\n```toml\n");
-    fs::write(folder.join("filter.toml"), manifest).unwrap();
-    let shader = block("`godot_blur/blur.glsl` is a shader of Godot's kind:\n\n```glsl\n");
-    fs::write(folder.join("blur.glsl"), shader).unwrap();
+/// Copies the example of Godot's kind, which stores its output in 16 bits.
+fn copy_godot_s(sandbox: &Sandbox) {
+    let example = tests::root().join("examples/first_blur/godot");
+    tests::filter_folder::copy_folder(&example, &sandbox.path("godot_blur"));
 }
 
 /// Writes a filter that runs this program with the filter `half`.
@@ -77,7 +70,7 @@ fn measured() -> &'static (String, Vec<Case>) {
         }
         copy_filter(&sandbox, "drawn");
         copy_filter(&sandbox, "constant");
-        write_godot_s(&sandbox.path("godot_blur"));
+        copy_godot_s(&sandbox);
         let mut filters =
             "identity,full,half,bright,bright_full,drawn,constant,godot_blur".to_owned();
         #[cfg(unix)]

@@ -1,5 +1,6 @@
 //! Links between the project's own pages. Each leads to a file, and to a heading if it names one.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -81,14 +82,48 @@ fn every_link_between_pages_has_a_target() {
 }
 
 #[test]
-fn the_readme_links_every_guide() {
-    let readme = fs::read_to_string(root().join("README.md")).unwrap();
-    let links = find_links(&prose(&readme));
-    for guide in find_pages(&root().join("docs")) {
-        let name = format!("docs/{}", guide.file_name().unwrap().to_string_lossy());
-        let named = links
-            .iter()
-            .any(|link| link.split('#').next() == Some(&name));
-        assert!(named, "README.md does not lead to {name}");
+fn links_lead_from_the_readme_to_every_guide() {
+    let mut reached = BTreeSet::new();
+    let mut found = vec![root().join("README.md").canonicalize().unwrap()];
+    while let Some(page) = found.pop() {
+        if reached.insert(page.clone()) {
+            let links = find_links(&prose(&fs::read_to_string(&page).unwrap()));
+            let files = links.iter().map(|link| link.split('#').next().unwrap());
+            let pages = files.filter(|file| file.ends_with(".md"));
+            let paths = pages.map(|file| page.parent().unwrap().join(file));
+            // A link that leads nowhere fails the test above.
+            found.extend(paths.filter_map(|path| path.canonicalize().ok()));
+        }
     }
+    for guide in ["docs", "results"]
+        .map(|folder| find_pages(&root().join(folder)))
+        .concat()
+    {
+        let is_reached = reached.contains(&guide.canonicalize().unwrap());
+        assert!(is_reached, "no links lead to {}", guide.display());
+    }
+}
+
+#[test]
+fn the_page_of_evidence_names_tests_that_exist() {
+    let page = fs::read_to_string(root().join("docs/evidence.md")).unwrap();
+    let makefile = fs::read_to_string(root().join("Makefile")).unwrap();
+    let mut count = 0;
+    for row in page.lines().filter(|line| line.ends_with("` |")) {
+        let cell = row.rsplit('|').nth(1).unwrap();
+        for name in cell.split('`').skip(1).step_by(2) {
+            count += 1;
+            let exists = match name.split_once(' ') {
+                Some(("make", target)) => makefile.contains(&format!("\n{target}:")),
+                Some((program, module)) => {
+                    let module = module.replace("::", "/");
+                    let path = root().join("tests").join(program).join(module);
+                    path.is_dir() || path.with_extension("rs").is_file()
+                }
+                None => root().join(name).is_dir(),
+            };
+            assert!(exists, "docs/evidence.md: no test is called {name}");
+        }
+    }
+    assert!(count > 30, "only {count} tests were found");
 }

@@ -1,7 +1,5 @@
 //! Kept results: files of scores, and the page that is made from them.
 
-#[path = "../../examples/results/filter_page.rs"]
-mod filter_page;
 #[path = "../../examples/results/page.rs"]
 mod page;
 
@@ -9,15 +7,16 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use judge::Results;
+use filters::Filter;
+use frame::Alignment;
+use judge::{Agreement, Results, compare_sizes};
 use metrics::Metric;
-use suite::Run;
+use suite::{IDENTITY, Run};
 use tests::filter_folder::copy_changed_filter;
 use tests::text::assert_contains;
-use tracer::{SceneId, Seal};
+use tracer::{Location, SceneId, Seal, list_scenes};
 
-use self::filter_page::{picture_name, results_filter_pages};
-use self::page::{main_results, results_page};
+use self::page::{list_engines, main_results, picture_name, results_page};
 use crate::sandbox::Sandbox;
 
 fn folder() -> PathBuf {
@@ -41,32 +40,86 @@ fn the_page_of_results_is_made_from_the_files_beside_it() {
 }
 
 #[test]
-fn the_page_of_every_filter_is_made_from_the_results_and_shows_its_worst_picture() {
+fn the_pictures_show_what_each_engine_ships_at_its_worst() {
     let results = Results::read_all(&folder()).unwrap();
-    let pages = results_filter_pages(&results);
-    for (name, text) in &pages {
-        let page = fs::read_to_string(folder().join(name)).unwrap();
-        assert!(
-            page == *text,
-            "results/{name} is not what the files say; write it: cargo run -p cli --example results"
-        );
-    }
     let main = main_results(&results).unwrap();
-    let filters: BTreeSet<&str> = main.scores.iter().map(|own| own.filter.as_str()).collect();
-    let worst = filters.iter().map(|filter| main.worst_of(filter).unwrap());
-    let due: BTreeSet<String> = worst.map(picture_name).collect();
-    let names = |folder: &Path| -> BTreeSet<String> {
-        let files = fs::read_dir(folder).unwrap();
-        files
-            .map(|file| file.unwrap().file_name().into_string().unwrap())
-            .collect()
+    let worst = |engine: page::Engine| main.worst_of(&engine.ships).map(picture_name).unwrap();
+    let due: BTreeSet<String> = list_engines().into_iter().map(worst).collect();
+    let files = fs::read_dir(folder().join("pictures")).unwrap();
+    let found = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    assert_eq!(found.collect::<BTreeSet<_>>(), due);
+}
+
+#[test]
+fn the_commands_of_the_page_measure_what_its_tables_have() {
+    let results = Results::read_all(&folder()).unwrap();
+    let mut presets = BTreeSet::new();
+    for filter in Filter::builtin_names() {
+        let shipped = Filter::builtin(&filter).unwrap().presets;
+        presets.extend((shipped.iter()).map(|preset| format!("{filter}:{}", preset.name)));
+    }
+    let scenes = list_scenes(Location::of_bundle(&catalogue::SCENES)).unwrap();
+    let main = main_results(&results).unwrap();
+    let sealed = results.iter().find(|own| own.seal == Some(1)).unwrap();
+    // Neither command names scenes or filters, so that both take all.
+    for own in [main, sealed] {
+        let names: BTreeSet<String> = own.scores.iter().map(|own| own.name.clone()).collect();
+        assert_eq!(names, presets);
+        let own_scenes = own.scenes().into_iter().map(SceneId::to_string);
+        let due = scenes.iter().map(|own| own.name.clone());
+        assert_eq!(own_scenes.collect::<BTreeSet<_>>(), due.collect());
+        assert_eq!(own.scores.len(), presets.len() * scenes.len());
+    }
+}
+
+#[test]
+fn doing_nothing_is_ranked_in_both_shutters() {
+    let results = Results::read_all(&folder()).unwrap();
+    for group in main_results(&results).unwrap().ranking() {
+        let none = group.iter().find(|own| own.filter == IDENTITY).unwrap();
+        let worse = group.iter().filter(|own| own.mean > none.mean);
+        let worse: Vec<&str> = worse.map(|own| own.name.as_str()).collect();
+        match none.alignment {
+            Alignment::Centred => assert_eq!(worse, ["three:default", "jimenez:o3de"]),
+            _ => assert!(worse.is_empty(), "{worse:?}"),
+        }
+    }
+    // Without a filter of a centred shutter there is no score against one.
+    let trailing = Results::from_runs(&[run("")]).unwrap();
+    assert_eq!(trailing.ranking().len(), 1);
+}
+
+#[test]
+fn the_study_of_picture_sizes_has_the_numbers_of_the_kept_results() {
+    let read = |size: &str| Results::read(&folder().join(format!("{size}_llvmpipe.json"))).unwrap();
+    let all = ["160x90", "320x180", "1280x720", "1920x1080"].map(read);
+    let compared = compare_sizes(&all.each_ref(), Metric::FLIP).unwrap();
+    let row = |name: &str, cells: Vec<String>| format!("| {name} | {} |", cells.join(" | "));
+    let pairs = |name: &str, count: fn(&Agreement) -> usize| {
+        let sum = |size: usize| -> usize {
+            (compared.iter().map(|own| count(&own.agreement[size]))).sum()
+        };
+        row(name, (0..4).map(|size| sum(size).to_string()).collect())
     };
-    assert_eq!(names(&folder().join("pictures")), due);
-    let due = pages.into_keys().chain(["README.md".to_owned()]);
-    let found = names(&folder())
-        .into_iter()
-        .filter(|name| name.ends_with(".md"));
-    assert_eq!(found.collect::<BTreeSet<_>>(), due.collect());
+    let mut printed = vec![
+        pairs("separated here and at 1920x1080, same order", |own| {
+            own.alike
+        }),
+        pairs("separated in both, reversed", |own| own.reversed.len()),
+        pairs("separated at 1920x1080 only", |own| own.only_at_largest),
+    ];
+    for filter in compared.iter().flat_map(|own| &own.filters) {
+        let means = filter.means.iter();
+        let cells = means.map(|mean| Metric::FLIP.number(mean.mean));
+        printed.push(row(&format!("`{}`", filter.name), cells.collect()));
+    }
+    let page = fs::read_to_string(folder().join("studies/picture-sizes.md")).unwrap();
+    let is_row = |line: &&str| line.starts_with("| `") || line.starts_with("| separated");
+    let rows: Vec<&str> = page.lines().filter(is_row).collect();
+    assert!(rows.len() > 10, "only {rows:?}");
+    for row in rows {
+        assert!(printed.iter().any(|own| own == row), "{row}: {printed:#?}");
+    }
 }
 
 const FILTERS: &str = "--filters identity,velocity_gather:fine,velocity_gather:coarse";
@@ -76,29 +129,6 @@ fn run(more: &str) -> Run {
     let sandbox = Sandbox::two_scenes();
     sandbox.measure(&format!("{FILTERS} {more}"));
     sandbox.read_run()
-}
-
-#[test]
-fn costs_of_a_bench_stand_beside_the_scores_of_their_presets() {
-    let sandbox = Sandbox::new();
-    sandbox.measure(FILTERS);
-    let mut results = Results::from_runs(&[sandbox.read_run()]).unwrap();
-    sandbox.done("bench --size 64x32 --filters velocity_gather:fine --out out");
-    let costs = report::read_bench(&sandbox.path("out")).unwrap().unwrap();
-    results.add_costs(&costs).unwrap();
-    let name = "velocity_gather:fine";
-    assert_eq!(results.costs.keys().collect::<Vec<_>>(), [name]);
-    let page = results_page(&[results.clone()]).unwrap();
-    let mut rows = page.lines();
-    let row = rows.find(|line| line.contains(&format!("`{name}`")));
-    let ratio = format!("| {:.2} ", results.costs[name].median);
-    assert_contains(row.unwrap(), &[&ratio]);
-    let read: Results = serde_json::from_str(&results.text()).unwrap();
-    assert_eq!(read, results);
-
-    results.size = [320, 180];
-    let error = results.add_costs(&costs).unwrap_err().to_string();
-    assert_contains(&error, &["the bench timed 64x32 on"]);
 }
 
 #[test]
@@ -191,7 +221,7 @@ fn a_filter_that_was_fitted_to_the_scenes_falls_on_sealed_ones() {
         sandbox.measure(&format!("{filters} {more}"));
         let results = Results::from_runs(&[sandbox.read_run()]).unwrap();
         assert_eq!(results.scenes().len(), names.len());
-        let ranking = results.ranking(None).remove(0);
+        let ranking = results.ranking().remove(0);
         ranking.into_iter().map(|ranked| ranked.name).collect()
     };
     assert_eq!(ranks(""), ["learnt:fine", "velocity_gather:fine"]);

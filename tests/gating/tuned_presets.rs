@@ -29,8 +29,7 @@ fn held_out(names: &[&str], used: &[String]) -> Vec<(Scene, SceneBounds)> {
 /// Compares a filter's tuned preset with the one that the search started from. Lengths in pixels are as written, or scaled to
 /// the picture, as users have them.
 ///
-/// docs/tune.md gives results of more samples. Both presets see the same noise, which only hides differences, and so few
-/// samples give the same verdict.
+/// Both presets see the same noise, which only hides differences, and so few samples give the same verdict.
 fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedComparison, String) {
     let gpu = open_gpu();
     let render = RenderSettings {

@@ -32,10 +32,12 @@ fn read_pages() -> Vec<String> {
     let mut paths: Vec<PathBuf> = ["README.md", "scenes/README.md", "shaders/README.md"]
         .map(|page| root.join(page))
         .to_vec();
-    for guide in fs::read_dir(root.join("docs")).unwrap() {
-        let path = guide.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "md") {
-            paths.push(path);
+    for folder in ["docs", "docs/engines"] {
+        for guide in fs::read_dir(root.join(folder)).unwrap() {
+            let path = guide.unwrap().path();
+            if path.extension().is_some_and(|extension| extension == "md") {
+                paths.push(path);
+            }
         }
     }
     let pages = paths.iter().map(|path| fs::read_to_string(path).unwrap());

@@ -124,7 +124,7 @@ impl Parser<'_> {
         let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
         if word.is_empty() {
-            return Err("has an operator without a value beside it".into());
+            return Err("has an operator without a value next to it".into());
         }
         if word.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
             let number = word.parse::<f64>();

@@ -97,7 +97,7 @@ impl Ladder {
                     ladder.rungs.extend(rung.rungs);
                 }
                 Some(_) => {
-                    let reason = "belongs to another ladder than the files beside it".to_owned();
+                    let reason = "belongs to another ladder than the files next to it".to_owned();
                     return Err(FileError::foreign(&file, reason));
                 }
             }
@@ -112,7 +112,7 @@ impl Ladder {
             [rung] if rung.subframes == subframes => Ok(ladder),
             _ => Err(FileError::foreign(
                 path,
-                format!("does not hold the one rung of {subframes} sub-frames that its name tells"),
+                format!("does not hold the one rung of {subframes} sub-frames that its name gives"),
             )),
         }
     }

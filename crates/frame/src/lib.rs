@@ -59,7 +59,8 @@ pub use frame_options::{ColorSampling, FrameOptions, VelocityKind};
 pub use hidden::is_hidden;
 pub use picture::Picture;
 pub use png::{
-    MAX_PNG_PIXELS, check_png_palette, png_bytes, read_png, write_animated_png, write_png,
+    MAX_PNG_PIXELS, check_png_palette, png_bytes, read_png, write_animated_png, write_jpeg,
+    write_png,
 };
 pub use provenance::Provenance;
 pub use raster::{Image, Plane, Raster, Vectors, find_broken};

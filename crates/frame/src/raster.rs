@@ -91,7 +91,7 @@ impl<T> Raster<T> {
     pub fn at(&self, x: u32, y: u32) -> &T {
         assert!(
             x < self.width && y < self.height,
-            "pixel ({x}, {y}) lies outside the raster"
+            "pixel ({x}, {y}) is outside the raster"
         );
         &self.pixels[y as usize * self.width as usize + x as usize]
     }

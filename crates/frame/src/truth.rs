@@ -45,7 +45,7 @@ pub enum TruthError {
     Count(usize),
     /// A replicate is missing or there twice.
     #[error(
-        "replicate {found} stands in the place of replicate {index}; each from 0 on is needed once"
+        "replicate {found} is at the place of replicate {index}; each from 0 on is needed once"
     )]
     Index {
         /// The index that belongs there.

@@ -84,11 +84,11 @@ impl Judgement {
 fn check_finding(finding: &Finding, run: &Run) -> Result<(), String> {
     match &finding.worst {
         Some(worst) if worst.x >= run.render.width || worst.y >= run.render.height => Err(format!(
-            "the worst place ({}, {}) lies outside of {}x{} pixels",
+            "the worst place ({}, {}) is outside {}x{} pixels",
             worst.x, worst.y, run.render.width, run.render.height
         )),
         Some(worst) if !is_below(&worst.picture) => Err(format!(
-            "picture \"{}\": it lies in a folder below run.json, and nowhere else",
+            "picture \"{}\": it has to be in a folder below run.json",
             worst.picture.display()
         )),
         _ => Ok(()),

@@ -47,7 +47,7 @@ pub use ranking::filters::{
 };
 pub use ranking::lag::{lag_text, mean_lag};
 pub use ranking::sequence_ranking::{RANKED_BY, RankedSequence, rank_sequences, rank_sequences_on};
-pub use results::{ResultCost, ResultScores, Results};
+pub use results::{ResultScores, Results};
 use suite::{Case, Run, Sequence};
 use tracer::SceneId;
 pub use worst::{BLOCK, CROP, Worst, worst_block};

@@ -180,7 +180,7 @@ impl Scores {
             Measured::not_applicable(if moves {
                 "no object moves on screen"
             } else {
-                "no object but the background stands still"
+                "no object but the background is still"
             })
         } else {
             Measured::not_applicable(reasons.join("; "))

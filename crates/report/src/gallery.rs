@@ -1,14 +1,13 @@
 //! Pictures of a run as files: the gallery of best and worst filters, a contact sheet of all truths, and the strip of a case.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use frame::{Image, read_png, tile_pictures, write_atomically, write_png};
+use frame::{Alignment, Image, read_png, tile_pictures, write_atomically, write_jpeg, write_png};
 use metrics::Metric;
 use store::RenderFile;
 use suite::{Case, Error, IDENTITY, Run};
-use tracer::SceneId;
 
+use crate::label::label;
 use crate::run_facts::command;
 
 /// File name of the contact sheet.
@@ -19,32 +18,34 @@ const COLUMNS: u32 = 6;
 /// Pixels between two pictures.
 const GAP: u32 = 2;
 
-/// Writes `README.md`, the contact sheet and a strip of pictures per scene below `out`, from the files of a run in `folder`. Returns
-/// the path of the page.
+/// Best and worst filter of one shutter on a scene.
+struct Extremes<'a> {
+    best: &'a Case,
+    worst: &'a Case,
+}
+
+/// Writes `README.md`, the contact sheet and a picture per scene below `out`, from the files of a run in `folder`. Returns the path of
+/// the page.
 pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Error> {
-    let entries = find_entries(run);
-    if entries.is_empty() {
+    let scenes = find_extremes(run);
+    if scenes.is_empty() {
         return Err(Error::Usage(
             "the run has no filter but identity on a scene that moves, so a gallery has no best and no worst one; run filters"
                 .to_owned(),
         ));
     }
     let mut truths = Vec::new();
-    let mut page = introduction(run);
-    for [best, worst] in entries {
-        let instant = read_png(&folder.join(best.scene.folder()).join("frame.png"))?;
-        let truth = read_truth(folder, best)?;
-        let strip = [
-            instant,
-            truth.clone(),
-            read_output(folder, best)?,
-            read_truth(folder, worst)?,
-            read_output(folder, worst)?,
-        ];
-        let strip = tile_pictures(&strip, 5, GAP, [1.0; 3]);
-        write_png(&out.join(strip_name(&best.scene)), &strip)?;
-        truths.push(truth);
-        page += &section(best, worst);
+    let mut page = introduction(run, folder, out);
+    for shutters in &scenes {
+        let scene = &shutters[0].best.scene;
+        let mut pictures = Vec::new();
+        for extremes in shutters {
+            pictures.extend(rows(folder, extremes)?);
+        }
+        let picture = tile_pictures(&pictures, 3, GAP, [1.0; 3]);
+        write_jpeg(&out.join(format!("{scene}.jpg")), &picture)?;
+        truths.push(read_truth(folder, shutters[0].best)?);
+        page += &section(shutters);
     }
     let sheet = tile_pictures(&truths, COLUMNS, GAP, [1.0; 3]);
     write_png(&out.join(SHEET), &sheet)?;
@@ -53,65 +54,95 @@ pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Er
     Ok(path)
 }
 
-/// Finds the best and the worst filter, scene by scene, in the order of the run.
-fn find_entries(run: &Run) -> Vec<[&Case; 2]> {
+/// Finds the best and the worst filter of each shutter, scene by scene, in the order of the run.
+fn find_extremes(run: &Run) -> Vec<Vec<Extremes<'_>>> {
     let cases: Vec<&Case> = (run.cases.iter())
         .filter(|case| !case.is_reference && case.filter != IDENTITY)
         .collect();
     cases
         .chunk_by(|a, b| a.scene == b.scene)
-        .filter_map(find_entry)
+        .map(|cases| {
+            let of = |alignment| Extremes::of(cases, alignment);
+            [Alignment::Centred, Alignment::Trailing]
+                .into_iter()
+                .filter_map(of)
+                .collect::<Vec<_>>()
+        })
+        .filter(|shutters| !shutters.is_empty())
         .collect()
 }
 
-/// Ranks the filters of one scene by skill; by FLIP against the common shutter where the oracle is no better than no blur,
-/// so that there is no skill. None where nothing moves.
-fn find_entry<'a>(cases: &[&'a Case]) -> Option<[&'a Case; 2]> {
-    let skills = cases.iter().map(|case| case.estimate(Metric::SKILL));
-    let errors = (cases.iter()).map(|case| Some(-case.estimate(Metric::CommonFlip)?));
-    let keys: Vec<f64> = (skills.collect::<Option<_>>()).or_else(|| errors.collect())?;
-    let ranked = || keys.iter().zip(cases);
-    let (_, best) = ranked().max_by(|(a, _), (b, _)| a.total_cmp(b))?;
-    let (_, worst) = ranked().min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-    Some([best, worst])
+impl<'a> Extremes<'a> {
+    /// Ranks the filters of one shutter by FLIP; none where nothing moves.
+    fn of(cases: &[&'a Case], alignment: Alignment) -> Option<Self> {
+        let mut ranked: Vec<(f64, &Case)> = (cases.iter())
+            .filter(|case| case.alignment == alignment)
+            .filter_map(|case| Some((case.estimate(Metric::FLIP)?, *case)))
+            .collect();
+        ranked.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        let &(_, best) = ranked.first()?;
+        let &(_, worst) = ranked.last()?;
+        Some(Self { best, worst })
+    }
 }
 
-fn introduction(run: &Run) -> String {
+fn introduction(run: &Run, folder: &Path, out: &Path) -> String {
     format!(
-        "# Gallery\n\n![The truths of all scenes]({SHEET})\n\nBelow, each scene has five pictures: the frame of one instant; the truth and the \
-         output of the best filter; the truth and the output of the worst filter. Two truths differ where the filters declare two \
-         shutters. Best and worst are by skill, the share of the way from no blur (0) to the one-frame oracle (1). Where no skill \
-         applies, FLIP* decides: FLIP against one shutter for all filters. The filter that does nothing takes no part.\n\n{}x{} pixels, {} samples per pixel. Made from\n\n    {}\n\nby `shuttertruth report --gallery`.\n",
+        "# Gallery\n\nSee where filters succeed and fail: every scene with the best and the worst filter of each shutter.\n\n![The truths of \
+         all scenes]({SHEET})\n\nEach scene has two rows per shutter: the truth, the best filter and its FLIP error map; the frame of \
+         one instant, the\nworst filter and its error map. In an error map, black is no visible difference. The line below names the \
+         best and the worst filter,\nwith FLIP where anything moves; lower is better. Compare filters of one shutter only. The filter \
+         `identity` is left out.\n\nThe pictures have {}x{} pixels; the truths have {} samples per pixel. These commands make them:\n\n    \
+         {}\n    shuttertruth report {} --gallery {}\n",
         run.render.width,
         run.render.height,
         run.render.samples_per_pixel,
         command(run),
+        folder.display(),
+        out.display(),
     )
 }
 
-fn section(best: &Case, worst: &Case) -> String {
-    let mut text = format!("\n## {}\n\n{}\n\n", best.scene, best.exposes);
-    let _ = writeln!(
-        text,
-        "![{}: instant; truth and best filter; truth and worst filter]({})\n\n| | filter | shutter | skill | FLIP | FLIP* |\n|---|---|---|---|---|---|",
-        best.scene,
-        strip_name(&best.scene)
-    );
-    for (label, case) in [("best", best), ("worst", worst)] {
-        let [skill, flip, common] =
-            [Metric::SKILL, Metric::FLIP, Metric::CommonFlip].map(|score| case.score_text(score));
-        let name = case.name();
-        let _ = writeln!(
-            text,
-            "| {label} | `{name}` | {} | {skill} | {flip} | {common} |",
-            case.alignment
-        );
-    }
-    text
+fn section(shutters: &[Extremes]) -> String {
+    let scene = &shutters[0].best.scene;
+    let exposes = &shutters[0].best.exposes;
+    let text = |own: &Extremes| {
+        let [best, worst] = [own.best, own.worst]
+            .map(|case| format!("`{}` {}", case.name(), case.score_text(Metric::FLIP)));
+        format!("{}: {best}, {worst}", own.best.alignment)
+    };
+    let texts: Vec<String> = shutters.iter().map(text).collect();
+    format!(
+        "\n## {scene}\n\n{exposes}\n\n![{scene}]({scene}.jpg)\n\nShutter {}\n",
+        texts.join("; ")
+    )
 }
 
-fn strip_name(scene: &SceneId) -> String {
-    format!("{scene}.png")
+/// Reads the two rows of a shutter: truth, best filter and its error map; instant, worst filter and its error map.
+fn rows(folder: &Path, extremes: &Extremes) -> Result<Vec<Image>, Error> {
+    let Extremes { best, worst } = extremes;
+    let instant = read_png(&folder.join(best.scene.folder()).join("frame.png"))?;
+    let [_, output, flip] = strip(worst, folder, "", " worst")?;
+    let lower = [label(&instant, "instant"), output, flip];
+    Ok(strip(best, folder, &best.alignment.to_string(), " best")?
+        .into_iter()
+        .chain(lower)
+        .collect())
+}
+
+/// Reads truth, output and FLIP of a case, and labels them; words follow the truth's label and the score.
+fn strip(case: &Case, folder: &Path, truth: &str, score: &str) -> Result<[Image; 3], Error> {
+    let flip = read_png(&folder.join(&case.folder).join("flip.png"))?;
+    let output = read_png(&folder.join(&case.folder).join("output.png"))?;
+    let [truth, score] = [
+        format!("truth {truth}"),
+        format!("FLIP {}{score}", case.score_text(Metric::FLIP)),
+    ];
+    Ok([
+        label(&read_truth(folder, case)?, &truth),
+        label(&output, &case.name()),
+        label(&flip, &score),
+    ])
 }
 
 /// Writes truth, output and FLIP of a case side by side to the PNG file `out`; `folder` is that of its run.json.
@@ -119,18 +150,12 @@ fn strip_name(scene: &SceneId) -> String {
 /// # Errors
 /// A picture of the case cannot be read, or the file cannot be written.
 pub fn write_case_strip(case: &Case, folder: &Path, out: &Path) -> Result<(), Error> {
-    let flip = read_png(&folder.join(&case.folder).join("flip.png"))?;
-    let strip = [read_truth(folder, case)?, read_output(folder, case)?, flip];
-    Ok(write_png(out, &tile_pictures(&strip, 3, GAP, [1.0; 3]))?)
+    let pictures = strip(case, folder, &case.scene.to_string(), "")?;
+    Ok(write_png(out, &tile_pictures(&pictures, 3, GAP, [1.0; 3]))?)
 }
 
 /// Reads the truth that a case is scored against.
 fn read_truth(folder: &Path, case: &Case) -> Result<Image, Error> {
     let name = RenderFile::Truth(case.alignment).picture();
     Ok(read_png(&folder.join(case.scene.folder()).join(name))?)
-}
-
-/// Reads the output of a case.
-fn read_output(folder: &Path, case: &Case) -> Result<Image, Error> {
-    Ok(read_png(&folder.join(&case.folder).join("output.png"))?)
 }

@@ -23,7 +23,7 @@ pub fn refuse_scene(folder: &Path) -> Result<(), Error> {
     match folder.join("scene.toml").exists() {
         false => Ok(()),
         true => Err(Error::Refused(format!(
-            "{} holds a scene, whose files would be overwritten; allowed: an output folder that holds none, such as out",
+            "{} holds a scene, and its files would be overwritten; allowed: an output folder that holds none, such as out",
             folder.display()
         ))),
     }

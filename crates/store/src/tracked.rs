@@ -33,7 +33,7 @@ pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
     };
     let cannot_tell = |reason: String| {
         Error::Refused(format!(
-            "{name}: cannot tell whether files came with the checkout: {reason}; {way_out}"
+            "{name}: cannot find out whether files came with the checkout: {reason}; {way_out}"
         ))
     };
     let mut git = Command::new("git");

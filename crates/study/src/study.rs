@@ -96,7 +96,7 @@ impl Study {
         match self.most_pairs >= self.fewest_pairs() {
             true => Ok(()),
             false => Err(format!(
-                "allows {} pairs in a session; allowed: {} or more, so that every filter takes part",
+                "allows {} pairs in a session; allowed: {} or more, so that every filter is shown",
                 self.most_pairs,
                 self.fewest_pairs()
             )),
@@ -114,7 +114,7 @@ impl Study {
         refuse_twice("filter", &own.filters)?;
         if let Some(name) = own.filters.iter().find(|name| name.starts_with('[')) {
             return Err(format!(
-                "asks about a filter \"{name}\"; brackets stand for the truth and the sharp frame"
+                "asks about a filter \"{name}\"; brackets mark the truth and the sharp frame"
             ));
         }
         let frames = self.frames.count as usize;

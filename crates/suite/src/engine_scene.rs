@@ -158,7 +158,7 @@ impl EngineScene {
         match provenance.content_hash == hash && self.size == [width, height] {
             true => Ok(()),
             false => Err(Error::Usage(format!(
-                "{}: is of another capture than {INGESTED_FILE} beside it; ingest the capture again",
+                "{}: is of another capture than {INGESTED_FILE} next to it; ingest the capture again",
                 self.folder.join(file.path()).display()
             ))),
         }

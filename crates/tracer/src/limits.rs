@@ -1,4 +1,4 @@
-//! The limits of scenes and renders. `docs/limits.md` lists these numbers with their reasons; a test compares the two.
+//! The limits of scenes and renders. `docs/limits.md` lists these numbers; a test compares the two.
 //!
 //! Each is far above the needs of scenes, and low enough to bound memory and time. A file beyond a limit is refused before
 //! memory is allocated for it.

@@ -4,6 +4,7 @@ mod page;
 mod quick;
 mod reader;
 mod tables;
+mod tutorials;
 
 use std::fs;
 use std::time::Instant;

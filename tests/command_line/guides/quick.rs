@@ -2,10 +2,7 @@
 
 /// Beginnings of commands that build, or that need what a test has not, and what is run instead.
 pub const REPLACED: [(&str, &str); 3] = [
-    (
-        "cargo run --release --bin shuttertruth -- ",
-        "shuttertruth ",
-    ),
+    ("cargo run --bin shuttertruth -- ", "shuttertruth "),
     ("make ", "make --dry-run "),
     ("python3 ", "\"${PYTHON:-python3}\" -B "),
 ];

@@ -2,39 +2,72 @@
 
 use std::fs;
 
-#[test]
-fn the_page_of_limits_agrees_with_the_constants() {
-    let read = |path: &str| fs::read_to_string(tests::root().join(path)).unwrap();
-    let page = read("docs/limits.md");
-    // Each row holds a number, and the constant that defines it as `NAME` in `path`.
-    let rows: Vec<Vec<&str>> = (page.lines())
-        .filter(|line| line.starts_with("| ") && line.contains("` in `"))
-        .map(|line| line.split('|').map(str::trim).collect())
-        .collect();
-    for row in &rows {
-        let place: Vec<&str> = row[4].split('`').collect();
-        let (name, path) = (place[1], place[3]);
-        let source = read(path);
-        let declared = source.split_once(&format!("const {name}:"));
-        let (_, rest) = declared.unwrap_or_else(|| panic!("{path} has no constant {name}"));
-        let value = rest.split_once('=').unwrap().1.split(';').next().unwrap();
-        assert_eq!(
-            number(&row[2].replace(',', "")),
-            number(value),
-            "{name} in {path}"
-        );
-    }
-    let source = read("crates/tracer/src/limits.rs");
-    for line in source.lines().filter(|line| line.starts_with("pub const")) {
-        let name = line.split([' ', ':']).nth(2).unwrap();
-        let named = rows.iter().any(|row| row[4].contains(&format!("`{name}`")));
-        assert!(named, "docs/limits.md lacks {name}");
+use tests::root;
+use walkdir::WalkDir;
+
+/// Reads the sources of a crate, or of all.
+fn read_sources(crate_name: &str) -> String {
+    let files = WalkDir::new(root().join("crates").join(crate_name)).into_iter();
+    let paths = files.map(|entry| entry.unwrap().into_path());
+    let sources = paths.filter(|path| path.extension().is_some_and(|end| end == "rs"));
+    sources
+        .map(|path| fs::read_to_string(path).unwrap())
+        .collect()
+}
+
+/// Finds the value of a constant, named `NAME` or, if several crates have one, `crate::NAME`.
+fn find_value(all: &str, constant: &str) -> f64 {
+    let find = |source: &str, name: &str| {
+        let declared = format!("const {name}:");
+        let mut values = source.split(&declared).skip(1);
+        let value = values.next().and_then(|rest| {
+            let declaration = rest.split(';').next()?;
+            declaration.split_once('=').map(|(_, value)| number(value))
+        });
+        assert!(values.next().is_none(), "{name} is declared twice");
+        value.unwrap_or_else(|| panic!("no source has {name}"))
+    };
+    match constant.split_once("::") {
+        Some((crate_name, name)) => find(&read_sources(crate_name), name),
+        None => find(all, constant),
     }
 }
 
-/// Parses a product of numbers in Rust's notation, or a shifted 1.
+#[test]
+fn the_page_of_limits_agrees_with_the_constants() {
+    let page = fs::read_to_string(root().join("docs/limits.md")).unwrap();
+    let all = read_sources("");
+    let mut listed = Vec::new();
+    // Each row has one number for all of its constants, or a range with one constant for either end.
+    for row in page.lines().filter(|line| line.ends_with("` |")) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let [_, _, limit, constants, _] = cells[..] else {
+            panic!("a row has three cells: {row}");
+        };
+        let limits: Vec<f64> = limit.split(" to ").map(number).collect();
+        let names: Vec<&str> = constants.split(", ").collect();
+        assert!(limits.len() == 1 || limits.len() == names.len(), "{row}");
+        for (name, limit) in names.into_iter().zip(limits.into_iter().cycle()) {
+            let name = name.trim_matches('`');
+            assert_eq!(limit, find_value(&all, name), "{name}");
+            listed.push(name.rsplit("::").next().unwrap());
+        }
+    }
+    let source = fs::read_to_string(root().join("crates/tracer/src/limits.rs")).unwrap();
+    for line in source.lines().filter(|line| line.starts_with("pub const")) {
+        let name = line.split([' ', ':']).nth(2).unwrap();
+        assert!(listed.contains(&name), "docs/limits.md lacks {name}");
+    }
+}
+
+/// Parses a product of numbers in Rust's notation, a shifted 1, or a number of KiB, MiB or GiB.
 fn number(text: &str) -> f64 {
-    let text = text.trim().replace('_', "");
+    let text = text.trim().replace(['_', ','], "");
+    for (unit, bits) in [(" KiB", 10.0), (" MiB", 20.0), (" GiB", 30.0)] {
+        if let Some(count) = text.strip_suffix(unit) {
+            return number(count) * f64::exp2(bits);
+        }
+    }
     match text.split_once("<<") {
         Some((one, bits)) => number(one) * number(bits).exp2(),
         None => text

@@ -205,7 +205,7 @@ fn an_engine_s_truth_and_picture_are_named_wherever_they_are_scored() {
         "<td class=\"text\">mean of 8 sub-frames that Test Engine 1.2 drew</td>",
         "<td class=\"text\">path traced</td>",
         "frame and truth are not ours",
-        "Ours is that of <strong>plate</strong>, path traced",
+        "Our own, path traced, is <strong>plate</strong>",
         "traced_truth:",
         "&quot;Engine's truth&quot;",
     ];

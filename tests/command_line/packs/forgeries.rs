@@ -166,7 +166,7 @@ fn no_pack_turns_a_failed_check_into_a_success() {
     refuse(&replicate);
     pack_forged(&sandbox);
     leave_out(&sandbox, "plate/truth_trailing.exr");
-    let ladder = "plate/ladder_trailing/n1.exr: there is no truth_trailing.exr beside it";
+    let ladder = "plate/ladder_trailing/n1.exr: there is no truth_trailing.exr next to it";
     refuse_forged(&sandbox, 1, &[ladder]);
     for file in ["truth_trailing.exr", "frame.exr"] {
         mark_drawn(&sandbox.path("out/plate").join(file));

@@ -203,7 +203,7 @@ fn an_archive_that_was_cut_off_or_goes_on_is_refused() {
     let mut whole = zstd::decode_all(&bytes[..]).unwrap();
     whole.extend([1; 512]);
     compress(&forged, &whole);
-    parts.refused(&["goes on behind its last file"]);
+    parts.refused(&["continues after its last file"]);
     // A header that promises more than there is.
     let mut header = tar::Header::from_byte_slice(&whole[..512]).clone();
     header.set_size(1 << 36);

@@ -45,7 +45,7 @@ fn a_choice_that_the_scenes_cannot_tell_from_the_start_gets_no_preset() {
     let text = squeeze(&sandbox.done(&format!("{SEARCH} {more}")));
     let reason = match read_tuning(&sandbox).choice.trial {
         0 => "no trial beats it".to_owned(),
-        trial => format!("2 scenes cannot tell trial {trial} from it, and 5 or more may"),
+        trial => format!("2 scenes cannot separate trial {trial} from it, and 5 or more may"),
     };
     let sentence = format!("keep the start, no preset.toml is written: {reason}");
     assert_contains(&text, &[&sentence]);

@@ -159,7 +159,7 @@ fn values_that_the_convention_does_not_give_are_refused() {
         ("\"previous_view_projection\"", "\"view[16]\"", &["filter.toml:", "unknown name \"view[16]\""]),
         ("\"previous_view_projection\"", "\"width[0]\"", &["filter.toml:", "unknown name \"width[0]\""]),
         ("\"previous_view_projection\"", "\"previous_previous_view\"", &["filter.toml:", "unknown name \"previous_previous_view\""]),
-        ("\"previous_view_projection\"", "\"far\"", &["filter.toml:", "far\" needs to stand in [convention]"]),
+        ("\"previous_view_projection\"", "\"far\"", &["filter.toml:", "far\" has to be in [convention]"]),
         ("\"previous_view_projection\"", "\"resolution\"", &["filter.toml:", "member \"previous\" holds 16 x f32", "has 2"]),
         ("padding = 0", "padding = \"view\"", &["filter.toml:", "member \"padding\" holds f32", "has 16"]),
     ]);

@@ -50,7 +50,7 @@ fn a_wrong_folder_is_refused_with_place_and_reason() {
         ("centre_blur.wgsl", "@compute @workgroup_size(8, 8)\nfn gather(@builtin(global_invocation_id) id: vec3<u32>)", "@fragment\nfn gather(@builtin(position) id: vec4<f32>)", &["gather", "has no such @compute entry point; it has: fastest"]),
         ("filter.toml", "[[pass]]\nentry = \"fastest\"\nover = \"tile_motion\"\n", "", &["gather", "reads \"tile_motion\" before"]),
         ("filter.toml", "[[pass]]\nentry = \"gather\"\n", "", &["no pass writes \"output\""]),
-        ("filter.toml", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [2, 64]", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [0, 64]", &["tile_motion", "begins at 1"]),
+        ("filter.toml", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [2, 64]", "name = \"tile_size\"\nkind = \"integer\"\ndefault = 16\nrange = [0, 64]", &["tile_motion", "a range from 1"]),
         ("filter.toml", "divided_by = \"tile_size\"", "divided_by = 1\nholds = \"places\"", &["tile_motion", "holds = \"places\"", "rg32float or rgba32float, and no divided_by"]),
         ("filter.toml", "divided_by = \"tile_size\"", "divided_by = 0", &["tile_motion", "divided_by = 0", "1 pixel or more"]),
         ("filter.toml", "divided_by = \"tile_size\"", "divided_by = 1.5", &["a number of pixels or the name of an integer parameter"]),

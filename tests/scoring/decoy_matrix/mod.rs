@@ -4,6 +4,8 @@
 pub mod decoys;
 mod scenes;
 
+use std::collections::BTreeMap;
+
 use decoys::{APART, decoys};
 use frame::Picture;
 use judge::{Bounds, Outcome, judge_scores, read_bounds_file};
@@ -70,24 +72,32 @@ fn broken_bounds(scores: &Scores, bounds: &Bounds) -> Vec<String> {
 /// A scene, and for each decoy the bounds that it breaks there.
 type Column<'a> = (&'a str, Vec<(&'a str, Vec<String>)>);
 
-/// Formats the page's table: a row per decoy, a column per scene.
+/// Formats the page's table: the bounds that each decoy breaks on all scenes, and those that it breaks on some, with how many.
 fn format_table(columns: &[Column]) -> String {
-    let mut text = "| |".to_owned();
-    for (scene, _) in columns {
-        text += &format!(" {scene} |");
-    }
-    text += &format!("\n|---|{}\n", "---|".repeat(columns.len()));
-    for row in 0..columns[0].1.len() {
-        text += &format!("| {} |", columns[0].1[row].0);
-        for (_, rows) in columns {
-            let broken = &rows[row].1;
-            let cell = match broken.is_empty() {
-                true => "passes".to_owned(),
-                false => broken.join(", ").replace("_moving", ""),
-            };
-            text += &format!(" {cell} |");
+    let scenes = columns.len();
+    let mut text =
+        format!("| wrong blur | breaks on all {scenes} scenes | on some |\n|---|---|---|\n");
+    let cell = |bounds: &[String]| match bounds.is_empty() {
+        true => "-".to_owned(),
+        false => bounds.join(", "),
+    };
+    for (row, (decoy, _)) in columns[0].1.iter().enumerate() {
+        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+        for bound in columns.iter().flat_map(|(_, rows)| &rows[row].1) {
+            *counts.entry(bound.replace("_moving", "")).or_default() += 1;
         }
-        text += "\n";
+        let (mut everywhere, mut somewhere) = (Vec::new(), Vec::new());
+        for (bound, count) in counts {
+            match count == scenes {
+                true => everywhere.push(bound),
+                false => somewhere.push(format!("{bound} ({count})")),
+            }
+        }
+        text += &format!(
+            "| {decoy} | {} | {} |\n",
+            cell(&everywhere),
+            cell(&somewhere)
+        );
     }
     text
 }

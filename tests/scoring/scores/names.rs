@@ -1,6 +1,8 @@
 //! Names, meanings and groups of metrics, scores as JSON, and the strictest bounds.
 
-use metrics::{Group, Ideal, ImageMetric, Metric, Region, Scores, SequenceMetric};
+use std::collections::BTreeMap;
+
+use metrics::{Group, Ideal, Metric, Region, Scores, SequenceMetric};
 use tests::synthetic::Blur;
 use tests::text::assert_contains;
 
@@ -36,16 +38,31 @@ fn every_metric_has_a_meaning_of_its_own_and_every_group_of_a_page_has_metrics()
 }
 
 #[test]
-fn the_documentation_names_every_metric() {
+fn the_documentation_has_a_row_for_every_metric_with_its_unit_and_its_ideal() {
     let page = include_str!("../../../crates/metrics/README.md");
-    for metric in ImageMetric::ALL {
-        let name = Metric::Image(metric, Region::Moving).name();
-        assert!(page.contains(&format!("`{name}`")), "{name}");
+    let mut rows = BTreeMap::new();
+    for row in page.lines().filter(|line| line.starts_with("| `")) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        for name in cells[1].split(", ") {
+            rows.insert(name.trim_matches('`').to_owned(), cells[3]);
+        }
     }
     for metric in Metric::all() {
-        if !matches!(metric, Metric::Image(..)) {
-            assert!(page.contains(&format!("`{metric}`")), "{metric}");
-        }
+        let metric = match metric {
+            Metric::Image(error, _) => Metric::Image(error, Region::Moving),
+            other => other,
+        };
+        let better = match metric.ideal() {
+            Ideal::Lowest => "low".to_owned(),
+            Ideal::Highest => "high".to_owned(),
+            Ideal::Target(value) => value.to_string(),
+        };
+        let due = match metric.unit() {
+            "" => better,
+            unit => format!("{}, {better}", unit.replace("^2", "²")),
+        };
+        let said = rows.get(&metric.name()).copied();
+        assert_eq!(said, Some(due.as_str()), "{metric}");
     }
 }
 

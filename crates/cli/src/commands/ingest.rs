@@ -62,7 +62,7 @@ fn choose_folder(args: &IngestArgs) -> Result<PathBuf, Error> {
     let capture = args.capture.canonicalize().ok();
     match out.canonicalize().is_ok_and(|out| Some(out) == capture) {
         true => refuse!(
-            "--out {}: is the capture itself, whose files would be overwritten; name another folder",
+            "--out {}: is the capture itself, and its files would be overwritten; name another folder",
             out.display()
         ),
         false => Ok(out),

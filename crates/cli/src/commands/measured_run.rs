@@ -78,7 +78,7 @@ fn name_options(error: Error) -> Error {
 fn kept_text(earlier: &EarlierCases) -> String {
     let kept = count_text(earlier.count(), "case", "cases");
     let mut text = format!(
-        "run.json keeps {kept} of an earlier run beside those of this one; --no-cache would drop them"
+        "run.json keeps {kept} of an earlier run next to those of this one; --no-cache would drop them"
     );
     if earlier.outdated > 0 {
         let dropped = count_text(earlier.outdated, "other was", "others were");

@@ -93,7 +93,7 @@ fn scores_text(args: &ScoreArgs, truth: &Truth, Scored { scores, notes }: &Score
         let is_of_ladder = |metric| matches!(metric, Metric::Equivalent(_) | Metric::Skill(_));
         let is_lacking = args.ladder.is_none() && reason.contains("ladder");
         let way_out = match is_lacking && metrics.into_iter().any(is_of_ladder) {
-            true => "; give one with --ladder: `run` writes it beside the truth",
+            true => "; give one with --ladder: `run` writes it next to the truth",
             false => "",
         };
         text += &format!("not available: {}: {reason}{way_out}\n", names.join(", "));

@@ -134,7 +134,7 @@ fn apply_override(choices: &mut [FilterChoice], text: &str) -> Result<(), Error>
     if !names.iter().any(|own| own == name) {
         names.dedup();
         refuse!(
-            "--set {text}: no filter \"{name}\" takes part; allowed: {}",
+            "--set {text}: no filter \"{name}\" is in the run; allowed: {}",
             names.join(", ")
         );
     }

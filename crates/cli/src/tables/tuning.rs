@@ -92,15 +92,15 @@ pub fn advice_text(tuning: &Tuning) -> String {
     let trial = tuning.choice.trial;
     let reason = match tuning.advice() {
         Advice::Take => {
-            return "the choice: params.json and preset.toml beside tune.json\n".to_owned();
+            return "the choice: params.json and preset.toml next to tune.json\n".to_owned();
         }
-        Advice::NoneIsBetter => "no trial beats it by more than the scenes can tell".to_owned(),
+        Advice::NoneIsBetter => "no trial beats it by more than the scenes can show".to_owned(),
         Advice::CannotTell(own) if own.scenes < MIN_SCENES => format!(
-            "{} cannot tell trial {trial} from it, and {MIN_SCENES} or more may",
+            "{} cannot separate trial {trial} from it, and {MIN_SCENES} or more may",
             count_text(own.scenes, "scene", "scenes")
         ),
         Advice::CannotTell(own) => format!(
-            "the scenes cannot tell trial {trial} from it ({})",
+            "the scenes cannot separate trial {trial} from it ({})",
             own.text(percent)
         ),
         Advice::StartIsBetter(flip) => format!(

@@ -67,7 +67,7 @@ const CONVENTIONS: [&str; 7] = [
     "The picture is without fog, tone curve or exposure; its pixels are box-filtered.",
     "Without a lens the camera is a pinhole. With one, truths and the frame's colour are out of focus, by a thin lens that does not \
      darken the picture; velocity and depth are the pinhole's.",
-    "Before its first key and after its last the animation stands still, in the scene the motion goes on; draw only times within.",
+    "The animation stops before its first key and after its last one, but the scene's motion goes on; draw only times between them.",
     "Expected velocity, to compare with the suite's: pixels per frame, +x right, +y down, the position at the instant minus the \
      position one frame before.",
 ];

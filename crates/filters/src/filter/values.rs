@@ -125,7 +125,7 @@ pub(crate) fn explain_unknown(name: &str) -> Option<&'static str> {
     }
     match name {
         "frames_per_second" | "delta_time" => Some("needs frames_per_second in [convention]"),
-        "near" | "far" => Some("needs to stand in [convention]"),
+        "near" | "far" => Some("has to be in [convention]"),
         _ => None,
     }
 }

@@ -45,7 +45,7 @@ fn check_words(words: &[String], parameters: &[Parameter]) -> Result<(), String>
     let names: Vec<&str> = parameters.iter().map(|known| known.name.as_str()).collect();
     if let Some(name) = names.iter().find(|name| PLACEHOLDERS.contains(name)) {
         return Err(format!(
-            "{{{name}}} already stands for something of the frame; call the parameter otherwise"
+            "{{{name}}} is already a value of the frame; rename the parameter"
         ));
     }
     let mut found = Vec::new();

@@ -123,7 +123,7 @@ impl Filter {
             None => Err(format!("\"{name}\" is no parameter of this filter")),
             Some(Kind::Integer { min, max, .. }) if *min >= 1 => Ok(max.unsigned_abs()),
             Some(_) => Err(format!(
-                "\"{name}\" is not an integer parameter whose range begins at 1 or more"
+                "\"{name}\" is not an integer parameter with a range from 1 or more"
             )),
         }
     }

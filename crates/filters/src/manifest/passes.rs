@@ -172,7 +172,7 @@ fn read_pass(
         }
         None if *workgroup_per_texel => {
             return Err(refuse(
-                "workgroup_per_texel = true without over; name the texture whose texels get a workgroup each".into(),
+                "workgroup_per_texel = true without over; name the texture that gets one workgroup per texel".into(),
             ));
         }
         _ => {}

@@ -38,7 +38,7 @@ impl Language {
                 .map(|(ending, _)| format!(".{ending}"))
                 .collect();
             format!(
-                "\"{}\" has no ending that tells its language; allowed: {}",
+                "\"{}\" has no ending of a known language; allowed: {}",
                 file.display(),
                 allowed.join(", ")
             )

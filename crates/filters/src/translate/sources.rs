@@ -154,7 +154,7 @@ impl<'a> Sources<'a> {
 
     fn leads_out(&self, path: &str) -> String {
         format!(
-            "includes \"{path}\", which lies outside of the filter's folder {}; copy the file into the folder and name the copy",
+            "includes \"{path}\", which is outside the filter's folder {}; copy the file into the folder and name the copy",
             self.folder.display()
         )
     }

@@ -56,24 +56,31 @@ pub fn read_png(path: &Path) -> Result<Raster<[f32; 3]>, FileError> {
 
 /// Encodes display values in [0, 1] (see [`display_srgb`](crate::display_srgb)) as an 8-bit PNG.
 pub fn png_bytes(display: &Raster<[f32; 3]>) -> Vec<u8> {
-    let bytes = display
-        .pixels
-        .iter()
-        .flatten()
-        .map(|value| (value * 255.0 + 0.5) as u8)
-        .collect();
-    let picture = image::RgbImage::from_raw(display.width, display.height, bytes)
-        .expect("a raster has one pixel per pixel of its size");
     let mut png = Cursor::new(Vec::new());
-    picture
+    to_eight_bits(display)
         .write_to(&mut png, image::ImageFormat::Png)
         .expect("memory takes every byte");
     png.into_inner()
 }
 
+fn to_eight_bits(display: &Raster<[f32; 3]>) -> image::RgbImage {
+    let values = display.pixels.iter().flatten();
+    let bytes = values.map(|value| (value * 255.0 + 0.5) as u8).collect();
+    image::RgbImage::from_raw(display.width, display.height, bytes)
+        .expect("a raster has one pixel per pixel of its size")
+}
+
 /// Writes display values as [`png_bytes`] encodes them.
 pub fn write_png(path: &Path, display: &Raster<[f32; 3]>) -> Result<(), FileError> {
     write_atomically(path, &png_bytes(display))
+}
+
+/// Writes display values as a JPEG of high quality, for pages that show many pictures.
+pub fn write_jpeg(path: &Path, display: &Raster<[f32; 3]>) -> Result<(), FileError> {
+    let mut bytes = Vec::new();
+    let encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, 92);
+    (to_eight_bits(display).write_with_encoder(encoder)).expect("memory takes every byte");
+    write_atomically(path, &bytes)
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ pub(super) fn read_sized_bounds(file: &Location, size: (u32, u32)) -> Result<Bou
     let mut read = read_bounds_file(file)?;
     if let Some(margin) = read.margins.values().next() {
         return Err(Error::Usage(format!(
-            "{}: a margin is for pictures of every size; it belongs into {BOUNDS_FILE} beside the scenes",
+            "{}: a margin is for pictures of every size; it belongs into {BOUNDS_FILE} next to the scenes",
             margin.place
         )));
     }

@@ -110,7 +110,7 @@ impl Metric {
                 ideal: Ideal::Lowest,
                 group: Group::Label,
                 map: ErrorMap::LabelTotalVariation,
-                meaning: "share of the shutter given to the wrong object, on the worst object that stands still",
+                meaning: "share of the shutter given to the wrong object, on the worst still object",
                 ..Row::USUAL
             },
             Metric::StaticContamination => Row {

@@ -57,7 +57,7 @@ metrics! {
     /// Value of LDR-FLIP up to which half of its sum lies.
     FlipWeightedMedian => flip_weighted_median {
         name: "flip_weighted_median", unit: "", ideal: Ideal::Lowest, group: Group::RunJson, map: ErrorMap::Flip,
-        meaning: "visible difference up to which half of all visible difference lies",
+        meaning: "half of all visible difference is in pixels up to this value",
         is_percentile: true,
     }
 
@@ -86,7 +86,7 @@ metrics! {
         name: "ssim", unit: "", ideal: Ideal::Highest, group: Group::Seen, map: ErrorMap::Flip,
         meaning: "structural similarity",
         report_only: Some(
-            "punishes unbiased noise more than a picture that lies three pixels off; bound flip instead",
+            "punishes unbiased noise more than a shift by three pixels; bound flip instead",
         ),
     }
 }
@@ -163,13 +163,13 @@ metrics! {
     /// Distance of its mass from where it should lie along the motion, in pixels.
     Misplacement => misplacement {
         name: "misplacement", unit: "px", ideal: Ideal::Lowest, group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
-        meaning: "how far the smear's mass lies off along the motion",
+        meaning: "how far the smear's mass is displaced along the motion",
     }
 
     /// Signed shift of the centre of mass along the motion, in pixels; positive = ahead.
     Centroid => centroid {
         name: "centroid", unit: "px", ideal: Ideal::Target(0.0), group: Group::Silhouette, map: ErrorMap::LabelTotalVariation,
-        meaning: "how far the smear's centre of mass lies ahead; 0 is right",
+        meaning: "how far the smear's centre of mass is ahead; 0 is right",
     }
 
     /// Length along the motion over the true length.

@@ -75,7 +75,7 @@ metrics! {
     /// Mean product of the fine errors of different frames at one place of the screen.
     FixedPattern => fixed_pattern {
         name: "fixed_pattern", unit: "white^2", ideal: Ideal::Lowest, group: Group::Time, map: ErrorMap::SquaredError,
-        meaning: "fine error that stands still on the screen, as dirt on a window does",
+        meaning: "fine error that stays in place on the screen, like dirt on a window",
     }
 
     /// Quality of the video by ColorVideoVDP, in just-objectionable differences: 10 is no visible difference.

@@ -35,7 +35,7 @@ pub fn score_image(found: &Found) -> ImageScores {
 
 /// Scores SSIM, without windows that extend beyond the picture.
 fn score_ssim(found: &Found) -> Measured {
-    let reason = "no window of the region lies within the picture";
+    let reason = "no window of the region is within the picture";
     match found {
         Ok((own, noise)) => Measured::of(own.ssim, noise.ssim, reason),
         Err(reason) => Measured::not_applicable(*reason),

@@ -36,8 +36,8 @@ pub use jitter::Jitter;
 pub use measurement::Measurement;
 
 const NO_INSTANT: &str =
-    "an engine's sub-frames do not tell where what they show was at the instant";
-const NO_OBJECTS: &str = "an engine's sub-frames do not tell which objects they show";
+    "an engine's sub-frames do not say where their surfaces were at the instant";
+const NO_OBJECTS: &str = "an engine's sub-frames do not say which objects they show";
 
 /// A truth, with everything that does not depend on the picture to be measured.
 pub struct Reference<'a> {
@@ -306,7 +306,7 @@ fn mark_whole_windows((width, height): (u32, u32)) -> Raster<bool> {
 fn explain_empty(region: Region) -> &'static str {
     match region {
         Region::Moving | Region::Support => "nothing moves on screen",
-        Region::Still => "no pixel stands still",
+        Region::Still => "no pixel is still",
         Region::Full => "the picture has no pixel",
         Region::Knowable => "no moving pixel is seen whole in the frame of the instant",
         Region::Unknowable => "the frame of the instant shows all that the shutter sees",

@@ -46,7 +46,7 @@ fn provenance(bench: &Bench) -> String {
         Clock::WallClock => "by the wall clock around each pass: the adapter has no timestamps",
     };
     format!(
-        "Timed on {} at {}x{}, on panels that move {} pixels: median of {} rounds {clock}. Quality is that of this run's pictures.",
+        "Timed on {} at {}x{}, on panels that move {} pixels: median of {} rounds {clock}. Quality is from this run's pictures.",
         adapter_text(&bench.adapter),
         bench.width,
         bench.height,

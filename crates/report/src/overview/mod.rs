@@ -115,7 +115,7 @@ fn engines(table: &CaseTable) -> Markup {
             p.note {
                 strong { (case.scene) } ": frame and truth are not ours. The truth is the " (drawn.truth_text()) "."
                 @if let Some(traced) = find_traced(table.run, case) {
-                    " Ours is that of " strong { (traced.scene) } ", path traced; the pictures of both can be compared."
+                    " Our own, path traced, is " strong { (traced.scene) } "; compare the pictures of both."
                 }
             }
         }

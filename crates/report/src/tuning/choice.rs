@@ -17,9 +17,9 @@ pub fn summary(tuning: &Tuning) -> Markup {
     html! {
         p.lead {
             @match tuning.advice() {
-                Advice::NoneIsBetter => "Keep the start: no trial beats it by more than the scenes can tell.",
+                Advice::NoneIsBetter => "Keep the start: no trial beats it by more than the scenes can show.",
                 Advice::CannotTell(own) => {
-                    "Keep the start: the scenes cannot tell trial " (choice.trial) " from it ("
+                    "Keep the start: the scenes cannot separate trial " (choice.trial) " from it ("
                     (own.text(percent)) ")."
                 }
                 Advice::StartIsBetter(_) => {

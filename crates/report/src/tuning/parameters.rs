@@ -134,7 +134,7 @@ pub fn importance(found: &Sensitivity) -> Markup {
         section {
             h2 { "Which parameters can become constants" }
             p {
-                "By " (found.candidates) " candidates all over the ranges, " (found.failed) " of which did not run. "
+                "From " (found.candidates) " candidates all over the ranges; " (found.failed) " of them did not run. "
                 "First and total (Sobol): share of the error's variance that the parameter causes alone, and with all others. "
                 "Lines are 95 % CIs."
             }

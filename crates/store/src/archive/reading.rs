@@ -74,7 +74,7 @@ impl Pack {
         let padding = padding.map_err(|error| refuse(broken(error)))?;
         match padding as u64 <= MAX_PADDING && rest.iter().all(|byte| *byte == 0) {
             true => Ok(()),
-            false => Err(refuse("goes on behind its last file".to_owned())),
+            false => Err(refuse("continues after its last file".to_owned())),
         }
     }
 

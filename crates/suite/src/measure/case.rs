@@ -292,7 +292,7 @@ fn add_probes(reference: &Reference, output: &FilterOutput, measurement: &mut Me
     if output.nonlinearity > MAX_NONLINEARITY {
         let found = match output.is_rounded {
             true => {
-                "the filter writes 16-bit floats, whose rounding hides what it gathers; let it write 32-bit floats"
+                "the filter writes 16-bit floats, and their rounding hides what it gathers; let it write 32-bit floats"
             }
             false => "the filter's weights depend on colour",
         };

@@ -94,7 +94,7 @@ fn check_settings(run: &Run) -> Result<(), String> {
 fn check_case(case: &Case) -> Result<(), String> {
     if !is_below(&case.folder) {
         return Err(format!(
-            "folder \"{}\": a case lies in a folder below run.json, and nowhere else",
+            "folder \"{}\": a case has to be in a folder below run.json",
             case.folder.display()
         ));
     }

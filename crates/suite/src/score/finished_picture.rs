@@ -35,7 +35,7 @@ pub fn read_finished_picture(
         Some("png") if *convention != Convention::default() => {
             return refuse(
                 path,
-                "is a PNG, whose colours are those of a display; a convention is for OpenEXR files",
+                "is a PNG with display colours; a convention is for OpenEXR files",
             );
         }
         Some("png") => read_display_referred(path, frame.display.stops, truth)?,

@@ -147,7 +147,7 @@ fn verify_part(work: &Work, alignment: Alignment) -> Result<Vec<(PathBuf, Tile)>
     let (replicates, rungs) = work.renders.of_truth(alignment);
     if let Some(rung) = rungs.first() {
         return Err(Error::Broken(format!(
-            "{}: there is no {} beside it, without which a ladder cannot be traced again; render {} again",
+            "{}: there is no {} next to it, which a ladder needs to be traced again; render {} again",
             work.shown(*rung).display(),
             RenderFile::Truth(alignment),
             work.scene.id

@@ -40,7 +40,8 @@ pub(super) fn read_camera(
         });
         if let Some(degrees) = &key.vertical_fov {
             if is_still {
-                let reason = "vertical_fov stands both beside the keys and in a key; leave it out in one of these places";
+                let reason =
+                    "vertical_fov is given both for the camera and in a key; leave out one of them";
                 return Err(document.error(degrees.span(), reason));
             }
             fields_of_view.push((time, read_field_of_view(document, degrees)?));

@@ -98,7 +98,7 @@ fn read_index(word: &str, what: &str, count: usize) -> Result<u32, String> {
     match u32::try_from(from_zero) {
         Ok(number) if (number as usize) < count => Ok(number),
         _ if count == 0 => Err(format!(
-            "f has the {what} index {index}, but no {what} stands above it"
+            "f has the {what} index {index}, but no {what} comes before it"
         )),
         _ => Err(format!(
             "f has the {what} index {index}; allowed: 1 to {count}, or -{count} to -1"

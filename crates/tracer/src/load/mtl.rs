@@ -108,7 +108,7 @@ impl Libraries {
             }
             let material = current.ok_or_else(|| {
                 fail(format!(
-                    "{keyword} stands before the first newmtl; move it below the newmtl of its material"
+                    "{keyword} comes before the first newmtl; move it below the newmtl of its material"
                 ))
             })?;
             let stated = Stated {
@@ -211,7 +211,7 @@ impl Statements {
                 match (transparency - allowed).abs() > SAME_TRANSPARENCY {
                     false => Ok(()),
                     true => Err(format!(
-                        "Tr is {transparency} beside d {opacity}; allowed: 1 - d, here {allowed}; delete Tr"
+                        "Tr is {transparency} next to d {opacity}; allowed: 1 - d, here {allowed}; delete Tr"
                     )),
                 }
             }

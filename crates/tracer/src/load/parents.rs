@@ -61,7 +61,7 @@ impl<'a> OrderedObjects<'a> {
                     "the parents of objects form a cycle: {cycle}; give one of them another parent or none"
                 ),
                 None => format!(
-                    "object \"{name}\" stands before its parent \"{parent_name}\"; move the parent above it"
+                    "object \"{name}\" comes before its parent \"{parent_name}\"; move the parent above it"
                 ),
             },
         };

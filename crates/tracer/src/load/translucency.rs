@@ -25,7 +25,7 @@ impl Alpha {
     pub(super) fn read(document: &Document, table: &ObjectTable) -> Result<Self, SceneError> {
         let is_blended = table.alpha == Some(AlphaWord::Blended);
         if let (Some(buffers), false) = (&table.buffers, is_blended) {
-            let reason = "buffers tells what velocity and depth are where an object is translucent; give it alpha = \"blended\"";
+            let reason = "buffers says which velocity and depth a translucent object has; give it alpha = \"blended\"";
             return Err(document.error(buffers.span(), reason));
         }
         let buffers = table.buffers.as_ref().map(|buffers| *buffers.get_ref());

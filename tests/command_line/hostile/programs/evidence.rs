@@ -92,6 +92,6 @@ fn a_nested_repository_starts_no_program() {
     let hook = format!("touch {}", sandbox.path("ran").display());
     let config = format!("[core]\nbare = false\nworktree = .\nfsmonitor = {hook}\n");
     fs::write(sandbox.path("out/config"), config).unwrap();
-    assert_refused(&sandbox.check(&IDENTITY), 2, &["cannot tell whether"]);
+    assert_refused(&sandbox.check(&IDENTITY), 2, &["cannot find out whether"]);
     assert!(!sandbox.path("ran").exists(), "a program ran");
 }

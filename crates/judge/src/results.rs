@@ -1,0 +1,271 @@
+//! Results: the scores of runs in short, as a file for version control.
+
+use std::collections::{BTreeMap, HashSet};
+use std::path::Path;
+
+use frame::Alignment;
+use metrics::Metric;
+use serde::{Deserialize, Serialize};
+use store::{read_text, to_lines};
+use suite::{Case, Error, IDENTITY, InputFormat, Run, refuse_failures};
+use tracer::{Family, SceneId};
+
+use crate::groups::group_by;
+use crate::numbers::round_to_digits;
+use crate::ranking::filters::{RankedFilter, RankedScore, rank_by_score};
+
+/// Version of the layout of a file of results.
+const RESULTS_FORMAT: u32 = 2;
+
+/// Significant digits of a score.
+const DIGITS: usize = 5;
+
+/// The scores of all filters on some scenes, at one picture size.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Results {
+    /// Version of the layout.
+    pub format: u32,
+    /// Program name and version.
+    pub program: String,
+    /// Adapter that the kernels ran on; none where every filter is a command.
+    pub adapter: Option<String>,
+    /// Columns and rows.
+    pub size: [u32; 2],
+    /// Mean samples per pixel of the truths.
+    pub samples_per_pixel: u32,
+    /// Number of the sealed variants that the scenes were taken in; none for the scenes themselves.
+    pub seal: Option<u64>,
+    /// One per scene and filter preset.
+    pub scores: Vec<ResultScores>,
+}
+
+/// The scores of one filter preset on one scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultScores {
+    /// Name of the scene, without the seal.
+    pub scene: SceneId,
+    /// Family of the scene.
+    pub family: Option<Family>,
+    /// Name of the filter alone.
+    pub filter: String,
+    /// `jump_flood:paper`, followed by what is not as usual.
+    pub name: String,
+    /// Shutter alignment that it is scored against.
+    pub alignment: Alignment,
+    /// Noise floor of its FLIP.
+    pub floor: f64,
+    /// Scores of [`Metric::OF_MEANS`] by name, of five digits; those that do not apply are missing.
+    pub scores: BTreeMap<Metric, f64>,
+}
+
+impl Results {
+    /// Joins runs of different scenes with the same settings. References, forms of the input other than the full one, and scenes at
+    /// another frame rate than that of their files are left out.
+    ///
+    /// # Errors
+    /// There is no run, a case failed, two runs differ in size, samples, adapter or seal, or a case is there twice.
+    pub fn from_runs(runs: &[Run]) -> Result<Self, Error> {
+        let Some(first) = runs.first() else {
+            return Err(Error::Usage("no run to take results from".to_owned()));
+        };
+        let seal = (first.cases.first()).and_then(|case| case.scene.seal);
+        let mut results = Self::without_scores(first, seal);
+        let mut known = HashSet::new();
+        for run in runs {
+            refuse_failures(&run.failures)?;
+            for case in &run.cases {
+                let own = Self::without_scores(run, case.scene.seal);
+                results.refuse_other(&own, &case.scene)?;
+                let is_plain = case.input == InputFormat::default() && case.rate.is_none();
+                if case.is_reference || !is_plain {
+                    continue;
+                }
+                if !known.insert(&case.id) {
+                    return Err(Error::Usage(format!(
+                        "{} is in two runs; allowed: each case once",
+                        case.id
+                    )));
+                }
+                results.scores.push(ResultScores::of(case));
+            }
+        }
+        Ok(results)
+    }
+
+    /// Describes a run whose scenes have a seal.
+    fn without_scores(run: &Run, seal: Option<u64>) -> Self {
+        Self {
+            format: RESULTS_FORMAT,
+            program: run.program.clone(),
+            adapter: run.adapter.as_ref().map(|own| own.name.clone()),
+            size: [run.render.width, run.render.height],
+            samples_per_pixel: run.render.samples_per_pixel,
+            seal,
+            scores: Vec::new(),
+        }
+    }
+
+    /// Refuses scores on a scene that were measured with other settings.
+    fn refuse_other(&self, other: &Self, scene: &SceneId) -> Result<(), Error> {
+        let settings = |own: &Self| {
+            let none = || "none".to_owned();
+            [
+                ("pictures", format!("{}x{}", own.size[0], own.size[1])),
+                ("samples per pixel", own.samples_per_pixel.to_string()),
+                ("adapter", own.adapter.clone().unwrap_or_else(none)),
+                ("seal", own.seal.map_or_else(none, |seed| seed.to_string())),
+            ]
+        };
+        let mut both = std::iter::zip(settings(other), settings(self));
+        match both.find(|(own, first)| own != first) {
+            None => Ok(()),
+            Some(((what, own), (_, first))) => Err(Error::Usage(format!(
+                "{scene}: {what}: {own}, and the first run has {first}; allowed: runs that differ in their scenes and filters alone"
+            ))),
+        }
+    }
+
+    /// Puts newer scores into these: those of a case that is here already take its place, others join their scene.
+    ///
+    /// # Errors
+    /// The newer results are of another size, adapter or seal, or of truths with other samples.
+    pub fn update(&mut self, newer: Self) -> Result<(), Error> {
+        let settings = |own: &Self| (own.file_name(), own.samples_per_pixel);
+        let [(own, samples), (other, others)] = [settings(self), settings(&newer)];
+        if (&own, samples) != (&other, others) {
+            return Err(Error::Usage(format!(
+                "{other} with {others} samples per pixel cannot go into {own} with {samples}; measure with the same settings, or \
+                 all filters anew"
+            )));
+        }
+        self.program = newer.program;
+        self.adapter = newer.adapter;
+        for score in newer.scores {
+            let is_same = |own: &ResultScores| own.scene == score.scene && own.name == score.name;
+            if let Some(own) = self.scores.iter_mut().find(|own| is_same(own)) {
+                *own = score;
+                continue;
+            }
+            let last = (self.scores.iter()).rposition(|own| own.scene == score.scene);
+            let place = last.map_or(self.scores.len(), |last| last + 1);
+            self.scores.insert(place, score);
+        }
+        Ok(())
+    }
+
+    /// Reads a file of results.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let refuse = |reason: String| Error::Usage(format!("{}: {reason}", path.display()));
+        let results: Self = serde_json::from_str(&read_text(path)?)
+            .map_err(|error| refuse(format!("no results of this program: {error}")))?;
+        match results.format {
+            RESULTS_FORMAT => Ok(results),
+            other => Err(refuse(format!(
+                "has format {other}; allowed: {RESULTS_FORMAT}"
+            ))),
+        }
+    }
+
+    /// Reads every file of results in a folder, in the order of their names.
+    pub fn read_all(folder: &Path) -> Result<Vec<Self>, Error> {
+        let refuse = |error: std::io::Error| Error::Usage(format!("{}: {error}", folder.display()));
+        let mut files = Vec::new();
+        for entry in std::fs::read_dir(folder).map_err(refuse)? {
+            let path = entry.map_err(refuse)?.path();
+            if path.extension().is_some_and(|own| own == "json") {
+                files.push(path);
+            }
+        }
+        files.sort();
+        files.iter().map(|path| Self::read(path)).collect()
+    }
+
+    /// Formats a file of results: a line per case, so that a change of one is a change of one line.
+    pub fn text(&self) -> String {
+        to_lines(self) + "\n"
+    }
+
+    /// Names the file: `320x180_llvmpipe.json`, or `320x180_llvmpipe_seal1.json`.
+    pub fn file_name(&self) -> String {
+        let adapter = self.adapter.as_deref().unwrap_or("none");
+        let word = adapter.split_whitespace().next().unwrap_or("none");
+        let word = word.replace(|letter: char| !letter.is_ascii_alphanumeric(), "");
+        let seal = (self.seal).map_or(String::new(), |seed| format!("_seal{seed}"));
+        let [width, height] = self.size;
+        format!("{width}x{height}_{}{seal}.json", word.to_lowercase())
+    }
+
+    /// Lists the scenes in their order.
+    pub fn scenes(&self) -> Vec<&SceneId> {
+        let scenes = group_by(&self.scores, |own| &own.scene).into_iter();
+        scenes.map(|scores| &scores[0].scene).collect()
+    }
+
+    /// Finds the worst score by FLIP of a preset, among the scenes where one frame knows enough for a gain: those with a skill. Without
+    /// any of them it is the worst of all; none where no FLIP is known.
+    pub fn worst_of(&self, name: &str) -> Option<&ResultScores> {
+        let error = |own: &&ResultScores| {
+            let has_skill = own.score(Metric::SKILL).is_some();
+            Some((has_skill, own.score(Metric::FLIP)?))
+        };
+        (self.scores.iter())
+            .filter(|own| own.name == name && error(own).is_some())
+            .max_by(|a, b| error(a).partial_cmp(&error(b)).expect("scores are numbers"))
+    }
+
+    /// Ranks the filter presets of each shutter by FLIP. The filter that does nothing is ranked in both: its FLIP* is that against a
+    /// centred shutter, if any filter declares one.
+    pub fn ranking(&self) -> Vec<Vec<RankedFilter>> {
+        let centred = Alignment::Centred;
+        let has_centred = self.scores.iter().any(|own| own.alignment == centred);
+        let unblurred = (self.scores.iter())
+            .filter(|own| has_centred && own.filter == IDENTITY && own.alignment != centred)
+            .filter_map(|own| own.ranked(centred, Metric::CommonFlip));
+        let scores: Vec<RankedScore> = (self.scores.iter())
+            .filter_map(|own| own.ranked(own.alignment, Metric::FLIP))
+            .chain(unblurred)
+            .collect();
+        rank_by_score(&scores, false)
+    }
+}
+
+impl ResultScores {
+    fn of(case: &Case) -> Self {
+        let scores = (Metric::OF_MEANS.into_iter())
+            .filter_map(|metric| Some((metric, rounded(case.estimate(metric)?))));
+        Self {
+            scene: SceneId {
+                seal: None,
+                ..case.scene.clone()
+            },
+            family: case.family,
+            filter: case.filter.clone(),
+            name: case.name(),
+            alignment: case.alignment,
+            floor: case.floor(Metric::FLIP).map_or(0.0, rounded),
+            scores: scores.collect(),
+        }
+    }
+
+    /// A score; none if it does not apply.
+    pub fn score(&self, metric: Metric) -> Option<f64> {
+        self.scores.get(&metric).copied()
+    }
+
+    fn ranked(&self, alignment: Alignment, metric: Metric) -> Option<RankedScore> {
+        Some(RankedScore {
+            scene: self.scene.clone(),
+            filter: self.filter.clone(),
+            name: self.name.clone(),
+            alignment,
+            value: self.score(metric)?,
+            floor: self.floor,
+        })
+    }
+}
+
+fn rounded(value: f64) -> f64 {
+    round_to_digits(value, DIGITS)
+}

@@ -1,0 +1,8 @@
+// What this blur needs of the file of this name, in words of our own.
+TEXTURE2D_X(_BlitTexture);
+
+struct Varyings
+{
+    float4 positionCS : SV_POSITION;
+    float2 texcoord : TEXCOORD0;
+};
