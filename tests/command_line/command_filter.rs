@@ -285,7 +285,7 @@ fn bad_folders_of_programs_are_refused_with_the_line() {
         CP "{frame}", "{out}", "-m{shutter}"] => "-m{shutter}" holds the unknown {shutter} | allowed: {frame}, {out}, {exposure}, {frame_index}, {frames_per_second}, and
         CP "{frame}", "{out}", "{"] => "{" has a brace without the other
         COPY PARAMETER = "taps" => filter.toml:4: | {taps} is missing
-        COPY PARAMETER = "exposure" => {exposure} already stands for
+        COPY PARAMETER = "exposure" => {exposure} is already a value
         COPY PASS => filter.toml:5: | neither [[pass]] nor [[texture]]
         COPY time_limit = 0 => filter.toml:5: time_limit = 0; | above 0
         COPY time_limit = nan => filter.toml:5: time_limit = NaN;

@@ -66,7 +66,7 @@ fn nothing_outside_of_the_folder_is_included() {
             symlink(sandbox.path(""), folder.join("linked")).unwrap();
             let named = if line == 1 { "own.h" } else { file };
             let says = match says {
-                "" => "outside of the filter's folder",
+                "" => "outside the filter's folder",
                 other => other,
             };
             refuse(&[&format!("translated/{named}:{line}: "), says]);

@@ -76,7 +76,7 @@ fn a_check_refuses_a_folder_tracked_by_git() {
     let mut without_git = sandbox.command(&words);
     without_git.env("PATH", "/nowhere").env_remove("CI");
     let output = without_git.output().unwrap();
-    assert_refused(&output, 2, &["cannot tell", "git: ", "--no-cache"]);
+    assert_refused(&output, 2, &["cannot find out", "git: ", "--no-cache"]);
     // Git cannot track a file that does not exist.
     fs::remove_dir_all(sandbox.path("out")).unwrap();
     assert_eq!(without_git.output().unwrap().status.code(), Some(1));
