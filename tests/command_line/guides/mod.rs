@@ -4,7 +4,6 @@ mod page;
 mod quick;
 mod reader;
 mod tables;
-mod tutorials;
 
 use std::fs;
 use std::time::Instant;

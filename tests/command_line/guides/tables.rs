@@ -1,5 +1,9 @@
 //! The tables of scores that README.md, docs/results.md and docs/first-ten-minutes.md show, against what the program prints.
 
+use std::fs;
+use std::path::Path;
+
+use tests::root;
 use tests::text::squeeze;
 
 use super::page::{Step, find_steps};
@@ -8,7 +12,6 @@ use crate::sandbox::{assert_done, stdout};
 
 const README: &str = include_str!("../../../README.md");
 const RESULTS: &str = include_str!("../../../docs/results.md");
-const FIRST: &str = include_str!("../../../docs/first-ten-minutes.md");
 
 /// The scenes that `make run` takes.
 const RUN: &str =
@@ -74,14 +77,30 @@ fn has_adapter_of_the_pages(printed: &str) -> bool {
     is_own
 }
 
-#[test]
-#[ignore = "prove: what the first ten minutes show, as their commands print it"]
-fn the_first_ten_minutes_show_what_their_commands_print() {
+/// Lists all lines that a page shows in its blocks.
+fn find_shown(page: &str) -> Vec<&str> {
+    let lines = page.lines().filter_map(|line| line.strip_prefix("    "));
+    lines.collect()
+}
+
+/// Runs the commands of a page that make its tables, and compares each line of these with what they print.
+fn assert_printed(path: &Path, find_rows: fn(&str) -> Vec<&str>, least: usize) {
     let reader = Reader::new();
+    let page = fs::read_to_string(path).unwrap();
     let mut printed = String::new();
     let mut commands = Vec::new();
-    for step in find_steps(FIRST) {
-        if let Step::Run(command) = step {
+    for step in find_steps(&page) {
+        if let Step::Run(command) = step
+            && [
+                "shuttertruth run",
+                "shuttertruth list",
+                "shuttertruth compare",
+                "cp ",
+            ]
+            .iter()
+            .any(|start| command.starts_with(start))
+            && !command.contains("1920x1080")
+        {
             let output = reader.run(&command);
             assert_done(&output);
             printed += &stdout(&output);
@@ -92,14 +111,24 @@ fn the_first_ten_minutes_show_what_their_commands_print() {
         return;
     }
     let lines: Vec<String> = printed.lines().map(squeeze).collect();
-    let blocks = FIRST.lines().filter_map(|line| line.strip_prefix("    "));
-    let rows = blocks.filter(|row| *row != ".." && !commands.iter().any(|own| own == row));
-    let rows: Vec<&str> = rows.collect();
-    assert!(rows.len() > 15, "only {} lines are shown", rows.len());
+    let mut rows = find_rows(&page);
+    rows.retain(|row| *row != ".." && !commands.iter().any(|own| own == row));
+    assert!(rows.len() >= least, "only {} lines are shown", rows.len());
     for row in rows {
+        let name = path.display();
+        let is_printed = lines.iter().any(|line| line.starts_with(&squeeze(row)));
         assert!(
-            lines.contains(&squeeze(row)),
-            "no command prints \"{row}\"; they print:\n{printed}"
+            is_printed,
+            "{name}: no command prints \"{row}\"; they print:\n{printed}"
         );
+    }
+}
+
+#[test]
+#[ignore = "prove: what the first ten minutes and the pages of engines show, as their commands print it"]
+fn the_tutorials_show_what_their_commands_print() {
+    assert_printed(&root().join("docs/first-ten-minutes.md"), find_shown, 16);
+    for page in fs::read_dir(root().join("docs/engines")).unwrap() {
+        assert_printed(&page.unwrap().path(), find_rows, 4);
     }
 }
