@@ -62,10 +62,8 @@ fn a_check_in_an_empty_folder_is_judged_by_the_limits_that_come_along() {
     assert!(printed.contains("14 required bounds: 14 met"), "{printed}");
     let judgement: Value = sandbox.read_json("out/judgement.json");
     let place = judgement["findings"][0]["place"].as_str().unwrap();
-    assert!(
-        place.starts_with("built-in/sliding_panel/bounds.toml:"),
-        "{place}"
-    );
+    let begin = "built-in/sliding_panel/bounds.toml:";
+    assert!(place.starts_with(begin), "{place}");
 }
 
 #[test]
@@ -84,10 +82,7 @@ fn the_program_s_own_scenes_are_those_of_the_repository() {
             continue;
         }
         let bytes = own.join(&name).read(1 << 30).unwrap();
-        assert!(
-            bytes == fs::read(&path).unwrap(),
-            "{name} differs from the file"
-        );
+        assert!(bytes == fs::read(&path).unwrap(), "{name} differs");
         names.retain(|own| *own != name);
     }
     assert!(names.is_empty(), "not in the repository: {names:?}");

@@ -35,10 +35,8 @@ fn scores(sandbox: &Sandbox, images: &str, more: &[&str]) -> SequenceScores {
     let output = score(sandbox, images, &[&THREE[..], &["--json"], more].concat());
     assert_done(&output);
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(
-        (&json["scene"], &json["alignment"]),
-        (&"plate".into(), &"trailing".into())
-    );
+    assert_eq!(json["scene"], "plate");
+    assert_eq!(json["alignment"], "trailing");
     assert_eq!(json["frames"].as_array().unwrap().len(), 3);
     serde_json::from_value(json["scores"].clone()).unwrap()
 }
@@ -111,11 +109,8 @@ fn assert_misfits_are_refused(sandbox: &Sandbox) {
     ) {
         refuse(&format!("mine {words}"), "", &parts);
     }
-    refuse(
-        "mine/0000.exr --frames 3",
-        "",
-        &["is no folder", "0001.exr"],
-    );
+    let parts = ["is no folder", "0001.exr"];
+    refuse("mine/0000.exr --frames 3", "", &parts);
     let parts = "0001/truth_trailing.exr: is the truth of a later frame, plate/0001";
     refuse("mine --frames 2", "/0001", &[parts]);
     let [png, copy] = ["out/plate/frame.png", "mine/0001.png"].map(|it| sandbox.path(it));

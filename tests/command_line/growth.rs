@@ -26,10 +26,8 @@ fn a_run_of_copies_is_merged_judged_and_reported() {
     let output = grow();
     assert_done(&output);
     let text = stdout(&output);
-    assert!(
-        text.starts_with("33 cases in 15 parts, 3 scenes\n"),
-        "{text}"
-    );
+    let begin = "33 cases in 15 parts, 3 scenes\n";
+    assert!(text.starts_with(begin), "{text}");
     assert_contains(&text, &["merge: ", "check: ", "report: ", "report.html: "]);
     let run = suite::Run::read(&sandbox.path("grown/merged/run.json")).unwrap();
     let cases = run.cases.iter().filter(|case| !case.is_reference);

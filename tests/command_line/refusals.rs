@@ -89,10 +89,8 @@ fn ctrl_c_leaves_no_partial_file() {
     wait_until_busy(&mut child, 50);
     assert_ends_at_ctrl_c(child);
     // Empty; the next process locks it.
-    assert_eq!(
-        files_below(&sandbox.path("out")),
-        [sandbox.path("out/.shuttertruth.lock")]
-    );
+    let lock = sandbox.path("out/.shuttertruth.lock");
+    assert_eq!(files_below(&sandbox.path("out")), [lock]);
 }
 
 #[test]

@@ -22,10 +22,8 @@ fn the_version_says_which_source_and_which_target() {
     let rest = version.trim_end().strip_prefix(own).expect(&version);
     let (source, target) = rest.trim_end_matches(')').split_once(", ").unwrap();
     let known = ["development build", "unknown commit: built without git"];
-    assert!(
-        known.contains(&source) || source.starts_with("commit "),
-        "{version}"
-    );
+    let is_known = known.contains(&source) || source.starts_with("commit ");
+    assert!(is_known, "{version}");
     assert!(target.contains(std::env::consts::ARCH), "{version}");
     assert!(target.contains(std::env::consts::OS), "{version}");
 }

@@ -81,11 +81,8 @@ fn no_script_of_the_action_has_an_expression_in_its_text() {
         } else if script.is_some_and(|own| indentation <= own && !line.is_empty()) {
             script = None;
         }
-        assert!(
-            script.is_none() || !line.contains("${{"),
-            "action.yml:{}: {line}",
-            number + 1
-        );
+        let is_safe = script.is_none() || !line.contains("${{");
+        assert!(is_safe, "action.yml:{}: {line}", number + 1);
     }
 }
 
@@ -97,12 +94,8 @@ fn cargo_binstall_looks_for_the_archive_by_its_name() {
     assert!(script.contains("name=shuttertruth-$version-$target\n"));
     let name = "shuttertruth-{ version }-{ target }";
     let url = binstall["pkg-url"].as_str().unwrap();
-    assert!(
-        url.ends_with(&format!("/v{{ version }}/{name}.tar.gz")),
-        "{url}"
-    );
-    assert_eq!(
-        binstall["bin-dir"].as_str().unwrap(),
-        format!("{name}/shuttertruth{{ binary-ext }}")
-    );
+    let end = format!("/v{{ version }}/{name}.tar.gz");
+    assert!(url.ends_with(&end), "{url}");
+    let folder = format!("{name}/shuttertruth{{ binary-ext }}");
+    assert_eq!(binstall["bin-dir"].as_str().unwrap(), folder);
 }

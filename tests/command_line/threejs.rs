@@ -74,10 +74,7 @@ impl Drawn {
         let file = frame::read_exr(&self.sandbox.path("capture").join(name)).unwrap();
         let is_finite = file.channels.iter().all(|channel| {
             let plane = file.plane(&channel.name).unwrap();
-            assert!(
-                plane.same_size(&self.frame.color),
-                "{name} has another size"
-            );
+            assert!(plane.same_size(&self.frame.color), "size of {name}");
             plane.pixels.iter().all(|value| value.is_finite())
         });
         assert!(is_finite, "{name} holds NaN or infinity");

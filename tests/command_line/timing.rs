@@ -51,10 +51,8 @@ fn a_bench_prints_and_writes_the_same_times() {
     let passes: Vec<String> = points
         .map(|point| format!("{}: {}", point.pixels, point.value.clone().unwrap()))
         .collect();
-    assert_eq!(
-        passes.join(", "),
-        "8: 1, 16: 2, 32: 3, 64: 4, 128: 5, 256: 6"
-    );
+    let due = "8: 1, 16: 2, 32: 3, 64: 4, 128: 5, 256: 6";
+    assert_eq!(passes.join(", "), due);
     assert_eq!(done.reaches[2].parameter, None);
     assert!(done.reaches.iter().all(|cost| cost.growth.is_some()));
 }

@@ -90,10 +90,7 @@ fn paint(filter: &Filter, settings: &Settings, field: &Field) -> Painted {
         let [x, y] = [seed & 0x7fff, (seed & 0x7fff_ffff) >> 16];
         let moves = seed >> 31 == 1;
         let expected = *field.velocity.at(x, y) != [0.0; 2];
-        assert!(
-            !exact || moves == expected,
-            "the seed of ({x}, {y}) says {moves}"
-        );
+        assert!(!exact || moves == expected, "({x}, {y}) says {moves}");
         [x, y]
     });
     let tiles = blur.read_texture("reached").unwrap().pixels.into_iter();
@@ -201,10 +198,7 @@ fn tiles_that_no_trail_reaches_are_skipped() {
             "tuned" => tiles * 9 / 10,
             _ => tiles / 2,
         };
-        assert!(
-            (3..=most).contains(&reached),
-            "{}: {reached} of {tiles} tiles",
-            preset.name
-        );
+        let name = &preset.name;
+        assert!((3..=most).contains(&reached), "{name}: {reached}");
     }
 }

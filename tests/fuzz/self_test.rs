@@ -30,8 +30,5 @@ pub fn check() {
             hows.join("; ")
         );
     }
-    assert_eq!(
-        found.cases, count,
-        "cases after one that fails are tried too"
-    );
+    assert_eq!(found.cases, count, "cases after a failure are tried");
 }

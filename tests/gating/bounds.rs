@@ -178,10 +178,8 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
     assert_eq!(read(None).unwrap(), (0.2, Some((160, 90))));
     assert_eq!(read(Some((160, 90))).unwrap(), (0.2, Some((160, 90))));
     assert_eq!(read(large).unwrap(), (0.1, large));
-    refused(
-        Some((320, 180)),
-        "put them into bounds_320x180.toml beside the scene",
-    );
+    let way_out = "put them into bounds_320x180.toml beside the scene";
+    refused(Some((320, 180)), way_out);
 
     write("_1280x720", &table(0.1, "size = [160, 90],"));
     // Files for sizes that nobody asked for are checked as well.
@@ -193,10 +191,8 @@ fn limits_for_a_second_size_stand_in_a_file_of_their_own() {
         refused(asked, "move the limit to bounds_160x90.toml");
     }
     write("_1280x720", "[margin]\nflip_moving = 0.1\n");
-    refused(
-        large,
-        "bounds_1280x720.toml:2: a margin is for pictures of every size",
-    );
+    let says = "bounds_1280x720.toml:2: a margin is for pictures of every size";
+    refused(large, says);
     write("_1280x720", &table(0.1, ""));
     write("_720p", &table(0.1, ""));
     let name = "bounds_720p.toml: nothing reads a file of that name; allowed: bounds.toml, and bounds_COLUMNSxROWS.toml";
@@ -265,12 +261,8 @@ fn a_narrower_bound_overrides_a_wider_one_and_a_scene_s_bound_overrides_the_shar
         let found = bounds.of(filter, preset);
         names.map(|name| found[&name.parse().unwrap()].limit)
     };
-    assert_eq!(
-        limits("identity", "default"),
-        [6.0, 5.0, 4.0, 3.0, 2.0, 1.0]
-    );
-    assert_eq!(
-        limits("velocity_gather", "fine"),
-        [4.0, 4.0, 4.0, 1.0, 1.0, 1.0]
-    );
+    let due = [6.0, 5.0, 4.0, 3.0, 2.0, 1.0];
+    assert_eq!(limits("identity", "default"), due);
+    let due = [4.0, 4.0, 4.0, 1.0, 1.0, 1.0];
+    assert_eq!(limits("velocity_gather", "fine"), due);
 }

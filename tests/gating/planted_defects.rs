@@ -143,10 +143,7 @@ fn plant(filter: &str, name: &str, [sound, broken]: &[String; 2], folder: &Path)
     let copy = folder.join("planted").join(name);
     copy_changed_filter(filter, &copy, |text| {
         let count = text.matches(sound).count();
-        assert_eq!(
-            count, 1,
-            "{name}: the kernels of {filter} hold this line once: {sound}"
-        );
+        assert_eq!(count, 1, "{name}: {filter} holds once: {sound}");
         text.replace(sound, broken)
     });
     copy

@@ -147,12 +147,8 @@ fn every_scene_requires_something_of_guarded_filters() {
             for metric in REQUIRED {
                 let bound = bounds.get(&metric.parse().unwrap());
                 let level = bound.map(|bound| bound.level);
-                assert_eq!(
-                    level,
-                    Some(Level::Required),
-                    "{}: {filter}'s {metric}",
-                    scene.id
-                );
+                let what = format!("{}: {filter}'s {metric}", scene.id);
+                assert_eq!(level, Some(Level::Required), "{what}");
             }
         }
     }

@@ -47,10 +47,7 @@ fn compare(name: &str, names: &[&str], width: u32, as_written: bool) -> (PairedC
     let mut presets = choice.filter.presets.iter();
     let tuned = presets.find_map(|preset| preset.tuned.as_ref()).unwrap();
     let scenes = held_out(names, &tuned.scenes);
-    assert!(
-        scenes.len() >= 5,
-        "{name}: too few scenes are left to prove anything on"
-    );
+    assert!(scenes.len() >= 5, "{name}: too few scenes are left");
     let alignment = choice.filter.alignment;
     let rendered = render_scenes(&scenes, alignment, &render, &out, Monitor::SILENT).unwrap();
     let mut evaluator =
@@ -76,11 +73,8 @@ fn check(names: &[&str], width: u32, as_written: bool) {
 
 #[test]
 fn tuned_presets_beat_published_ones_on_a_few_held_out_scenes() {
-    check(
-        &["roll", "neon", "ramp_floor", "shallow_focus", "cockpit"],
-        96,
-        false,
-    );
+    let scenes = ["roll", "neon", "ramp_floor", "shallow_focus", "cockpit"];
+    check(&scenes, 96, false);
 }
 
 #[test]

@@ -76,12 +76,8 @@ fn a_metal_seen_straight_on_has_its_own_colour() {
     let mut scene = empty_scene("straight on");
     scene.background = white();
     let wall = placed(DVec3::new(0.0, 0.0, -4.0));
-    add(
-        &mut scene,
-        rectangle(10.0, 10.0),
-        glossy(metal(0.0), 0.3),
-        wall,
-    );
+    let paint = glossy(metal(0.0), 0.3);
+    add(&mut scene, rectangle(10.0, 10.0), paint, wall);
     scene.camera.vertical_fov = vec![(0.0, 0.01)];
     let found = mean_radiance(&scene, 16);
     expect_near("metal", found, 0.3, 1e-6);

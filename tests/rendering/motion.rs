@@ -114,10 +114,8 @@ fn a_motion_passes_through_its_keys() {
                 for time in [key.time - 1e-12, key.time] {
                     // 1e-12 frames at speeds of up to 100.
                     let found = motion.at(time).transform_point3(POINT);
-                    assert!(
-                        found.distance(expected) < 1e-9,
-                        "{interpolation:?} at {time}"
-                    );
+                    let apart = found.distance(expected);
+                    assert!(apart < 1e-9, "{interpolation:?} at {time}");
                 }
             }
         }
@@ -189,10 +187,8 @@ fn a_field_of_view_that_swings_out_of_bounds_between_its_keys_is_refused() {
     };
     // Rounding in 64 bits.
     let off = [degrees + 10.125, time + 0.5];
-    assert!(
-        off.iter().all(|off| off.abs() < 1e-9),
-        "{degrees} at {time}"
-    );
+    let is_near = off.iter().all(|off| off.abs() < 1e-9);
+    assert!(is_near, "{degrees} at {time}");
     // At the instant there is a key.
     render_frame(&scene, &settings);
 }

@@ -92,10 +92,8 @@ impl Browser {
     pub fn value(&mut self, expression: &str) -> Value {
         let words = json!({"expression": expression, "returnByValue": true, "awaitPromise": true});
         let answer = self.call("Runtime.evaluate", words);
-        assert!(
-            answer.get("exceptionDetails").is_none(),
-            "{expression}: {answer}"
-        );
+        let error = answer.get("exceptionDetails");
+        assert!(error.is_none(), "{expression}: {answer}");
         answer["result"]["value"].clone()
     }
 

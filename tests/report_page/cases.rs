@@ -117,11 +117,8 @@ fn blink_goes_on_until_it_is_stopped(browser: &mut Browser, page: &Path) {
     browser.until("new Promise(done => setTimeout(() => done(true), 100))");
     assert_eq!(browser.value(swapped), stands);
     press(browser, "b");
-    assert_ne!(
-        browser.value(swapped),
-        stands,
-        "a stopped blink changes by hand"
-    );
+    let now = browser.value(swapped);
+    assert_ne!(now, stands, "a stopped blink changes by hand");
 }
 
 fn wheel_and_worst_place_zoom_and_the_zoom_is_shown(browser: &mut Browser, page: &Path) {
@@ -143,10 +140,8 @@ fn wheel_and_worst_place_zoom_and_the_zoom_is_shown(browser: &mut Browser, page:
     browser.point(left + width / 2.0, top + height / 2.0);
     browser.until("document.querySelector('.tip').textContent.includes('identity:default: ')");
     let [x, y, ..] = browser.place(".tip");
-    assert!(
-        (x - left - width / 2.0).abs() < 40.0 && (y - top - height / 2.0).abs() < 40.0,
-        "{x} {y}"
-    );
+    let off = [x - left - width / 2.0, y - top - height / 2.0];
+    assert!(off.iter().all(|off| off.abs() < 40.0), "{x} {y}");
 }
 
 fn divider_and_keys_change_the_shown_pictures(browser: &mut Browser, page: &Path) {
@@ -207,10 +202,8 @@ fn rows_of_one_shutter_stay_together_when_headings_sort(browser: &mut Browser, _
     };
     let before = names(browser);
     assert_eq!(before.len(), 4, "{before:?}");
-    assert_eq!(
-        [&before[0], &before[2]],
-        ["trailing shutter", "centred shutter"]
-    );
+    let headings = [&before[0], &before[2]];
+    assert_eq!(headings, ["trailing shutter", "centred shutter"]);
     assert!(before[1].contains("velocity_gather:fine") && before[3].contains("bevy:high"));
     browser.value("document.querySelector('.sortable').tHead.rows[0].cells[1].querySelector('button').click()");
     assert_eq!(names(browser), before);
@@ -228,11 +221,8 @@ fn score_and_picture_are_on_the_first_screen(browser: &mut Browser, page: &Path)
             "{width}x{height}: {top} {tall}"
         );
         assert!(tall >= f64::from(height) / 5.0, "{width}x{height}: {tall}");
-        assert_eq!(
-            controls > top,
-            width == 390,
-            "a narrow screen has the picture first"
-        );
+        // A narrow screen has the picture first.
+        assert_eq!(controls > top, width == 390, "{width}x{height}");
     }
 }
 
@@ -243,10 +233,7 @@ fn printed_pages_show_both_pictures_whole(browser: &mut Browser, page: &Path) {
     let [over, under] =
         ["over", "under"].map(|place| browser.place(&format!("[data-place={place}] canvas")));
     let [_, _, width, height] = over;
-    assert!(
-        (width / height - 2.0).abs() < 0.01,
-        "64x32 pixels: {width}x{height}"
-    );
+    assert!((width / height - 2.0).abs() < 0.01, "{width}x{height}");
     assert!(
         width > 300.0 && over[0] + width <= under[0] && (over[1] - under[1]).abs() < 1.0,
         "{over:?} {under:?}"

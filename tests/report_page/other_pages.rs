@@ -29,10 +29,8 @@ fn a_comparison_shows_pictures_first_and_a_change_with_sign_and_word() {
     let changes = browser.text(
         "[...document.querySelectorAll('td.worse')].map(cell => cell.textContent).join('; ')",
     );
-    assert!(
-        changes.starts_with('+') && changes.contains(" worse"),
-        "{changes}"
-    );
+    assert!(changes.starts_with('+'), "{changes}");
+    assert!(changes.contains(" worse"), "{changes}");
     // For scores where higher is better, less is worse and has a minus.
     let psnr = browser.text(
         "[...document.querySelectorAll('.trio ~ .scroll tr')].find(row => row.textContent.startsWith('psnr_moving')).cells[3].textContent",
@@ -84,10 +82,8 @@ fn a_sequence_plays_in_step_and_goes_frame_by_frame() {
     browser.until(loaded);
     let second = addresses(&mut browser);
     assert_eq!(second.matches("/plate/0001/").count(), 5, "{second}");
-    assert!(
-        second.contains("0001/velocity_gather_fine/change.png"),
-        "{second}"
-    );
+    let picture = "0001/velocity_gather_fine/change.png";
+    assert!(second.contains(picture), "{second}");
     let readout = browser.read("#readout");
     assert!(readout.starts_with("frame 1 of 2; error "), "{readout}");
     browser.press(",");

@@ -48,11 +48,8 @@ impl Folder {
     /// Replaces a text that a file contains once.
     pub fn edit(&self, file: &str, from: &str, to: &str) {
         let text = self.read(file);
-        assert_eq!(
-            text.matches(from).count(),
-            1,
-            "\"{from}\" must stand once in {file}"
-        );
+        let count = text.matches(from).count();
+        assert_eq!(count, 1, "\"{from}\" must stand once in {file}");
         self.write(file, text.replace(from, to));
     }
 

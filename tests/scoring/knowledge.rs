@@ -53,10 +53,8 @@ fn errors_are_split_into_knowable_and_unknowable() {
     let (frame, truth) = frame_and_truth();
     let scores = measure_scores(&truth.mean(), &frame, &truth);
     let reason = find_reason(&scores, "flip_unknowable");
-    assert!(
-        reason.contains("shows all that the shutter sees"),
-        "{reason}"
-    );
+    let words = "shows all that the shutter sees";
+    assert!(reason.contains(words), "{reason}");
 }
 
 #[test]

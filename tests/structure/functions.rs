@@ -38,10 +38,7 @@ fn no_function_is_longer_than_a_screen() {
         wrong.is_empty(),
         "functions of more than {MAX_LINES} lines; split them, or name them in EXCEPTIONS if they read better whole:\n{wrong}"
     );
-    assert!(
-        unused.is_empty(),
-        "these are short: {unused:?}; take them from EXCEPTIONS"
-    );
+    assert!(unused.is_empty(), "take {unused:?} from EXCEPTIONS");
 }
 
 /// Words that may stand before `fn`.

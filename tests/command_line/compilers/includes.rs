@@ -197,11 +197,8 @@ fn honest_includes_work_and_errors_name_their_lines() {
         fs::write(&place, honest).unwrap();
     };
     // Before the body: two lines of the comment, two that are joined, two includes, and three lines that a condition leaves out.
-    breaks(
-        "blur.comp",
-        &shader("int a = broken;\r\n"),
-        "translated/in/blur.comp:10: ",
-    );
+    let text = shader("int a = broken;\r\n");
+    breaks("blur.comp", &text, "translated/in/blur.comp:10: ");
     let joined = "#define JOINED(x) \\\n  (x) \\\n\nint a = broken;\n";
     breaks("lib/c.h", joined, "c.h:4");
 }

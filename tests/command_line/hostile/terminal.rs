@@ -133,17 +133,13 @@ fn annotations_and_summaries_quote_failures_on_one_line() {
     };
     let lines = annotations(&check);
     assert_eq!(lines.lines().count(), 1, "{lines}");
-    assert!(
-        lines.starts_with("::error title=a%0A%3A%3Aerror%3A%3Ab"),
-        "{lines}"
-    );
+    let begin = "::error title=a%0A%3A%3Aerror%3A%3Ab";
+    assert!(lines.starts_with(begin), "{lines}");
     let failures = terminal_text(&check_text(&check, Path::new("out"), true));
     let markdown = summary(&check);
     for text in [&lines, &failures, &markdown] {
-        assert!(
-            !text.contains("\u{1b}[2J") && !text.contains('\r'),
-            "{text:?}"
-        );
+        assert!(!text.contains("\u{1b}[2J"), "{text:?}");
+        assert!(!text.contains('\r'), "{text:?}");
     }
     for text in [&failures, &markdown] {
         assert_no_command(text);

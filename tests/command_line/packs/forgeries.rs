@@ -203,19 +203,14 @@ fn replicates_that_are_in_no_truth_are_traced_too() {
     sandbox.execute(&split(VERIFY));
     let path = |out: &str| sandbox.path(out).join("plate").join(replicate_file(9));
     let refuse = |line: &str, part: &str| {
-        assert_refused(
-            &sandbox.shuttertruth(&split(line)),
-            1,
-            &["replicate_009.exr", part],
-        );
+        let output = sandbox.shuttertruth(&split(line));
+        assert_refused(&output, 1, &["replicate_009.exr", part]);
     };
     change_replicate(&path("out"), |own| own.picture.color.pixels.fill([9.0; 3]));
     refuse("truths verify --tiles 100", "channel");
     for out in ["out", "part"] {
         mark_drawn(&path(out));
-        refuse(
-            &format!("truths verify {out} --tiles 100"),
-            "attribute engine",
-        );
+        let line = format!("truths verify {out} --tiles 100");
+        refuse(&line, "attribute engine");
     }
 }

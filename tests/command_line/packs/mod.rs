@@ -51,10 +51,8 @@ fn pack_forged(sandbox: &Sandbox) {
 fn refuse_forged(sandbox: &Sandbox, code: i32, parts: &[&str]) {
     let verified = sandbox.shuttertruth(&split("truths verify forged.tar.zst"));
     assert_refused(&verified, code, parts);
-    let taken = quick(
-        sandbox,
-        "run --filter identity --truths forged.tar.zst --out fresh",
-    );
+    let line = "run --filter identity --truths forged.tar.zst --out fresh";
+    let taken = quick(sandbox, line);
     assert_refused(&taken, 2, parts);
     assert!(!sandbox.path("fresh/plate").exists());
     assert!(!sandbox.path("fresh/.shuttertruth.unpacked").exists());

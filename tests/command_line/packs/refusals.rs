@@ -20,11 +20,8 @@ fn refuse_to_pack(sandbox: &Sandbox, words: &str, parts: &[&str]) {
 fn what_is_no_finished_run_is_not_packed() {
     let sandbox = packed();
     fs::create_dir(sandbox.path("empty")).unwrap();
-    refuse_to_pack(
-        &sandbox,
-        "empty",
-        &["empty/run.json", "there is no such file"],
-    );
+    let parts = ["empty/run.json", "there is no such file"];
+    refuse_to_pack(&sandbox, "empty", &parts);
     let parts = ["--scenes: no \"plat\" there", "did you mean plate?"];
     refuse_to_pack(&sandbox, "--scenes plat", &parts);
     for file in [
@@ -158,14 +155,10 @@ fn manifests_that_promise_too_much_are_refused() {
     parts.refuse_manifest(|all| all.files.clear(), "names no file");
     parts.refuse_manifest(|all| all.files.swap(2, 3), "allowed: the order of paths");
     parts.refuse_manifest(|all| all.files[3] = all.files[2].clone(), "twice");
-    parts.refuse_manifest(
-        |all| all.files[3].bytes = 1 << 40,
-        "allowed: up to 4294967296",
-    );
-    parts.refuse_manifest(
-        |all| all.files[3].bytes = 1 << 31,
-        "allowed: 64 times as many",
-    );
+    let most = "allowed: up to 4294967296";
+    parts.refuse_manifest(|all| all.files[3].bytes = 1 << 40, most);
+    let most = "allowed: 64 times as many";
+    parts.refuse_manifest(|all| all.files[3].bytes = 1 << 31, most);
     let change = |entries: &mut Vec<Packed>| entries[0].bytes = b"{".to_vec();
     parts.refuse_entries(change, &["manifest.json is no manifest of a pack"]);
     // A folder and a file for each would take half a minute.

@@ -142,10 +142,8 @@ fn measure_presets(shots: &[(f64, f64, f64)]) {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     // All except long smears of seven presets.
-    assert!(
-        (20 * (outcomes.len() - measured)) <= 40 * shots.len(),
-        "only {measured} measured"
-    );
+    let left_out = outcomes.len() - measured;
+    assert!(20 * left_out <= 40 * shots.len(), "only {measured}");
 }
 
 #[test]

@@ -67,10 +67,7 @@ fn depth_and_the_camera_s_matrices_give_its_velocity_in_every_language() {
                 let near = compared.filter(|(_, depth)| **depth < 30.0);
                 let worst = near.map(|(apart, _)| *apart).fold(0.0, f32::max);
                 // Depth of 32 bits between 0 and 1, and a division by it.
-                assert!(
-                    worst < 0.02,
-                    "{file}, {layout}, {convention}: {worst} pixels"
-                );
+                assert!(worst < 0.02, "{file}, {layout}, {convention}: {worst}");
             }
         }
     }

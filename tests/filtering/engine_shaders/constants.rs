@@ -64,10 +64,8 @@ fn compiled_kernels_serve_every_value() {
     // Again and in another order, with other workgroups, past the number of kernels that are kept.
     for group in 2..=8 {
         for quality in [4, 0, 2] {
-            assert!(
-                run(quality, group) == pictures[quality as usize],
-                "{quality}, {group}"
-            );
+            let is_same = run(quality, group) == pictures[quality as usize];
+            assert!(is_same, "{quality}, {group}");
         }
     }
     assert!(pictures[1] != pictures[2] && pictures[0] == picture.color);

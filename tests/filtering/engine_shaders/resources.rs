@@ -59,10 +59,7 @@ fn storage_textures_keep_what_their_format_holds() {
             for channel in 0..channels {
                 let expected = [0.3, 0.2, 0.1][channel] * color[channel];
                 let difference = (0.3 * found[channel] - expected).abs();
-                assert!(
-                    difference <= error,
-                    "{format}: {difference} in channel {channel}"
-                );
+                assert!(difference <= error, "{format}: {difference} in {channel}");
             }
         }
     }

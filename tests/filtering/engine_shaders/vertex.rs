@@ -27,11 +27,8 @@ fn a_vertex_stage_of_the_file_draws_as_the_program_s_own() {
     ] {
         let output = blur_busy(&make("vertex", pass));
         for (x, y) in [(0, 0), (12, 9), (40, 30), (58, 39)] {
-            assert_eq!(
-                output.at(x, y),
-                picture.color.at(x + 2, y + 3),
-                "{pass} at ({x}, {y})"
-            );
+            let due = picture.color.at(x + 2, y + 3);
+            assert_eq!(output.at(x, y), due, "{pass} at ({x}, {y})");
         }
     }
     // Values reach the blocks of the vertex stage.

@@ -84,10 +84,8 @@ fn frames_that_cannot_be_blurred_are_refused() {
     ];
     for (input, says) in wrong {
         let error = blur.run(&input).unwrap_err().to_string();
-        assert!(
-            error.starts_with(&format!("filter identity: {says}")),
-            "{error}"
-        );
+        let begin = format!("filter identity: {says}");
+        assert!(error.starts_with(&begin), "{error}");
     }
 }
 
@@ -103,8 +101,6 @@ fn an_index_or_a_name_selects_an_adapter_and_a_wrong_name_lists_them() {
         let error = Gpu::new(Some(wanted)).unwrap_err();
         assert_contains(&error.to_string(), &[wanted, name]);
     }
-    assert_contains(
-        &FilterError::NoAdapter.to_string(),
-        &["mesa-vulkan-drivers"],
-    );
+    let error = FilterError::NoAdapter.to_string();
+    assert_contains(&error, &["mesa-vulkan-drivers"]);
 }

@@ -170,10 +170,7 @@ fn the_gather_weights_taps_like_the_reference() {
         }
         let count = run.output.pixels.len();
         // Up to 8 taps, each with a chance of 2 x misplaced (0.01 pixels at most) per axis to be undecided.
-        assert!(
-            4 * compared > 3 * count,
-            "{}: only {compared} of {count} compared",
-            run.name
-        );
+        let name = &run.name;
+        assert!(4 * compared > 3 * count, "{name}: {compared} of {count}");
     }
 }

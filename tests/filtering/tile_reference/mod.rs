@@ -204,11 +204,8 @@ fn expect_pictures(filter: &str, reference: Reference) {
         // Up to 35 taps, each with a chance of 2 x 1.5e-3 per axis to be undecided. A sixth of the pixels may lie as
         // near to one border of a small tile as to another.
         let count = run.output.pixels.len();
-        assert!(
-            2 * compared > count,
-            "{}: only {compared} of {count} compared",
-            run.name
-        );
+        let name = &run.name;
+        assert!(2 * compared > count, "{name}: {compared} of {count}");
         all += count;
     }
     // Both ends of the filter are taken often.

@@ -52,9 +52,6 @@ pub fn run(place: &mut Place, file: &str, input: &[u8], commands: &[String]) -> 
         let _ = fs::remove_dir_all(place.folder.join("new"));
     }
     let is_whole = original.as_deref() == Some(input);
-    assert!(
-        read.is_some() || !is_whole,
-        "{file}: its own file is refused"
-    );
+    assert!(read.is_some() || !is_whole, "{file} is refused");
     read
 }

@@ -39,9 +39,7 @@ pub fn ingested(place: &mut Place, input: &[u8]) -> Option<()> {
 fn check_names(scene: &EngineScene) {
     for name in [&*scene.id.to_string(), scene.filter_name()] {
         let parts: Vec<Component> = Path::new(name).components().collect();
-        assert!(
-            matches!(parts.as_slice(), [Component::Normal(_)]),
-            "\"{name}\" is no name of a folder"
-        );
+        let is_folder = matches!(parts.as_slice(), [Component::Normal(_)]);
+        assert!(is_folder, "\"{name}\" is no name of a folder");
     }
 }

@@ -61,10 +61,8 @@ fn the_search_reaches_every_whole_number_and_choice_and_no_other() {
         *met.entry(values["jitter"].to_string()).or_default() += 1;
     }
     let names: Vec<&str> = met.keys().map(String::as_str).collect();
-    assert_eq!(
-        names.join(" "),
-        "2 3 4 5 none start_offset step_offset step_scale"
-    );
+    let due = "2 3 4 5 none start_offset step_offset step_scale";
+    assert_eq!(names.join(" "), due);
     for (name, count) in met {
         // A quarter of 401 points each, except for those on the ends.
         assert!((99..=102).contains(&count), "{name} is met {count} times");
@@ -137,11 +135,8 @@ fn the_search_finds_the_lowest_point_of_a_valley() {
         let search = Search::new(vec![vec![0.9, 0.1, 0.9, 0.1]], 4, seed);
         let (points, losses) = search_valley(&search, 400);
         assert!(points.iter().flatten().all(|at| (0.0..=1.0).contains(at)));
-        assert_eq!(
-            points[0],
-            [0.9, 0.1, 0.9, 0.1],
-            "it begins with the presets"
-        );
+        let preset = [0.9, 0.1, 0.9, 0.1];
+        assert_eq!(points[0], preset, "it begins with the presets");
         // Within 0.03 of the lowest point along the valley, and a tenth of that across. Among 400 points that fill four
         // dimensions evenly, the nearest is about 0.15 away, mostly across.
         assert!(least(&losses) < 1e-3, "seed {seed}: {}", least(&losses));

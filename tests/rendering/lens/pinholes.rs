@@ -118,12 +118,8 @@ fn every_layer_of_a_truth_is_the_mean_of_shifted_pinhole_truths() {
     for pixel in 0..found.placed.pixels.len() {
         let compare = |what: &str, tolerance: f64, of: &dyn Fn(&AtInstant) -> f32| {
             let [found, expected] = [of(&found), mean(of)].map(f64::from);
-            expect_near(
-                &format!("{what} of pixel {pixel}"),
-                found,
-                expected,
-                tolerance,
-            );
+            let what = format!("{what} of pixel {pixel}");
+            expect_near(&what, found, expected, tolerance);
         };
         compare("frozen", 0.025, &|it| it.frozen.pixels[pixel][0]);
         compare("unknowable", 0.03, &|it| it.unknowable.pixels[pixel]);

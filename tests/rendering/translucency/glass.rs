@@ -39,12 +39,8 @@ fn a_slanted_pane_mirrors_what_lies_beside_it() {
         DVec3::new(0.0, 0.0, -4.0),
         DQuat::from_rotation_x(-FRAC_PI_4),
     );
-    add(
-        &mut scene,
-        rectangle(1.0, 1.0),
-        glass(1.5, Vec3::ONE),
-        tilted,
-    );
+    let pane = glass(1.5, Vec3::ONE);
+    add(&mut scene, rectangle(1.0, 1.0), pane, tilted);
     scene.camera.vertical_fov = vec![(0.0, 0.002)];
     let r = fresnel(0.5_f64.sqrt(), 1.5);
     let expected = 2.0 * r / (1.0 + r);

@@ -69,10 +69,8 @@ fn other_numbers_of_velocity_are_named() {
     assert!(nonsense.findings.iter().all(is_unknown), "{nonsense:#?}");
     let both = changed(|it| it.map(|part| -part / 60.0));
     let text = &both.findings[0].text;
-    assert!(
-        text.starts_with("velocity has the wrong sign and is 0.017 times as long"),
-        "{text}"
-    );
+    let begin = "velocity has the wrong sign and is 0.017 times as long";
+    assert!(text.starts_with(begin), "{text}");
     assert!(text.contains("reverse `velocity_sign`"), "{text}");
 }
 
@@ -97,10 +95,8 @@ fn the_one_object_whose_velocity_is_wrong_is_named() {
     }
     let car = found.velocity.iter().find(|own| own.object == "car");
     let car = car.unwrap();
-    assert!(
-        (car.median - car.speed).abs() < 0.5 && car.scale == Some(0.0),
-        "{car:?}"
-    );
+    assert!((car.median - car.speed).abs() < 0.5, "{car:?}");
+    assert_eq!(car.scale, Some(0.0), "{car:?}");
 }
 
 #[test]
@@ -151,10 +147,8 @@ fn the_object_whose_depth_is_wrong_is_named() {
         );
         assert!(found.shows_scene);
         assert!(!finding.text.contains("near plane"), "{}", finding.text);
-        assert_eq!(
-            finding.text.contains("object.exr would show"),
-            capture.object_id.is_none()
-        );
+        let asks = finding.text.contains("object.exr would show");
+        assert_eq!(asks, capture.object_id.is_none());
     }
 }
 

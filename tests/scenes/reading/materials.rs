@@ -73,10 +73,8 @@ fn a_jpeg_is_a_texture_too_and_a_name_from_windows_finds_it() {
 #[test]
 fn a_textures_factor_is_one_unless_given() {
     let folder = Folder::new();
-    folder.write(
-        "mesh.mtl",
-        "newmtl paint\nmap_Kd dots.png\nmap_Ke dots.png\nnewmtl glow\n",
-    );
+    let paint = "newmtl paint\nmap_Kd dots.png\nmap_Ke dots.png\nnewmtl glow\n";
+    folder.write("mesh.mtl", paint);
     let scene = folder.load().unwrap();
     let material = |name| scene.materials.iter().find(|m| m.name == name).unwrap();
     assert_eq!(material("paint").diffuse, Vec3::ONE);

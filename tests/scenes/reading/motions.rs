@@ -88,11 +88,8 @@ fn cubic_keys_are_joined_smoothly() {
 #[test]
 fn a_camera_looks_at_its_point_with_up_as_close_as_possible() {
     let folder = Folder::new();
-    folder.edit(
-        "scene.toml",
-        "look_at = [0, 0, 0]",
-        "look_at = [3, 4, 5]\nup = [1, 1, 7]",
-    );
+    let target = "look_at = [3, 4, 5]\nup = [1, 1, 7]";
+    folder.edit("scene.toml", "look_at = [0, 0, 0]", target);
     let pose = folder.load().unwrap().camera.motion.at(0.0);
     // 1e-12: rounding of a quaternion in 64 bits.
     let forward = DVec3::new(3.0, 4.0, 0.0) / 5.0;

@@ -74,12 +74,8 @@ fn relative_message(folder: &Folder, error: &SceneError) -> String {
 
 #[test]
 fn slips_in_a_scene_toml_are_refused() {
-    check_slips(
-        include_str!("slips/scene.txt"),
-        134,
-        &["scene.toml"],
-        |_| {},
-    );
+    let slips = include_str!("slips/scene.txt");
+    check_slips(slips, 134, &["scene.toml"], |_| {});
 }
 
 #[test]
@@ -146,10 +142,8 @@ fn a_folder_without_scenes_is_refused() {
     let folder = Folder::new();
     let error = list_scenes(&folder.path).unwrap_err();
     assert_eq!(error.path, folder.path);
-    assert_eq!(
-        error.reason,
-        "holds no scene; a scene is a folder with a scene.toml"
-    );
+    let due = "holds no scene; a scene is a folder with a scene.toml";
+    assert_eq!(error.reason, due);
 }
 
 #[test]

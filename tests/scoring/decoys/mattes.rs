@@ -71,11 +71,8 @@ fn a_filter_that_smears_a_still_bar_contaminates_the_occluder() {
     }
     let scores = case.score_pictures([clean, smeared]);
     for (scores, due) in scores.iter().zip([0.0, 0.25]) {
-        assert_scores(
-            "a post",
-            scores,
-            &[("occluder_contamination", due, NOTHING)],
-        );
+        let due = [("occluder_contamination", due, NOTHING)];
+        assert_scores("a post", scores, &due);
     }
     let metric = "occluder_contamination".parse().expect("a metric's name");
     let (worst, _) = scores[1].worst_object(metric).expect("a still object");

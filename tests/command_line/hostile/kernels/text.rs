@@ -130,8 +130,6 @@ fn a_panic_of_naga_is_one_error_and_no_backtrace() {
     assert_refused(&output, 2, &[part]);
     let said = stderr(&output);
     assert!(said.starts_with("error: "), "{said}");
-    assert!(
-        !said.contains("panicked") && !said.contains("backtrace"),
-        "{said}"
-    );
+    assert!(!said.contains("panicked"), "{said}");
+    assert!(!said.contains("backtrace"), "{said}");
 }

@@ -53,10 +53,8 @@ fn no_command_runs_a_program_without_permission() {
         "tune serve --out out --filter ./mine",
     ] {
         let script = "`./blur.sh {frame} {out}`";
-        sandbox.refuse(
-            line,
-            &["./mine/filter.toml:4: ", script, "--allow-commands"],
-        );
+        let parts = ["./mine/filter.toml:4: ", script, "--allow-commands"];
+        sandbox.refuse(line, &parts);
         assert!(!sandbox.path("out").exists(), "{line}");
     }
     let listed = sandbox.execute(&split("list --filter mine"));
@@ -167,11 +165,8 @@ fn the_output_of_a_program_is_limited() {
         assert_refused(&blur(&sandbox, lines, ""), 2, &parts);
     }
     // 300 MB on standard output, although no file may exceed 50 MB: the program keeps only the end, in memory.
-    sandbox.write_program(
-        "mine",
-        "yes | head -c 300000000; echo the end >&2; exit 7",
-        "",
-    );
+    let lines = "yes | head -c 300000000; echo the end >&2; exit 7";
+    sandbox.write_program("mine", lines, "");
     let program = env!("CARGO_BIN_EXE_shuttertruth");
     let limited = format!("ulimit -f 100000; exec timeout 60 {program} {BLUR}");
     let mut shell = Command::new("sh");

@@ -111,10 +111,7 @@ fn change_values(most: usize) {
         }
     }
     assert!(ended.is_empty(), "these panic:\n{}", ended.join("\n"));
-    assert!(
-        4 * refused > tried,
-        "only {refused} of {tried} were refused"
-    );
+    assert!(4 * refused > tried, "only {refused} of {tried}");
 }
 
 #[test]

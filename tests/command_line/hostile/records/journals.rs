@@ -26,11 +26,8 @@ fn a_journal_with_an_impossible_trial_is_refused_with_its_line_and_left_unchange
         for command in commands {
             sandbox.refuse(command, parts);
         }
-        assert_eq!(
-            fs::read_to_string(&path).unwrap(),
-            text,
-            "the journal was changed"
-        );
+        let now = fs::read_to_string(&path).unwrap();
+        assert_eq!(now, text, "the journal was changed");
     };
     for row in rows(include_str!("refusals.toml"), "journal") {
         let (line, pointer): (usize, &str) = (row[0].parse().unwrap(), row[1]);

@@ -18,10 +18,8 @@ fn with_texture(sandbox: &Sandbox, name: &str) {
 
 fn with_sky(sandbox: &Sandbox, name: &str) {
     let sky = format!("image = \"{name}\"");
-    sandbox.write(
-        "scene.toml",
-        &SCENE.replace("constant = [0.2, 0.2, 0.2]", &sky),
-    );
+    let scene = SCENE.replace("constant = [0.2, 0.2, 0.2]", &sky);
+    sandbox.write("scene.toml", &scene);
 }
 
 const TEXTURED: &str = "\

@@ -117,10 +117,8 @@ fn a_scene_beyond_the_limits_is_refused_with_its_line() {
         format!("{}a = 1\n", "a.".repeat(200_000)),
     ] {
         sandbox.write("scene.toml", &text);
-        sandbox.refuse(
-            RENDER,
-            &["scene.toml:", "nested too deeply; allowed: up to 80"],
-        );
+        let parts = ["scene.toml:", "nested too deeply; allowed: up to 80"];
+        sandbox.refuse(RENDER, &parts);
     }
 }
 
