@@ -114,6 +114,9 @@ See how close each engine's motion blur comes to path-traced truth, what is wron
 Scores are FLIP where anything moves: the mean over {SCENES} scenes at {SIZE}, on {ADAPTER}. Lower is better. *No blur* is the score of
 the sharp frame. Compare scores of one shutter only.
 
+An engine without an exposure, such as three.js, blurs the same share of every frame's motion. Here its motion is first multiplied by
+the scene's exposure, so its own picture has a longer smear.
+
 ";
 
 const PRESETS: &str = "
