@@ -85,7 +85,7 @@ pub struct ShutterScale {
 pub struct FilterStrength {
     /// Name of the filter.
     pub filter: String,
-    /// Place; the mean of all filters is 0. A filter that is 1 higher is chosen by three of four people.
+    /// Place; the mean of all filters is 0. A filter that is 1 higher is chosen by 73 of 100 people.
     pub scale: f64,
     /// 95 % confidence interval; none where there are too few answers.
     pub interval: Option<[f64; 2]>,
