@@ -22,7 +22,8 @@ pub struct ReportArgs {
     /// Folder for one multi-layer OpenEXR file per case: truth, output, instant, flip, velocity, coverage and more.
     #[arg(long, value_name = "DIR")]
     pub exr: Option<PathBuf>,
-    /// Folder for a gallery: a page of Markdown, a contact sheet of the truths, each scene with the best and the worst filter of each shutter.
+    /// Folder for a gallery: a page of Markdown, a contact sheet of the truths, each scene with the best and the
+    /// worst filter of each shutter.
     #[arg(long, value_name = "DIR")]
     pub gallery: Option<PathBuf>,
     /// Print the list of written files as JSON.
