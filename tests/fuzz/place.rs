@@ -65,7 +65,10 @@ impl Place {
     /// Panics if a case changed a file beside its folder.
     pub fn check(&self) {
         let found = fs::read_to_string(self.canary()).unwrap_or_default();
-        assert!(found == CANARY, "a file outside was changed");
+        assert!(
+            found == CANARY,
+            "a file outside the case's folder was changed"
+        );
         // Inputs name devices as output files, and tests of CI run as root.
         let device = fs::metadata("/dev/null").map(|found| found.file_type());
         let is_device = device.is_ok_and(|kind| kind.is_char_device());
