@@ -56,7 +56,7 @@ pub struct BlurArgs {
     pub adapter: AdapterArgs,
 }
 
-/// Runs one filter on one frame file, or on those of a sequence, and writes its colours.
+/// Runs one filter on a frame file or a sequence of them, and writes its colours.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let out = choose_out(args)?;
     check_frame_numbers(args)?;
@@ -72,7 +72,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let gpu = open_gpu(std::slice::from_ref(&choice), adapter, monitor)?;
     let mut runner = Runner::new(gpu.as_ref(), &choice, size, monitor)?;
     let first_path = first.path.clone();
-    // The first frame stands in for the one before it.
+    // The first frame has no previous one; it serves as its own.
     let mut before = first;
     for frame in 0..args.frames {
         let own = match frame {
@@ -131,7 +131,7 @@ fn check_frame_numbers(args: &BlurArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// Makes a file without a picture that says what blurred it.
+/// Makes a file without a picture that records what blurred it.
 fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) -> ExrFile {
     let mut file = ExrFile::new(size.0, size.1);
     file.set("kind", "output");
@@ -144,7 +144,7 @@ fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) 
     file
 }
 
-/// Chooses the picture to write, or the folder for those of a sequence.
+/// Chooses the picture to write, or the folder for a sequence.
 fn choose_out(args: &BlurArgs) -> Result<PathBuf, Error> {
     let (frames, is_one) = (args.frames, args.frames == 1);
     let default = if is_one {
@@ -162,7 +162,7 @@ fn choose_out(args: &BlurArgs) -> Result<PathBuf, Error> {
     Ok(out)
 }
 
-/// Names the file of a frame.
+/// Names a frame's file.
 fn frame_file(args: &BlurArgs, frame: u32) -> PathBuf {
     match args.frames {
         1 => args.frame.clone(),
@@ -171,7 +171,7 @@ fn frame_file(args: &BlurArgs, frame: u32) -> PathBuf {
     }
 }
 
-/// Buffers of a frame file that a filter needs. Any OpenEXR file with these channels will do.
+/// Buffers of a frame file for a filter. Any OpenEXR file with these channels will do.
 struct Buffers {
     path: PathBuf,
     color: Image,
@@ -185,7 +185,7 @@ struct Buffers {
 }
 
 impl Buffers {
-    /// Reads the buffers, and converts them from the convention of their engine.
+    /// Reads the buffers, and converts them from their engine's convention.
     fn read(path: PathBuf, exposure: Option<f64>, convention: &Convention) -> Result<Self, Error> {
         let file = read_exr(&path)?;
         let has = |attribute| file.attributes.contains_key(attribute);
