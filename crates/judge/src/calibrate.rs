@@ -35,7 +35,7 @@ const SENSITIVE: [Metric; 4] = [
 /// spread says nothing, and another adapter need not agree to the last bit.
 const LEAST_LIMITS: [(&str, f64); 2] = [("px", 0.1), ("", 0.005)];
 
-/// The score with a perfect value above all others.
+/// The score that rises to a perfect value.
 const JOD: Metric = Metric::Sequence(SequenceMetric::Jod);
 
 /// Scores of several runs, per scene and filter.
