@@ -1,4 +1,4 @@
-//! Fragment shaders with a vertex stage of their own.
+//! Fragment shaders with their own vertex stage.
 
 use tests::near::assert_within;
 
