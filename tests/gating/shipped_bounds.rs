@@ -18,8 +18,7 @@ use tracer::{RenderSettings, Scene};
 /// Scenes with quick truths.
 const FEW: [&str; 2] = ["sliding_panel", "two_spheres"];
 
-/// Scenes in which nothing moves farther than the bounds allow. The tests of the catalogue show by changed pixels what these
-/// scenes expose.
+/// Scenes in which nothing moves farther than the bounds allow. The tests of the catalogue show by changed pixels what these scenes expose.
 const HARDLY_MOVING: [&str; 1] = ["creep"];
 
 /// Filters with required bounds, and metrics that each scene limits for them.

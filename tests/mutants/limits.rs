@@ -13,8 +13,7 @@ use crate::study::{Limits, Study};
 const CALIBRATED_WITH: [u64; 2] = [SEED, SEED + 1];
 
 impl Study<'_, '_> {
-    /// Finds the limits on every scene: those of bounds.toml if any of them is required at this size, or else `calibrate`'s
-    /// proposals.
+    /// Finds the limits on every scene: those of bounds.toml if any of them is required at this size, or else `calibrate`'s proposals.
     pub fn find_limits(&mut self) -> Result<(), Error> {
         let sound = &self.subject.sound;
         for scene in self.bench.scenes.clone().iter() {

@@ -246,8 +246,7 @@ fn image_of(sky: &Background) -> Background {
 fn a_sky_and_its_image_light_a_floor_by_the_cosine() {
     for (sky, expected) in [
         (heights(1.0, 1.0, 1.0), 0.6),
-        // Even and uneven skies: one is hit by chance, the other sampled as a light. The mean of the height over the cosine lobe
-        // is 2/3.
+        // Even and uneven skies: one is hit by chance, the other sampled as a light. The mean of the height over the cosine lobe is 2/3.
         (heights(1.0, 1.0, 4.0), 0.6 * 3.0),
         (heights(0.0, 0.0, 1.0), 0.4),
         (heights(9.0, 0.0, 1.0), 0.4),

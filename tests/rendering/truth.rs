@@ -70,8 +70,7 @@ fn halves_are_independent() {
     let scene = slab_scene(SPEED);
     let truth = render_truth(&scene, &settings, Alignment::Trailing);
     let ladder = render_ladder(&scene, &settings, &truth, &[256]);
-    // The slab's smear is a trapezoid, equal in every row. The mean over rows gives its exact value, with 1/4 of the
-    // noise.
+    // The slab's smear is a trapezoid, equal in every row. The mean over rows gives its exact value, with 1/4 of the noise.
     let errors = |coverage: &Plane| -> Vec<f64> {
         let columns = (0..WIDTH).flat_map(|x| {
             let column = (0..HEIGHT).map(move |y| f64::from(*coverage.at(x, y)));

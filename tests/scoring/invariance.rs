@@ -37,8 +37,7 @@ fn measure_varied() -> Measurement {
     measure(output, frame, truth, None, &VIEWING).expect("they agree")
 }
 
-/// Remaps frame, truth and output pixel by pixel: `source` gives the source pixel of each new one, `turn` changes screen
-/// vectors.
+/// Remaps frame, truth and output pixel by pixel: `source` gives the source pixel of each new one, `turn` changes screen vectors.
 fn remap(
     width: u32,
     height: u32,

@@ -62,8 +62,7 @@ fn a_mover_leaves_ramps_and_shows_its_background() {
 
 #[test]
 fn near_surfaces_hide_far_ones_and_holes_show_the_background() {
-    // Dark green is ahead of the block. Blue is the background, and right of it a green wall is farther away than the
-    // block.
+    // Dark green is ahead of the block. Blue is the background, and right of it a green wall is farther away than the block.
     let mut frame = block(20..30, 8.0);
     for y in 0..24 {
         for x in 0..48 {

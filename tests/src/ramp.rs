@@ -10,8 +10,7 @@ pub struct Ramp {
 }
 
 impl Ramp {
-    /// Measures an edge from (position, brightness) at rising positions, in pixels. Slopes count with their sign, so that noise
-    /// cancels.
+    /// Measures an edge from (position, brightness) at rising positions, in pixels. Slopes count with their sign, so that noise cancels.
     pub fn of(profile: &[(f64, f64)]) -> Self {
         let slopes: Vec<(f64, f64)> = profile
             .windows(2)

@@ -1,5 +1,4 @@
-//! Tests that compare pages with the command line, which is private to this crate: the page of all commands, and every command in a
-//! guide.
+//! Tests that compare pages with the command line, which is private to this crate: the page of all commands, and every command in a guide.
 
 use std::fs;
 use std::iter::once;

@@ -24,8 +24,7 @@ struct Extremes<'a> {
     worst: &'a Case,
 }
 
-/// Writes `README.md`, the contact sheet and a picture per scene below `out`, from the files of a run in `folder`. Returns the page's
-/// path.
+/// Writes `README.md`, the contact sheet and a picture per scene below `out`, from the files of a run in `folder`. Returns the page's path.
 pub fn write_gallery(run: &Run, folder: &Path, out: &Path) -> Result<PathBuf, Error> {
     let scenes = find_extremes(run);
     if scenes.is_empty() {

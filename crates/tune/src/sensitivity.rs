@@ -13,8 +13,7 @@ use crate::loss::{FAILED, mean_log_ratio};
 use crate::sobol::{SobolIndices, sobol_indices};
 use crate::space::Space;
 
-/// An axis may become a constant if its total index, including its interval, is below this: it causes less than a fiftieth of the
-/// variance.
+/// An axis may become a constant if its total index, including its interval, is below this: it causes less than a fiftieth of the variance.
 const CONSTANT_TOTAL: f64 = 0.02;
 /// Points of a slice along an axis.
 const SLICE: usize = 9;

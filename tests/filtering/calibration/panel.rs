@@ -17,8 +17,7 @@ const SCALE: f64 = 3.4;
 pub const HALF_PANEL: f64 = 0.5 * 0.8 * SCALE / METRES_PER_PIXEL;
 /// Half the width, in pixels, of the band that edges are measured along.
 pub const HALF_BAND: f64 = 16.0;
-/// Half the width of the tent, in pixels. The rows of pixels in a tilted band are up to 0.7 apart; a narrower tent would resolve
-/// them.
+/// Half the width of the tent, in pixels. The rows of pixels in a tilted band are up to 0.7 apart; a narrower tent would resolve them.
 const TENT: f64 = 2.0;
 
 /// A moving panel at the middle of the picture.

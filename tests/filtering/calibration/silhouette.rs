@@ -65,8 +65,7 @@ fn average_reach(outcome: &Outcome) -> [f64; 2] {
     reach
 }
 
-/// Returns the expected light behind, lost at the back, lost at the front, and ahead; none if only the filter's own references
-/// know it.
+/// Returns the expected light behind, lost at the back, lost at the front, and ahead; none if only the filter's own references know it.
 fn expected_light(outcome: &Outcome) -> [Option<f64>; 4] {
     let [forward, backward] = average_reach(outcome);
     match (outcome.filter.as_str(), outcome.preset.as_str()) {

@@ -35,8 +35,7 @@ fn nothing_blurs_outside_a_movers_silhouette() {
 
 #[test]
 fn a_surface_in_front_counts_by_its_motion_over_a_whole_frame() {
-    // A black background moves right, with a white surface in front of its right half. The background's taps reach 5 pixels to
-    // each side.
+    // A black background moves right, with a white surface in front of its right half. The background's taps reach 5 pixels to each side.
     let seen = |speed: f32| {
         let mut picture = Picture::halves(120, 64, BLACK_WALL.moving(40.0, 0.0), white(speed));
         picture.exposure = 0.25;

@@ -32,8 +32,7 @@ fn the_noise_of_hdrp_shifts_all_taps_of_a_pixel_to_one_side() {
 
 #[test]
 fn hdrp_reads_the_nearest_pixels_and_fewer_on_short_trails() {
-    // The second trail has a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes it a tenth
-    // longer.
+    // The second trail has a little over 5 pixels. Its length counts in parts of the picture's diagonal, which makes it a tenth longer.
     for (speed, taps) in [(25.0, 8.0), (2.4, 6.0)] {
         let stripes = Picture::new(160, 64, |x, _| white(speed).gray((x % 2) as f32));
         for pixel in &stripes.blur("jimenez", "hdrp", "").pixels {

@@ -34,8 +34,7 @@ fn behind_an_edge(preset: &str, distance: u32) -> f64 {
 
 #[test]
 fn the_mean_trail_ends_in_a_ramp_and_not_in_a_step() {
-    // Eight taps are at i / 7 of the trail. Taps 5, 6 and 7 exceed its whole length if the scale is above 1.4, 7/6
-    // and 1.
+    // Eight taps are at i / 7 of the trail. Taps 5, 6 and 7 exceed its whole length if the scale is above 1.4, 7/6 and 1.
     let expected = (0.1 + 1.0 / 3.0 + 0.5) / 8.0;
     // Noise of 64 rows; half a pixel of the edge.
     assert_near(behind_an_edge("paper", 24), expected, 0.03);

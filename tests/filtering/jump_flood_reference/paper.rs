@@ -1,8 +1,7 @@
 //! Golan 2024 in 64-bit floats, from its description: UV coordinates, the velocity V that points to the previous frame, reverse
 //! depth. The code is plain loops and shares nothing with the kernels.
 //!
-//! If a decision is too close for 32-bit floats, every result is kept: a pixel has all sources that a correct run may
-//! choose.
+//! If a decision is too close for 32-bit floats, every result is kept: a pixel has all sources that a correct run may choose.
 
 use tests::vector::{Vec2, dot};
 

@@ -77,8 +77,7 @@ fn an_unlit_panel_needs_no_light_of_the_instant() {
     }
 }
 
-/// Makes a camera that flies over a mirror in a still world: each point of the floor mirrors another height of the sky at another
-/// time.
+/// Makes a camera that flies over a mirror in a still world: each point of the floor mirrors another height of the sky at another time.
 #[test]
 fn a_frozen_mirror_shows_the_view_of_the_instant_s_camera() {
     let mut scene = empty_scene("mirror");

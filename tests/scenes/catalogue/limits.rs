@@ -51,8 +51,7 @@ fn motion_below_a_pixel_is_left_sharp() {
         let differs = |at: &&usize| output.pixels[**at] != color.pixels[**at];
         moving.iter().filter(differs).count() as f64 / moving.len() as f64
     };
-    // Their thresholds are 2, 1 and 0.5 pixels. Measured: 0.61, 1.00 and 0.61 of the fast pixels, and 0, 0.40 and 0 of the
-    // slow ones.
+    // Their thresholds are 2, 1 and 0.5 pixels. Measured: 0.61, 1.00 and 0.61 of the fast pixels, and 0, 0.40 and 0 of the slow ones.
     for (filter, most) in [
         ("kino:default", 0.0),
         ("bevy:high", 0.5),

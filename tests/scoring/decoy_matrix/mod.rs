@@ -1,5 +1,4 @@
-//! Wrong blurs against the bounds for all filters. On every scene each wrong blur breaks a bound, and the right ones
-//! break none.
+//! Wrong blurs against the bounds for all filters. On every scene each wrong blur breaks a bound, and the right ones break none.
 
 pub mod decoys;
 mod scenes;

@@ -138,8 +138,7 @@ fn make_options(args: &TuneArgs, choice: FilterChoice) -> Result<TuneOptions, Er
     })
 }
 
-/// Writes tune.json and params.json, and preset.toml if the choice is an improvement (else removes an earlier tuning's); prints the
-/// table.
+/// Writes tune.json and params.json, and preset.toml if the choice is an improvement (else removes an earlier tuning's); prints the table.
 fn write_tuning(tuning: &Tuning, options: &TuneOptions, as_json: bool) -> Result<(), Error> {
     let path = |name: &str| options.out.join(name);
     write_json(&path("params.json"), &tuning.values)?;

@@ -8,8 +8,7 @@ pub const FRAMES_PER_SECOND: f64 = 24.0;
 /// Smallest number of frames before and after the instant: the previous frame, and a shutter that is open for a whole frame.
 const LEAST_REACH: f64 = 2.0;
 
-/// Part of a scene's time in an animation. Players hold still before its first key and after its last, so it reaches beyond every
-/// shutter.
+/// Part of a scene's time in an animation. Players hold still before its first key and after its last, so it reaches beyond every shutter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timeline {
     /// Whole frames before and after the instant.
