@@ -185,8 +185,7 @@ pub fn ladder_folder(alignment: Alignment) -> String {
     format!("ladder_{alignment}")
 }
 
-/// Greatest depth of a file below a run's folder: in those of the scene, of a later frame, and of a case or of
-/// replicates.
+/// Greatest depth of a file below a run's folder: in those of scene, later frame, and case or replicates.
 const DEPTH: usize = 4;
 
 /// Lists the rendered files below a run's folder, by scene and frame. Looks nowhere else, and follows no links.

@@ -18,8 +18,7 @@ const ELSEWHERE: [&str; 4] = [
 /// Refuses a file that git tracks, and a folder with such files: a change may not bring its own evidence. The error ends with
 /// `way_out`, which says what to do instead.
 ///
-/// A folder that does not exist or is in no work tree has none, and needs no git. If git fails, the folder is refused
-/// too.
+/// A folder that does not exist or is in no work tree has none, and needs no git. Refuses the folder if git fails.
 pub fn refuse_tracked(out: &Path, way_out: &str) -> Result<(), Error> {
     if !out.exists() || !is_in_work_tree(out)? {
         return Ok(());

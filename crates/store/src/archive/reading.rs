@@ -181,8 +181,7 @@ fn read_entry(entry: Option<Found>, file: &PackedFile) -> Result<Vec<u8>, String
     }
 }
 
-/// Reads an entry up to one byte beyond a limit. Memory grows with the bytes read, not with the size that a header
-/// claims.
+/// Reads an entry up to one byte beyond a limit. Memory grows with the bytes read, not with a header's claim.
 fn read_at_most(entry: &mut Entry<Unpacked>, limit: u64) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let read = entry.take(limit + 1).read_to_end(&mut bytes);
