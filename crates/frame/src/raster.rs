@@ -45,7 +45,7 @@ impl<T: Clone> Raster<T> {
         })
     }
 
-    /// Makes squares of `factor` pixels a side out of the pixels.
+    /// Enlarges each pixel to a square of `factor` pixels a side.
     pub fn enlarged(&self, factor: u32) -> Raster<T> {
         let (width, height) = (self.width * factor, self.height * factor);
         Raster::from_fn(width, height, |x, y| {

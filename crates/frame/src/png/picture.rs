@@ -11,7 +11,7 @@ pub const MAX_PNG_PIXELS: u64 = 1 << 25;
 /// Upper limit on the bytes of such a file: the most that its pixels take.
 const MAX_PNG_BYTES: u64 = 16 * MAX_PNG_PIXELS;
 
-/// Refuses a PNG of more than [`MAX_PNG_PIXELS`] by its header: few bytes may stand for very many pixels.
+/// Refuses a PNG of more than [`MAX_PNG_PIXELS`] by its header: few bytes may encode very many pixels.
 fn check_size(bytes: &[u8]) -> Result<(), String> {
     let reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Png);
     let (width, height) = (reader.into_dimensions())
