@@ -38,7 +38,7 @@ impl Filter {
         Ok(())
     }
 
-    /// Compares the parameters with the numbers of their uniform: names, types and offsets. `line` is that of the uniform.
+    /// Compares the parameters with the numbers of their uniform: names, types and offsets. `line` is the uniform's.
     fn check_members(
         &self,
         members: &[BlockNumber],
@@ -95,7 +95,7 @@ impl Filter {
         }
     }
 
-    /// Refuses a parameter that changes nothing, where shaders take only the parameters that they want.
+    /// Refuses a parameter that changes nothing, if shaders read only the parameters that they want.
     fn check_parameters_are_used(&self) -> Result<(), FilterError> {
         let Filter {
             shaders,

@@ -37,7 +37,7 @@ pub(super) struct PassEntry {
     pub compiler: Option<String>,
 }
 
-/// Reads the shader of a pass; none where the pass runs a kernel of the filter's WGSL file.
+/// Reads the shader of a pass; none if the pass runs a kernel of the filter's WGSL file.
 pub(super) fn read_shader(
     file: &File,
     pass: &Spanned<PassEntry>,
@@ -123,7 +123,7 @@ fn check_compiler(keys: &PassEntry, language: Language, path: &str) -> Result<()
     }
 }
 
-/// Refuses names of entry points and conditions that are no words, since they stand in the command line of a compiler.
+/// Refuses names of entry points and conditions that are not words, because a compiler gets them on its command line.
 fn check_names<'n>(mut names: impl Iterator<Item = &'n str>) -> Result<(), String> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let is_name = |name: &str| name.starts_with(is_part) && name.chars().all(is_part);
@@ -135,7 +135,7 @@ fn check_names<'n>(mut names: impl Iterator<Item = &'n str>) -> Result<(), Strin
     }
 }
 
-/// Reads the name of a file of a shader, which stays in the filter's folder.
+/// Reads the name of a shader's file, which must be in the filter's folder.
 fn read_file(
     file: &File,
     key: &str,

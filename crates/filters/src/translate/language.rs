@@ -1,4 +1,4 @@
-//! Shading languages, told by the ending of a file.
+//! Shading languages, by the ending of a file.
 
 use std::path::Path;
 

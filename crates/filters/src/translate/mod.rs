@@ -89,7 +89,7 @@ fn translate_with(
     let made = (stages.iter().map(compile)).collect::<Result<Vec<_>, FilterError>>()?;
     let modules: Vec<&OpenModule> = made.iter().map(|(_, open)| open).collect();
     check_places(filter, shader, &stages[0].path, &modules)?;
-    // Kept where a parameter changes the module.
+    // Kept if a parameter changes the module.
     let is_open = (shader.constants.iter()).any(|(_, value)| value.reads_any(&|_| true));
     let bound = stages.iter().zip(made).map(|(stage, (compiled, open))| {
         Ok(Shader {
