@@ -18,8 +18,7 @@ pub struct AtInstant {
     /// showed its other side.
     pub unknowable: Plane,
     /// Fraction with a visible point that has a place at the instant: all that was not behind the
-    /// camera. Divide the next fields by it
-    /// to get means over that fraction.
+    /// camera. Divide the next fields by it to get means over that fraction.
     pub placed: Plane,
     /// Offset from the pixel's centre to the visible point's place at the instant, in pixels, +x right, +y down; zero for a point
     /// without a place. A replicate stores half floats: see [`AtInstant::rounded`].

@@ -223,8 +223,7 @@ impl Truth {
 /// Derives the regions from the truth's [`Support`], which its noise does not change.
 ///
 /// Support: pixels where anything moves. Moving: the support dilated by [`motion_margin`]. Static: the
-/// rest. Moving pixels are knowable
-/// where the support saw nothing that the frame does not show.
+/// rest. Moving pixels are knowable where the support saw nothing that the frame does not show.
 pub fn regions(truth: &Truth) -> Regions {
     Regions::new(&truth.support, motion_margin(truth.motion.height))
 }

@@ -32,8 +32,7 @@ pub fn cross([f, g]: [&Image; 2], [a, b]: [&Image; 2], scale: f64) -> Raster<f64
 ///
 /// A and B are the truth plus independent noise, so the expectation is the squared error against the
 /// converged truth; single pixels may be negative, and so may a mean over pixels if the error of F is as
-/// small as the noise. The sign is kept:
-/// clamping it would bring the bias back.
+/// small as the noise. The sign is kept: clamping it would bring the bias back.
 pub fn squared(output: [f32; 3], halves: [[f32; 3]; 2], scale: f64) -> f64 {
     let [first, second] = halves.map(|half| subtract(output, half));
     multiply(first, second, scale)

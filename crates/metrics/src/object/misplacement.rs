@@ -14,10 +14,10 @@ pub struct Misplacement {
     pub extent: Option<f64>,
 }
 
-/// Compares rows. For `distance` and `extent` each row is normalised to a mass of 1, so that lateral errors do not
-/// count. Rows are weighted by the truth's mass in them; rows that are empty in either matte are left out. `centroid`
-/// compares the whole mattes. `None` if
-/// either matte has no mass, no row is left, or the truth has no length along the motion.
+/// Compares rows. For `distance` and `extent` each row is normalised to a mass of 1, so that lateral errors
+/// do not count. Rows are weighted by the truth's mass in them; rows that are empty in either matte are left
+/// out. `centroid` compares the whole mattes. `None` if either matte has no mass, no row is left, or the
+/// truth has no length along the motion.
 pub fn measure_misplacement(output: &Grid, truth: &Grid) -> Option<Misplacement> {
     let centroid = output.center()? - truth.center()?;
     let (mut weight, mut distance) = (0.0, 0.0);
