@@ -23,7 +23,7 @@ impl<'a> MeshTree<'a> {
         }
     }
 
-    /// The tree of a rigid mesh, whose leaves may lie in the world tree.
+    /// The tree of a rigid mesh, whose leaves may be in the world tree.
     #[inline(always)]
     pub fn rigid(&self) -> &RigidTree {
         match self {
