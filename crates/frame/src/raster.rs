@@ -172,7 +172,7 @@ pub(crate) fn mean_vectors<'a, const N: usize>(
 
 /// Makes a raster of the size of all `rasters` from the pixels' indices.
 fn mean<T>(rasters: &[&Raster<T>], value: impl FnMut(usize) -> T) -> Raster<T> {
-    let first = rasters.first().expect("a mean is of at least one raster");
+    let first = rasters.first().expect("a mean needs at least one raster");
     assert!(
         rasters.iter().all(|raster| raster.same_size(first)),
         "a mean is of rasters of one size"

@@ -98,7 +98,7 @@ pub fn make_study(
 
 fn sharp_frames(items: &[Item], scene: &SceneId, folder: &Path) -> ClipFiles {
     let own = items.iter().find(|item| item.scene == *scene);
-    let frames = &own.expect("it is that of an item").frames;
+    let frames = &own.expect("the scene is an item's").frames;
     list_files(frames, |own| folder.join(&own.scene).join("frame.png"))
 }
 

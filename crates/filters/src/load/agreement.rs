@@ -46,7 +46,7 @@ impl Filter {
     ) -> Result<(), FilterError> {
         let name = |member: &BlockNumber| match &member.value {
             Expression::Name(name) => name.clone(),
-            _ => unreachable!("numbers of a kernel are called after members"),
+            _ => unreachable!("numbers of a kernel are named after members"),
         };
         let manifest = self.lines.path.display();
         let parameters = &self.parameters;

@@ -27,7 +27,7 @@ pub(super) fn read_command(
         .map_err(|error| file.refuse(None, format!("its folder cannot be found: {error}")))?;
     Ok(Some(Command {
         words: words.get_ref().clone(),
-        folder: (manifest.parent().expect("a file lies in a folder")).to_owned(),
+        folder: (manifest.parent().expect("a file is in a folder")).to_owned(),
         environment: environment.map_or(Vec::new(), |names| names.get_ref().clone()),
         manifest: file.path.to_owned(),
         line: file.line(words.span().start),

@@ -117,7 +117,7 @@ pub(crate) fn specialise(
         let format_of = |name: &str, format| made.stored_format(name).unwrap_or(format);
         Ok(bound
             .store_as(&format_of)
-            .expect("it stored so with other constants"))
+            .expect("these formats worked with other constants"))
     })?;
     Ok(Shader {
         compiled: made.compiled.clone(),

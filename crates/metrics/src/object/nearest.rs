@@ -24,9 +24,7 @@ pub fn find_nearest(set: &Raster<bool>) -> Option<Raster<[u32; 2]>> {
             .collect();
         let sources = find_lowest(&parabolas, set.width);
         for (pixel, x) in found.pixels[row].iter_mut().zip(sources) {
-            let source_row = columns
-                .at(x, y)
-                .expect("a parabola stands where its column has a pixel");
+            let source_row = columns.at(x, y).expect("a parabola's column has a pixel");
             *pixel = [x, source_row];
         }
     }

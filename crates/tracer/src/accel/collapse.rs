@@ -119,7 +119,7 @@ impl<'a> Collapse<'a> {
         (1..count)
             .map(|given| (left[given - 1] + right[count - given - 1], given))
             .min_by(|a, b| a.0.total_cmp(&b.0))
-            .expect("halves share two children at least")
+            .expect("halves share at least two children")
     }
 
     /// Adds `count` children that cover the two halves of a node.

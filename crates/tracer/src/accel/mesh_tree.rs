@@ -28,7 +28,7 @@ impl<'a> MeshTree<'a> {
     pub fn rigid(&self) -> &RigidTree {
         match self {
             MeshTree::Rigid(tree) => tree,
-            MeshTree::Deforming(_) => panic!("only leaves of rigid meshes lie in the world tree"),
+            MeshTree::Deforming(_) => panic!("only leaves of rigid meshes are in the world tree"),
         }
     }
 
