@@ -21,6 +21,10 @@ struct Parts {
 /// there, or if none is named and there are several.
 pub(super) fn cut_hlsl(text: &str, wanted: Option<&LabPass>) -> Result<String, String> {
     let parts = find_parts(text)?;
+    // Other engines have HLSL alone in files with this ending.
+    if parts.passes.is_empty() && wanted.is_none() {
+        return Ok(text.to_owned());
+    }
     let is_wanted = |(index, (name, _)): &(usize, &(String, Range<usize>))| match wanted {
         Some(LabPass::Name(wanted)) => name == wanted,
         Some(LabPass::Place(wanted)) => index == wanted,
@@ -111,6 +115,10 @@ mod tests {
                 "{refusal}"
             );
         }
+        assert_eq!(
+            cut_hlsl("float4 alone;\n", None).unwrap(),
+            "float4 alone;\n"
+        );
         let open = FILE.replace("ENDCG", "");
         let refusal = cut_hlsl(&open, None).unwrap_err();
         assert!(
