@@ -24,6 +24,8 @@ pub(crate) enum Stage {
 pub(crate) struct PassShader {
     /// The file, relative to the filter's folder.
     pub file: PathBuf,
+    /// Pass of a ShaderLab file, if it has several.
+    pub shader_pass: Option<LabPass>,
     /// Entry point.
     pub entry: String,
     /// Stage of the entry point.
@@ -66,6 +68,16 @@ impl PassShader {
         });
         [self.clone()].into_iter().chain(vertex).collect()
     }
+}
+
+/// Pass of a file in Unity's ShaderLab.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(untagged)]
+pub(crate) enum LabPass {
+    /// Its place, from 0.
+    Place(usize),
+    /// Its `Name`.
+    Name(String),
 }
 
 /// Vertex stage of a fragment shader.

@@ -9,8 +9,8 @@ use toml::Spanned;
 use super::bindings::{BindingEntry, read_bindings};
 use super::file::File;
 use super::number::NumberEntry;
-use crate::filter::{PassShader, Stage, VertexShader};
-use crate::translate::Language;
+use crate::filter::{LabPass, PassShader, Stage, VertexShader};
+use crate::translate::{Language, SHADER_LAB};
 use crate::{Count, Filter, FilterError};
 
 /// `[[pass]]`.
@@ -23,6 +23,7 @@ pub(super) struct PassEntry {
     pub workgroup_per_texel: bool,
     pub repeat: Option<Count>,
     pub shader: Option<Spanned<String>>,
+    pub shader_pass: Option<LabPass>,
     pub stage: Option<Stage>,
     pub targets: Option<Vec<String>>,
     pub level: Option<NumberEntry>,
@@ -71,6 +72,7 @@ pub(super) fn read_shader(
     let constants: Result<_, String> = constants.collect();
     Ok(Some(PassShader {
         file: relative,
+        shader_pass: keys.shader_pass.clone(),
         entry: entry.to_owned(),
         stage,
         targets,
@@ -86,6 +88,7 @@ pub(super) fn read_shader(
 /// Refuses keys that are for a shader of the pass's own.
 fn refuse_keys(keys: &PassEntry) -> Result<(), String> {
     let given = [
+        ("shader_pass", keys.shader_pass.is_some()),
         ("stage", keys.stage.is_some()),
         ("targets", keys.targets.is_some()),
         ("level", keys.level.is_some()),
@@ -109,6 +112,11 @@ fn check_compiler(keys: &PassEntry, language: Language, path: &str) -> Result<()
     let name = language.name();
     if language != Language::Wesl && !keys.conditions.is_empty() {
         return Err(format!("conditions are for WESL; \"{path}\" is {name}"));
+    }
+    if keys.shader_pass.is_some() && !path.ends_with(&format!(".{SHADER_LAB}")) {
+        return Err(format!(
+            "shader_pass is for a .{SHADER_LAB} file of Unity; \"{path}\" is none"
+        ));
     }
     let known: Vec<&str> = language.compilers().iter().map(|it| it.program).collect();
     match keys.compiler.as_deref() {

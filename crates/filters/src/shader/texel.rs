@@ -74,7 +74,7 @@ impl Format {
     }
 
     /// Returns how many numbers a texel is passed as.
-    pub(crate) fn components(self) -> usize {
+    pub fn components(self) -> usize {
         self.describe().1
     }
 

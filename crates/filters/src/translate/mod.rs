@@ -18,6 +18,7 @@ mod matrices;
 mod members;
 mod module;
 mod packages;
+mod shader_lab;
 mod sources;
 mod storage;
 mod textures;
@@ -34,7 +35,7 @@ use compile::list_installed;
 use compiler::Compiler;
 use module::{OpenModule, compile_shader, find_language, read};
 
-pub(crate) use language::Language;
+pub(crate) use language::{Language, SHADER_LAB};
 pub(crate) use sources::{MAX_MODULE_BYTES, stays_below};
 pub(crate) use textures::check_texture;
 

@@ -9,8 +9,9 @@ use super::combined::split_combined_samplers;
 use super::compile::{compile, list_installed};
 use super::compiler::Compiler;
 use super::constants::set_constants;
-use super::language::Language;
+use super::language::{Language, SHADER_LAB};
 use super::matrices::find_by_rows;
+use super::shader_lab::cut_hlsl;
 use super::storage::StorageImages;
 use super::words::{Place, Words};
 use crate::filter::{BindingPlace, PassShader, Stage};
@@ -65,6 +66,14 @@ pub(super) fn compile_shader(
     let compiler = compiler.unwrap_or(installed[0]);
     let text = match language {
         Language::Glsl => without_stage_line(text),
+        _ if shader
+            .file
+            .extension()
+            .is_some_and(|ending| ending == SHADER_LAB) =>
+        {
+            cut_hlsl(text, shader.shader_pass.as_ref())
+                .map_err(|reason| FilterError::in_file(path, None, reason))?
+        }
         _ => text.to_owned(),
     };
     compile(folder, &text, language, shader, compiler)
