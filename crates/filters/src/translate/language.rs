@@ -13,7 +13,7 @@ pub(crate) enum Language {
     Wgsl,
 }
 
-/// Ending of Unity's ShaderLab, which holds HLSL.
+/// Ending of Unity's ShaderLab, which contains HLSL.
 pub(crate) const SHADER_LAB: &str = "shader";
 
 /// Endings of files.
