@@ -11,6 +11,7 @@ use store::printable_path;
 use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu};
 
 use super::capture::read_convention;
+use super::show_texture::{check_shown, show_texture};
 use crate::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
 use crate::output::{make_monitor, print};
 use crate::selection::select_filters;
@@ -50,6 +51,10 @@ pub struct BlurArgs {
     /// OpenEXR file to write; with --frames a folder for 0000.exr, 0001.exr and so on [default: out/blurred.exr, or out/blurred].
     #[arg(short, long, value_name = "FILE|DIR")]
     pub out: Option<PathBuf>,
+    /// Textures to write next to the picture as EXR and PNG, as the last pass left them: the filter's own, color, velocity, depth
+    /// or output. Repeatable, or separated by commas.
+    #[arg(long, value_name = "TEXTURES", value_delimiter = ',')]
+    pub show: Vec<String>,
     #[command(flatten)]
     pub programs: ProgramArgs,
     #[command(flatten)]
@@ -63,6 +68,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let names = [args.filter.clone()];
     let (preset, programs) = (args.preset.as_deref(), args.programs.programs());
     let choice = select_filters(&names, preset, &args.set, programs)?.remove(0);
+    check_shown(&choice.filter, &args.show)?;
     let convention = read_convention(args.convention.as_deref())?;
     let first = Buffers::read(frame_file(args, 0), args.exposure, &convention)?;
     let size = (first.color.width, first.color.height);
@@ -113,6 +119,9 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
         };
         write_exr(&path, &file)?;
         print(&format!("{}\n", printable_path(&path)))?;
+        for name in &args.show {
+            show_texture(&runner, &choice.filter, name, &path)?;
+        }
         before = own.unwrap_or(before);
     }
     Ok(())

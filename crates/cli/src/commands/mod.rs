@@ -35,5 +35,6 @@ pub mod score;
 pub mod score_sequence;
 pub mod sensitivity;
 pub mod serve;
+mod show_texture;
 pub mod tune;
 pub mod verify;

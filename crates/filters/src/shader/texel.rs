@@ -48,8 +48,8 @@ impl Format {
         Self::Rg11b10Ufloat,
     ];
 
-    /// Returns its name in filter.toml and in WGSL, how many numbers a texel is given as, and its formats as a texture and as a
-    /// storage texture.
+    /// Returns its name in filter.toml and in WGSL, how many numbers a texel is passed as, and its formats as a
+    /// texture and as a storage texture.
     fn describe(self) -> (&'static str, usize, TextureFormat, StorageFormat) {
         use StorageFormat as S;
         use TextureFormat as T;
@@ -73,12 +73,12 @@ impl Format {
         self.describe().0
     }
 
-    /// Returns how many numbers a texel is given as and read as.
-    pub(crate) fn components(self) -> usize {
+    /// Returns how many numbers a texel is passed as.
+    pub fn components(self) -> usize {
         self.describe().1
     }
 
-    /// Converts the format to that of wgpu.
+    /// Converts the format to wgpu's.
     pub(crate) fn wgpu(self) -> TextureFormat {
         self.describe().2
     }
@@ -96,7 +96,7 @@ impl Format {
             .into()
     }
 
-    /// Returns the format of as many floats of 32 bits; formats of other numbers than floats stay.
+    /// Returns the format with as many 32-bit floats; formats that are not of floats stay.
     pub(crate) fn widened(self) -> Self {
         match self {
             Self::R16Float => Self::R32Float,
@@ -111,7 +111,7 @@ impl Format {
         matches!(self, Self::R32Float | Self::Rg32Float | Self::Rgba32Float)
     }
 
-    /// Returns the type of its numbers where a shader reads them: `u32` or `f32`.
+    /// Returns the type of its numbers in shaders that read them: `u32` or `f32`.
     pub(crate) fn kind(self) -> ScalarKind {
         match self {
             Self::R32Uint => ScalarKind::Uint,

@@ -51,6 +51,9 @@ pub fn bench(mut plan: BenchPlan, gpu: &Gpu, watch: Watch) -> Result<Bench, Erro
         plan: &plan,
         gpu,
         watch,
+        panels: (REACHES.into_iter())
+            .map(|speed| (speed, Panels::new(width, plan.height, speed as f32)))
+            .collect(),
         done: Cell::new(0),
     };
     let (copy, cases) = timer.time_presets()?;
@@ -81,6 +84,8 @@ struct Timer<'a> {
     plan: &'a BenchPlan,
     gpu: &'a Gpu,
     watch: Watch<'a>,
+    /// Frames by speed: every one of [`REACHES`], and so [`SPEED`].
+    panels: BTreeMap<u32, Panels>,
     /// Finished runs, of all tables.
     done: Cell<u64>,
 }
@@ -154,7 +159,7 @@ impl Timer<'_> {
         }
         let mut loaded = Vec::new();
         for (blur, (_, _, speed)) in blurs.iter_mut().zip(filters) {
-            loaded.push(load(blur, &Panels::new(width, height, *speed as f32))?);
+            loaded.push(load(blur, &self.panels[speed])?);
         }
         let mut runs = vec![Vec::new(); loaded.len()];
         let mut besides = Vec::new();
