@@ -11,7 +11,9 @@ use crate::film::pilot::{PILOT_REPLICATES, PILOT_SAMPLES, choose_samples};
 use crate::film::render::{Film, PixelMean, Times, assemble_picture};
 use crate::film::sample_counts::SampleCounts;
 use crate::frame_rate::FrameRate;
+use crate::geometry::ray::{Hit, Ray};
 use crate::material::surface::Sight;
+use crate::motion::poses::Poses;
 use crate::motion::velocity::{PointMotion, TrackedPoint, camera, camera_velocity, reprojection};
 use crate::path::integrator::Integrator;
 use crate::pixel_grid::{PixelGrid, scale_camera, scale_reprojection};
@@ -156,7 +158,12 @@ pub fn trace_motion_on(
 ) -> Result<PointLayers, TraceError> {
     settings.check_frame(scene)?;
     let canvas = check_canvas(settings, grid)?;
-    let stage = Stage::try_new(scene, motion.seen_at, motion.seen_at)?;
+    // Objects stand still if they do over the interval of the motion.
+    let from = match motion.through_walls {
+        true => motion.seen_at - motion.over,
+        false => motion.seen_at,
+    };
+    let stage = Stage::try_new(scene, from, motion.seen_at)?;
     PointLayers::new(scene, &sample_points(&stage, canvas, settings, motion))
 }
 
@@ -191,7 +198,13 @@ fn sample_points(
             |poses, pixel| {
                 let centre = canvas.place(pixel, [0.5; 2]);
                 let ray = view.ray(centre[0], centre[1]);
-                let hit = stage.closest_in_sight(poses.at(motion.seen_at), &ray, Sight::Buffers);
+                let hit = match motion.through_walls {
+                    true => find_mover(stage, poses.at(motion.seen_at), &ray),
+                    false => None,
+                };
+                let hit = hit.or_else(|| {
+                    stage.closest_in_sight(poses.at(motion.seen_at), &ray, Sight::Buffers)
+                });
                 let depth = hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32);
                 let velocity = if hit.is_none() && !options.sky_velocity {
                     [0.0, 0.0]
@@ -215,4 +228,13 @@ fn sample_points(
         height: canvas.rows(),
         pixels: points,
     }
+}
+
+/// Finds the nearest surface on a ray that moves, whatever hides it.
+fn find_mover(stage: &Stage, poses: &mut Poses, ray: &Ray) -> Option<Hit> {
+    let mut next = stage.closest(poses, ray);
+    while let Some(hit) = next.filter(|hit| stage.object_stands_still(hit.object)) {
+        next = stage.closest_behind(poses, ray, &hit);
+    }
+    next
 }

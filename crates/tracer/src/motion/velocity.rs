@@ -24,6 +24,8 @@ pub struct PointMotion {
     pub camera_stands: bool,
     /// Place of the objects one frame earlier.
     pub objects_before: ObjectsBefore,
+    /// True if movers show through everything that stands still, as without a depth test.
+    pub through_walls: bool,
 }
 
 impl PointMotion {
@@ -34,6 +36,12 @@ impl PointMotion {
         over: 1.0,
         camera_stands: false,
         objects_before: ObjectsBefore::Own,
+        through_walls: false,
+    };
+    /// The right motion, with movers in front of what hides them.
+    pub const THROUGH_WALLS: Self = Self {
+        through_walls: true,
+        ..Self::RIGHT
     };
     /// Each point's motion from two frames ago to one frame ago.
     pub const FRAME_LATE: Self = Self {
