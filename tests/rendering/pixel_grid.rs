@@ -70,6 +70,7 @@ fn a_grid_that_is_off_by_whole_pixels_shows_what_lies_beside() {
 #[test]
 fn movers_show_through_walls_without_a_depth_test() {
     let mut scene = drifting_sphere();
+    scene.camera.motion = through([Key::REST]);
     let free = render_frame(&scene, &settings([WIDTH, HEIGHT]));
     // A still wall in front of the left half of the picture.
     add(
@@ -78,7 +79,6 @@ fn movers_show_through_walls_without_a_depth_test() {
         glowing(0.5),
         placed(DVec3::new(-2.0, 0.0, -1.0)),
     );
-    scene.camera.motion = through([Key::REST]);
     let trace = |motion| {
         let grid = PixelGrid::of_picture(WIDTH, HEIGHT);
         trace_motion_on(&scene, &settings([WIDTH, HEIGHT]), &motion, &grid).expect("allowed")
