@@ -40,6 +40,8 @@ pub(crate) struct PassShader {
     pub constants: Vec<(String, Expression)>,
     /// Conditions of WESL that hold.
     pub conditions: Vec<String>,
+    /// Macros of its compiler, each as `NAME=value`.
+    pub defines: Vec<String>,
     /// Program that compiles it; the first that can if left out.
     pub compiler: Option<String>,
 }

@@ -2,6 +2,7 @@
 
 use frame::Raster;
 use half::f16;
+use wgpu::naga::ScalarKind;
 
 use super::device::Gpu;
 use super::place::Place;
@@ -9,10 +10,10 @@ use crate::filter::DEFAULT_TIME_LIMIT;
 use crate::{Convention, FilterError, Format, Input};
 
 impl Format {
-    /// Encodes numbers; those of `r32uint` are given as the floats of their bits.
+    /// Encodes the numbers of an input, which are floats.
     fn encode(self, values: &[f32]) -> Vec<u8> {
         match self {
-            Format::R32Uint | Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
+            Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
                 bytemuck::cast_slice(values).to_vec()
             }
             Format::R16Float | Format::Rg16Float | Format::Rgba16Float => (values.iter())
@@ -20,7 +21,7 @@ impl Format {
                     f16::from_f32(value.clamp(-LARGEST_F16, LARGEST_F16)).to_le_bytes()
                 })
                 .collect(),
-            Format::R8Unorm | Format::Rgba8Unorm => (values.iter())
+            Format::R8Unorm | Format::Rg8Unorm | Format::Rgba8Unorm => (values.iter())
                 .map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
                 .collect(),
             Format::Rgb10a2Unorm => pack(values, |texel| {
@@ -33,21 +34,13 @@ impl Format {
                     [(0, 4), (1, 4), (2, 5)].map(|(index, cut)| shorten(texel[index], cut));
                 r | g << 11 | b << 22
             }),
+            _ => unreachable!("no input holds whole numbers"),
         }
     }
 
-    /// Decodes the numbers of a row.
+    /// Decodes the numbers of a row. Whole ones of 32 bits become the floats of their bits.
     fn decode(self, bytes: &[u8]) -> Vec<f32> {
         match self {
-            Format::R32Uint | Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
-                bytemuck::pod_collect_to_vec(bytes)
-            }
-            Format::R16Float | Format::Rg16Float | Format::Rgba16Float => (bytes.chunks_exact(2))
-                .map(|pair| f16::from_le_bytes([pair[0], pair[1]]).to_f32())
-                .collect(),
-            Format::R8Unorm | Format::Rgba8Unorm => {
-                bytes.iter().map(|byte| f32::from(*byte) / 255.0).collect()
-            }
             Format::Rgb10a2Unorm => unpack(bytes, |word| {
                 let part = |shift: u32| (word >> shift & 1023) as f32 / 1023.0;
                 [part(0), part(10), part(20), (word >> 30) as f32 / 3.0]
@@ -61,6 +54,29 @@ impl Format {
                     1.0,
                 ]
             }),
+            _ => match self.texel_bytes() as usize / self.components() {
+                4 => bytemuck::pod_collect_to_vec(bytes),
+                size => (bytes.chunks_exact(size))
+                    .map(|number| decode_short(number, self.kind()))
+                    .collect(),
+            },
+        }
+    }
+}
+
+/// Decodes a number of 8 or 16 bits.
+fn decode_short(number: &[u8], kind: ScalarKind) -> f32 {
+    match (number, kind) {
+        ([byte], ScalarKind::Uint) => f32::from(*byte),
+        ([byte], ScalarKind::Sint) => f32::from(*byte as i8),
+        ([byte], _) => f32::from(*byte) / 255.0,
+        (pair, kind) => {
+            let bits = u16::from_le_bytes([pair[0], pair[1]]);
+            match kind {
+                ScalarKind::Uint => f32::from(bits),
+                ScalarKind::Sint => f32::from(bits as i16),
+                _ => f16::from_bits(bits).to_f32(),
+            }
         }
     }
 }

@@ -14,8 +14,9 @@ mod stack;
 mod storage_formats;
 mod texel;
 mod variable;
+mod varying;
 
-pub(crate) use block::{BlockNumber, Member, NumberKind, UniformBlock, list_members, name_element};
+pub(crate) use block::{BlockNumber, NumberKind, UniformBlock, list_members, name_element};
 pub(crate) use compiled_by::try_each;
 pub(crate) use declarations::{Shader, engine_validator, parse_wgsl};
 pub(crate) use entry_point::{EntryPoint, find_entry_points};
@@ -25,3 +26,4 @@ pub(crate) use source::tidy;
 pub(crate) use stack::{guard, run_on_large_stack};
 pub use texel::Format;
 pub(crate) use variable::{FRAME_PREFIX, Role, Variable, find_image_role, written_texture};
+pub(crate) use varying::{Varying, follow_interpolation};

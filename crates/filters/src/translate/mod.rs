@@ -18,6 +18,7 @@ mod matrices;
 mod members;
 mod module;
 mod packages;
+mod sections;
 mod sources;
 mod storage;
 mod textures;
@@ -34,6 +35,7 @@ use compile::list_installed;
 use compiler::Compiler;
 use module::{OpenModule, compile_shader, find_language, read};
 
+pub(crate) use closed::check_macro;
 pub(crate) use language::Language;
 pub(crate) use sources::{MAX_MODULE_BYTES, stays_below};
 pub(crate) use textures::check_texture;

@@ -63,11 +63,7 @@ pub(super) fn compile_shader(
     let is_known = |known: &&Compiler| compiler.is_some_and(|it| it.program == known.program);
     let compiler = installed.iter().copied().find(is_known);
     let compiler = compiler.unwrap_or(installed[0]);
-    let text = match language {
-        Language::Glsl => without_stage_line(text),
-        _ => text.to_owned(),
-    };
-    compile(folder, &text, language, shader, compiler)
+    compile(folder, text, language, shader, compiler)
 }
 
 /// Reads a compiled shader. `constants` are values of specialisation constants, which SPIR-V gets here.
@@ -138,18 +134,6 @@ fn in_compiled(path: &Path, error: &FilterError) -> FilterError {
     };
     let reason = format!("after its imports and conditions: {reason}");
     FilterError::in_file(path, None, reason)
-}
-
-/// Blanks the line `#[compute]` that Godot puts before its shaders; the numbers of lines hold.
-fn without_stage_line(text: &str) -> String {
-    let mark = ["#[compute]", "#[fragment]"];
-    match mark
-        .iter()
-        .find(|mark| text.trim_start().starts_with(**mark))
-    {
-        Some(mark) => text.replacen(mark, "", 1),
-        None => text.to_owned(),
-    }
 }
 
 /// Reads SPIR-V. `choose` finds the format that filter.toml has for the image at a place and with a name.
