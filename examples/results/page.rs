@@ -1,4 +1,4 @@
-//! The page of kept results, in Markdown: what engines ship, and the ranking of all presets.
+//! The page of kept results, in Markdown: engines' shipped presets, and the ranking of all presets.
 
 use cli::{markdown_table, range_text};
 use frame::Alignment;
@@ -7,22 +7,22 @@ use metrics::Metric;
 use serde::Deserialize;
 use suite::{Error, IDENTITY};
 
-/// What engines ship, with the scores left out.
+/// Engines' shipped presets, without scores.
 const ENGINES: &str = include_str!("../../results/engines.toml");
 
 /// Characters of a line of the page.
 const WIDTH: usize = 135;
 
-/// An engine with the preset that it ships.
+/// An engine with its shipped preset.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Engine {
     name: String,
-    /// The preset that equals what it ships.
+    /// Preset that equals the engine's default.
     pub ships: String,
-    /// What is wrong with it, in one sentence.
+    /// Its mistake, in one sentence.
     wrong: String,
-    /// The smallest measured change that mends most.
+    /// The smallest measured change that improves most.
     change: Option<Change>,
 }
 
@@ -30,7 +30,7 @@ pub struct Engine {
 #[serde(deny_unknown_fields)]
 struct Change {
     preset: String,
-    /// What to do, as the beginning of a sentence.
+    /// The change, as the beginning of a sentence.
     by: String,
 }
 
@@ -44,13 +44,13 @@ pub fn list_engines() -> Vec<Engine> {
     file.engine
 }
 
-/// Finds the results that the page is about: those with most scenes, in the scenes themselves.
+/// Finds the results for the page: those with most scenes, without seals.
 pub fn main_results(all: &[Results]) -> Option<&Results> {
     let catalogues = all.iter().filter(|own| own.seal.is_none());
     catalogues.max_by_key(|own| own.scenes().len())
 }
 
-/// Makes the page of files of results: what engines ship, and all presets of each shutter next to their ranks in the sealed variants.
+/// Makes the page from files of results: engines' shipped presets, and each shutter's presets next to their ranks in the sealed variants.
 pub fn results_page(all: &[Results]) -> Result<String, Error> {
     let results = main_results(all).ok_or_else(|| Error::Usage("no file of results".to_owned()))?;
     let sealed = all.iter().find(|own| {
@@ -85,7 +85,7 @@ pub fn results_page(all: &[Results]) -> Result<String, Error> {
     Ok(wrap(&(page + &fill(COMMANDS))))
 }
 
-/// Fills the lines of paragraphs; tables, pictures, headings and commands stay as they are.
+/// Fills the lines of paragraphs; leaves tables, pictures, headings and commands unchanged.
 fn wrap(page: &str) -> String {
     let wrap_part = |part: &str| {
         if part.starts_with(['|', '!', '#', ' ']) {
@@ -173,7 +173,7 @@ fn measured(groups: &[Vec<RankedFilter>]) -> Vec<Measured<'_>> {
     all
 }
 
-/// Makes a table of the engines, and a part for each with its worst picture.
+/// Makes a table of the engines, and a section for each with its worst picture.
 fn engines(results: &Results, groups: &[Vec<RankedFilter>]) -> String {
     let all = measured(groups);
     let number = |value: f64| Metric::FLIP.number(value);
@@ -257,7 +257,7 @@ fn mean(ranked: &RankedFilter) -> String {
     number(ranked.mean) + &interval.unwrap_or_default()
 }
 
-/// Says whether the sealed variants order the filters as the catalogue does.
+/// States whether the sealed variants order the filters like the catalogue.
 fn agreement(results: &Results, sealed: &Results, alignment: Alignment) -> Result<String, Error> {
     let compared = compare_sizes(&[results, sealed], Metric::FLIP)?;
     let mut of_shutter = compared.iter().filter(|own| own.alignment == alignment);

@@ -1,16 +1,16 @@
-//! `--convention`: frames and pictures as an engine has them, and the record of what a filter's shaders got.
+//! `--convention`: frames and pictures in an engine's form, and the record of what a filter's shaders got.
 
 use std::fs;
 use std::path::Path;
 
 use filters::Convention;
-use frame::{ExrFile, Frame, Image, read_exr, write_exr};
+use frame::{ExrFile, Frame, Image, read_exr, read_png, write_exr};
 use serde_json::Value;
 use tests::text::{assert_contains, read_rows};
 
 use crate::sandbox::Sandbox;
 
-/// Conventions, each apart from that of frames in one thing or more.
+/// Conventions, each different from the frames' in one thing or more.
 const FORMS: [&str; 12] = [
     "velocity = \"uv\"",
     "velocity = \"ndc\"",
@@ -52,7 +52,7 @@ pub fn largest_difference(a: &Image, b: &Image) -> f32 {
     channels.fold(0.0, f32::max)
 }
 
-/// Converts a frame and back again.
+/// Converts a frame and back.
 fn assert_restores(convention: &Convention, frame: &Frame) {
     let color = convention.restore_color(&convention.convert_color(&frame.color));
     let velocity = convention.convert_velocity(&frame.velocity, frame.exposure);
@@ -148,7 +148,7 @@ fn a_wrong_convention_is_refused_with_its_line() {
     }
 }
 
-/// What kernels expect as Godot hands it over.
+/// Godot's form of kernel inputs.
 const GODOT: &str = "\
 [convention]
 velocity = \"uv\"
@@ -191,4 +191,37 @@ fn run_json_says_what_a_filter_s_shaders_got() {
     for other in ["velocity_gather", "scatter_oracle"] {
         assert_eq!(case(other), Value::Null, "{other} got the frame as it is");
     }
+}
+
+#[test]
+fn textures_between_the_passes_are_shown_with_their_numbers() {
+    let sandbox = Sandbox::new();
+    let frame = render(&sandbox);
+    let words = "engine blur --filter kino --frame r/plate/frame.exr --out b.exr";
+    let said = sandbox.done(&format!("{words} --show velocity,tile_max,output"));
+    let read = |name: &str| read_exr(&sandbox.path(&format!("b_{name}.exr"))).unwrap();
+    let shown = read("velocity");
+    for (channel, component) in [("R", 0), ("G", 1)] {
+        let expected = frame.velocity.map(|velocity| velocity[component]);
+        assert_eq!(shown.plane(channel).unwrap(), expected, "{channel}");
+    }
+    let picture = sandbox.read_color("b.exr");
+    assert_eq!(read("output").color("").unwrap(), picture);
+    let tiles = read("tile_max");
+    assert!(tiles.width < frame.color.width, "{}", tiles.width);
+    let size = format!("tile_max: {}x{}, R ", tiles.width, tiles.height);
+    assert_contains(&said, &["b_tile_max.exr", "b_tile_max.png", &size]);
+    let png = read_png(&sandbox.path("b_velocity.png")).unwrap();
+    let values = || png.pixels.iter().flat_map(|pixel| &pixel[..2]).copied();
+    let (least, most) = (values().fold(1.0, f32::min), values().fold(0.0, f32::max));
+    assert_eq!(
+        (least, most),
+        (0.0, 1.0),
+        "from the least number to the greatest"
+    );
+    let allowed = "kino has no such texture; allowed: ";
+    sandbox.refuse(
+        &format!("{words} --show tile"),
+        &["--show tile", allowed, "color, velocity, depth, output"],
+    );
 }

@@ -1,4 +1,4 @@
-//! The program as its user meets it: output, files and exit codes.
+//! The program as its user sees it: output, files and exit codes.
 
 mod arguments;
 mod audit;

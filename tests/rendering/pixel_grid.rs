@@ -21,7 +21,7 @@ fn settings(size: [u32; 2]) -> RenderSettings {
     settings
 }
 
-/// Makes a glowing sphere that drifts before a camera that drifts the other way.
+/// Makes a glowing sphere that drifts in front of a camera that drifts the other way.
 fn drifting_sphere() -> Scene {
     let mut scene = empty_scene("sphere");
     scene.background = Background::Constant(Vec3::splat(0.25));
@@ -54,7 +54,7 @@ fn a_grid_that_is_off_by_whole_pixels_shows_what_lies_beside() {
         assert_eq!(moved.depth.at(x, y), own.depth.at(beside, above));
         assert_eq!(moved.object_id.at(x, y), own.object_id.at(beside, above));
     }
-    // Half a pixel changes the silhouette, and the layers alone are those of the frame.
+    // Half a pixel changes the silhouette, and layers rendered alone equal the frame's.
     let half = render_on([WIDTH, HEIGHT], [0.5, 0.5]);
     assert_ne!(half.object_id, own.object_id);
     let grid = PixelGrid {
@@ -78,7 +78,7 @@ fn a_grid_of_half_the_size_is_the_picture_at_half_the_size() {
     assert!(fastest.fold(0.0, f32::max) > 0.3, "the sphere moves");
     for (half, own) in half.velocity.pixels.iter().zip(&own.velocity.pixels) {
         let off = (half[0] - own[0]).hypot(half[1] - own[1]);
-        // Rounding of 64-bit places to 32-bit velocities of a few pixels.
+        // Rounding of 64-bit positions to 32-bit velocities of a few pixels.
         assert!(off < 1e-6, "{half:?} {own:?}");
     }
     let pairs = [&half, &own].map(|frame| frame.reprojection.place([7.5, 3.5], 4.0).unwrap());

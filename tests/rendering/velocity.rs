@@ -27,12 +27,12 @@ fn pixel_center(x: u32, y: u32) -> DVec2 {
     )
 }
 
-/// Returns the point that a camera at rest at the origin sees at a place and depth.
+/// Returns the point that a still camera at the origin sees at a position and depth.
 fn point_at(place: DVec2, depth: f64) -> DVec3 {
     DVec3::new(place.x * depth / FOCAL, place.y * depth / FOCAL, -depth)
 }
 
-/// Returns the place at which a camera at rest at the origin sees a point, in pixels from the centre, y up.
+/// Returns the position at which a still camera at the origin sees a point, in pixels from the centre, y up.
 fn project(point: DVec3) -> DVec2 {
     FOCAL * DVec2::new(point.x, point.y) / -point.z
 }
@@ -42,7 +42,7 @@ fn screen_motion(place: DVec2, depth: f64, velocity: DVec3) -> DVec2 {
     (FOCAL * DVec2::new(velocity.x, velocity.y) + place * velocity.z) / depth
 }
 
-/// Compares every pixel's velocity with the exact one at its place, y up.
+/// Compares every pixel's velocity with the exact one at its position, y up.
 fn expect_velocity(scene: &Scene, kind: VelocityKind, exact: impl Fn(DVec2) -> DVec2) {
     let frame = render_frame(scene, kind);
     for (x, y) in (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y))) {
@@ -122,7 +122,7 @@ fn a_child_moves_with_its_parent() {
     expect_velocity(&scene, VelocityKind::Instantaneous, turned);
 }
 
-/// Makes a cubic motion through keys at -1, 0 and 1, with places and angles about one axis.
+/// Makes a cubic motion through keys at -1, 0 and 1, with positions and angles about one axis.
 fn smooth_motion(axis: DVec3, angle: impl Fn(f64) -> f64, place: impl Fn(f64) -> DVec3) -> Motion {
     let key = |time: f64| Key {
         time,

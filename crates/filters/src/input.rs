@@ -5,13 +5,13 @@ use frame::{Camera, Image, Plane, Raster, Reprojection, Vectors};
 use crate::filter::CameraUse;
 use crate::{Filter, FilterError};
 
-/// Frames per second of frames that do not say their rate, for filters whose convention does not either.
+/// Frames per second if neither the frame nor the filter's convention says.
 pub(crate) const FRAMES_PER_SECOND: f64 = 60.0;
 
-/// Input of a filter: one instant, as [`frame::Frame`] holds it.
+/// Input of a filter: one instant, as in [`frame::Frame`].
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a> {
-    /// One or more images that are blurred with the same weights; an object's coverage may travel as a colour.
+    /// One or more images that are blurred with the same weights; an object's coverage may be passed as a colour.
     pub color: &'a [&'a Image],
     /// Screen motion in pixels per frame, +x right, +y down.
     pub velocity: &'a Vectors,
@@ -20,18 +20,18 @@ pub struct Input<'a> {
     /// The camera's motion since the frame before, between places of these rasters. Filters that read it refuse to run
     /// without it.
     pub reprojection: Option<Reprojection>,
-    /// The camera, for shaders that take its matrices. They refuse to run without it.
+    /// The camera, for shaders that read its matrices. They refuse to run without it.
     pub camera: Option<Camera>,
     /// Time that the shutter is open, in frames; above 0.
     pub exposure: f64,
-    /// Frames per second, where the frame says its rate. It goes before that of a filter's convention.
+    /// Frames per second, if the frame says its rate. It takes precedence over a filter's convention.
     pub frames_per_second: Option<f64>,
     /// Changes the noise of filters that have any, and nothing else.
     pub frame_index: u32,
 }
 
 impl Input<'_> {
-    /// Refuses rasters of another size than `size`, and values that no frame holds.
+    /// Refuses rasters of another size than `size`, and impossible values.
     pub(crate) fn check(&self, filter: &Filter, size: [u32; 2]) -> Result<(), FilterError> {
         self.check_values(size)
             .and(self.check_camera(filter.camera_use()))

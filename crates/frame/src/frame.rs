@@ -18,7 +18,7 @@ pub struct Frame {
     pub provenance: Provenance,
     /// Exposure that a filter is to blur by, in frames.
     pub exposure: f64,
-    /// Frames per second that the scene was taken at; none where that is the rate of its file.
+    /// Frames per second that the scene was filmed at; none if that is the rate of its file.
     pub frames_per_second: Option<f64>,
     /// Kind of motion in `velocity`, sampling of `color` and `coverage`, motion of the background.
     pub options: FrameOptions,
@@ -160,7 +160,7 @@ fn read_exposure(file: &ExrFile) -> Result<f64, FileError> {
     Ok(exposure)
 }
 
-/// Reads a frame rate; none where the file has none. Refuses one that is no rate.
+/// Reads a frame rate; none if the file has none. Refuses an invalid one.
 pub fn read_frame_rate(file: &ExrFile) -> Result<Option<f64>, FileError> {
     const NAME: &str = "frames_per_second";
     if !file.attributes.contains_key(NAME) {
@@ -175,7 +175,7 @@ pub fn read_frame_rate(file: &ExrFile) -> Result<Option<f64>, FileError> {
     }
 }
 
-/// Reads a guard band; refuses one that leaves no picture inside of it.
+/// Reads a guard band; refuses one that leaves no picture inside it.
 fn read_guard_band(file: &ExrFile) -> Result<u32, FileError> {
     let band: u32 = file.get("guard_band")?;
     let least = file.width.min(file.height);

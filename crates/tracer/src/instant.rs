@@ -21,7 +21,7 @@ use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::stage::Stage;
 
-/// What a rasteriser writes at the pixels' centres, without colour.
+/// A rasteriser's output at the pixels' centres, without colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointLayers {
     /// Screen motion over one frame, in pixels; +x right, +y down.
@@ -53,8 +53,8 @@ impl PointLayers {
 }
 
 /// Renders the instant `t = 0`. Colour and coverage are filtered over each pixel or sampled at its centre. Velocity, depth and
-/// object id are those of the point at the centre; translucent surfaces let them pass, unless a material says otherwise. All rasters extend
-/// beyond the picture by the guard band of the settings.
+/// object id come from the point at the centre, through translucent surfaces unless a material says otherwise. All rasters
+/// extend beyond the picture by the guard band of the settings.
 pub fn trace_frame(
     scene: &Scene,
     settings: &RenderSettings,
@@ -64,9 +64,9 @@ pub fn trace_frame(
     trace_frame_part(scene, settings, &own, None, watch)
 }
 
-/// Renders the instant as [`trace_frame`] does, on another grid of pixels over the picture of the settings, and all of it or a tile.
-/// Guard band and tile are in pixels of the grid; a tile counts from the band's corner. Its rasters have its size, and hold what
-/// those of the whole frame hold there.
+/// Renders the instant as [`trace_frame`] does, on another grid of pixels over the picture of the settings, and all of it or a
+/// tile. Guard band and tile are in pixels of the grid; a tile counts from the band's corner. Its rasters have its size, and
+/// the content of the whole frame's there.
 ///
 /// # Errors
 /// The settings or the grid do not fit the scene, a pixel is not finite, or the watcher cancelled.
@@ -131,7 +131,7 @@ pub fn trace_frame_part(
     })
 }
 
-/// Samples what a rasteriser writes, of other points or of another motion than those of the frame.
+/// Samples a rasteriser's output for other points or another motion than the frame's.
 ///
 /// # Errors
 /// The settings do not fit the scene, or a velocity is not finite.
@@ -144,7 +144,7 @@ pub fn trace_motion(
     trace_motion_on(scene, settings, motion, &own)
 }
 
-/// Samples what a rasteriser writes as [`trace_motion`] does, on another grid of pixels over the picture of the settings.
+/// Samples a rasteriser's output as [`trace_motion`] does, on another grid of pixels over the picture of the settings.
 ///
 /// # Errors
 /// The settings or the grid do not fit the scene, or a velocity is not finite.
@@ -160,7 +160,7 @@ pub fn trace_motion_on(
     PointLayers::new(scene, &sample_points(&stage, canvas, settings, motion))
 }
 
-/// Makes the canvas of a grid; refuses a grid of a size that no picture has.
+/// Makes the canvas of a grid; refuses a grid of an impossible size.
 fn check_canvas(settings: &RenderSettings, grid: &PixelGrid) -> Result<Canvas, TraceError> {
     let [width, height] = grid.size;
     let own = RenderSettings {
@@ -173,7 +173,7 @@ fn check_canvas(settings: &RenderSettings, grid: &PixelGrid) -> Result<Canvas, T
     Ok(Canvas::new(settings.width, settings.height, band, grid))
 }
 
-/// Samples what a rasteriser writes, at the centres of all pixels.
+/// Samples a rasteriser's output at the centres of all pixels.
 fn sample_points(
     stage: &Stage,
     canvas: Canvas,

@@ -1,6 +1,6 @@
 //! A CPU path tracer: from a scene of moving OBJ meshes to the frame of one instant and the truth of a shutter interval.
 //!
-//! The conventions are those of the [`frame`] crate.
+//! It follows the conventions of the [`frame`] crate.
 
 mod accel;
 mod aligned_shutter;

@@ -1,4 +1,4 @@
-//! Sensitivity analysis: parameters that could as well be constants.
+//! Sensitivity analysis: finds parameters that could be constants.
 
 use std::collections::BTreeMap;
 
@@ -13,17 +13,15 @@ use crate::loss::{FAILED, mean_log_ratio};
 use crate::sobol::{SobolIndices, sobol_indices};
 use crate::space::Space;
 
-/// An axis whose total index is below this, its interval included, may become a constant: it causes less than a fiftieth of
-/// the variance.
+/// An axis may become a constant if its total index, including its interval, is below this: it causes less than a fiftieth of the variance.
 const CONSTANT_TOTAL: f64 = 0.02;
 /// Points of a slice along an axis.
 const SLICE: usize = 9;
 
-/// Effect of each parameter on the error: `sensitivity.json`. The error is the mean over scenes of log(FLIP / FLIP of the
-/// start).
+/// Effect of each parameter on the error: `sensitivity.json`. The error is the mean over scenes of log(FLIP / FLIP of the start).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensitivity {
-    /// Number of candidates that were scored.
+    /// Number of scored candidates.
     pub candidates: usize,
     /// Number of candidates that did not run; they count as very bad.
     pub failed: usize,
@@ -37,13 +35,13 @@ pub struct ParameterSensitivity {
     /// Shares of the error's variance.
     #[serde(deserialize_with = "read_indices")]
     pub indices: SobolIndices,
-    /// True where the parameter may become a constant.
+    /// True if the parameter may become a constant.
     pub constant: bool,
     /// The error along the parameter's range, all others at the start.
     pub slice: Vec<(Value, f64)>,
 }
 
-/// Refuses the files of versions that could write elementary effects and no indices.
+/// Refuses files of versions that could write elementary effects and no indices.
 fn read_indices<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SobolIndices, D::Error> {
     Option::deserialize(deserializer)?.ok_or_else(|| {
         D::Error::custom("a parameter has no Sobol indices: an older version made this study by Morris screening alone")
@@ -55,8 +53,8 @@ pub fn count_candidates(axes: usize, rows: usize) -> usize {
     rows * (axes + 2) + axes * SLICE
 }
 
-/// Scores candidates all over the space, `rows` x (axes + 2) for Sobol indices and some more for slices along each axis.
-/// `watch` hears of each.
+/// Scores candidates all over the space, `rows` x (axes + 2) for Sobol indices and some more for slices along each axis. Reports each to
+/// `watch`.
 pub fn analyze_sensitivity(
     evaluator: &mut Evaluator,
     space: &Space,

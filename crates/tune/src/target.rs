@@ -10,17 +10,17 @@ use serde::{Deserialize, Serialize};
 use suite::{Error, Monitor, Rendering};
 use tracer::{RenderSettings, Scene};
 
-/// A scene, rendered once and measured against hundreds of times.
+/// A scene, rendered once and used for hundreds of measurements.
 pub struct RenderedScene {
     /// The scene's name, with its variant.
     pub name: String,
     /// Input of the filter.
     pub frame: Frame,
-    /// Reference that pictures are compared with.
+    /// Reference to compare pictures with.
     pub truth: Truth,
     /// The scene's bounds for pictures of this size, for every filter.
     pub bounds: SceneBounds,
-    /// Display that errors are seen on.
+    /// Viewing display for errors.
     pub viewing: Viewing,
 }
 
@@ -55,7 +55,7 @@ pub fn render_scenes(
 pub struct SceneScore {
     /// `flip_moving`.
     pub flip: f64,
-    /// `bleed_lateral`, in pixels; none if it was not asked for or does not apply.
+    /// `bleed_lateral`, in pixels; none if it was not requested or does not apply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bleed: Option<f64>,
 }
@@ -67,14 +67,14 @@ pub type SceneScores = BTreeMap<String, SceneScore>;
 pub struct Target<'a> {
     /// Frame, truth and name.
     pub scene: &'a RenderedScene,
-    /// The bounds of the filter and preset that are tuned.
+    /// Bounds of the tuned filter and preset.
     pub bounds: Bounds,
     reference: Reference<'a>,
     mean: Image,
 }
 
 impl<'a> Target<'a> {
-    /// Prepares a scene for scoring. Refuses a scene where nothing moves: it has no error to reduce.
+    /// Prepares a scene for scoring. Refuses a scene without motion: it has no error to reduce.
     pub fn new(scene: &'a RenderedScene, filter: &str, preset: &str) -> Result<Self, Error> {
         let frame = scene.frame.cropped();
         let reference = Reference::new(&frame, &scene.truth, None, &scene.viewing)?;
@@ -92,7 +92,7 @@ impl<'a> Target<'a> {
         })
     }
 
-    /// Scores a picture by `flip_moving` alone, and its mattes, if there are any, by their bleed.
+    /// Scores a picture by `flip_moving` alone, and its mattes, if any, by their bleed.
     pub fn score(&self, color: &Image, mattes: Option<&[Plane]>) -> SceneScore {
         let errors = flip_ldr(&self.mean, color, &self.scene.viewing);
         let moving = &self.reference.regions.moving.pixels;
@@ -105,8 +105,8 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they keep all of them. A bound
-    /// that the start breaks is relaxed to the start's score.
+    /// Returns by how much the scores exceed their limits, as a fraction of the limits; 0 if they keep all of them. A bound that the start
+    /// breaks is relaxed to the start's score.
     pub fn excess(&self, score: &SceneScore, start: &SceneScore) -> f64 {
         let bleed = Metric::Object(ObjectMetric::BleedLateral);
         let measured = [

@@ -1,4 +1,4 @@
-//! The tables of scores that README.md, docs/results.md and docs/first-ten-minutes.md show, against what the program prints.
+//! The tables of scores in README.md, docs/results.md and docs/first-ten-minutes.md, against the program's output.
 
 use std::fs;
 use std::path::Path;
@@ -13,7 +13,7 @@ use crate::sandbox::{assert_done, stdout};
 const README: &str = include_str!("../../../README.md");
 const RESULTS: &str = include_str!("../../../docs/results.md");
 
-/// The scenes that `make run` takes.
+/// Scenes of `make run`.
 const RUN: &str =
     "shuttertruth run --quiet --scenes sliding_panel,panel_over_texture,two_spheres,railing,fan";
 
@@ -66,7 +66,7 @@ fn the_tables_are_what_run_prints() {
     }
 }
 
-/// Tells whether a run was made on the adapter that the pages have scores of.
+/// Returns whether a run used the adapter of the pages' scores.
 fn has_adapter_of_the_pages(printed: &str) -> bool {
     let adapter = printed.split("adapter: ").nth(1).unwrap();
     let driver = adapter.split(',').next().unwrap();
@@ -77,13 +77,13 @@ fn has_adapter_of_the_pages(printed: &str) -> bool {
     is_own
 }
 
-/// Lists all lines that a page shows in its blocks.
+/// Lists all lines in a page's blocks.
 fn find_shown(page: &str) -> Vec<&str> {
     let lines = page.lines().filter_map(|line| line.strip_prefix("    "));
     lines.collect()
 }
 
-/// Runs the commands of a page that make its tables, and compares each line of these with what they print.
+/// Runs the commands that make a page's tables, and compares each line of the tables with their output.
 fn assert_printed(path: &Path, find_rows: fn(&str) -> Vec<&str>, least: usize) {
     let reader = Reader::new();
     let page = fs::read_to_string(path).unwrap();

@@ -1,4 +1,4 @@
-//! Specialisation constants that parameters set.
+//! Specialisation constants set by parameters.
 
 use filters::{Blur, Filter, Kernels, Settings, Value, try_out};
 use tests::near::assert_within;
@@ -82,7 +82,7 @@ fn constants_that_cannot_be_are_refused() {
         ("\"2 ^ quality\"", "8", &["filter.toml:", "parameter \"quality\" changes nothing", "`constants`"]),
         ("\"2 ^ quality\"", "\"1e30 ^ quality\"", &["taps.wgsl", "specialisation constants: ", "fit"]),
     ]);
-    // Values that only some settings have are tried where `list` tries the filter.
+    // Values that only some settings have are tried when `list` tries the filter.
     let never = files.changed("filter.toml", "group + 0 * reach", "group - 2 + 0 * reach");
     let refusal = try_out(shared_gpu(), &never.load().unwrap()).unwrap_err();
     let parts = ["\"group\" = 2, the lower end of its range", "taps.wgsl"];

@@ -1,4 +1,4 @@
-//! Wrong bindings, wrong shaders and missing compilers, each refused with its place and the way out.
+//! Wrong bindings, wrong shaders and missing compilers, each refused with its place and the remedy.
 
 use tests::text::assert_contains;
 

@@ -1,5 +1,5 @@
-//! Textures, images and uniforms as engines have them: packed formats, sides rounded down, images that are read and written,
-//! variables without registers.
+//! Textures, images and uniforms in engines' forms: packed formats, sides rounded down, images that are read and written, variables
+//! without registers.
 
 use tests::near::assert_near;
 use tests::text::assert_contains;
@@ -120,7 +120,7 @@ fn an_image_that_is_read_and_written_keeps_what_is_not_written() {
                         [[pass]]\nshader = \"step.comp\"\nover = \"state\"\nrepeat = 3\n\
                         [[pass]]\nshader = \"show_state.wgsl\"\nstage = \"fragment\"\n";
     let shown = blur_busy(&make("resources", declarations));
-    // Each run changes every third column, by what its left neighbour holds.
+    // Each run changes every third column, by its left neighbour's value.
     let mut expected = vec![1.0_f32; 61];
     for iteration in 0..3 {
         let before = expected.clone();

@@ -1,4 +1,4 @@
-//! Fragment shaders with a vertex stage of their own.
+//! Fragment shaders with their own vertex stage.
 
 use tests::near::{assert_near, assert_within};
 use tests::text::assert_contains;
@@ -75,6 +75,29 @@ fn the_program_s_triangle_has_the_place_of_a_pixel_as_engines_do() {
     let whole = files(["flat", "int", "place"]).load().unwrap_err();
     let says = "pass \"place\": the fragment shader reads no floats at location 2; the program's triangle has texture coordinates";
     assert_contains(&whole.to_string(), &["filter.toml:4:", says, "`vertex`"]);
+}
+
+#[test]
+fn a_pass_of_a_shader_lab_file_draws_as_its_hlsl_alone() {
+    let hlsl = include_str!("../../fixtures/filters/vertex/draw.hlsl");
+    let (shared, program) = hlsl.split_at(hlsl.find("Corner corners").unwrap());
+    let file = format!(
+        "Shader \"Blur\" {{\nHLSLINCLUDE\n{shared}ENDHLSL\nSubShader {{\nPass {{\nName \"Black\"\nHLSLPROGRAM\nbroken\n\
+         ENDHLSL\n}}\nPass {{\nName \"Draw\"\nHLSLPROGRAM\n#pragma vertex corners\n{program}ENDHLSL\n}} }} }}\n"
+    );
+    let pass = HLSL_PASS.replace("draw.hlsl\"", "draw.shader\"\nshader_pass = \"Draw\"");
+    let lab = make("vertex", &format!("{pass}{SAMPLED}")).with("draw.shader", file);
+    let alone = make("vertex", &format!("{HLSL_PASS}{SAMPLED}"));
+    assert_eq!(blur_busy(&lab), blur_busy(&alone));
+    let by_place = lab.changed("filter.toml", "\"Draw\"", "1");
+    assert_eq!(blur_busy(&by_place), blur_busy(&alone));
+    #[rustfmt::skip]
+    lab.assert_refused("filter.toml", &[
+        ("shader_pass = \"Draw\"\n", "", &["draw.shader", "several of its passes", "0 \"Black\", 1 \"Draw\""]),
+        ("\"Draw\"", "\"Blur\"", &["draw.shader", "allowed, by place or by name"]),
+        ("\"Draw\"", "0", &["draw.shader:8"]),
+        ("draw.shader", "draw.hlsl", &["filter.toml:", "shader_pass is for a .shader file of Unity"]),
+    ]);
 }
 
 #[test]

@@ -11,6 +11,7 @@ use store::printable_path;
 use suite::{Error, FilterChoice, Runner, file_at_frame, numbered_file, open_gpu};
 
 use super::capture::read_convention;
+use super::show_texture::{check_shown, show_texture};
 use crate::arguments::{AdapterArgs, ProgramArgs, frame_count, parse_exposure};
 use crate::output::{make_monitor, print};
 use crate::selection::select_filters;
@@ -50,19 +51,24 @@ pub struct BlurArgs {
     /// OpenEXR file to write; with --frames a folder for 0000.exr, 0001.exr and so on [default: out/blurred.exr, or out/blurred].
     #[arg(short, long, value_name = "FILE|DIR")]
     pub out: Option<PathBuf>,
+    /// Textures to write next to the picture as EXR and PNG, as the last pass left them: the filter's own, color, velocity, depth
+    /// or output. Repeatable, or separated by commas.
+    #[arg(long, value_name = "TEXTURES", value_delimiter = ',')]
+    pub show: Vec<String>,
     #[command(flatten)]
     pub programs: ProgramArgs,
     #[command(flatten)]
     pub adapter: AdapterArgs,
 }
 
-/// Runs one filter on one frame file, or on those of a sequence, and writes its colours.
+/// Runs one filter on a frame file or a sequence of them, and writes its colours.
 pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let out = choose_out(args)?;
     check_frame_numbers(args)?;
     let names = [args.filter.clone()];
     let (preset, programs) = (args.preset.as_deref(), args.programs.programs());
     let choice = select_filters(&names, preset, &args.set, programs)?.remove(0);
+    check_shown(&choice.filter, &args.show)?;
     let convention = read_convention(args.convention.as_deref())?;
     let first = Buffers::read(frame_file(args, 0), args.exposure, &convention)?;
     let size = (first.color.width, first.color.height);
@@ -72,7 +78,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
     let gpu = open_gpu(std::slice::from_ref(&choice), adapter, monitor)?;
     let mut runner = Runner::new(gpu.as_ref(), &choice, size, monitor)?;
     let first_path = first.path.clone();
-    // The first frame stands in for the one before it.
+    // The first frame has no previous one; it serves as its own.
     let mut before = first;
     for frame in 0..args.frames {
         let own = match frame {
@@ -113,6 +119,9 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
         };
         write_exr(&path, &file)?;
         print(&format!("{}\n", printable_path(&path)))?;
+        for name in &args.show {
+            show_texture(&runner, &choice.filter, name, &path)?;
+        }
         before = own.unwrap_or(before);
     }
     Ok(())
@@ -131,7 +140,7 @@ fn check_frame_numbers(args: &BlurArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// Makes a file without a picture that says what blurred it.
+/// Makes a file without a picture that records what blurred it.
 fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) -> ExrFile {
     let mut file = ExrFile::new(size.0, size.1);
     file.set("kind", "output");
@@ -144,7 +153,7 @@ fn describe_picture(choice: &FilterChoice, gpu: Option<&Gpu>, size: (u32, u32)) 
     file
 }
 
-/// Chooses the picture to write, or the folder for those of a sequence.
+/// Chooses the picture to write, or the folder for a sequence.
 fn choose_out(args: &BlurArgs) -> Result<PathBuf, Error> {
     let (frames, is_one) = (args.frames, args.frames == 1);
     let default = if is_one {
@@ -162,7 +171,7 @@ fn choose_out(args: &BlurArgs) -> Result<PathBuf, Error> {
     Ok(out)
 }
 
-/// Names the file of a frame.
+/// Names a frame's file.
 fn frame_file(args: &BlurArgs, frame: u32) -> PathBuf {
     match args.frames {
         1 => args.frame.clone(),
@@ -171,7 +180,7 @@ fn frame_file(args: &BlurArgs, frame: u32) -> PathBuf {
     }
 }
 
-/// Buffers of a frame file that a filter needs. Any OpenEXR file with these channels will do.
+/// Buffers of a frame file for a filter. Any OpenEXR file with these channels will do.
 struct Buffers {
     path: PathBuf,
     color: Image,
@@ -185,7 +194,7 @@ struct Buffers {
 }
 
 impl Buffers {
-    /// Reads the buffers, and converts them from the convention of their engine.
+    /// Reads the buffers, and converts them from their engine's convention.
     fn read(path: PathBuf, exposure: Option<f64>, convention: &Convention) -> Result<Self, Error> {
         let file = read_exr(&path)?;
         let has = |attribute| file.attributes.contains_key(attribute);

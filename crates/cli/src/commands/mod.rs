@@ -1,4 +1,4 @@
-//! One file per command, and the work that commands share.
+//! One file per command, and their shared work.
 
 pub mod accept;
 pub mod ask;
@@ -35,5 +35,6 @@ pub mod score;
 pub mod score_sequence;
 pub mod sensitivity;
 pub mod serve;
+mod show_texture;
 pub mod tune;
 pub mod verify;

@@ -107,7 +107,7 @@ pub fn execute(args: &RenderArgs) -> Result<(), Error> {
     }
 }
 
-/// Makes the settings of a scene's renders. Refuses frames at which it is not defined.
+/// Makes a scene's render settings. Refuses frames that the scene does not define.
 fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Error> {
     let size = args.size.unwrap_or((scene.width, scene.height));
     let count = match &args.replicates {
@@ -124,7 +124,7 @@ fn scene_settings(args: &RenderArgs, scene: &Scene) -> Result<RenderSettings, Er
     Ok(settings)
 }
 
-/// Renders some replicates of a scene's truths, and its frame with the first of them. Says nothing about their noise.
+/// Renders some replicates of a scene's truths, and the frame together with replicate 0. Reports no noise.
 fn render_some(
     args: &RenderArgs,
     rendering: Rendering,
@@ -140,7 +140,7 @@ fn render_some(
     Ok(String::new())
 }
 
-/// Renders a scene's frame and truths; returns a line for each truth. Adds one to `noisy` for each that is noisier than asked for.
+/// Renders a scene's frame and truths; returns a line per truth. Adds one to `noisy` for each truth that exceeds the requested noise.
 fn render_whole(
     args: &RenderArgs,
     rendering: Rendering,
@@ -168,7 +168,7 @@ fn render_whole(
     Ok(report)
 }
 
-/// Makes a line: `  trailing: 8 replicates, noise: moving 0.0021, static 0.0009, full 0.0012`
+/// Formats a line: `  trailing: 8 replicates, noise: moving 0.0021, static 0.0009, full 0.0012`
 fn floors_line(truth: &Truth) -> String {
     let floors: Vec<String> = (truth.noise_floors().iter())
         .map(|(region, floor)| format!("{region} {floor:.2e}"))

@@ -33,7 +33,7 @@ pub struct SensitivityArgs {
     pub json: bool,
 }
 
-/// Studies the parameters of a filter, writes `sensitivity.json`, prints the table.
+/// Studies a filter's parameters, writes `sensitivity.json`, and prints the table.
 pub fn execute(args: &SensitivityArgs) -> Result<(), Error> {
     let candidate = &args.candidate;
     let choice = candidate.select()?;

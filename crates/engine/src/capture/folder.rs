@@ -1,4 +1,4 @@
-//! A capture as its folder has it, brought to the convention of frames.
+//! A capture's folder, converted to the convention of frames.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,9 +16,9 @@ use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
 use crate::files::refuse;
 
-/// Name of the file of a capture that holds its convention.
+/// Name of the file with a capture's convention.
 pub const CONVENTION_FILE: &str = "engine.toml";
-/// Name of the folder of a capture that holds its sub-frames.
+/// Name of the folder with a capture's sub-frames.
 pub const SUBFRAMES: &str = "subframes";
 
 /// An engine's pictures of one instant, and its sub-frames. All rasters have the same size.
@@ -28,27 +28,26 @@ pub struct Capture {
     pub folder: PathBuf,
     /// Contents of `capture.toml`.
     pub description: CaptureDescription,
-    /// Form in which the files have velocity, depth and colour.
+    /// Form of velocity, depth and colour in the files.
     pub convention: Convention,
     /// Scene-linear radiance.
     pub color: Image,
     /// Screen motion in pixels per frame; +x right, +y down.
     pub velocity: Vectors,
-    /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is seen.
+    /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is visible.
     pub depth: Plane,
-    /// Object at each pixel's centre, numbered as an exported manifest does; 0 is the background. None where the capture has no ids.
+    /// Object at each pixel's centre, numbered as in an exported manifest; 0 is the background. None if the capture has no ids.
     pub object_id: Option<Raster<u32>>,
     /// The engine's own blurred picture.
     pub blurred: Option<Image>,
-    /// Files of the sub-frames, in the order of time.
+    /// Files of the sub-frames, in order of time.
     pub subframes: Vec<PathBuf>,
-    /// Notes on what the files lost, a sentence each.
+    /// Notes on precision that the files lost, a sentence each.
     pub notes: Vec<String>,
 }
 
 impl Capture {
-    /// Reads a capture without its sub-frames. Takes the convention from a file, or from `engine.toml` in the folder where none is
-    /// named.
+    /// Reads a capture without its sub-frames. Takes the convention from the named file, or else from `engine.toml` in the folder.
     pub fn read(folder: &Path, convention: Option<&Path>) -> Result<Self, Error> {
         if !folder.is_dir() {
             return refuse!(
@@ -118,15 +117,15 @@ impl Capture {
         Ok(subframe)
     }
 
-    /// Reads the object ids of one of the sub-frames; none where its file has no channel of them.
+    /// Reads the object ids of one of the sub-frames; none if its file has no such channel.
     pub fn read_subframe_objects(&self, index: usize) -> Result<Option<Raster<u32>>, Error> {
         read_objects_beside_color(&self.subframes[index])
     }
 
-    /// Returns exposure and alignment of the shutter that the sub-frames and the blurred picture are of.
+    /// Returns exposure and alignment of the shutter of the sub-frames and the blurred picture.
     ///
     /// # Errors
-    /// `capture.toml` does not say them.
+    /// `capture.toml` does not state them.
     pub fn shutter(&self) -> Result<(f64, Alignment), Error> {
         match (self.description.exposure, self.description.alignment) {
             (Some(exposure), Some(alignment)) => Ok((exposure, alignment)),
@@ -153,7 +152,7 @@ fn read_convention(folder: &Path, path: Option<&Path>) -> Result<Convention, Err
     Ok(Convention::parse(path, &read_text(path)?)?)
 }
 
-/// Finds the exposure that velocity is converted with; any will do where velocity does not depend on it.
+/// Finds the exposure for converting velocity; any will do if velocity does not depend on it.
 fn find_velocity_exposure(
     folder: &Path,
     description: &CaptureDescription,
@@ -192,7 +191,7 @@ fn refuse_key<T>(folder: &Path, key: &str, about: &str) -> Result<T, Error> {
     )
 }
 
-/// Lists the sub-frames by their numbers from 0; none where there is no folder of them.
+/// Lists the sub-frames by their numbers from 0; none without a folder of them.
 fn list_subframes(
     folder: &Path,
     description: &CaptureDescription,
@@ -254,7 +253,7 @@ fn velocity_note(velocity: &Vectors) -> String {
     )
 }
 
-/// Says what half floats cost depth; nothing where it is little.
+/// Describes the precision that depth loses to half floats; none if that is little.
 fn depth_note(convention: &Convention) -> Option<String> {
     let near = convention.near.unwrap_or(1.0);
     let kind = match convention.depth {
@@ -262,7 +261,7 @@ fn depth_note(convention: &Convention) -> Option<String> {
         DepthKind::Forward => "forward",
         DepthKind::Ndc => "ndc",
     };
-    // A half has steps of 1/2048 below 1, where such a depth has all that is far.
+    // Below 1 a half has steps of 1/2048, and all far surfaces have such a depth.
     Some(format!(
         "depth.exr holds half floats of depth = \"{kind}\": {:.0} m and everything beyond it is off by a tenth or more; save 32 \
          bits, or reversed depth",

@@ -69,8 +69,8 @@ impl<'g> Blur<'g> {
         self.run_after(input, input)
     }
 
-    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame. That has as
-    /// many colour images, which go with those of the input.
+    /// Blurs every colour image of the input as [`Blur::run`] does, for filters with history after another frame, which has
+    /// as many colour images, in the same order.
     pub fn run_after(&mut self, input: &Input, before: &Input) -> Result<Vec<Image>, FilterError> {
         input.check(self.filter(), self.size)?;
         before.check(self.filter(), self.size)?;
@@ -83,7 +83,7 @@ impl<'g> Blur<'g> {
         let colors = input.color.iter().zip(before.color).enumerate();
         let outputs = colors.map(|(index, (color, before))| {
             self.upload_color(color, before)?;
-            // Results that do not depend on colour stay from the first image.
+            // Results that do not depend on colour are kept from the first image.
             self.blur(|dispatch| index == 0 || dispatch.depends_on_color)
         });
         let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
@@ -141,7 +141,7 @@ impl<'g> Blur<'g> {
                 scale => Ok(output.map(|pixel| pixel.map(|part| part / scale))),
             },
             Some([x, y]) => {
-                // If a loop was ended early, the broken pixel is its effect.
+                // A loop that was ended early may have broken the pixel.
                 self.check_loops()?;
                 Err(self.refuse_pixel([x, y], output.at(x, y)))
             }
@@ -215,7 +215,7 @@ impl<'g> Blur<'g> {
         self.upload_color(color, color)
     }
 
-    /// Uploads all but the colour, and what the filter reads of the frame before.
+    /// Uploads everything but the colour, and what the filter reads of the frame before.
     fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
         let texels = |layer: &str, input: &Input| match layer {
             "velocity" => velocity_texels(&self.filter().convention, input),
@@ -238,7 +238,7 @@ impl<'g> Blur<'g> {
         })
     }
 
-    /// Uploads a colour, and that of the frame before if the filter reads it.
+    /// Uploads a colour, and the frame before's if the filter reads it.
     fn upload_color(&self, color: &Image, before: &Image) -> Result<(), FilterError> {
         let upload = |name, color: &Image| {
             let texels = color.to_texels(self.color_scale());

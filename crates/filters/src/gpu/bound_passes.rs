@@ -16,7 +16,7 @@ use super::uniforms::FrameValues;
 use crate::shader::{Role, UniformBlock, Variable};
 use crate::{Filter, FilterError, Format, Pass, Settings};
 
-/// Everything of a filter that lives on the GPU.
+/// Everything of a filter that is on the GPU.
 #[derive(Debug)]
 pub(super) struct BoundPasses {
     /// Dispatches in the order in which they run.
@@ -251,7 +251,7 @@ pub(super) fn mark_of(format: Format) -> f32 {
     }
 }
 
-/// Creates a texture like the output that holds nothing but the mark.
+/// Creates a texture like the output, filled with the mark.
 fn create_mark(gpu: &Gpu, [width, height]: [u32; 2], format: Format) -> Target {
     let usage = wgpu::TextureUsages::empty();
     let target = gpu.create_target("mark", [width, height], 1, format, usage);

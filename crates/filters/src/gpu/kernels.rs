@@ -23,7 +23,7 @@ use crate::{Filter, FilterError, Pass, Settings};
 pub struct Kernels<'g> {
     pub(super) gpu: &'g Gpu,
     pub(super) filter: Filter,
-    /// Those with the settings of the first preset, then those of settings that set specialisation constants to other values.
+    /// Kernels for the settings of the first preset, then for settings with other values of specialisation constants.
     specialised: Mutex<Vec<Arc<Specialised>>>,
 }
 
@@ -113,7 +113,7 @@ fn list_all_constants(filter: &Filter, settings: &Settings) -> Vec<Constants> {
     filter.passes.iter().map(of_pass).collect()
 }
 
-/// Compiles the passes of a filter, but for those whose constants are the same as in `known`.
+/// Compiles the passes of a filter, except those with the same constants as in `known`.
 fn compile(
     gpu: &Gpu,
     filter: Filter,
@@ -173,8 +173,8 @@ fn compile_pass(
     compiled.map_err(|reason| refuse(gpu, filter, &pass.entry, &reason))
 }
 
-/// Compiles a module. Its loops are counted if the adapter ends long ones, but for those of vertex stages, which may store nothing;
-/// these follow what their fragment shader reads.
+/// Compiles a module. Its loops are counted if the adapter ends long ones, except in vertex stages, which may store nothing;
+/// those are interpolated as their fragment shader reads them.
 fn compile_shader(
     gpu: &Gpu,
     filter: &Filter,

@@ -94,7 +94,7 @@ fn unpack(bytes: &[u8], texel: impl Fn(u32) -> [f32; 4]) -> Vec<f32> {
     words.flat_map(texel).collect()
 }
 
-/// Rounds a number from 0 to a 16-bit float without its sign and its last `cut` bits; the largest one stands for all above it.
+/// Rounds a number from 0 to a 16-bit float without its sign and its last `cut` bits; larger numbers become the largest one.
 fn shorten(value: f32, cut: u32) -> u32 {
     let bits = u32::from(f16::from_f32(value.clamp(0.0, LARGEST_F16)).to_bits());
     let largest = (0x7c00 >> cut) - 1;

@@ -41,7 +41,7 @@ pub fn try_out(gpu: &Gpu, filter: &Filter) -> Result<(), FilterError> {
     let mut failures = Vec::new();
     let trials = list_trials(filter)?;
     for (index, (settings, what, line)) in trials.iter().enumerate() {
-        // Where the default fails, each of its neighbours fails too.
+        // If the default fails, so does each of its neighbours.
         if index == filter.presets.len() && !failures.is_empty() {
             break;
         }
@@ -118,7 +118,7 @@ fn shorten(mut failures: Vec<String>) -> Vec<String> {
     failures
 }
 
-/// Makes a bright square that moves before a wall, and a sky: colour, velocity and depth.
+/// Makes a bright square that moves in front of a wall, and a sky: colour, velocity and depth.
 fn make_frame() -> (Image, Vectors, Plane) {
     let is_square = |x: u32, y: u32| (4..10).contains(&x) && (5..11).contains(&y);
     let is_sky = |y: u32| y < 3;

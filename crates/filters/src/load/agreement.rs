@@ -38,7 +38,7 @@ impl Filter {
         Ok(())
     }
 
-    /// Compares the parameters with the numbers of their uniform: names, types and offsets. `line` is that of the uniform.
+    /// Compares the parameters with the numbers of their uniform: names, types and offsets. `line` is the uniform's.
     fn check_members(
         &self,
         members: &[BlockNumber],
@@ -46,7 +46,7 @@ impl Filter {
     ) -> Result<(), FilterError> {
         let name = |member: &BlockNumber| match &member.value {
             Expression::Name(name) => name.clone(),
-            _ => unreachable!("numbers of a kernel are called after members"),
+            _ => unreachable!("numbers of a kernel are named after members"),
         };
         let manifest = self.lines.path.display();
         let parameters = &self.parameters;
@@ -95,7 +95,7 @@ impl Filter {
         }
     }
 
-    /// Refuses a parameter that changes nothing, where shaders take only the parameters that they want.
+    /// Refuses a parameter that changes nothing, if shaders read only the parameters that they want.
     fn check_parameters_are_used(&self) -> Result<(), FilterError> {
         let Filter {
             shaders,

@@ -10,8 +10,8 @@ use super::bindings::{BindingEntry, read_bindings};
 use super::defines::read_defines;
 use super::file::File;
 use super::number::NumberEntry;
-use crate::filter::{PassShader, Stage, VertexShader};
-use crate::translate::Language;
+use crate::filter::{LabPass, PassShader, Stage, VertexShader};
+use crate::translate::{Language, SHADER_LAB};
 use crate::{Count, Filter, FilterError};
 
 /// `[[pass]]`.
@@ -24,6 +24,7 @@ pub(super) struct PassEntry {
     pub workgroup_per_texel: bool,
     pub repeat: Option<Count>,
     pub shader: Option<Spanned<String>>,
+    pub shader_pass: Option<LabPass>,
     pub stage: Option<Stage>,
     pub targets: Option<Vec<String>>,
     pub level: Option<NumberEntry>,
@@ -40,7 +41,7 @@ pub(super) struct PassEntry {
     pub compiler: Option<String>,
 }
 
-/// Reads the shader of a pass; none where the pass runs a kernel of the filter's WGSL file.
+/// Reads the shader of a pass; none if the pass runs a kernel of the filter's WGSL file.
 pub(super) fn read_shader(
     file: &File,
     pass: &Spanned<PassEntry>,
@@ -75,6 +76,7 @@ pub(super) fn read_shader(
     let defines = read_defines(&keys.defines, language);
     Ok(Some(PassShader {
         file: relative,
+        shader_pass: keys.shader_pass.clone(),
         entry: entry.to_owned(),
         stage,
         targets,
@@ -91,6 +93,7 @@ pub(super) fn read_shader(
 /// Refuses keys that are for a shader of the pass's own.
 fn refuse_keys(keys: &PassEntry) -> Result<(), String> {
     let given = [
+        ("shader_pass", keys.shader_pass.is_some()),
         ("stage", keys.stage.is_some()),
         ("targets", keys.targets.is_some()),
         ("level", keys.level.is_some()),
@@ -116,6 +119,11 @@ fn check_compiler(keys: &PassEntry, language: Language, path: &str) -> Result<()
     if language != Language::Wesl && !keys.conditions.is_empty() {
         return Err(format!("conditions are for WESL; \"{path}\" is {name}"));
     }
+    if keys.shader_pass.is_some() && !path.ends_with(&format!(".{SHADER_LAB}")) {
+        return Err(format!(
+            "shader_pass is for a .{SHADER_LAB} file of Unity; \"{path}\" is none"
+        ));
+    }
     let known: Vec<&str> = language.compilers().iter().map(|it| it.program).collect();
     match keys.compiler.as_deref() {
         Some(compiler) if known.is_empty() => Err(format!(
@@ -129,7 +137,7 @@ fn check_compiler(keys: &PassEntry, language: Language, path: &str) -> Result<()
     }
 }
 
-/// Refuses names of entry points and conditions that are no words, since they stand in the command line of a compiler.
+/// Refuses names of entry points and conditions that are not words, because a compiler gets them on its command line.
 fn check_names<'n>(mut names: impl Iterator<Item = &'n str>) -> Result<(), String> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let is_name = |name: &str| name.starts_with(is_part) && name.chars().all(is_part);
@@ -141,7 +149,7 @@ fn check_names<'n>(mut names: impl Iterator<Item = &'n str>) -> Result<(), Strin
     }
 }
 
-/// Reads the name of a file of a shader, which stays in the filter's folder.
+/// Reads the name of a shader's file, which must be in the filter's folder.
 fn read_file(
     file: &File,
     key: &str,

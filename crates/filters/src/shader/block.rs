@@ -56,7 +56,7 @@ fn find_kind(scalar: Scalar) -> Option<NumberKind> {
 }
 
 impl UniformBlock {
-    /// Refuses a block that is larger than adapters grant, or that does not hold all of its numbers.
+    /// Refuses a block that is larger than adapters grant, or too small for its numbers.
     pub fn new(
         module: &Module,
         block: Handle<Type>,
@@ -93,7 +93,8 @@ impl UniformBlock {
         }
     }
 
-    /// Makes a block whose numbers are called after its members: `prefix`, the member, and the index of the number if it holds several.
+    /// Makes a block with numbers named after its members: `prefix`, the member, and the index of
+    /// the number if there are several.
     pub fn by_name(module: &Module, block: Handle<Type>, prefix: &str) -> Result<Self, String> {
         let mut numbers = Vec::new();
         for member in list_members(module, block, &|_, _| 0)? {

@@ -21,7 +21,7 @@ pub(crate) struct EntryPoint {
     pub variables: Vec<usize>,
     /// Indices of the textures among them that it reads through a sampler that interpolates.
     pub interpolated: BTreeSet<usize>,
-    /// Locations that a vertex stage or a fragment shader writes; none of a kernel.
+    /// Locations that a vertex stage or a fragment shader writes; none for a kernel.
     pub locations: Vec<u32>,
     /// Values that it reads: texture coordinates, or the attributes of vertices.
     pub inputs: Vec<Varying>,
@@ -31,7 +31,7 @@ pub(crate) struct EntryPoint {
     pub reads_whole: BTreeSet<String>,
     /// Names of the textures that it writes.
     pub writes: BTreeSet<String>,
-    /// True if texels of a texture that it reads and writes keep what they held where it writes nothing, as in engines.
+    /// True if texels of a texture that it reads and writes keep their content unless it writes them, as in engines.
     pub keeps_unwritten: bool,
     /// True if it reads the frame's index, from which noise is drawn.
     pub draws_noise: bool,
@@ -47,8 +47,8 @@ impl EntryPoint {
         self.stage == ShaderStage::Fragment
     }
 
-    /// Names the textures that it both reads and writes: those have two copies, exchanged after each iteration. Where it reads
-    /// single mip levels, one copy serves.
+    /// Names the textures that it both reads and writes: those have two copies, exchanged after each iteration. If it reads
+    /// single mip levels, one copy is enough.
     pub fn exchanged_textures(&self) -> impl Iterator<Item = &String> {
         self.reads_whole.intersection(&self.writes)
     }

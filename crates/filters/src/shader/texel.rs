@@ -58,12 +58,12 @@ impl Format {
         self.describe().0
     }
 
-    /// Returns how many numbers a texel is given as and read as.
-    pub(crate) fn components(self) -> usize {
+    /// Returns how many numbers a texel is passed as.
+    pub fn components(self) -> usize {
         self.describe().1
     }
 
-    /// Converts the format to that of wgpu.
+    /// Converts the format to wgpu's.
     pub(crate) fn wgpu(self) -> TextureFormat {
         self.describe().2
     }
@@ -81,7 +81,7 @@ impl Format {
             .into()
     }
 
-    /// Returns the format of as many floats of 32 bits; formats of other numbers than floats stay.
+    /// Returns the format with as many 32-bit floats; formats that are not of floats stay.
     pub(crate) fn widened(self) -> Self {
         match self {
             Self::R16Float => Self::R32Float,

@@ -15,7 +15,7 @@ use crate::{Expression, FilterError};
 #[derive(Clone, Debug)]
 pub(crate) struct Variable {
     pub name: String,
-    /// Texture that it reads or writes, or the uniform that it is.
+    /// Texture that it reads or writes, or its uniform.
     pub resource: String,
     pub binding: u32,
     pub role: Role,
@@ -91,7 +91,7 @@ pub(super) fn find_variable(
     })
 }
 
-/// First part of the names of numbers of the uniform `frame` of common.wgsl. No parameter is called so.
+/// First part of the names of numbers of the uniform `frame` of common.wgsl. No parameter's name contains it.
 pub(crate) const FRAME_PREFIX: &str = "frame.";
 
 /// Finds the role of a texture; none for one that cannot be bound.

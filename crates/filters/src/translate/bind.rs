@@ -288,7 +288,7 @@ impl Binder<'_> {
         Ok(())
     }
 
-    /// Names the texture of a binding: the one that filter.toml names, or the one that the variable is called after.
+    /// Names the texture of a binding: the one that filter.toml names, or the one that the variable is named after.
     fn name_texture(&self, binding: Option<&Binding>, variable: &str) -> Result<String, String> {
         if let Some(texture) = binding.and_then(|binding| binding.texture.clone()) {
             return Ok(texture);

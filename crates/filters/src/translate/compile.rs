@@ -1,4 +1,4 @@
-//! Compilation of a shader by a program on the PATH: to SPIR-V, or to WGSL in the case of WESL.
+//! Compilation of a shader by a program on the PATH: to SPIR-V, or from WESL to WGSL.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -20,10 +20,10 @@ use crate::printable::escape_controls;
 /// Longest time that a compiler may take.
 const TIME_LIMIT: Duration = Duration::from_secs(60);
 
-/// Most of a compiler's words that are read.
+/// Most bytes of a compiler's messages that are read.
 const MAX_LOG_BYTES: u64 = 1 << 20;
 
-/// Most of a compiler's words that an error shows.
+/// Most bytes of a compiler's messages that an error shows.
 const MAX_MESSAGE_BYTES: usize = 4096;
 
 /// Arguments of a compiler, and the texts that it saw.
@@ -137,7 +137,7 @@ fn run(
         word => word.into(),
     });
     let errors = File::create(&log)?;
-    // The compiler of WESL prints what it makes; the others print errors there.
+    // The compiler of WESL prints its output; the others print errors there.
     let said = match language {
         Language::Wesl => File::create(&output)?,
         _ => errors.try_clone()?,
@@ -194,7 +194,7 @@ fn remove_colors(said: &str) -> String {
     })
 }
 
-/// Finds the first line that a compiler names, and tidies what it said.
+/// Finds the first line that a compiler names, and tidies its messages.
 fn find_error(said: &str, input: &Path, copies: &Path, folder: &Path) -> (Option<usize>, String) {
     let name = input.display().to_string();
     let of_line = |line: &str| -> Option<usize> {
@@ -213,7 +213,7 @@ fn find_error(said: &str, input: &Path, copies: &Path, folder: &Path) -> (Option
     (line, shorten(lines))
 }
 
-/// Joins what a compiler said. If that is too long, lines with errors come first, and the number of lines that are left out last.
+/// Joins a compiler's messages. If they are too long, lines with errors come first, and the number of omitted lines last.
 fn shorten(mut lines: Vec<String>) -> String {
     let mut said = lines.join("\n");
     if said.len() <= MAX_MESSAGE_BYTES {

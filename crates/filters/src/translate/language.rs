@@ -1,4 +1,4 @@
-//! Shading languages, told by the ending of a file.
+//! Shading languages, by the ending of a file.
 
 use std::path::Path;
 
@@ -13,8 +13,11 @@ pub(crate) enum Language {
     Wgsl,
 }
 
+/// Ending of Unity's ShaderLab, which contains HLSL.
+pub(crate) const SHADER_LAB: &str = "shader";
+
 /// Endings of files.
-const ENDINGS: [(&str, Language); 10] = [
+const ENDINGS: [(&str, Language); 11] = [
     ("spv", Language::Spirv),
     ("glsl", Language::Glsl),
     ("comp", Language::Glsl),
@@ -23,6 +26,7 @@ const ENDINGS: [(&str, Language); 10] = [
     ("slang", Language::Slang),
     ("hlsl", Language::Hlsl),
     ("fx", Language::Hlsl),
+    (SHADER_LAB, Language::Hlsl),
     ("wesl", Language::Wesl),
     ("wgsl", Language::Wgsl),
 ];

@@ -11,7 +11,7 @@ use crate::{Expression, Filter};
 /// Name that stands for all members without a value of their own.
 const OTHERS: &str = "*";
 
-/// Lays out the values of a block. `by_rows` has the members that hold the rows of a matrix, by name and offset.
+/// Lays out the values of a block. `by_rows` has the members that contain the rows of a matrix, by name and offset.
 pub(super) fn fill_block(
     filter: &Filter,
     module: &Module,
@@ -97,7 +97,7 @@ fn find_given<'a>(
     meant.max_by_key(|(name, _)| name.len())
 }
 
-/// Writes a value that stands for several numbers as so many values. Matrices come column by column, or row by row.
+/// Expands a value that stands for several numbers to one value each. Matrices come column by column, or row by row.
 fn spell_out(filter: &Filter, values: &[Expression], is_by_rows: bool) -> Vec<Expression> {
     let spelled = values.iter().flat_map(|value| {
         let Expression::Name(name) = value else {

@@ -38,8 +38,8 @@ pub struct ExrFile {
     pub channels: Vec<Channel>,
     /// Text attributes of the header.
     pub attributes: BTreeMap<String, String>,
-    /// Description of a display window of another place or size than the pixels'; `None` if both are one, as in every file of
-    /// this program.
+    /// Description of a display window that differs from the pixels' in place or size; `None` if both are the same, as
+    /// in every file of this program.
     pub padding: Option<String>,
 }
 
@@ -109,7 +109,7 @@ impl ExrFile {
         self.set(name, words.join(" "));
     }
 
-    /// Reads a text attribute as finite numbers; none where it does not hold as many.
+    /// Reads a text attribute as finite numbers; none if it has another number of them.
     pub(crate) fn numbers<const N: usize>(
         &self,
         name: &str,
@@ -223,7 +223,7 @@ impl ExrFile {
     }
 }
 
-/// Puts the name of a layer before that of a channel.
+/// Puts a layer's name before a channel's.
 pub(crate) fn in_layer(layer: &str, name: &str) -> String {
     if layer.is_empty() {
         name.to_owned()

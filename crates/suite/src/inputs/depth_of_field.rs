@@ -20,7 +20,7 @@ named! {
 }
 
 impl DepthOfField {
-    /// Refuses a form that means nothing for a scene.
+    /// Refuses a form that has no meaning for a scene.
     pub(crate) fn check(self, scene: &Scene) -> Result<(), Error> {
         match (self, scene.camera.lens) {
             (Self::After, None) => Err(Error::Usage(format!(
@@ -32,7 +32,7 @@ impl DepthOfField {
         }
     }
 
-    /// Returns the frame that a filter gets, and the scene as it shows it.
+    /// Returns the frame that a filter gets, and the scene as shown in it.
     pub(crate) fn apply<'s>(
         self,
         frame: Frame,
@@ -55,7 +55,7 @@ impl DepthOfField {
         }
     }
 
-    /// Prepares the pass behind a filter; none where the filter comes last. [`DepthOfField::check`] has passed the scene.
+    /// Prepares the pass after a filter; none if the filter comes last. [`DepthOfField::check`] has accepted the scene.
     pub(crate) fn prepare_pass(
         self,
         frame: &Frame,

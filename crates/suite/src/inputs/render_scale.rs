@@ -29,8 +29,7 @@ named! {
 }
 
 impl RenderScale {
-    /// Returns the part of the picture's width and height, in percent, and true if a filter gets the small frame and its output is
-    /// upscaled.
+    /// Returns the percentage of the picture's width and height, and true if a filter gets the small frame and its output is upscaled.
     fn parts(self) -> (u32, bool) {
         match self {
             Self::Full => (100, false),
@@ -43,13 +42,13 @@ impl RenderScale {
         }
     }
 
-    /// Returns the rendered size of a picture: rounded to whole pixels, and one at least.
+    /// Returns the rendered size of a picture: rounded to whole pixels, at least one.
     fn rendered_size(self, picture: [u32; 2]) -> [u32; 2] {
         let percent = u64::from(self.parts().0);
         picture.map(|side| ((u64::from(side) * percent + 50) / 100).max(1) as u32)
     }
 
-    /// Returns the size of the picture that a filter gets, where the whole picture is of such a size.
+    /// Returns the size that a filter gets for a picture of this size.
     pub(crate) fn blurred_size(self, picture: [u32; 2]) -> [u32; 2] {
         match self.parts() {
             (_, true) => self.rendered_size(picture),
@@ -57,8 +56,7 @@ impl RenderScale {
         }
     }
 
-    /// Returns the frame as a filter gets it: small, or upscaled. Upscaled colour is bilinear; velocity and depth are those of the
-    /// nearest small pixel.
+    /// Returns the frame as a filter gets it: small, or upscaled with bilinear colour and the nearest small pixel's velocity and depth.
     pub(crate) fn apply(self, frame: Frame, renderer: &Renderer) -> Result<Frame, Error> {
         if self == Self::Full {
             return Ok(frame);

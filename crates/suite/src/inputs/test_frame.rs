@@ -1,8 +1,8 @@
-//! A small frame for tests of forms of the input.
+//! A small frame for tests of input forms.
 
 use frame::{Display, FAR_DEPTH, Frame, FrameOptions, Provenance, Raster, Reprojection};
 
-/// Makes a black frame of nothing.
+/// Makes an empty black frame.
 pub(crate) fn test_frame(width: u32, height: u32) -> Frame {
     Frame {
         provenance: Provenance::default(),

@@ -1,4 +1,4 @@
-//! Defects of a velocity buffer, as engines have had them.
+//! Defects of a velocity buffer that engines have had.
 
 use frame::{Frame, Vectors, VelocityKind};
 use tracer::{PointMotion, Scene, trace_motion};
@@ -38,7 +38,7 @@ named! {
 }
 
 impl VelocityDefect {
-    /// Returns the velocity of a frame with this defect. [`VelocityDefect::check`] has passed the frame and the scene.
+    /// Returns a frame's velocity with this defect. [`VelocityDefect::check`] has accepted the frame and the scene.
     pub(crate) fn apply(self, frame: &Frame, scene: Option<&Scene>) -> Result<Vectors, Error> {
         let each = |change: fn([f32; 2]) -> [f32; 2]| Ok(frame.velocity.map(|it| change(*it)));
         if let (Some(motion), Some(scene)) = (self.motion(), scene) {
@@ -57,7 +57,7 @@ impl VelocityDefect {
         }
     }
 
-    /// Returns the motion, of some points, that the buffer holds in place of the frame's own; none if it can be made of that.
+    /// Returns the motion between points that replaces the frame's own; none if the defect can be made from the frame's.
     fn motion(self) -> Option<PointMotion> {
         match self {
             Self::Lag => Some(PointMotion::FRAME_LATE),
@@ -70,7 +70,7 @@ impl VelocityDefect {
         }
     }
 
-    /// Refuses a defect of motion that is not known: that of a capture, or that of objects where only the camera's is taken.
+    /// Refuses a defect if its motion is unknown: in a capture, or object motion with a buffer of camera motion.
     pub(crate) fn check(self, kind: VelocityKind, has_scene: bool) -> Result<(), Error> {
         let reason = match (self.motion(), has_scene, kind) {
             (Some(_), false, _) => {

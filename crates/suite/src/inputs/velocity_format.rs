@@ -31,11 +31,11 @@ named! {
     }
 }
 
-/// What a buffer keeps of a velocity, in units of the format.
+/// Rounds a velocity as the buffer stores it, in units of the format.
 type Store = fn([f64; 2]) -> [f64; 2];
 
 impl VelocityFormat {
-    /// Returns the frame's velocity as it comes out of this buffer.
+    /// Returns the frame's velocity as read from this buffer.
     pub(crate) fn apply(self, frame: &Frame) -> Vectors {
         let (width, height) = frame.size();
         let [width, height] = [width, height].map(|side| f64::from(side - 2 * frame.guard_band));
@@ -59,12 +59,12 @@ impl VelocityFormat {
     }
 }
 
-/// Stores parts of the way from the centre to the border.
+/// Stores parts of the distance from the centre to the border.
 fn linear8(parts: [f64; 2]) -> [f64; 2] {
     parts.map(|part| 2.0 * unorm(0.5 + 0.5 * part, 8) - 1.0)
 }
 
-/// Stores parts of the way from the centre to the border.
+/// Stores parts of the distance from the centre to the border.
 fn polar_sqrt8(parts: [f64; 2]) -> [f64; 2] {
     match parts[0].hypot(parts[1]) {
         0.0 => [0.0; 2],
@@ -75,10 +75,10 @@ fn polar_sqrt8(parts: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// Stores half the smear, in parts of the longest one.
+/// Stores half the smear, relative to the longest one.
 fn kino10(half: [f64; 2]) -> [f64; 2] {
     let shortened = half[0].hypot(half[1]).max(1.0);
-    // 512 of 1023 stands for 0, so that what stands still does.
+    // 512 of 1023 is exactly 0, so that still pixels stay still.
     half.map(|part| ((512.0 + 511.0 * part / shortened).round() - 512.0) / 511.0)
 }
 

@@ -1,4 +1,4 @@
-//! The frame in the forms in which filters get it, and the frame before, for filters that read it.
+//! The frame in the forms that filters get, and the previous frame for filters that read it.
 
 use frame::Frame;
 use tracer::Scene;
@@ -8,15 +8,15 @@ use super::run_scene::RunScene;
 use crate::Error;
 use crate::inputs::input_format::InputFormat;
 
-/// A frame in one of the forms in which filters get it.
+/// A frame in one of the forms that filters get.
 pub(crate) struct StoredFrame {
     pub format: InputFormat,
     pub frame: Frame,
-    /// The frame before; none for the first frame, and where no filter reads it.
+    /// The previous frame; none for the first frame, and if no filter reads it.
     pub before: Option<Frame>,
 }
 
-/// Stores the frame of a scene in every form, and for filters with history the frame before it.
+/// Stores a scene's frame in every form, and the previous frame for filters with history.
 pub(super) fn store_frames(
     plan: &RunPlan,
     scene: RunScene,
@@ -40,7 +40,7 @@ pub(super) fn store_frames(
         .collect()
 }
 
-/// Reads the frame before that of a later frame, with its scene.
+/// Reads the frame before a later frame, with its scene.
 fn read_frame_before(plan: &RunPlan, scene: RunScene) -> Result<Option<(Scene, Frame)>, Error> {
     let mut filters = plan.filters.iter();
     let has_history = filters.any(|choice| !choice.filter.history.is_empty());

@@ -1,4 +1,4 @@
-//! The rendering of one scene: each of its files is rendered once, and read back from then on.
+//! The rendering of one scene: each file is rendered once, and later read back.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use super::memory::check_memory;
 use super::settings::frame_settings;
 use crate::{Error, Monitor};
 
-/// A scene, the settings that it is rendered with, and the folder of the run that its files are written to.
+/// A scene, its render settings, and the run's folder for its files.
 #[derive(Clone, Copy)]
 pub struct Rendering<'a> {
     /// The scene.
@@ -24,7 +24,7 @@ pub struct Rendering<'a> {
 }
 
 impl Rendering<'_> {
-    /// Renders the frame; reads it from its file if its inputs are the same.
+    /// Renders the frame, or reads it from its file if its inputs are the same.
     pub fn frame(&self) -> Result<Frame, Error> {
         refuse_scene(&scene_folder(self.out, self.scene))?;
         let own = frame_settings(&self.settings);
@@ -53,7 +53,7 @@ impl Rendering<'_> {
         scene_folder(self.out, self.scene).join(file.path())
     }
 
-    /// Refuses a truth of the settings that the scene cannot have.
+    /// Refuses a truth that the scene cannot have with these settings.
     pub(super) fn check_truth(&self, alignment: Alignment) -> Result<(), Error> {
         Ok(self.settings.check_truth(self.scene, alignment).map(drop)?)
     }

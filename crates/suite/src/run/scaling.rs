@@ -1,4 +1,4 @@
-//! Runs in which some filters are scaled to the picture and others are not.
+//! Runs with some filters scaled to the picture and others not.
 
 use filters::Filter;
 
@@ -6,8 +6,7 @@ use super::Run;
 use super::case::Case;
 
 impl Run {
-    /// Says which filters are scaled to the pictures' width and which of a person's own are not; none for a run that does not mix
-    /// both.
+    /// Names the filters that are scaled to the pictures' width, and the user's own that are not; none for a run that does not mix both.
     pub fn scaling_note(&self) -> Option<String> {
         let builtin = Filter::builtin_names();
         let filters = || self.cases.iter().filter(|case| !case.is_reference);

@@ -11,12 +11,12 @@ use crate::scene::Scene;
 /// for ten turns per frame at a radius of 100 pixels. Rounding adds about 1e-6 pixels.
 const STEP: f64 = 1e-5;
 
-/// Which motion of which points a velocity buffer holds: the right one, or that of a broken buffer.
+/// Motion and points of a velocity buffer: the right ones, or a broken buffer's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointMotion {
     /// Time at which the points are seen at the pixels' centres, in frames.
     pub seen_at: f64,
-    /// Time whose motion is taken, in frames.
+    /// Time of the motion, in frames.
     pub moved_at: f64,
     /// Time since the place before, in frames.
     pub over: f64,
@@ -79,7 +79,7 @@ pub enum ObjectsBefore {
     Own,
     /// Their place now, as if they stood still.
     Now,
-    /// No place: their matrix is still the identity, so that they lay at the origin, not turned and not scaled.
+    /// No place: their matrix is still the identity, so that they were at the origin, not turned and not scaled.
     Identity,
 }
 
