@@ -195,8 +195,8 @@ impl<'g> Blur<'g> {
         }
     }
 
-    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a whole number
-    /// of 32 bits is the float of the same bits. Panics if the filter has no such texture.
+    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a number
+    /// of `r32uint` is the float of the same bits. Panics if the filter has no such texture.
     pub fn read_texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
         let target = self.passes.target(name);
         self.gpu.download(target, self.place("read back"))

@@ -38,7 +38,7 @@ impl Format {
         }
     }
 
-    /// Decodes the numbers of a row. Whole ones of 32 bits become the floats of their bits.
+    /// Decodes the numbers of a row. Those of `r32uint` become the floats of their bits.
     fn decode(self, bytes: &[u8]) -> Vec<f32> {
         match self {
             Format::Rgb10a2Unorm => unpack(bytes, |word| {
@@ -54,30 +54,32 @@ impl Format {
                     1.0,
                 ]
             }),
-            _ => match self.texel_bytes() as usize / self.components() {
-                4 => bytemuck::pod_collect_to_vec(bytes),
-                size => (bytes.chunks_exact(size))
-                    .map(|number| decode_short(number, self.kind()))
-                    .collect(),
-            },
+            Format::R32Uint | Format::R32Float | Format::Rg32Float | Format::Rgba32Float => {
+                bytemuck::pod_collect_to_vec(bytes)
+            }
+            _ => {
+                let size = self.texel_bytes() as usize / self.components();
+                let numbers = bytes.chunks_exact(size);
+                numbers
+                    .map(|number| decode_number(number, self.kind()))
+                    .collect()
+            }
         }
     }
 }
 
-/// Decodes a number of 8 or 16 bits.
-fn decode_short(number: &[u8], kind: ScalarKind) -> f32 {
-    match (number, kind) {
-        ([byte], ScalarKind::Uint) => f32::from(*byte),
-        ([byte], ScalarKind::Sint) => f32::from(*byte as i8),
-        ([byte], _) => f32::from(*byte) / 255.0,
-        (pair, kind) => {
-            let bits = u16::from_le_bytes([pair[0], pair[1]]);
-            match kind {
-                ScalarKind::Uint => f32::from(bits),
-                ScalarKind::Sint => f32::from(bits as i16),
-                _ => f16::from_bits(bits).to_f32(),
-            }
-        }
+/// Decodes a whole number, or a float of 8 or 16 bits.
+fn decode_number(number: &[u8], kind: ScalarKind) -> f32 {
+    let mut word = [0; 4];
+    word[..number.len()].copy_from_slice(number);
+    let bits = u32::from_le_bytes(word);
+    let unused = 32 - 8 * number.len() as u32;
+    match (kind, number.len()) {
+        (ScalarKind::Uint, _) => bits as f32,
+        // The sign is the highest bit in use.
+        (ScalarKind::Sint, _) => ((bits << unused) as i32 >> unused) as f32,
+        (_, 1) => bits as f32 / 255.0,
+        _ => f16::from_bits(bits as u16).to_f32(),
     }
 }
 
@@ -323,5 +325,14 @@ mod tests {
             assert!(error <= 0.5_f32.powi(bits), "{decoded:?}");
         }
         assert_eq!(decoded[4..], [0.0, 65024.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn whole_numbers_keep_their_values() {
+        assert_eq!(Format::Rg8Sint.decode(&[0xff, 0x7f]), [-1.0, 127.0]);
+        assert_eq!(Format::Rg16Uint.decode(&[1, 2, 0, 0x80]), [513.0, 32768.0]);
+        let minus_two = (-2_i32).to_le_bytes();
+        assert_eq!(Format::R32Sint.decode(&minus_two), [-2.0]);
+        assert_eq!(Format::R16Sint.decode(&minus_two[..2]), [-2.0]);
     }
 }
