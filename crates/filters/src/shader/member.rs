@@ -2,8 +2,8 @@
 
 use wgpu::naga::{ArraySize, Handle, Module, Scalar, Type, TypeInner, VectorSize};
 
-/// Upper limit on the numbers of a block.
-const MAX_NUMBERS: usize = 1024;
+/// Upper limit on the numbers of a block. The data of a scene that Godot hands over, of this frame and the last, has some 1,500.
+const MAX_NUMBERS: usize = 4096;
 
 /// A member of a block: its name, its place and its numbers.
 pub(crate) struct Member {
