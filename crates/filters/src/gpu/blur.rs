@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use frame::{Image, Raster};
+use wgpu::naga::ScalarKind;
 
 use super::bound_passes::{BoundPasses, mark_of};
 use super::device::Gpu;
@@ -168,8 +169,9 @@ impl<'g> Blur<'g> {
     fn find_first_broken(&self) -> Option<String> {
         for dispatch in &self.passes.dispatches {
             self.run_dispatch(dispatch).ok()?;
-            let between = (dispatch.written.iter())
-                .filter(|(name, target)| name != "output" && target.format != Format::R32Uint);
+            let between = (dispatch.written.iter()).filter(|(name, target)| {
+                name != "output" && target.format.kind() == ScalarKind::Float
+            });
             for (name, target) in between {
                 let texels = self.gpu.download(target, self.place("read back")).ok()?;
                 let broken = find_broken(&texels);
@@ -193,8 +195,8 @@ impl<'g> Blur<'g> {
         }
     }
 
-    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a whole number
-    /// is the float of the same bits. Panics if the filter has no such texture.
+    /// Reads what the last run left in a texture between the passes. Components that its format lacks are 0, and a number
+    /// of `r32uint` is the float of the same bits. Panics if the filter has no such texture.
     pub fn read_texture(&self, name: &str) -> Result<Raster<[f32; 4]>, FilterError> {
         let target = self.passes.target(name);
         self.gpu.download(target, self.place("read back"))

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use crate::filter::{INPUTS, PassShader};
-use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, written_texture};
+use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, Varying, written_texture};
 use crate::translate::check_texture;
 use crate::{Count, Expression, Filter, FilterError, Pass, Stage};
 
@@ -170,8 +170,9 @@ impl Filter {
             if let Some(shader) = &pass.shader {
                 check_targets(self, shader, entry).map_err(refuse)?;
             }
-            if let [_, (_, vertex)] = self.stages(pass)[..] {
-                check_vertex(vertex, entry).map_err(refuse)?;
+            match self.stages(pass)[..] {
+                [_, (_, vertex)] => check_vertex(vertex, entry).map_err(refuse)?,
+                _ => check_coordinates(entry).map_err(refuse)?,
             }
             if let Some(name) = entry.reads.iter().find(|name| !ready.contains(&name[..])) {
                 return Err(refuse(format!(
@@ -261,23 +262,33 @@ fn check_targets(filter: &Filter, shader: &PassShader, entry: &EntryPoint) -> Re
 
 /// Refuses a vertex stage that wants vertices, or that leaves out what the fragment shader reads.
 fn check_vertex(vertex: &EntryPoint, fragment: &EntryPoint) -> Result<(), String> {
-    if !vertex.inputs.is_empty() {
+    let attributes: Vec<u32> = vertex.inputs.iter().map(|it| it.location).collect();
+    if !attributes.is_empty() {
         return Err(format!(
             "vertex shader \"{}\" reads attributes at locations {:?}; there are no vertex buffers; allowed: one that makes \
              its three corners from the index of the vertex; or leave `vertex` out for a triangle of the program's own",
-            vertex.name, vertex.inputs
+            vertex.name, attributes
         ));
     }
-    match fragment
-        .inputs
-        .iter()
-        .find(|location| !vertex.locations.contains(location))
-    {
+    let mut read = fragment.inputs.iter().map(|it| it.location);
+    match read.find(|location| !vertex.locations.contains(location)) {
         Some(missing) => Err(format!(
             "the fragment shader reads location {missing}; vertex shader \"{}\" writes locations {:?}; allowed: one that \
              writes all that the other reads",
             vertex.name, vertex.locations
         )),
         None => Ok(()),
+    }
+}
+
+/// Refuses a fragment shader that reads other numbers than the program's own triangle has.
+fn check_coordinates(fragment: &EntryPoint) -> Result<(), String> {
+    let mut read = fragment.inputs.iter();
+    match read.find(|input| input.count_floats().is_none()) {
+        None => Ok(()),
+        Some(Varying { location, .. }) => Err(format!(
+            "the fragment shader reads no floats at location {location}; the program's triangle has texture coordinates there; \
+             name a vertex stage by `vertex`, or read up to four floats"
+        )),
     }
 }
