@@ -14,13 +14,15 @@ use crate::frame_rate::FrameRate;
 use crate::geometry::ray::{Hit, Ray};
 use crate::material::surface::Sight;
 use crate::motion::poses::Poses;
-use crate::motion::velocity::{PointMotion, TrackedPoint, camera, camera_velocity, reprojection};
+use crate::motion::velocity::{
+    ObjectsBefore, PointMotion, TrackedPoint, camera, camera_velocity, reprojection,
+};
 use crate::path::integrator::Integrator;
 use crate::pixel_grid::{PixelGrid, scale_camera, scale_reprojection};
 use crate::progress::{Meter, Watch};
 use crate::sampler::Stream;
 use crate::scene::Scene;
-use crate::settings::RenderSettings;
+use crate::settings::{RenderSettings, check_next_frame};
 use crate::stage::Stage;
 
 /// A rasteriser's output at the pixels' centres, without colour.
@@ -28,6 +30,8 @@ use crate::stage::Stage;
 pub struct PointLayers {
     /// Screen motion over one frame, in pixels; +x right, +y down.
     pub velocity: Vectors,
+    /// Change of depth over the interval of the velocity, in metres per frame; above 0 moves away.
+    pub velocity_z: Plane,
     /// Distance along the view axis, in metres; [`FAR_DEPTH`] where nothing is seen.
     pub depth: Plane,
     /// The object seen, counted from 1; 0 is the background.
@@ -38,6 +42,7 @@ pub struct PointLayers {
 #[derive(Clone)]
 struct PointSample {
     velocity: [f32; 2],
+    velocity_z: f32,
     depth: f32,
     object_id: u32,
 }
@@ -48,6 +53,7 @@ impl PointLayers {
         check_layer(scene, "velocity", &velocity)?;
         Ok(Self {
             velocity,
+            velocity_z: points.map(|point| point.velocity_z),
             depth: points.map(|point| point.depth),
             object_id: points.map(|point| point.object_id),
         })
@@ -107,14 +113,9 @@ pub fn trace_frame_part(
     check_picture(scene, &picture)?;
     let points = sample_points(stage, canvas, settings, &PointMotion::RIGHT).part(tile);
     let layers = PointLayers::new(scene, &points)?;
+    let hash = grid_hash(scene, settings, grid);
     Ok(Frame {
-        provenance: provenance(
-            stage,
-            settings.seed,
-            settings.samples_per_pixel,
-            1,
-            grid_hash(scene, settings, grid),
-        ),
+        provenance: provenance(stage, settings.seed, settings.samples_per_pixel, 1, hash),
         exposure: settings.exposure(scene),
         frames_per_second: Some(scene.rate().per_second)
             .filter(|rate| *rate != FrameRate::WRITTEN.per_second),
@@ -127,6 +128,8 @@ pub fn trace_frame_part(
         color: picture.color,
         coverage: picture.coverage,
         velocity: layers.velocity,
+        velocity_next: None,
+        velocity_z: None,
         depth: layers.depth,
         object_id: layers.object_id,
         samples: Some(samples.to_plane(canvas).part(tile)),
@@ -165,6 +168,32 @@ pub fn trace_motion_on(
     };
     let stage = Stage::try_new(scene, from, motion.seen_at)?;
     PointLayers::new(scene, &sample_points(&stage, canvas, settings, motion))
+}
+
+/// Samples the velocities of a frame that few filters read: the motion to the next frame, and the change of depth over the interval of
+/// its velocity. With velocity from only the camera, objects stand still in both.
+///
+/// # Errors
+/// The settings or the grid do not fit the scene, it is not defined up to the next frame, or a velocity is not finite.
+pub fn trace_further_velocities(
+    scene: &Scene,
+    settings: &RenderSettings,
+    grid: &PixelGrid,
+) -> Result<(Vectors, Plane), TraceError> {
+    check_next_frame(scene)?;
+    let own = trace_motion_on(scene, settings, &PointMotion::RIGHT, grid)?;
+    check_layer(scene, "velocity_z", &own.velocity_z.map(|z| [*z]))?;
+    let motion = match settings.options.velocity {
+        VelocityKind::CameraOnly => PointMotion {
+            objects_before: ObjectsBefore::Now,
+            ..PointMotion::TO_NEXT
+        },
+        _ => PointMotion::TO_NEXT,
+    };
+    let mut settings = *settings;
+    settings.options.velocity = VelocityKind::Instantaneous;
+    let next = trace_motion_on(scene, &settings, &motion, grid)?;
+    Ok((next.velocity, own.velocity_z))
 }
 
 /// Makes the canvas of a grid; refuses a grid of an impossible size.
@@ -206,17 +235,20 @@ fn sample_points(
                     stage.closest_in_sight(poses.at(motion.seen_at), &ray, Sight::Buffers)
                 });
                 let depth = hit.map_or(FAR_DEPTH, |hit| view.depth(ray.at(hit.t)) as f32);
+                let tracked = TrackedPoint::of(hit, ray.direction);
+                let follow = |motion| tracked.velocity(scene, size, options.velocity, motion);
                 let velocity = if hit.is_none() && !options.sky_velocity {
-                    [0.0, 0.0]
+                    [0.0; 3]
                 } else if options.velocity == VelocityKind::CameraOnly {
                     let depth = hit.map_or(f64::INFINITY, |_| f64::from(depth));
-                    camera_velocity(&before, centre, depth)
+                    let [x, y] = camera_velocity(&before, centre, depth);
+                    [x, y, follow(&PointMotion::WITHOUT_OBJECTS)[2]]
                 } else {
-                    let tracked = TrackedPoint::of(hit, ray.direction);
-                    tracked.velocity(scene, size, options.velocity, motion)
+                    follow(motion)
                 };
                 PointSample {
                     velocity: [0, 1].map(|axis| (velocity[axis] / canvas.step[axis]) as f32),
+                    velocity_z: velocity[2] as f32,
                     depth,
                     object_id: hit.map_or(0, |hit| hit.object as u32 + 1),
                 }

@@ -31,7 +31,8 @@ pub struct BlurArgs {
     /// picture's].
     #[arg(long)]
     pub as_written: bool,
-    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y. With --frames the first frame's file, as `run` and `truths render`
+    /// OpenEXR file with the channels R G B, Z, velocity.X, velocity.Y, and velocity_next.X, velocity_next.Y, velocity_z for filters
+    /// that read them. With --frames the first frame's file, as `run` and `truths render`
     /// write it, or a folder of 0000.exr, 0001.exr and so on.
     #[arg(long, value_name = "FILE|DIR")]
     pub frame: PathBuf,
@@ -185,6 +186,8 @@ struct Buffers {
     path: PathBuf,
     color: Image,
     velocity: Vectors,
+    velocity_next: Option<Vectors>,
+    velocity_z: Option<Plane>,
     depth: Plane,
     reprojection: Option<Reprojection>,
     camera: Option<Camera>,
@@ -203,9 +206,7 @@ impl Buffers {
         } else {
             0
         };
-        let velocity = file
-            .plane("velocity.X")?
-            .zip(&file.plane("velocity.Y")?, |x, y| [*x, *y]);
+        let next = file.optional("velocity_next.X", || file.vectors("velocity_next"))?;
         let exposure = match exposure {
             Some(exposure) => exposure,
             None if has("exposure") => file.get("exposure")?,
@@ -222,7 +223,9 @@ impl Buffers {
         };
         Ok(Self {
             color: convention.restore_color(&file.color("")?),
-            velocity: convention.restore_velocity(&velocity, exposure),
+            velocity: convention.restore_velocity(&file.vectors("velocity")?, exposure),
+            velocity_next: next.map(|next| convention.restore_velocity(&next, exposure)),
+            velocity_z: file.optional("velocity_z", || file.plane("velocity_z"))?,
             depth: convention.restore_depth(&file.plane("Z")?),
             reprojection,
             camera: Camera::from_exr(&file)?,
@@ -238,6 +241,8 @@ impl Buffers {
         Input {
             color,
             velocity: &self.velocity,
+            velocity_next: self.velocity_next.as_ref(),
+            velocity_z: self.velocity_z.as_ref(),
             depth: &self.depth,
             reprojection: self.reprojection,
             camera: self.camera,

@@ -217,9 +217,16 @@ impl<'g> Blur<'g> {
 
     /// Uploads everything but the colour, and what the filter reads of the frame before.
     fn upload_layers(&self, input: &Input, before: &Input) -> Result<(), FilterError> {
-        let texels = |layer: &str, input: &Input| match layer {
-            "velocity" => velocity_texels(&self.filter().convention, input),
-            _ => self.filter().convention.convert_depth(input.depth).pixels,
+        let convention = &self.filter().convention;
+        let texels = |layer: &str, input: &Input| {
+            let velocity = |own| velocity_texels(convention, input, own);
+            let is_there = "a checked frame has what the filter reads";
+            match layer {
+                "velocity" => velocity(input.velocity),
+                "velocity_next" => velocity(input.velocity_next.expect(is_there)),
+                "velocity_z" => input.velocity_z.expect(is_there).pixels.clone(),
+                _ => convention.convert_depth(input.depth).pixels,
+            }
         };
         let history = self
             .filter()
@@ -227,11 +234,13 @@ impl<'g> Blur<'g> {
             .iter()
             .filter(|it| **it != History::Color);
         let history = history.map(|it| (it.texture(), it.input(), before));
-        let own = ["velocity", "depth"].map(|layer| (layer, layer, input));
+        let further = self.filter().further_inputs();
+        let own = ["velocity", "depth"].into_iter().chain(further);
+        let own = own.map(|layer| (layer, layer, input));
         self.gpu.catch_errors(self.place("upload"), || {
-            let frame = FrameValues::of(input, &self.filter().convention);
+            let frame = FrameValues::of(input, convention);
             self.passes.upload_frame(self.gpu, frame);
-            for (texture, layer, input) in own.into_iter().chain(history) {
+            for (texture, layer, input) in own.chain(history) {
                 let target = self.passes.target(texture);
                 self.gpu.upload(target, &texels(layer, input));
             }

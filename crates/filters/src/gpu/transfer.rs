@@ -1,6 +1,6 @@
 //! Textures on the GPU, and transfers to and from them.
 
-use frame::Raster;
+use frame::{Raster, Vectors};
 use half::f16;
 use wgpu::naga::ScalarKind;
 
@@ -145,10 +145,14 @@ pub(super) fn count_texels(width: u32, height: u32, levels: std::ops::Range<u32>
         .sum()
 }
 
-/// Converts the velocity of an input as a shader expects it, with as many components as its format has.
-pub(super) fn velocity_texels(convention: &Convention, input: &Input) -> Vec<f32> {
+/// Converts a velocity of an input as a shader expects it, with as many components as its format has.
+pub(super) fn velocity_texels(
+    convention: &Convention,
+    input: &Input,
+    velocity: &Vectors,
+) -> Vec<f32> {
     let convention = convention.at_rate(input.frames_per_second);
-    let velocity = convention.convert_velocity(input.velocity, input.exposure);
+    let velocity = convention.convert_velocity(velocity, input.exposure);
     match convention.format_of("velocity").components() {
         4 => (velocity.pixels.iter())
             .flat_map(|[x, y]| [*x, *y, 0.0, 1.0])

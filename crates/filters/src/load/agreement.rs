@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::filter::{INPUTS, PassShader};
+use crate::filter::{FURTHER_INPUTS, INPUTS, PassShader};
 use crate::shader::{BlockNumber, EntryPoint, Role, Shader, Variable, Varying, written_texture};
 use crate::translate::check_texture;
 use crate::{Count, Expression, Filter, FilterError, Pass, Stage};
@@ -147,8 +147,10 @@ impl Filter {
         let textures = &self.textures;
         let names: Vec<&str> = textures.iter().map(|texture| &texture.name[..]).collect();
         format!(
-            "is no known input or output; uniforms: parameters, frame; read: color, velocity, depth, those of the frame before \
+            "is no known input or output; uniforms: parameters, frame; read: {}, {}, those of the frame before \
              as color_before and so on if `history` names them, or a [[texture]] by its name; written: output or a [[texture]] as <name>_out; textures of {}: {}",
+            INPUTS.join(", "),
+            FURTHER_INPUTS.join(", "),
             self.lines.path.display(),
             if names.is_empty() {
                 "none".to_owned()
@@ -160,7 +162,8 @@ impl Filter {
 
     fn check_passes(&self) -> Result<(), FilterError> {
         let before = self.history.iter().map(|history| history.texture());
-        let mut ready: BTreeSet<&str> = INPUTS.into_iter().chain(before).collect();
+        let inputs = INPUTS.into_iter().chain(FURTHER_INPUTS);
+        let mut ready: BTreeSet<&str> = inputs.chain(before).collect();
         let mut used = BTreeSet::new();
         for (pass, line) in self.passes.iter().zip(&self.lines.passes) {
             let refuse = |reason: String| {
