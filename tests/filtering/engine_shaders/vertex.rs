@@ -95,7 +95,7 @@ fn a_pass_of_a_shader_lab_file_draws_as_its_hlsl_alone() {
     lab.assert_refused("filter.toml", &[
         ("shader_pass = \"Draw\"\n", "", &["draw.shader", "several of its passes", "0 \"Black\", 1 \"Draw\""]),
         ("\"Draw\"", "\"Blur\"", &["draw.shader", "allowed, by place or by name"]),
-        ("\"Draw\"", "0", &["draw.shader:8"]),
+        ("\"Draw\"", "0", &["draw.shader:18"]),
         ("draw.shader", "draw.hlsl", &["filter.toml:", "shader_pass is for a .shader file of Unity"]),
     ]);
 }

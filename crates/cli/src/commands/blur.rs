@@ -1,6 +1,6 @@
 //! The command `engine blur`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use filters::{Convention, FilterError, Gpu, Input};
@@ -91,16 +91,7 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
             )?),
         };
         let now = own.as_ref().unwrap_or(&before);
-        let (width, height) = (now.color.width, now.color.height);
-        if (width, height) != size {
-            refuse!(
-                "{}: has {width}x{height} pixels, {} has {}x{}; the frames of a sequence have one size",
-                now.path.display(),
-                first_path.display(),
-                size.0,
-                size.1
-            );
-        }
+        check_same_size(now, &first_path, size)?;
         let index = args.frame_index + frame;
         let colors = [[&now.color], [&before.color]];
         let input = now.input(&colors[0], index);
@@ -124,6 +115,21 @@ pub fn execute(args: &BlurArgs) -> Result<(), Error> {
             show_texture(&runner, &choice.filter, name, &path)?;
         }
         before = own.unwrap_or(before);
+    }
+    Ok(())
+}
+
+/// Refuses a frame of another size than the first.
+fn check_same_size(now: &Buffers, first: &Path, size: (u32, u32)) -> Result<(), Error> {
+    let (width, height) = (now.color.width, now.color.height);
+    if (width, height) != size {
+        refuse!(
+            "{}: has {width}x{height} pixels, {} has {}x{}; the frames of a sequence have one size",
+            now.path.display(),
+            first.display(),
+            size.0,
+            size.1
+        );
     }
     Ok(())
 }
