@@ -14,12 +14,13 @@ struct Parameters {
 @group(0) @binding(1) var<uniform> parameters: Parameters;
 @group(0) @binding(2) var color: texture_2d<f32>;
 @group(0) @binding(3) var velocity: texture_2d<f32>;
-@group(0) @binding(4) var depth: texture_2d<f32>;
-@group(0) @binding(5) var tile_motion: texture_2d<f32>;
-@group(0) @binding(6) var tile_motion_out: texture_storage_2d<rgba32float, write>;
-@group(0) @binding(7) var near_motion: texture_2d<f32>;
-@group(0) @binding(8) var near_motion_out: texture_storage_2d<rgba32float, write>;
-@group(0) @binding(9) var output: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(4) var velocity_next: texture_2d<f32>;
+@group(0) @binding(5) var depth: texture_2d<f32>;
+@group(0) @binding(6) var tile_motion: texture_2d<f32>;
+@group(0) @binding(7) var tile_motion_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(8) var near_motion: texture_2d<f32>;
+@group(0) @binding(9) var near_motion_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(10) var output: texture_storage_2d<rgba32float, write>;
 
 const TILES_CLIPPED = 0u;
 const SHIFT_UNCLAMPED = 1u;
@@ -44,8 +45,7 @@ fn read(image: texture_2d<f32>, position: vec2<f32>) -> vec4<f32> {
 // From a position to where its surface is when the shutter opens, and to where it is when the shutter closes. In pixels, +y up.
 fn displacements(position: vec2<f32>) -> vec4<f32> {
     let last = read(velocity, position).xy;
-    // Frames hold only the motion since the last frame.
-    let next = last;
+    let next = read(velocity_next, position).xy;
     return 0.5 * frame.exposure * vec4<f32>(-last.x, last.y, next.x, -next.y);
 }
 

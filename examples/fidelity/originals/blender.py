@@ -150,17 +150,16 @@ def gather(color, depth, motion, near, noise, samples, read, depth_scale):
     return (front + back) / total[..., 2:] + back / weight_back[..., None] * rest[..., None]
 
 
-def turned_over(color, velocity, depth):
-    return color[::-1], velocity[::-1] * np.array([1, -1], F), depth[::-1]
+def turned_over(color, depth, *velocities):
+    return color[::-1], depth[::-1], np.concatenate([-v[::-1] * np.array([1, -1], F) for v in velocities], -1)
 
 
-def eevee_blur(color, velocity, depth, exposure, stored, depth_scale=100):
-    color, velocity, depth = turned_over(color, velocity, depth)
+def eevee_blur(color, velocities, depth, exposure, stored, depth_scale=100):
+    color, depth, back = turned_over(color, depth, *velocities)
     height, width = depth.shape
     size = np.array([width, height], F)
-    # What goes by the exposure, half of it on either side; the buffer holds a hundredth of it.
-    back = -velocity * F(0.5) * F(exposure) / size
-    buffer = stored(np.concatenate([back, back], -1) * F(0.01))
+    # Half an exposure on either side, in parts of the picture; the buffer holds a hundredth of it.
+    buffer = stored(back * F(0.5) * F(exposure) / np.concatenate([size, size]) * F(0.01))
     texel = texels(width, height)
     tiles = flatten(buffer * F(100), (texel.astype(F) + F(0.5)) / size, size, stored)
     shift = np.trunc((gradient_noise(texel, 0) * F(2) - F(1)) * F(TILE) * F(0.25)).astype(int)
@@ -171,12 +170,11 @@ def eevee_blur(color, velocity, depth, exposure, stored, depth_scale=100):
     return gather(color, depth, motion, near, gradient_noise(texel, 1), 8, nearest, depth_scale)[::-1]
 
 
-def compositor_blur(color, velocity, depth, exposure, brackets):
-    color, velocity, depth = turned_over(color, velocity, depth)
+def compositor_blur(color, velocities, depth, exposure, brackets):
+    color, depth, back = turned_over(color, depth, *velocities)
     height, width = depth.shape
-    speed = np.concatenate([-velocity, -velocity], -1)
     scale = F(exposure / 2) * SIGNS
-    tiles = reduced(speed)
+    tiles = reduced(back)
     noise = gradient_noise(texels(width, height), 0)
     if brackets:
         shift = (noise * F(2) - F(1)) * F(TILE) * F(0.25)
@@ -186,24 +184,24 @@ def compositor_blur(color, velocity, depth, exposure, brackets):
     if brackets:
         tile = np.clip(tile, 0, np.array([tiles.shape[1], tiles.shape[0]]) - 1)
     near = look_up(tiles, tables(tiles * scale), tile) * scale
-    motion = lambda at: linear(speed, at) * scale
+    motion = lambda at: linear(back, at) * scale
     return gather(color, depth, motion, near, noise, 32, linear, 100)[::-1]
 
 
-def eevee(color, velocity, depth, exposure, frame_index, parameters):
-    return eevee_blur(color, velocity, depth, exposure, lambda v: v.astype(np.float16).astype(F))
+def eevee(color, velocity, depth, exposure, frame_index, parameters, velocity_next):
+    return eevee_blur(color, (velocity, velocity_next), depth, exposure, lambda v: v.astype(np.float16).astype(F))
 
 
-def eevee_as_listed(color, velocity, depth, exposure, frame_index, parameters):
-    return eevee_blur(color, velocity, depth, exposure, lambda v: v)
+def eevee_as_listed(color, velocity, depth, exposure, frame_index, parameters, velocity_next):
+    return eevee_blur(color, (velocity, velocity_next), depth, exposure, lambda v: v)
 
 
-def compositor(color, velocity, depth, exposure, frame_index, parameters):
-    return compositor_blur(color, velocity, depth, exposure, brackets=False)
+def compositor(color, velocity, depth, exposure, frame_index, parameters, velocity_next):
+    return compositor_blur(color, (velocity, velocity_next), depth, exposure, brackets=False)
 
 
-def compositor_mended(color, velocity, depth, exposure, frame_index, parameters):
-    return compositor_blur(color, velocity, depth, exposure, brackets=True)
+def compositor_mended(color, velocity, depth, exposure, frame_index, parameters, velocity_next):
+    return compositor_blur(color, (velocity, velocity_next), depth, exposure, brackets=True)
 
 
 ORIGINALS = {"blender:eevee": eevee, "blender:compositor": compositor, "blender:compositor_mended": compositor_mended}
