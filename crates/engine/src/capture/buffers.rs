@@ -65,6 +65,14 @@ pub fn read_velocity(path: &Path) -> Result<Vectors, Error> {
     Ok(x?.zip(&y?, |x, y| [*x, *y]))
 }
 
+/// Reads the change of depth, in metres per frame.
+pub fn read_velocity_z(path: &Path) -> Result<Plane, Error> {
+    let file = open(path)?;
+    let name = find_channel(&file, &["velocity_z", "Z", "R"])?;
+    check_finite(&file, &[name])?;
+    Ok(file.plane(name)?)
+}
+
 /// Reads depth as the engine stores it; infinite linear depth becomes the background's.
 pub fn read_depth(path: &Path, convention: &Convention) -> Result<Plane, Error> {
     let file = open(path)?;

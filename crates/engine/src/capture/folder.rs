@@ -10,7 +10,7 @@ use suite::Error;
 
 use crate::capture::buffers::{
     check_size, find_picture, is_png, read_color, read_depth, read_objects,
-    read_objects_beside_color, read_velocity,
+    read_objects_beside_color, read_velocity, read_velocity_z,
 };
 use crate::capture::description::{CAPTURE_FILE, CaptureDescription};
 use crate::capture::half_floats::{are_halves, rounding_of};
@@ -34,6 +34,10 @@ pub struct Capture {
     pub color: Image,
     /// Screen motion in pixels per frame; +x right, +y down.
     pub velocity: Vectors,
+    /// The same from the instant to one frame later, if the capture has it.
+    pub velocity_next: Option<Vectors>,
+    /// Change of depth over the interval of `velocity`, in metres per frame; above 0 moves away. None where the capture has none.
+    pub velocity_z: Option<Plane>,
     /// Distance along the view axis in metres; [`frame::FAR_DEPTH`] where nothing is visible.
     pub depth: Plane,
     /// Object at each pixel's centre, numbered as in an exported manifest; 0 is the background. None if the capture has no ids.
@@ -72,6 +76,8 @@ impl Capture {
         let exposure = find_velocity_exposure(folder, &description, &convention)?;
         let velocity = convention.restore_velocity(&velocity, exposure);
         notes.extend(is_half.then(|| velocity_note(&velocity)));
+        let next = read_optional(folder, "velocity_next.exr", &color, read_velocity)?;
+        let velocity_next = next.map(|next| convention.restore_velocity(&next, exposure));
 
         let path = require(folder, "depth.exr", "the distance of every pixel")?;
         let depth = read_depth(&path, &convention)?;
@@ -80,13 +86,6 @@ impl Capture {
         notes.extend(is_half.then(|| depth_note(&convention)).flatten());
         let depth = convention.restore_depth(&depth);
 
-        let path = folder.join("object.exr");
-        let mut object_id = None;
-        if path.is_file() {
-            let ids = read_objects(&path)?;
-            check_size(&path, &ids, &color)?;
-            object_id = Some(ids);
-        }
         let mut blurred = None;
         if let Some(path) = find_picture(folder, "blurred")? {
             let picture = read_color(&path, &convention, stops)?;
@@ -96,13 +95,15 @@ impl Capture {
         }
         Ok(Self {
             subframes: list_subframes(folder, &description, &color_path)?,
+            velocity_z: read_optional(folder, "velocity_z.exr", &color, read_velocity_z)?,
+            object_id: read_optional(folder, "object.exr", &color, read_objects)?,
             folder: folder.to_owned(),
             description,
             convention,
             color,
             velocity,
+            velocity_next,
             depth,
-            object_id,
             blurred,
             notes,
         })
@@ -175,6 +176,22 @@ fn require(folder: &Path, name: &str, holds: &str) -> Result<PathBuf, Error> {
         true => Ok(path),
         false => refuse_missing(&path, holds),
     }
+}
+
+/// Reads a picture that a capture need not have, of the colour's size.
+fn read_optional<T>(
+    folder: &Path,
+    name: &str,
+    color: &Image,
+    read: impl Fn(&Path) -> Result<Raster<T>, Error>,
+) -> Result<Option<Raster<T>>, Error> {
+    let path = folder.join(name);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let picture = read(&path)?;
+    check_size(&path, &picture, color)?;
+    Ok(Some(picture))
 }
 
 fn refuse_missing<T>(path: &Path, holds: &str) -> Result<T, Error> {
