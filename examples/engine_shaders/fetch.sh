@@ -1,7 +1,8 @@
 #!/bin/sh
 # Fetches the shaders of engines that the filters here bind, each at a named commit. Nothing is changed in them. GODOT_GUERTIN,
-# GODOT_JUMP_FLOOD, BEVY and KINO may name other places of the repositories: addresses, or clones on this machine. What cannot be
+# GODOT_JUMP_FLOOD, BEVY, KINO and FLAX may name other places of the repositories: addresses, or clones on this machine. What cannot be
 # fetched is named, the others are fetched all the same, and the exit code is 1. A file that is there with the right content stays.
+# Flax's licence is its own (https://flaxengine.com/licensing): read it before you use these files.
 set -u
 cd "$(dirname "$0")"
 missing=
@@ -78,8 +79,14 @@ fetch "${KINO:-https://github.com/keijiro/KinoMotion}" \
     "Common.cginc Prefilter.cginc Reconstruction.cginc" \
     kino
 
+flax=${FLAX:-https://github.com/FlaxEngine/FlaxEngine}
+commit=1146620d4f965f106ff25f3a08b7fbec1a33b45b
+fetch "$flax" $commit Source/Shaders MotionBlur.shader flax
+# The folder that it includes files from.
+fetch "$flax" $commit Source/Shaders "Common.hlsl GBuffer.hlsl GBufferCommon.hlsl" flax/Flax
+
 if [ -n "$missing" ]; then
     echo "not fetched:$missing
-Is git installed, and the network there? GODOT_GUERTIN, GODOT_JUMP_FLOOD, BEVY and KINO may name clones on this machine." >&2
+Is git installed, and the network there? GODOT_GUERTIN, GODOT_JUMP_FLOOD, BEVY, KINO and FLAX may name clones on this machine." >&2
     exit 1
 fi

@@ -3,6 +3,7 @@
 //! All taps lie on one surface there, so that a filter is only the places and weights of its taps.
 
 mod babylon;
+mod dagor;
 mod gathers;
 mod jimenez;
 mod kino;
@@ -75,6 +76,7 @@ pub fn place_taps(filter: &str, preset: &str, steady: &Steady, noise: f64) -> Ve
         "realism_effects" => gathers::realism_effects(preset, steady, noise),
         "jimenez" => jimenez::place_taps(preset, steady, noise),
         "kino" => kino::place_taps(steady, noise),
+        "dagor" => dagor::place_taps(preset, steady, noise),
         "mcguire" => tiles::mcguire(preset, steady, noise),
         "guertin" => tiles::guertin(steady, noise),
         _ => panic!("say here what {filter} averages"),

@@ -25,6 +25,9 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("mcguire", "motion_blur_demo") => trail.min(20.0),
         ("mcguire", "g3d") => trail.min(2.0 * 64.0),
         ("guertin", _) => trail.min(2.0 * 40.0),
+        // In the middle of the picture.
+        ("dagor", "default") => 0.16 * trail.min(2.0 * 32.0),
+        ("dagor", _) => trail.min(2.0 * 32.0),
         // Whole pixels of 5 % of the rows on either side; nothing below 2.
         ("kino", _) => match (0.05 * f64::from(HEIGHT)).floor() {
             _ if trail < 4.0 => 0.0,
