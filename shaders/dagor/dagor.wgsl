@@ -149,9 +149,9 @@ fn surface_at(position: vec2<f32>) -> vec4<f32> {
     return textureLoad(surfaces, select(nearest, repeated, parameters.border == BORDER_REPEAT), 0);
 }
 
-// Of length 1, or 0 for what stands still.
-fn direction_of(vector: vec2<f32>) -> vec2<f32> {
-    return select(vec2<f32>(0.0), vector / max(length(vector), 1e-6), length(vector) >= LEAST);
+// The direction of a vector of this length, which storage may have rounded; 0 for what stands still.
+fn direction_of(vector: vec2<f32>, speed: f32) -> vec2<f32> {
+    return select(vec2<f32>(0.0), vector / max(speed, 1e-6), speed >= LEAST);
 }
 
 // How surely the surface at depth `other` lies in front of that at `own`, or not behind it, relative to the nearer one.
@@ -211,13 +211,14 @@ fn reconstruct(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let here = textureLoad(color, pixel, 0);
     var own = textureLoad(surfaces, pixel, 0);
-    let along_longest = direction_of(longest);
-    let along_own = direction_of(own.xy);
+    let along_longest = direction_of(longest, length(longest));
+    let along_own = direction_of(own.xy, own.z);
     own.z = max(own.z, LEAST);
     // The slower the pixel, the more its direction is across the longest motion, so that what it does not share does not blur it.
     let left = vec2<f32>(-along_longest.y, along_longest.x);
     let across = select(left, -left, dot(left, own.xy) < 0.0);
-    let center = direction_of(mix(across, along_own, saturate((own.z - 0.5) / 1.5)));
+    let mixed = mix(across, along_own, saturate((own.z - 0.5) / 1.5));
+    let center = direction_of(mixed, length(mixed));
 
     // A running mean keeps a constant colour exactly as it is.
     var mean = here;

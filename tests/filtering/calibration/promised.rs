@@ -62,6 +62,7 @@ pub fn stated_lengths(filter: &str, preset: &str) -> RangeInclusive<f64> {
         ("mcguire", "g3d") => 1.02..=1.09,
         ("mcguire", "tuned") => 0.86..=1.04,
         ("guertin", _) => 0.65..=0.87,
+        ("dagor", "default") => 0.79..=1.08,
         ("three", _) => 1.03..=1.05,
         ("babylon", _) => 0.79..=0.96,
         // Noise adds its own length, on each axis separately: least on diagonals.

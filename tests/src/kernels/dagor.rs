@@ -26,11 +26,11 @@ pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let [x, y] = direction(half, [1.0, 0.0]);
     let from_middle = scaled([-y, x], 33.0 * (aside - 0.5));
     let farthest =
-        |tiles: f64| farthest_near(from_middle, [noise, other_noise], tiles, steady.size());
+        |noises, tiles| shortened(farthest_near(from_middle, noises, tiles, steady.size()));
     let motion = shortened(from_middle);
-    let longest = shortened(farthest(1.0));
+    let longest = farthest([noise, other_noise], 1.0);
     // Threads of a group share their count, and noise leads some of them to the next tile.
-    let asked = length(shortened(farthest(2.0))) / 32.0 * 4.0;
+    let asked = length(farthest([0.5, 0.5], 2.0)) / 32.0 * 4.0;
     let count = 4 * (asked.ceil() as u32).clamp(1, 4);
     gather(motion, longest, count, noise)
 }
