@@ -55,7 +55,7 @@ fn filters_smear_beyond_a_mover_where_they_carry_motion_and_only_there() {
             ("jimenez", "kajiya" | "wicked_scaled") => assert_within(ahead.min(behind), 0.6..),
             ("mcguire" | "guertin" | "jimenez", _) => assert_within(ahead.min(behind), 1.5..),
             // The pixel next to the wall has a third of its motion: of 8 pixels, 3.5 lie on the wall.
-            ("centred_gather", "spartan_2024") => {
+            ("centred_gather", "smoothed" | "spartan_2024") => {
                 assert_within(ahead, 0.35..0.5);
                 assert_within(behind, 0.35..0.5);
             }
