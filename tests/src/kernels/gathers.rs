@@ -92,6 +92,32 @@ pub fn bevy(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     }
 }
 
+/// Places the taps of Blender: from the pixel to both ends of the trail, in even steps. Those along the longest motion nearby are the
+/// same.
+pub fn blender(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
+    let half = scaled(steady.trail(), 0.5);
+    if length(half) < 0.5 {
+        return vec![own(1.0)];
+    }
+    let samples = match preset {
+        "compositor" | "compositor_mended" => 32,
+        _ => 8,
+    };
+    let parts = (0..samples).flat_map(|i| {
+        let part = (f64::from(i) + noise) / f64::from(samples);
+        [part, -part]
+    });
+    match samples {
+        8 => parts
+            .map(|part| Tap {
+                offset: scaled(half, part).map(nearest),
+                weight: 1.0,
+            })
+            .collect(),
+        _ => on_trail(half, parts),
+    }
+}
+
 /// Places the taps of three.js: the pixel itself, and sixteen from one fifteenth after the trail's end to one beyond its
 /// other end.
 pub fn three(preset: &str, steady: &Steady) -> Vec<Tap> {
