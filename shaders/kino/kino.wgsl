@@ -28,6 +28,7 @@ struct Parameters {
 
 const STORAGE_PACKED = 0u;
 const JITTER_NOISE = 0u;
+const JITTER_NONE = 2u;
 const TILES_STRETCHED = 0u;
 
 const TAU = 6.2831853;
@@ -203,15 +204,16 @@ fn tile_extent() -> vec2<f32> {
     return vec2<f32>(f32(tile_size()));
 }
 
-// In [0, 1). The original drives its noise by the clock; here it walks a cycle of 64 frames.
+// In [0, 1). The original drives its noise by the clock; here it walks a cycle of 64 frames, or stands still.
 fn noise(position: vec2<f32>) -> f32 {
-    return interleaved_gradient_noise(position + 5.588238 * f32(frame.frame_index % 64u));
+    let walked = select(0u, frame.frame_index % 64u, parameters.jitter == JITTER_NOISE);
+    return interleaved_gradient_noise(position + 5.588238 * f32(walked));
 }
 
 // The longest motion near a pixel; noise blurs where one tile ends and the next begins.
 fn longest_near(pixel: vec2<i32>) -> vec2<f32> {
     var position = centre(pixel);
-    if parameters.jitter == JITTER_NOISE {
+    if parameters.jitter != JITTER_NONE {
         let angle = TAU * noise(vec2<f32>(pixel) + vec2<f32>(2.0 * f32(frame.size.x), 0.0));
         position += 0.25 * tile_extent() * vec2<f32>(cos(angle), sin(angle));
     }
@@ -248,7 +250,7 @@ fn reconstruct(@builtin(global_invocation_id) id: vec3<u32>) {
 
     let pairs = i32(min(f32(parameters.samples / 2), reach / parameters.least_motion));
     let step = 1.0 / f32(pairs);
-    let shift = select(0.0, (noise(vec2<f32>(pixel)) - 0.5) * step, parameters.jitter == JITTER_NOISE);
+    let shift = select(0.0, (noise(vec2<f32>(pixel)) - 0.5) * step, parameters.jitter != JITTER_NONE);
     // How far the background moves, as far as the taps so far know.
     var background_length = max(own_length, 1.0);
     var mean = vec4<f32>(0.0);

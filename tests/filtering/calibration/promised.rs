@@ -17,6 +17,7 @@ pub fn promised_smear(filter: &str, preset: &str, steady: &Steady) -> f64 {
         ("three", _) => along_motion(steady, three_trail(preset, steady)).abs(),
         ("babylon", _) => along_motion(steady, babylon_trail(steady)),
         ("realism_effects", "default") => 0.6 * trail,
+        ("urp", "default" | "medium" | "high") => 2.0 * trail,
         ("jump_flood" | "jump_flood_packed", preset) => {
             along_motion(steady, jump_flood_trail(preset, steady))
         }

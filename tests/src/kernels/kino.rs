@@ -3,14 +3,19 @@
 use super::{Steady, Tap, bilinear, own};
 use crate::vector::{length, scaled};
 
-/// Returns the taps of its preset.
-pub fn place_taps(steady: &Steady, noise: f64) -> Vec<Tap> {
+/// Returns the taps of its presets.
+pub fn place_taps(preset: &str, steady: &Steady, noise: f64) -> Vec<Tap> {
     let motion = packed(steady);
     let reach = length(motion);
     if reach < 2.0 {
         return vec![own(1.0)];
     }
-    let pairs = (0.5 * reach).min(4.0).floor();
+    let most = match preset {
+        "default" => 4.0,
+        "ppv2" => 5.0,
+        _ => panic!("say here how many taps {preset} has"),
+    };
+    let pairs = most.min(0.5 * reach).floor();
     let step = 1.0 / pairs;
     let shift = (noise - 0.5) * step;
     let mut taps = vec![own(1.2 * step / (2.0 * reach))];
